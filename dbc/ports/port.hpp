@@ -1,0 +1,68 @@
+// A Port is one node's access to a bus. Behind it: SocketCAN, the embedded bus, a recorded log, or a device in process.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dbc/wire/frame.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil {
+
+/// Where a time stamp was taken, best first.
+enum class StampSource : std::uint8_t { hardware, kernel, hub, process, virtual_time };
+
+/// A frame as it came from a bus.
+struct Received {
+  Frame frame;
+  std::int64_t t_ns = 0;  ///< when it was on the bus; CLOCK_REALTIME for kernel stamps, see Port::stamp_clock()
+  StampSource source = StampSource::process;
+  bool own = false;  ///< the echo of a frame that this port sent: its stamp is the transmit time
+};
+
+enum class SendOutcome : std::uint8_t {
+  sent,        ///< taken over by the bus
+  queue_full,  ///< no room now: wait until the descriptor is writable, then try again
+  down         ///< the bus is gone or the interface is down
+};
+
+struct PortCounters {
+  std::uint64_t sent = 0;
+  std::uint64_t received = 0;
+  std::uint64_t overflowed = 0;    ///< frames the receive queue lost
+  std::uint64_t error_frames = 0;
+};
+
+struct PortOptions {
+  bool fd = false;            ///< CAN FD frames too
+  bool own_echo = false;      ///< receive own frames back, with their transmit time stamps
+  std::vector<std::uint32_t> only_ids;  ///< receive just these standard ids; empty: all
+  std::string node_name;      ///< who we are, for messages and for the hub's list of nodes
+};
+
+class Port {
+ public:
+  virtual ~Port() = default;
+  /// Hands one frame to the bus; never blocks.
+  virtual SendOutcome send(const Frame& frame) = 0;
+  /// The next frame from the bus, if one is waiting; never blocks.
+  virtual std::optional<Received> receive() = 0;
+  /// For poll(): readable when receive() will give something or the bus is gone; writable after queue_full.
+  [[nodiscard]] virtual int descriptor() const = 0;
+  /// True once the bus is gone for good (hub closed, interface removed, log at its end).
+  [[nodiscard]] virtual bool closed() const = 0;
+  [[nodiscard]] virtual PortCounters counters() const = 0;
+  /// The clock of Received::t_ns: CLOCK_REALTIME or CLOCK_MONOTONIC.
+  [[nodiscard]] virtual int stamp_clock() const = 0;
+  /// As given to --bus.
+  [[nodiscard]] virtual const std::string& name() const = 0;
+};
+
+/// Opens `local:NAME`, or a SocketCAN interface by its name. Error: one line naming the bus and what was expected.
+Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options);
+
+}  // namespace canhil

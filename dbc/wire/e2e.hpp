@@ -1,0 +1,79 @@
+// End-to-end protection, AUTOSAR E2E profile 11 variant A (PRS_E2EProtocol): CRC-8 SAE J1850 polynomial 0x1D with
+// start value 0 in byte 0, over the 16-bit data id (low byte first, not sent) and bytes 1.. of the frame;
+// a counter 0..14 in the low nibble of byte 1.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace canhil::e2e {
+
+inline constexpr int counter_period = 15;  // 15 is not used, as the profile says
+
+namespace detail {
+consteval std::array<std::uint8_t, 256> crc_table() {
+  std::array<std::uint8_t, 256> table{};
+  for (unsigned i = 0; i < 256; ++i) {
+    unsigned c = i;
+    for (int bit = 0; bit < 8; ++bit) c = (c & 0x80U) != 0 ? ((c << 1U) ^ 0x1DU) & 0xFFU : (c << 1U) & 0xFFU;
+    table[i] = static_cast<std::uint8_t>(c);
+  }
+  return table;
+}
+inline constexpr auto table = crc_table();
+}  // namespace detail
+
+/// CRC of a frame's bytes from byte 1 on, for a data id. Length: 2..64 bytes.
+constexpr std::uint8_t crc(std::span<const std::uint8_t> data, std::uint16_t data_id) {
+  std::uint8_t c = detail::table[data_id & 0xFFU];
+  c = detail::table[c ^ (data_id >> 8U)];
+  for (const std::uint8_t byte : data.subspan(1)) c = detail::table[c ^ byte];
+  return c;
+}
+
+/// Writes counter (0..14) and CRC into a packed frame.
+constexpr void protect(std::span<std::uint8_t> data, std::uint16_t data_id, std::uint8_t counter) {
+  data[1] = static_cast<std::uint8_t>((data[1] & 0xF0U) | counter);
+  data[0] = crc(data, data_id);
+}
+
+constexpr std::uint8_t counter(std::span<const std::uint8_t> data) { return data[1] & 0x0FU; }
+
+constexpr std::uint8_t next(std::uint8_t counter) {
+  return static_cast<std::uint8_t>(counter + 1 == counter_period ? 0 : counter + 1);
+}
+
+/// What a received frame's protection says, given the frames before it.
+enum class Check : std::uint8_t {
+  ok,         ///< CRC right, counter follows
+  some_lost,  ///< CRC right, counter jumped: frames are missing in between
+  repeated,   ///< CRC right, same counter as before: not new
+  wrong_crc   ///< to be dropped
+};
+
+/// Receiver of one message: holds the last counter.
+class Receiver {
+ public:
+  /// Checks a frame and takes its counter over. `lost` is the number of frames missing before it (0..13).
+  constexpr Check check(std::span<const std::uint8_t> data, std::uint16_t data_id) {
+    lost_ = 0;
+    if (data.size() < 2 || data[0] != crc(data, data_id) || counter(data) >= counter_period) return Check::wrong_crc;
+    const std::uint8_t now = counter(data);
+    const std::uint8_t before = last_;
+    last_ = now;
+    if (before == none) return Check::ok;
+    if (now == before) return Check::repeated;
+    lost_ = (now + counter_period - before - 1) % counter_period;
+    return lost_ == 0 ? Check::ok : Check::some_lost;
+  }
+  [[nodiscard]] constexpr int lost() const { return lost_; }
+  constexpr void reset() { last_ = none; }
+
+ private:
+  static constexpr std::uint8_t none = 0xFF;
+  std::uint8_t last_ = none;
+  int lost_ = 0;
+};
+
+}  // namespace canhil::e2e

@@ -1,0 +1,29 @@
+// Generated messages to protected frames and back.
+#pragma once
+
+#include "dbc/wire/e2e.hpp"
+#include "dbc/wire/frame.hpp"
+
+namespace canhil {
+
+/// Packs a generated message (rounding, saturating) and protects it with the counter given (0..14).
+template <class Message>
+Frame to_frame(const Message& message, std::uint8_t counter) {
+  Frame frame;
+  frame.id = Message::info.id;
+  frame.extended = Message::info.extended;
+  frame.fd = Message::info.fd;
+  frame.brs = Message::info.fd;
+  frame.size = Message::size;
+  message.pack(std::span<std::uint8_t, Message::size>(frame.data.data(), Message::size));
+  e2e::protect({frame.data.data(), Message::size}, Message::info.e2e_data_id, counter);
+  return frame;
+}
+
+/// Unpacks a frame whose id and size are known to be the message's. The E2E fields are not looked at.
+template <class Message>
+Message from_frame(const Frame& frame) {
+  return Message::unpack(std::span<const std::uint8_t, Message::size>(frame.data.data(), Message::size));
+}
+
+}  // namespace canhil

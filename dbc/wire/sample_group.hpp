@@ -1,0 +1,64 @@
+// Sample groups: the messages that one sample of a sensor, or one answer of the target, is spread over.
+#pragma once
+
+#include <cstdint>
+#include <tuple>
+
+#include "dbc/wire/message.hpp"
+
+namespace canhil {
+
+/// Collects the messages of one group by their common E2E counter; a group is used whole or not at all.
+template <class... Messages>
+class SampleGroup {
+ public:
+  enum class Outcome : std::uint8_t {
+    waiting,          ///< stored, more to come
+    complete,         ///< the group is whole: read it now
+    dropped_previous  ///< stored, and the group before it was incomplete and is gone
+  };
+
+  /// Stores one message that carries `counter`. A counter other than the pending group's starts a new group.
+  template <class Message>
+  Outcome put(const Message& message, std::uint8_t counter) {
+    constexpr unsigned bit = bit_of<Message>();
+    const bool started_anew = seen_ != 0 && counter != counter_;
+    if (started_anew) seen_ = 0;
+    counter_ = counter;
+    std::get<Message>(messages_) = message;
+    seen_ |= bit;
+    if (seen_ == all) {
+      seen_ = 0;
+      return Outcome::complete;
+    }
+    return started_anew ? Outcome::dropped_previous : Outcome::waiting;
+  }
+
+  template <class Message>
+  [[nodiscard]] const Message& get() const {
+    return std::get<Message>(messages_);
+  }
+  [[nodiscard]] std::uint8_t counter() const { return counter_; }
+  /// Forgets a group in progress; true if there was one.
+  bool discard() {
+    const bool had = seen_ != 0;
+    seen_ = 0;
+    return had;
+  }
+
+ private:
+  template <class Message>
+  static constexpr unsigned bit_of() {
+    unsigned index = 0;
+    unsigned found = 0;
+    (((std::is_same_v<Message, Messages>) ? (found = 1U << index) : 0U, ++index), ...);
+    return found;
+  }
+  static constexpr unsigned all = (1U << sizeof...(Messages)) - 1U;
+
+  std::tuple<Messages...> messages_{};
+  unsigned seen_ = 0;
+  std::uint8_t counter_ = 0;
+};
+
+}  // namespace canhil
