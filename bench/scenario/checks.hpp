@@ -1,0 +1,118 @@
+// [[check]]: what a run is judged by. A new kind is a struct here, its reader in checks.cpp, and its judge in
+// bench/checks.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "bench/scenario/contract.hpp"
+
+namespace canhil::scenario {
+
+class Section;
+
+enum class AttitudeAxis : std::uint8_t { roll, pitch, heading };
+enum class VelocityAxis : std::uint8_t { north, east, down, norm };
+enum class Statistic : std::uint8_t { attitude_nees, nis };
+
+/// Part of a run, ends included, by the time of validity an answer names as its cause.
+struct Window {
+  std::int64_t from_us = 0;
+  std::int64_t to_us = 0;
+};
+
+/// |estimated - true| Euler angle stays below a bar throughout the window.
+struct AttitudeError {
+  static constexpr std::string_view kind = "attitude_error";
+  AttitudeAxis axis = AttitudeAxis::heading;
+  Window window;
+  double below = 0;  ///< [rad]
+};
+
+/// The error enters a band before a time, and stays there to the end of the run.
+struct Convergence {
+  static constexpr std::string_view kind = "convergence";
+  AttitudeAxis axis = AttitudeAxis::heading;
+  double within = 0;  ///< [rad]
+  std::int64_t before_us = 0;
+};
+
+/// |estimated - true| velocity stays below a bar throughout the window.
+struct VelocityError {
+  static constexpr std::string_view kind = "velocity_error";
+  VelocityAxis axis = VelocityAxis::norm;
+  Window window;
+  double below = 0;  ///< [m/s]
+};
+
+/// The mean of a normalised error squared over the window lies between two values.
+struct MeanBetween {
+  double low = 0;
+  double high = 0;
+};
+/// Only for white statistics (NIS): the mean lies in the central chi-square interval that holds this
+/// probability.
+struct Probability {
+  double value = 0;
+};
+struct Consistency {
+  static constexpr std::string_view kind = "consistency";
+  Statistic statistic = Statistic::nis;  ///< both have 3 degrees of freedom
+  Window window;
+  std::variant<MeanBetween, Probability> bound;
+};
+
+/// Timing: the time between successive frames of a message stays within a fraction of its period.
+struct OutputPeriod {
+  static constexpr std::string_view kind = "output_period";
+  std::string message;
+  Window window;
+  double within = 0;  ///< fraction of the period: 0.1 is 10 %
+};
+
+/// Timing: from the last frame of the stimulus to the message that answers it.
+struct Latency {
+  static constexpr std::string_view kind = "latency";
+  std::string message;
+  Window window;
+  std::int64_t below_us = 0;
+  double quantile = 1;  ///< 1: every answer; 0.99: all but one in a hundred
+};
+
+/// The target's own counters at the end (TargetCounters). Absent: not judged.
+struct Counters {
+  static constexpr std::string_view kind = "counters";
+  std::optional<std::int64_t> frames_lost_at_most;
+  std::optional<std::int64_t> bad_crc_at_most;
+  std::optional<std::int64_t> bad_group_at_most;
+  std::optional<std::int64_t> late_at_most;
+};
+
+/// No gap between heartbeats longer than this, up to the end of the run.
+struct Heartbeat {
+  static constexpr std::string_view kind = "heartbeat";
+  std::int64_t silent_at_most_us = 0;
+};
+
+struct Check {
+  std::string
+      name;  ///< unique in the scenario; by default kind and what it looks at: "attitude_error heading"
+  std::string requirement;  ///< id carried to the reports; may be empty
+  int line = 0;             ///< of the scenario file
+  std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
+               Heartbeat>
+      rule;
+};
+
+std::string_view kind(const Check& check);
+std::string_view name(AttitudeAxis axis);
+std::string_view name(VelocityAxis axis);
+std::string_view name(Statistic statistic);
+
+Check read_check(Section& section, std::int64_t duration_us, const Contract& contract);
+
+}  // namespace canhil::scenario

@@ -1,0 +1,17 @@
+// The names a scenario may use because the DBC has them. Given from outside, so that this folder does not
+// depend on one bus: the generated header or a DBC read at run time can fill it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace canhil::scenario {
+
+struct Contract {
+  std::vector<std::string> estimators;  ///< value table Estimator, without "none"
+  std::vector<std::string> algorithms;  ///< value table Algorithm
+  std::vector<std::string> parameters;  ///< value table Parameter
+  std::vector<std::string> messages;    ///< names of all messages
+};
+
+}  // namespace canhil::scenario

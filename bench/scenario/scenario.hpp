@@ -1,0 +1,50 @@
+// A scenario file, read and validated: one flight, who is on the bus, what the target is told, and what it is
+// judged by.
+//
+// In the file values have the unit in their key (heading_deg); in the structs they are SI and radians, times
+// in us. Each section of the file is a struct with a reader of its own: adding a node is adding such a pair
+// and a line in scenario.cpp. Reading is strict: an unknown key, a wrong type, a value out of range or a
+// missing key ends it with one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/scenario/checks.hpp"
+#include "bench/scenario/contract.hpp"
+#include "bench/scenario/master_ins.hpp"
+#include "bench/scenario/slave_imu.hpp"
+#include "bench/scenario/target_setup.hpp"
+#include "bench/world/motion.hpp"
+#include "bench/world/navigation_errors.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::scenario {
+
+struct Scenario {
+  std::string file;        ///< as it was named
+  std::uint64_t hash = 0;  ///< FNV-1a of the file's text: provenance in reports and campaigns
+  std::string title;
+  std::int64_t duration_us = 0;
+  std::uint64_t seed = 0;
+
+  TargetSetup target;
+  world::Flight truth;
+  world::NavigationErrorModel
+      initial_error;                    ///< of the state the target is told, w.r.t. the truth at the start
+  std::optional<MasterIns> master_ins;  ///< absent: not on the bus
+  std::optional<SlaveImu> slave_imu;
+  std::vector<Check> checks;
+};
+
+/// Reads a scenario file. The error is one line.
+Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract);
+
+/// Reads a scenario's text; `name` stands for the file in messages.
+Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract);
+
+}  // namespace canhil::scenario

@@ -1,0 +1,36 @@
+// [target]: what the bench tells the target before it starts it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/scenario/contract.hpp"
+
+namespace canhil::scenario {
+
+class Section;
+
+/// 1-sigma uncertainty the target is told of its initial state (TargetInit*).
+struct InitialSigma {
+  double velocity = 0;  ///< of each component [m/s]
+  double tilt = 0;      ///< of the misalignments about north and east [rad]
+  double heading = 0;   ///< of the misalignment about down [rad]
+  double position = 0;  ///< of each component [m]
+};
+
+/// One ParamSet. Parameters go over the bus in the unit of their name, so they stay in it here.
+struct Parameter {
+  std::string name;
+  double value = 0;
+};
+
+struct TargetSetup {
+  std::string estimator;  ///< a name of the DBC's value table Estimator
+  std::string algorithm;  ///< a name of Algorithm
+  InitialSigma initial_sigma;
+  std::vector<Parameter> parameters;  ///< in the DBC's order
+};
+
+TargetSetup read_target(Section& section, const Contract& contract);
+
+}  // namespace canhil::scenario

@@ -1,0 +1,41 @@
+// Attitude as the bench writes it: C_bn takes body to navigation (NED), Euler angles 3-2-1, small errors phi
+// in n.
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace canhil::world {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// Euler angles 3-2-1 from NED to body [rad].
+struct Euler {
+  double roll = 0;
+  double pitch = 0;
+  double heading = 0;
+};
+
+/// C_bn of Euler angles. Groves (2013), eq. (2.22), transposed.
+Matrix3 C_bn_from(const Euler& angles);
+
+/// Euler angles of C_bn: roll and heading in (-pi, pi], pitch in [-pi/2, pi/2]. Groves (2013), eq. (2.23).
+Euler euler_from(const Matrix3& C_bn);
+
+/// [a x], so that skew(a) * b = a x b.
+Matrix3 skew(const Vector3& a);
+
+/// exp([a x]): the rotation by |a| about a (Rodrigues).
+Matrix3 rotation(const Vector3& a);
+
+/// Body rate w.r.t. navigation axes, in body [rad/s], of Euler angles and their rates (as an Euler of rates).
+Vector3 omega_nb_b(const Euler& angles, const Euler& rates);
+
+/// The attitude a navigation system computes when its misalignment is phi [rad, NED]: exp(-[phi x]) C_bn.
+Matrix3 misaligned(const Matrix3& C_bn, const Vector3& phi);
+
+/// The misalignment phi [rad, NED] of a computed attitude: computed = exp(-[phi x]) C_bn. Inverse of
+/// misaligned().
+Vector3 misalignment(const Matrix3& computed, const Matrix3& C_bn);
+
+}  // namespace canhil::world

@@ -1,0 +1,38 @@
+// WGS-84: radii of curvature, rotation, normal gravity, and how position moves with velocity.
+#pragma once
+
+#include "bench/world/attitude.hpp"
+
+namespace canhil::world {
+
+/// Geodetic position, WGS-84.
+struct Position {
+  double latitude = 0;   ///< [rad]
+  double longitude = 0;  ///< [rad]
+  double height = 0;     ///< above the ellipsoid [m]
+};
+
+/// Meridian radius of curvature R_N of Groves (2013), eq. (2.105) [m].
+double meridian_radius(double latitude);
+/// Transverse radius of curvature R_E of Groves (2013), eq. (2.106) [m].
+double transverse_radius(double latitude);
+
+/// Earth rate in NED [rad/s]. Groves (2013), eq. (2.123).
+Vector3 omega_ie_n(double latitude);
+/// Transport rate in NED [rad/s]. Groves (2013), eq. (5.44).
+Vector3 omega_en_n(const Position& position, const Vector3& v_eb_n);
+
+/// Normal gravity of WGS-84 in NED [m/s^2]; its north component, which vanishes on the ellipsoid, included.
+Vector3 gravity_n(const Position& position);
+
+/// d(position)/dt for a velocity in NED [rad/s, rad/s, m/s]. Groves (2013), eq. (2.111).
+Position position_rate(const Position& position, const Vector3& v_eb_n);
+
+/// The position a small displacement in NED [m] away (first order in displacement / Earth radius).
+Position displaced(const Position& position, const Vector3& displacement_n);
+
+/// The displacement in NED [m] from one position to another nearby, with the radii of `from`. Inverse of
+/// displaced().
+Vector3 displacement_n(const Position& from, const Position& to);
+
+}  // namespace canhil::world

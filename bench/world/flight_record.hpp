@@ -1,0 +1,62 @@
+// The truth of a scenario, the same for every run of it: computed once, then only read (and so shared by
+// threads).
+//
+// Velocity and attitude are the motion's, exactly. Position is integrated. Rate and specific force follow by
+// inverting the navigation equations in NED, Groves (2013), section 5.4:
+//   omega_ib_b = omega_nb_b + C_nb (omega_ie_n + omega_en_n)
+//   f_ib_b     = C_nb (d(v_eb_n)/dt + (2 omega_ie_n + omega_en_n) x v_eb_n - g_n)
+// IMU increments are their integrals over a sample, by Gauss-Legendre quadrature.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bench/world/motion.hpp"
+
+namespace canhil::world {
+
+/// The true state at one instant.
+struct Truth {
+  std::int64_t t_us = 0;
+  Position position;
+  Vector3 v_eb_n = Vector3::Zero();  ///< [m/s]
+  Matrix3 C_bn = Matrix3::Identity();
+  Vector3 omega_ib_b = Vector3::Zero();  ///< [rad/s]
+  Vector3 f_ib_b = Vector3::Zero();      ///< [m/s^2]
+};
+
+/// What an IMU without errors gives for one sample.
+struct ImuIncrement {
+  std::int64_t t_us = 0;  ///< end of the interval: the time of validity
+  std::int64_t interval_us = 0;
+  Vector3 delta_theta = Vector3::Zero();  ///< integral of omega_ib_b [rad]
+  Vector3 delta_v = Vector3::Zero();      ///< integral of f_ib_b [m/s]
+};
+
+/// The truth on the grid of the IMU, and exact increments between its epochs. Immutable.
+class FlightRecord {
+ public:
+  /// Flies from 0 to the last epoch at or before duration_us; epochs every interval_us. Both must be
+  /// positive.
+  FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us);
+
+  /// Truth at epochs 0, 1, ...: epoch k is at k * interval_us().
+  [[nodiscard]] std::span<const Truth> epochs() const { return epochs_; }
+  /// Increment k covers epoch k to epoch k + 1.
+  [[nodiscard]] std::span<const ImuIncrement> increments() const { return increments_; }
+  [[nodiscard]] std::int64_t interval_us() const { return interval_us_; }
+  /// Time of the last epoch.
+  [[nodiscard]] std::int64_t end_us() const { return epochs_.back().t_us; }
+
+  /// Truth at any time in [0, end_us()]: a look-up at an epoch, integrated from the epoch before elsewhere.
+  [[nodiscard]] Truth at(std::int64_t t_us) const;
+
+ private:
+  Flight flight_;
+  std::int64_t interval_us_;
+  std::vector<Truth> epochs_;
+  std::vector<ImuIncrement> increments_;
+};
+
+}  // namespace canhil::world

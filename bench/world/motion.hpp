@@ -1,0 +1,29 @@
+// The motions a truth may follow. A new one is a file in motion/ and a name in this variant.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "bench/world/earth.hpp"
+#include "bench/world/motion/level_acceleration.hpp"
+#include "bench/world/motion/rest.hpp"
+#include "bench/world/motion/weave.hpp"
+
+namespace canhil::world {
+
+using Motion = std::variant<Rest, LevelAcceleration, Weave>;
+
+/// Velocity and attitude at time t [s] from the start; right-continuous where the motion has a jump.
+Kinematics kinematics(const Motion& motion, double t);
+
+/// Times [us] at which an acceleration or a rate jumps: quadrature never steps across one.
+std::vector<std::int64_t> jumps_us(const Motion& motion);
+
+/// A whole truth: where it starts and how it moves.
+struct Flight {
+  Position start;
+  Motion motion;
+};
+
+}  // namespace canhil::world

@@ -1,0 +1,28 @@
+// Errors of a navigation solution: of a master INS (drawn anew at each sample), or of an initial state (drawn
+// once).
+#pragma once
+
+#include "bench/world/flight_record.hpp"
+#include "bench/world/stream.hpp"
+
+namespace canhil::world {
+
+/// What a navigation system says.
+struct NavigationSolution {
+  std::int64_t t_us = 0;  ///< time of validity
+  Position position;
+  Vector3 v_eb_n = Vector3::Zero();
+  Matrix3 C_bn = Matrix3::Identity();
+};
+
+/// Errors (computed - true) by axis of NED.
+struct NavigationErrorModel {
+  RandomConstant position;  ///< [m]
+  RandomConstant velocity;  ///< [m/s]
+  RandomConstant attitude;  ///< misalignment phi [rad]: computed C_bn = exp(-[phi x]) C_bn
+};
+
+/// A solution with errors drawn from the model. Takes nine numbers of the stream, whatever the sigmas are.
+NavigationSolution measure(const Truth& truth, const NavigationErrorModel& model, Stream& stream);
+
+}  // namespace canhil::world

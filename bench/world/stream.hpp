@@ -1,0 +1,39 @@
+// Random numbers: every consumer has a stream of its own, fixed by (seed, run, name) alone. So results depend
+// neither on the order of consumers nor on threads, and adding a consumer changes no other's numbers.
+#pragma once
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <cstdint>
+#include <string_view>
+
+#include "bench/world/attitude.hpp"
+
+namespace canhil::world {
+
+class Stream {
+ public:
+  Stream(std::uint64_t seed, std::uint64_t run, std::string_view name);
+
+  /// Next standard normal number.
+  double normal() { return normal_(engine_); }
+  /// Next three standard normal numbers.
+  Vector3 normal3();
+  /// Next number uniform in [0, 1).
+  double uniform();
+
+ private:
+  boost::random::mt19937_64 engine_;
+  boost::random::normal_distribution<double> normal_;
+};
+
+/// A constant that each run draws anew: value + sigma * N(0, 1), by axis. sigma = 0: a given value.
+struct RandomConstant {
+  Vector3 value = Vector3::Zero();
+  Vector3 sigma = Vector3::Zero();
+};
+
+/// Draws it. Takes three numbers of the stream, whatever sigma is.
+Vector3 draw(const RandomConstant& constant, Stream& stream);
+
+}  // namespace canhil::world
