@@ -72,6 +72,7 @@ class Checker(unittest.TestCase):
             with self.subTest(other):
                 self.expect_include(wind, other)
         self.expect_include("target/estimators/filtering/update.hpp", "target/estimators/wind/model.hpp")
+        self.expect_include("target/estimators/all.hpp", "target/estimators/wind/model.hpp")
 
     def test_dbc_knows_neither_side(self):
         for other in ("target/device/device.hpp", "bench/world/truth.hpp", "tests/unit/made.hpp"):
@@ -102,6 +103,9 @@ class Checker(unittest.TestCase):
         self.expect("a cycle of folders", {"bench/world/truth.hpp": '#include "bench/nodes/seeker.hpp"\n'})
         self.expect("a cycle of folders", {"dbc/wire/time_base.hpp": '#include "dbc/parser/parse.hpp"\n',
                                            "dbc/parser/parse.hpp": '#include "dbc/ports/port.hpp"\n'})
+
+        self.assertEqual(breaches_of({"bench/world/truth.hpp": '#include "bench/world/motion/turn.hpp"\n',
+                                      "bench/world/motion/turn.hpp": '#include "bench/world/earth.hpp"\n'}), [])
 
     def test_every_spelling_of_an_include_is_seen(self):
         for line in ('#include"bench/world/truth.hpp"', '  #  include\t"bench/world/truth.hpp" // why',
