@@ -17,7 +17,7 @@ using Motion = std::variant<Rest, LevelAcceleration, Weave>;
 /// Velocity and attitude at time t [s] from the start; right-continuous where the motion has a jump.
 Kinematics kinematics(const Motion& motion, double t);
 
-/// Times [us] at which an acceleration or a rate jumps: quadrature never steps across one.
+/// Times [us], ascending, at which an acceleration or a rate jumps: quadrature never steps across one.
 std::vector<std::int64_t> jumps_us(const Motion& motion);
 
 /// A whole truth: where it starts and how it moves.

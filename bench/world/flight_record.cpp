@@ -1,0 +1,137 @@
+#include "bench/world/flight_record.hpp"
+
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cassert>
+
+namespace canhil::world {
+namespace {
+
+double seconds(std::int64_t t_us) { return 1e-6 * static_cast<double>(t_us); }
+
+/// Rate and specific force at one instant.
+struct Rates {
+  Vector3 omega_ib_b;
+  Vector3 f_ib_b;
+};
+
+Rates rates_of(const Kinematics& now, const Matrix3& C_bn, const Position& position) {
+  const Vector3 omega_ie = omega_ie_n(position.latitude);
+  const Vector3 omega_en = omega_en_n(position, now.v_eb_n);
+  const Vector3 f_ib_n =
+      now.v_eb_n_rate + (2.0 * omega_ie + omega_en).cross(now.v_eb_n) - gravity_n(position);
+  return {.omega_ib_b = omega_nb_b(now.angles, now.rates) + C_bn.transpose() * (omega_ie + omega_en),
+          .f_ib_b = C_bn.transpose() * f_ib_n};
+}
+
+Position moved(const Position& position, const Position& rate, double dt) {
+  return {.latitude = position.latitude + rate.latitude * dt,
+          .longitude = position.longitude + rate.longitude * dt,
+          .height = position.height + rate.height * dt};
+}
+
+/// Position at t + dt by one Runge-Kutta step of fourth order.
+Position advanced(const Motion& motion, const Position& position, double t, double dt) {
+  const Vector3 v_middle = kinematics(motion, t + 0.5 * dt).v_eb_n;
+  const Position k1 = position_rate(position, kinematics(motion, t).v_eb_n);
+  const Position k2 = position_rate(moved(position, k1, 0.5 * dt), v_middle);
+  const Position k3 = position_rate(moved(position, k2, 0.5 * dt), v_middle);
+  const Position k4 = position_rate(moved(position, k3, dt), kinematics(motion, t + dt).v_eb_n);
+  const auto mean = [](double a, double b, double c, double d) { return (a + 2.0 * (b + c) + d) / 6.0; };
+  const Position rate{.latitude = mean(k1.latitude, k2.latitude, k3.latitude, k4.latitude),
+                      .longitude = mean(k1.longitude, k2.longitude, k3.longitude, k4.longitude),
+                      .height = mean(k1.height, k2.height, k3.height, k4.height)};
+  return moved(position, rate, dt);
+}
+
+Truth truth_of(const Motion& motion, const Position& position, std::int64_t t_us) {
+  const Kinematics now = kinematics(motion, seconds(t_us));
+  const Matrix3 C_bn = C_bn_from(now.angles);
+  const Rates rates = rates_of(now, C_bn, position);
+  return {.t_us = t_us,
+          .position = position,
+          .v_eb_n = now.v_eb_n,
+          .C_bn = C_bn,
+          .omega_ib_b = rates.omega_ib_b,
+          .f_ib_b = rates.f_ib_b};
+}
+
+struct Node {
+  double at;      ///< fraction of the interval
+  double weight;  ///< they sum up to 1
+};
+
+// Five nodes: exact to degree 9. A sinusoid of 20 Hz over 10 ms (1.3 rad) is integrated to 1e-11 of its
+// amplitude, one of 5 Hz to 1e-17.
+std::array<Node, 5> gauss_legendre() {
+  using Rule = boost::math::quadrature::gauss<double, 5>;
+  const auto& x = Rule::abscissa();  // those >= 0 on [-1, 1], ascending
+  const auto& w = Rule::weights();
+  const auto node = [&](std::size_t i, double sign) {
+    return Node{.at = 0.5 * (1.0 + sign * x[i]), .weight = 0.5 * w[i]};
+  };
+  return {node(2, -1), node(1, -1), node(0, 1), node(1, 1), node(2, 1)};
+}
+
+/// Calls piece(from, to) for the parts of an interval between jumps of the motion.
+template <class Piece>
+void between_jumps(const Motion& motion, std::int64_t from_us, std::int64_t to_us, Piece piece) {
+  for (const std::int64_t jump : jumps_us(motion)) {
+    if (jump <= from_us || jump >= to_us) continue;
+    piece(from_us, jump);
+    from_us = jump;
+  }
+  piece(from_us, to_us);
+}
+
+/// Adds the integrals from a to b, which no jump lies between, and moves the position along.
+void integrate(const Motion& motion, std::int64_t a_us, std::int64_t b_us, Position& position,
+               ImuIncrement& sum) {
+  static const std::array<Node, 5> nodes = gauss_legendre();
+  const double length = seconds(b_us - a_us);
+  double t = seconds(a_us);
+  for (const Node& node : nodes) {
+    const double t_node = seconds(a_us) + node.at * length;
+    position = advanced(motion, position, t, t_node - t);
+    t = t_node;
+    const Kinematics now = kinematics(motion, t);
+    const Rates rates = rates_of(now, C_bn_from(now.angles), position);
+    sum.delta_theta += node.weight * length * rates.omega_ib_b;
+    sum.delta_v += node.weight * length * rates.f_ib_b;
+  }
+  position = advanced(motion, position, t, seconds(b_us) - t);
+}
+
+}  // namespace
+
+FlightRecord::FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us)
+    : flight_(flight), interval_us_(interval_us) {
+  assert(duration_us >= 0 && interval_us > 0);
+  const Motion& motion = flight.motion;
+  const auto count = static_cast<std::size_t>(duration_us / interval_us);
+  epochs_.reserve(count + 1);
+  increments_.reserve(count);
+  Position position = flight.start;
+  epochs_.push_back(truth_of(motion, position, 0));
+  for (std::int64_t end = interval_us; end <= duration_us; end += interval_us) {
+    ImuIncrement increment{.t_us = end, .interval_us = interval_us};
+    between_jumps(motion, end - interval_us, end, [&](std::int64_t a_us, std::int64_t b_us) {
+      integrate(motion, a_us, b_us, position, increment);
+    });
+    increments_.push_back(increment);
+    epochs_.push_back(truth_of(motion, position, end));
+  }
+}
+
+Truth FlightRecord::at(std::int64_t t_us) const {
+  assert(t_us >= 0 && t_us <= end_us());
+  const Truth& before = epochs_[static_cast<std::size_t>(t_us / interval_us_)];
+  if (before.t_us == t_us) return before;
+  Position position = before.position;
+  between_jumps(flight_.motion, before.t_us, t_us, [&](std::int64_t a_us, std::int64_t b_us) {
+    position = advanced(flight_.motion, position, seconds(a_us), seconds(b_us - a_us));
+  });
+  return truth_of(flight_.motion, position, t_us);
+}
+
+}  // namespace canhil::world
