@@ -1,0 +1,37 @@
+#!/bin/sh
+# The first process in user-mode Linux: uml_init.sh DIR CWD. Makes the interfaces, runs DIR/command, leaves DIR/status.
+dir=$1
+cwd=$2
+die() { echo "canhil: cannot $*" >/dev/console; busybox poweroff -f; }
+
+mount -t proc proc /proc || die "mount /proc"
+mount -t sysfs sysfs /sys || die "mount /sys"
+mkdir -p /dev/shm /dev/pts
+mount -t tmpfs tmpfs /dev/shm
+mount -t devpts devpts /dev/pts
+ln -s /proc/self/fd /dev/fd
+mount -t tmpfs tmpfs /run
+mkdir "$dir/tmp" && mount --bind /tmp "$dir/tmp"
+mount -t tmpfs tmpfs /tmp
+case $cwd in /tmp/*) # the caller works below /tmp: that folder stays in sight
+  top=${cwd#/tmp/}
+  top=${top%%/*}
+  mkdir "/tmp/$top" && mount --bind "$dir/tmp/$top" "/tmp/$top" || die "show $cwd"
+  ;;
+esac
+
+modules=/usr/lib/uml/modules/$(uname -r)/kernel
+for module in drivers/net/can/dev/can-dev net/can/can net/can/can-raw net/can/can-bcm net/can/can-gw drivers/net/can/vcan; do
+  insmod "$modules/$module.ko" || die "load $modules/$module.ko"
+done
+ip link set lo up
+for i in vcan0 vcan1; do
+  ip link add dev $i type vcan && ip link set $i mtu 72 && ip link set $i up || die "make $i"
+done
+
+for line in /dev/ttyS0 /dev/ttyS1; do stty raw -echo <$line; done
+setsid bash -c '. "$1/environment"; . "$1/command"' bash "$dir" </dev/null >/dev/ttyS0 2>/dev/ttyS1
+status=$?
+for line in /dev/ttyS0 /dev/ttyS1; do stty -F $line raw; done # waits until all is written
+echo $status >"$dir/status"
+busybox poweroff -f
