@@ -21,7 +21,8 @@ case $cwd in /tmp/*) # the caller works below /tmp: that folder stays in sight
 esac
 
 modules=/usr/lib/uml/modules/$(uname -r)/kernel
-for module in drivers/net/can/dev/can-dev net/can/can net/can/can-raw net/can/can-bcm net/can/can-gw drivers/net/can/vcan; do
+for module in drivers/net/can/dev/can-dev net/can/can net/can/can-raw net/can/can-bcm net/can/can-gw drivers/net/can/vcan \
+  net/sched/sch_tbf; do # the last is a slow wire, for tests of full queues
   insmod "$modules/$module.ko" || die "load $modules/$module.ko"
 done
 ip link set lo up
@@ -30,8 +31,15 @@ for i in vcan0 vcan1; do
 done
 
 for line in /dev/ttyS0 /dev/ttyS1; do stty raw -echo <$line; done
-setsid bash -c '. "$1/environment"; . "$1/command"' bash "$dir" </dev/null >/dev/ttyS0 2>/dev/ttyS1
+# By way of pipes, so that the command sees no terminal where its caller has none.
+mkfifo /run/out /run/err
+cat /run/out >/dev/ttyS0 &
+cat /run/err >/dev/ttyS1 &
+setsid bash -c '. "$1/environment"; . "$1/command"' bash "$dir" </dev/null >/run/out 2>/run/err &
+command=$!
+wait $command
 status=$?
-for line in /dev/ttyS0 /dev/ttyS1; do stty -F $line raw; done # waits until all is written
+kill -s KILL -- -$command 2>/dev/null # what the command left running holds the pipes open
+wait
 echo $status >"$dir/status"
 busybox poweroff -f
