@@ -32,6 +32,9 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                         {"latency_stamps", summary.stamp_source}};
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
+  page["ending"] = {{"completed", run.ending.kind == run::Ending::Kind::completed},
+                    {"t_s", static_cast<double>(run.ending.t_us) * 1e-6},
+                    {"detail", run.ending.detail}};
   page["checks"] = Json::array();
   for (const checks::CheckResult& check : run.verdict.checks) {
     page["checks"].push_back({{"name", check.name},

@@ -24,6 +24,10 @@ Recorder::Recorder(LogWriter writer, std::string path, const Port& port)
       interface_(port.name()),
       to_realtime_ns_(clock_ns(CLOCK_REALTIME) - clock_ns(port.stamp_clock())) {}
 
+Recorder::~Recorder() {
+  if (!closed_) std::remove(unfinished(path_).c_str());
+}
+
 void Recorder::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t /*late_ns*/) {
   started_ = true;
   write(frame, t_ns, true);
@@ -40,7 +44,10 @@ void Recorder::write(const Frame& frame, std::int64_t t_ns, bool transmitted) {
 
 Result<void> Recorder::close() {
   return writer_.close().and_then([&]() -> Result<void> {
-    if (std::rename(unfinished(path_).c_str(), path_.c_str()) == 0) return {};
+    if (std::rename(unfinished(path_).c_str(), path_.c_str()) == 0) {
+      closed_ = true;
+      return {};
+    }
     return failure(fmt::format("log '{}': cannot be given its name: {}", path_, std::strerror(errno)));
   });
 }

@@ -16,6 +16,8 @@ class Recorder final : public Observer {
   /// Writes beside `path` until close() gives the file its name. Error: the file cannot be created.
   static Result<std::unique_ptr<Recorder>> open(const std::string& path, const Port& port);
 
+  /// A recording that was not closed leaves nothing behind.
+  ~Recorder() override;
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
   /// Finishes the file. Error: not everything could be written; then nothing stands under `path`.
@@ -30,6 +32,7 @@ class Recorder final : public Observer {
   std::string interface_;
   std::int64_t to_realtime_ns_;  // from the port's stamp clock
   bool started_ = false;
+  bool closed_ = false;
 };
 
 }  // namespace canhil::run

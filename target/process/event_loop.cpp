@@ -10,7 +10,8 @@ namespace canhil::target {
 namespace {
 
 constexpr std::int64_t period_ns = messages::TargetHeartbeat::info.cycle_time_us * 1000;
-constexpr std::int64_t bench_gone_ns = 2 * period_ns;
+constexpr std::int64_t bench_silent_ns = 2 * period_ns;
+constexpr std::int64_t bench_gone_ns = 2'000'000'000;
 constexpr std::int64_t send_patience_ns = 50'000'000;
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
@@ -36,7 +37,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
   Device device;
   TimingWindow window;
   Outbox<1> reports;
-  std::int64_t sync_ns = now_ns() - bench_gone_ns;  // when the bench last kept the time base
+  std::int64_t sync_ns = now_ns() - bench_silent_ns;  // when the bench last kept the time base
   std::int64_t report_due_ns = now_ns();
 
   while (!stop && !port.closed()) {
@@ -51,8 +52,11 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     const std::int64_t now = now_ns();
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
-      if (now - sync_ns >= bench_gone_ns) {
-        send(port, device.idle_heartbeat());  // the Sync of a bench drives it otherwise
+      // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the device's
+      // frames are to be those of a replay. A target that a bench has left behind speaks up again for the next one.
+      const std::int64_t patience_ns = device.state() == messages::TargetState::running ? bench_gone_ns : bench_silent_ns;
+      if (now - sync_ns >= patience_ns) {
+        send(port, device.idle_heartbeat());
       } else if (!device.lockstep()) {
         reports.clear();
         reports.send(window.take());

@@ -1,0 +1,66 @@
+#include "tests/processes/hil/program.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "dbc/ports/candump_log.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::test {
+
+std::string scratch(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("canhil-{}", getpid());
+  std::filesystem::create_directories(folder);
+  return folder / name;
+}
+
+std::string read(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+nlohmann::json read_json(const std::string& path) { return nlohmann::json::parse(read(path)); }
+
+Ended shell(const std::string& command) {
+  const std::string out = scratch("stdout");
+  const std::string err = scratch("stderr");
+  const int status = std::system(fmt::format("{{ {}\n}} >{} 2>{} </dev/null", command, out, err).c_str());
+  return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1, .out = read(out), .err = read(err)};
+}
+
+Ended hil_bench(const std::string& arguments) { return shell(fmt::format("{} {}", HIL_BENCH, arguments)); }
+Ended hil_target(const std::string& arguments) { return shell(fmt::format("{} {}", HIL_TARGET, arguments)); }
+
+std::string bus() {
+  const char* chosen = std::getenv("CANHIL_TEST_BUS");
+  return chosen == nullptr ? "local:" : chosen;
+}
+
+std::string scenario(const std::string& name) { return fmt::format("{}/bench/scenarios/{}.toml", SOURCE_DIR, name); }
+
+std::vector<Frame> target_frames(const std::string& log_path) {
+  auto reader = LogReader::open(log_path);
+  if (!reader) throw std::runtime_error(reader.error().message);
+  std::vector<Frame> frames;
+  bool synchronised = false;
+  for (;;) {
+    const auto next = reader->next();
+    if (!next) throw std::runtime_error(next.error().message);
+    if (!*next) return frames;
+    const Frame& frame = (*next)->frame;
+    synchronised = synchronised || frame.id == messages::Sync::info.id;
+    const MessageInfo* info = messages::find_message(frame.id);
+    if (!synchronised || info == nullptr || info->sender != messages::TargetHeartbeat::info.sender) continue;
+    if (frame.id == messages::TargetTiming::info.id || frame.id == messages::StepDone::info.id) continue;
+    frames.push_back(frame);
+  }
+}
+
+}  // namespace canhil::test

@@ -1,0 +1,35 @@
+// Running the project's programs as a user does.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dbc/wire/frame.hpp"
+
+namespace canhil::test {
+
+struct Ended {
+  int code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs a shell command to its end.
+Ended shell(const std::string& command);
+/// Runs hil-bench with arguments as typed.
+Ended hil_bench(const std::string& arguments);
+Ended hil_target(const std::string& arguments);
+
+/// The bus that these tests run over: "local:", or what CANHIL_TEST_BUS says.
+std::string bus();
+std::string scenario(const std::string& name);
+/// A file name in a folder of this test program alone.
+std::string scratch(const std::string& name);
+std::string read(const std::string& path);
+nlohmann::json read_json(const std::string& path);
+
+/// The target's frames in a log, in order, from the first Sync on, without those that speak of the host or of the step.
+std::vector<Frame> target_frames(const std::string& log_path);
+
+}  // namespace canhil::test
