@@ -1,4 +1,5 @@
-// A Port is one node's access to a bus. Behind it: SocketCAN, the embedded bus, a recorded log, or a device in process.
+// A Port is one node's access to a bus. Behind it: SocketCAN, the embedded bus, a recorded log, or a device
+// in process.
 #pragma once
 
 #include <cstdint>
@@ -19,29 +20,38 @@ enum class StampSource : std::uint8_t { hardware, kernel, hub, process, virtual_
 /// A frame as it came from a bus.
 struct Received {
   Frame frame;
-  std::int64_t t_ns = 0;  ///< when it was on the bus; CLOCK_REALTIME for kernel stamps, see Port::stamp_clock()
-  StampSource source = StampSource::process;
+  std::int64_t t_ns = 0;         ///< when it was on the bus, by the clock that Port::stamp_clock() names
+  std::int64_t hardware_ns = 0;  ///< the controller's own stamp, on its own clock (differences only); 0: none
+  StampSource source = StampSource::process;  ///< the best stamp at hand; hardware: hardware_ns is set too
   bool own = false;  ///< the echo of a frame that this port sent: its stamp is the transmit time
 };
 
 enum class SendOutcome : std::uint8_t {
   sent,        ///< taken over by the bus
-  queue_full,  ///< no room now: wait until the descriptor is writable, then try again
-  down         ///< the bus is gone or the interface is down
+  queue_full,  ///< no room now and nothing was taken: wait(port, WaitFor::room, ...), then try again
+  down,        ///< the bus is gone or the interface is down
+  refused  ///< this bus cannot carry such a frame: FD on a classic bus, a size without DLC, an id too large
+};
+
+/// How to wait for room after SendOutcome::queue_full.
+struct RoomWait {
+  short events = 0;           ///< poll() events on Port::descriptor() that tell of it; 0: none does
+  std::int64_t pause_ns = 0;  ///< where none does: try again after this time
 };
 
 struct PortCounters {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
-  std::uint64_t overflowed = 0;    ///< frames the receive queue lost
+  std::uint64_t overflowed = 0;  ///< frames the receive queue lost
   std::uint64_t error_frames = 0;
 };
 
 struct PortOptions {
-  bool fd = false;            ///< CAN FD frames too
-  bool own_echo = false;      ///< receive own frames back, with their transmit time stamps
-  std::vector<std::uint32_t> only_ids;  ///< receive just these standard ids; empty: all
-  std::string node_name;      ///< who we are, for messages and for the hub's list of nodes
+  bool fd = false;                        ///< CAN FD frames too
+  bool own_echo = false;                  ///< receive own frames back, with their transmit time stamps
+  std::vector<std::uint32_t> only_ids{};  ///< receive just these standard ids; empty: all
+  std::string node_name{};                ///< who we are, for messages and for the hub's list of nodes
+  int receive_buffer_bytes = 0;           ///< SocketCAN: size of the receive queue; 0: as the kernel has it
 };
 
 class Port {
@@ -51,8 +61,10 @@ class Port {
   virtual SendOutcome send(const Frame& frame) = 0;
   /// The next frame from the bus, if one is waiting; never blocks.
   virtual std::optional<Received> receive() = 0;
-  /// For poll(): readable when receive() will give something or the bus is gone; writable after queue_full.
+  /// For poll(): readable when receive() has something to do or the bus is gone. Then call receive() until it
+  /// gives nothing. For room to send see room_wait().
   [[nodiscard]] virtual int descriptor() const = 0;
+  [[nodiscard]] virtual RoomWait room_wait() const = 0;
   /// True once the bus is gone for good (hub closed, interface removed, log at its end).
   [[nodiscard]] virtual bool closed() const = 0;
   [[nodiscard]] virtual PortCounters counters() const = 0;
@@ -62,7 +74,17 @@ class Port {
   [[nodiscard]] virtual const std::string& name() const = 0;
 };
 
-/// Opens `local:NAME`, or a SocketCAN interface by its name. Error: one line naming the bus and what was expected.
+/// Opens `local:NAME`, `log:FILE`, or a SocketCAN interface by its name. Error: one line naming the bus and
+/// what was expected.
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options);
+
+enum class WaitFor : std::uint8_t { frame, room };
+
+/// Waits until the port is worth another receive() or send(): true; or until deadline_ns on CLOCK_MONOTONIC,
+/// or a signal came: false. A frame may turn out not to be there: receive() decides.
+bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns);
+
+/// Now on a clock of clock_gettime() [ns].
+std::int64_t clock_ns(int clock);
 
 }  // namespace canhil

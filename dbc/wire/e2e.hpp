@@ -1,6 +1,6 @@
-// End-to-end protection, AUTOSAR E2E profile 11 variant A (PRS_E2EProtocol): CRC-8 SAE J1850 polynomial 0x1D with
-// start value 0 in byte 0, over the 16-bit data id (low byte first, not sent) and bytes 1.. of the frame;
-// a counter 0..14 in the low nibble of byte 1.
+// End-to-end protection, AUTOSAR E2E profile 11 variant A (PRS_E2EProtocol): CRC-8 SAE J1850 polynomial 0x1D
+// with start value 0 in byte 0, over the 16-bit data id (low byte first, not sent) and bytes 1.. of the
+// frame; a counter 0..14 in the low nibble of byte 1.
 #pragma once
 
 #include <array>
@@ -58,7 +58,8 @@ class Receiver {
   /// Checks a frame and takes its counter over. `lost` is the number of frames missing before it (0..13).
   constexpr Check check(std::span<const std::uint8_t> data, std::uint16_t data_id) {
     lost_ = 0;
-    if (data.size() < 2 || data[0] != crc(data, data_id) || counter(data) >= counter_period) return Check::wrong_crc;
+    if (data.size() < 2 || data[0] != crc(data, data_id) || counter(data) >= counter_period)
+      return Check::wrong_crc;
     const std::uint8_t now = counter(data);
     const std::uint8_t before = last_;
     last_ = now;

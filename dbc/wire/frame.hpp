@@ -8,16 +8,17 @@
 
 namespace canhil {
 
-/// One CAN or CAN FD data frame, or an error frame as SocketCAN reports it (id then holds the error class bits).
+/// One CAN or CAN FD data frame, or an error frame as SocketCAN reports it (id then holds the error class
+/// bits).
 struct Frame {
   static constexpr std::size_t max_size = 64;
 
-  std::uint32_t id = 0;  ///< 11 or 29 bits, without flags
-  std::uint8_t size = 0; ///< bytes of data in use
-  bool extended = false; ///< 29-bit id
-  bool fd = false;       ///< CAN FD format
-  bool brs = false;      ///< CAN FD: data phase at the higher bit rate
-  bool error = false;    ///< error frame
+  std::uint32_t id = 0;   ///< 11 or 29 bits, without flags
+  std::uint8_t size = 0;  ///< bytes of data in use
+  bool extended = false;  ///< 29-bit id
+  bool fd = false;        ///< CAN FD format
+  bool brs = false;       ///< CAN FD: data phase at the higher bit rate
+  bool error = false;     ///< error frame
   std::array<std::uint8_t, max_size> data{};
 
   [[nodiscard]] std::span<const std::uint8_t> payload() const { return {data.data(), size}; }

@@ -6,7 +6,8 @@
 
 namespace canhil {
 
-/// Packs a generated message (rounding, saturating) and protects it with the counter given (0..14).
+/// Packs a generated message (rounding, saturating) and, if it has an E2E data id, protects it with the
+/// counter given (0..14).
 template <class Message>
 Frame to_frame(const Message& message, std::uint8_t counter) {
   Frame frame;
@@ -16,7 +17,8 @@ Frame to_frame(const Message& message, std::uint8_t counter) {
   frame.brs = Message::info.fd;
   frame.size = Message::size;
   message.pack(std::span<std::uint8_t, Message::size>(frame.data.data(), Message::size));
-  e2e::protect({frame.data.data(), Message::size}, Message::info.e2e_data_id, counter);
+  if constexpr (Message::info.e2e_data_id != 0)
+    e2e::protect({frame.data.data(), Message::size}, Message::info.e2e_data_id, counter);
   return frame;
 }
 

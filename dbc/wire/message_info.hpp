@@ -15,8 +15,13 @@ struct SignalInfo {
   double offset = 0;
   double minimum = 0;
   double maximum = 0;
-  double sensor_sigma = 0;  ///< per-sample 1-sigma noise of the sensor in the signal's unit; 0: not a measurement
+  double sensor_sigma =
+      0;  ///< per-sample 1-sigma noise of the sensor in the signal's unit; 0: not a measurement
   bool carries_remainder = false;  ///< an increment whose rounding remainder goes into the next sample
+  unsigned start_bit = 0;          ///< as the DBC counts
+  unsigned length = 0;             ///< bits
+  bool big_endian = false;
+  bool multiplexed = false;  ///< not in every frame of the message
 };
 
 /// One message.
@@ -29,7 +34,7 @@ struct MessageInfo {
   std::int64_t cycle_time_us = 0;  ///< 0: sent on events
   std::uint16_t e2e_data_id = 0;   ///< 0: not protected
   std::string_view sender;
-  std::string_view sample_group;  ///< empty: stands alone
+  std::string_view sample_group;        ///< empty: stands alone
   std::span<const SignalInfo> signals;  ///< in the order of the DBC, without the E2E fields
 };
 

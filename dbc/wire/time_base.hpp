@@ -5,7 +5,8 @@
 
 namespace canhil {
 
-/// The full time [us] nearest to `reference_us` whose low 32 bits are `low_us`. Right within +-35 minutes of it.
+/// The full time [us] nearest to `reference_us` whose low 32 bits are `low_us`. Right within +-35 minutes of
+/// it.
 constexpr std::int64_t unwrap_us(std::uint32_t low_us, std::int64_t reference_us) {
   const auto difference = static_cast<std::int32_t>(low_us - static_cast<std::uint32_t>(reference_us));
   return reference_us + difference;

@@ -1,0 +1,95 @@
+#include "bench/checks/timing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace canhil::checks {
+namespace {
+
+const MessageInfo* info_of(std::string_view message) {
+  const auto found = std::ranges::find(messages::all_messages, message, &MessageInfo::name);
+  return found == messages::all_messages.end() ? nullptr : &*found;
+}
+
+const std::vector<Arrival>& arrivals_of(const Observations& seen, const MessageInfo& info) {
+  return seen.arrivals[static_cast<std::size_t>(&info - messages::all_messages.data())];
+}
+
+// Which group of the bench a group of the target answers.
+const std::vector<Stimulus>* stimuli_of(const Observations& seen, const MessageInfo& info) {
+  if (info.sample_group == messages::AlignVelocityD::info.sample_group) return &seen.slave_imu;
+  if (info.sample_group == messages::AlignUpdate::info.sample_group) return &seen.master_ins;
+  return nullptr;
+}
+
+bool within(const scenario::Window& window, std::int64_t t_us) {
+  return t_us >= window.from_us && t_us <= window.to_us;
+}
+
+}  // namespace
+
+double quantile(std::vector<double> sample, double q) {
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
+  const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(sample.begin(), nth, sample.end());
+  return *nth;
+}
+
+Distribution distribution(std::vector<double> sample) {
+  if (sample.empty()) return {};
+  std::ranges::sort(sample);
+  const auto at = [&](double q) {
+    const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
+    return sample[std::max<std::size_t>(rank, 1) - 1];
+  };
+  return {
+      .count = sample.size(), .min = sample.front(), .p50 = at(0.5), .p99 = at(0.99), .max = sample.back()};
+}
+
+bool answers_a_stimulus(std::string_view message) {
+  const MessageInfo* info = info_of(message);
+  static const Observations nothing;
+  return info != nullptr && stimuli_of(nothing, *info) != nullptr;
+}
+
+std::vector<double> latencies_s(const Observations& seen, std::string_view message,
+                                const scenario::Window& window) {
+  std::vector<double> sample;
+  const MessageInfo* info = info_of(message);
+  const std::vector<Stimulus>* stimuli = info == nullptr ? nullptr : stimuli_of(seen, *info);
+  if (stimuli == nullptr) return sample;
+  for (const Arrival& arrival : arrivals_of(seen, *info)) {
+    if (arrival.cause_us < 0 || !within(window, arrival.cause_us)) continue;
+    const auto cause = std::ranges::lower_bound(*stimuli, arrival.cause_us, {}, &Stimulus::valid_us);
+    if (cause == stimuli->end() || cause->valid_us != arrival.cause_us) continue;
+    sample.push_back(static_cast<double>(arrival.t_ns - cause->t_ns) * 1e-9);
+  }
+  return sample;
+}
+
+std::vector<double> periods_s(const Observations& seen, std::string_view message,
+                              const scenario::Window& window) {
+  std::vector<double> sample;
+  const MessageInfo* info = info_of(message);
+  if (info == nullptr) return sample;
+  const Arrival* before = nullptr;
+  for (const Arrival& arrival : arrivals_of(seen, *info)) {
+    if (arrival.cause_us >= 0 && !within(window, arrival.cause_us)) continue;
+    if (before != nullptr) sample.push_back(static_cast<double>(arrival.t_ns - before->t_ns) * 1e-9);
+    before = &arrival;
+  }
+  return sample;
+}
+
+double nominal_period_s(const Observations& seen, std::string_view message) {
+  const MessageInfo* info = info_of(message);
+  if (info == nullptr) return 0;
+  const double cycle_s = static_cast<double>(info->cycle_time_us) * 1e-6;
+  const std::vector<Stimulus>* stimuli = stimuli_of(seen, *info);
+  if (stimuli == nullptr || stimuli->size() < 2) return cycle_s;
+  const double span_us = static_cast<double>(stimuli->back().valid_us - stimuli->front().valid_us);
+  const double stimulus_s = span_us / static_cast<double>(stimuli->size() - 1) * 1e-6;
+  return stimuli == &seen.slave_imu ? std::max(cycle_s, stimulus_s) : stimulus_s;
+}
+
+}  // namespace canhil::checks

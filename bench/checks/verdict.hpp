@@ -1,0 +1,42 @@
+// What the checks say of a run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace canhil::checks {
+
+enum class Outcome : std::uint8_t { pass, fail, not_measured };
+
+constexpr std::string_view name(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::pass:
+      return "pass";
+    case Outcome::fail:
+      return "fail";
+    case Outcome::not_measured:
+      return "not measured";
+  }
+  return "?";
+}
+
+/// The result of one check.
+struct CheckResult {
+  std::string name;
+  std::string kind;
+  std::string requirement;  ///< id of the requirement it shows; may be empty
+  Outcome outcome = Outcome::not_measured;
+  std::string measured;  ///< with its unit, or why it was not measured
+  std::string expected;
+};
+
+/// Of a whole run: fail if anything failed; else not measured if anything was not; else pass.
+struct Verdict {
+  Outcome outcome = Outcome::not_measured;
+  std::string reason;  ///< one line
+  std::vector<CheckResult> checks;
+};
+
+}  // namespace canhil::checks

@@ -1,0 +1,35 @@
+// Rounding of increments onto the bus: what a sample loses, the next one carries, so that nothing
+// accumulates.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/world/attitude.hpp"
+#include "dbc/wire/message_info.hpp"
+
+namespace canhil::nodes {
+
+/// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders.
+class IncrementRounding {
+ public:
+  explicit IncrementRounding(const SignalInfo& signal)
+      : lsb_(signal.scale), minimum_(signal.minimum), maximum_(signal.maximum) {}
+
+  /// sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the signal.
+  world::Vector3 round(const world::Vector3& increment) {
+    const world::Vector3 wanted = increment + remainder_;
+    const world::Vector3 sent = wanted.unaryExpr(
+        [this](double x) { return std::clamp(std::nearbyint(x / lsb_) * lsb_, minimum_, maximum_); });
+    remainder_ = wanted - sent;
+    return sent;
+  }
+
+ private:
+  double lsb_;
+  double minimum_;
+  double maximum_;
+  world::Vector3 remainder_ = world::Vector3::Zero();
+};
+
+}  // namespace canhil::nodes

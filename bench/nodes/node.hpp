@@ -1,0 +1,50 @@
+// An emulated node: knows when it transmits next and what.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "dbc/wire/transmit.hpp"
+
+namespace canhil::nodes {
+
+/// The frames of one transmission: one sample group at the most.
+using Transmission = Outbox<8>;
+
+inline constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max();
+
+/// One node of the bus, played by the bench. All times are of the bench's time base [us].
+class Node {
+ public:
+  Node() = default;
+  Node(const Node&) = delete;
+  Node& operator=(const Node&) = delete;
+  virtual ~Node() = default;
+
+  /// When the next transmission is due; never_us after the last one.
+  [[nodiscard]] virtual std::int64_t due_us() const = 0;
+  /// Appends the frames of the transmission that is due and moves on to the next.
+  virtual void transmit(Transmission& out) = 0;
+};
+
+/// A periodic sampler with a transmission delay: sample k is valid at k*period and sent `latency` later.
+class Sampling {
+ public:
+  constexpr Sampling(std::int64_t period_us, std::int64_t latency_us, std::int64_t end_us)
+      : period_us_(period_us), latency_us_(latency_us), end_us_(end_us), valid_us_(period_us) {}
+  [[nodiscard]] constexpr std::int64_t due_us() const {
+    return valid_us_ > end_us_ ? never_us : valid_us_ + latency_us_;
+  }
+  [[nodiscard]] constexpr std::int64_t valid_us() const { return valid_us_; }
+  constexpr void advance() { valid_us_ += period_us_; }
+
+ private:
+  std::int64_t period_us_;
+  std::int64_t latency_us_;
+  std::int64_t end_us_;
+  std::int64_t valid_us_;
+};
+
+}  // namespace canhil::nodes

@@ -1,0 +1,220 @@
+#include "bench/run/handshake.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "bench/world/units.hpp"
+#include "dbc/wire/time_base.hpp"
+
+namespace canhil::run {
+namespace {
+
+std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
+
+using namespace messages;
+using world::units::deg;
+
+constexpr std::int64_t repeat_ns = 300'000'000;        // longer than a heartbeat period
+constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
+constexpr std::int64_t answer_limit_ns = 2'000'000'000;
+constexpr std::int64_t poll_ns = 20'000'000;
+
+// The latest answers of the target to commands.
+class Mailbox final : public Observer {
+ public:
+  void received(const Received& received) override {
+    const Frame& frame = received.frame;
+    if (received.own || frame.error) return;
+    if (frame.id == TargetHeartbeat::info.id && intact<TargetHeartbeat>(frame)) {
+      heartbeat = from_frame<TargetHeartbeat>(frame);
+    } else if (frame.id == ParamAck::info.id && intact<ParamAck>(frame)) {
+      acknowledgement = from_frame<ParamAck>(frame);
+    }
+  }
+  std::optional<TargetHeartbeat> heartbeat;
+  std::optional<ParamAck> acknowledgement;
+
+ private:
+  template <class Message>
+  static bool intact(const Frame& frame) {
+    return frame.size == Message::size &&
+           frame.data[0] == e2e::crc(frame.payload(), Message::info.e2e_data_id);
+  }
+};
+
+// Sends commands and waits for what they should bring about.
+class Dialogue {
+ public:
+  Dialogue(Link& link, nodes::Transmission& out, const std::function<std::optional<std::string>()>& gone)
+      : link_(link), out_(out), gone_(gone), attached_(link, mailbox_) {}
+
+  // Waits until `condition` holds of the mailbox, calling `request` first and whenever it went unanswered for
+  // a while.
+  template <class Request, class Condition>
+  Result<void> until(std::string_view what, std::int64_t limit_ns, Request&& request, Condition&& condition) {
+    const std::int64_t deadline_ns = now_ns() + limit_ns;
+    std::int64_t repeat_at_ns = 0;
+    for (;;) {
+      if (now_ns() >= repeat_at_ns) {
+        if (auto sent = send(request); !sent) return sent;
+        repeat_at_ns = now_ns() + repeat_ns;
+      }
+      link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
+      if (link_.drain() == LinkState::down)
+        return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
+      if (condition(mailbox_)) return {};
+      if (const auto why = gone_()) return failure(fmt::format("target: {} while {}", *why, what));
+      if (now_ns() >= deadline_ns) {
+        return failure(fmt::format("target on '{}': no answer within {:g} s while {}", link_.port().name(),
+                                   static_cast<double>(limit_ns) * 1e-9, what));
+      }
+    }
+  }
+
+  Mailbox& mailbox() { return mailbox_; }
+
+ private:
+  template <class Request>
+  Result<void> send(Request& request) {
+    out_.clear();
+    request(out_);
+    for (const Frame& frame : out_.frames()) {
+      if (link_.send(frame, answer_limit_ns) != LinkState::up) {
+        return failure(
+            fmt::format("bus '{}': takes no frames; is another node connected and the interface up?",
+                        link_.port().name()));
+      }
+    }
+    return {};
+  }
+
+  Link& link_;
+  nodes::Transmission& out_;
+  const std::function<std::optional<std::string>()>& gone_;
+  Mailbox mailbox_;
+  Attached attached_;
+};
+
+TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
+  return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
+}
+
+std::string errors_of(const TargetHeartbeat& heartbeat) {
+  std::string text;
+  const auto add = [&](bool set, std::string_view name) {
+    if (set) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+  };
+  add(heartbeat.error_dbc_mismatch != 0, "dbc_mismatch");
+  add(heartbeat.error_not_initialised != 0, "not_initialised");
+  add(heartbeat.error_input_lost != 0, "input_lost");
+  add(heartbeat.error_input_silent != 0, "input_silent");
+  add(heartbeat.error_numeric != 0, "numeric");
+  add(heartbeat.error_command != 0, "command");
+  return text.empty() ? "none" : text;
+}
+
+Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted) {
+  const auto parameter = from_name<Parameter>(wanted.name);
+  if (!parameter) return failure(fmt::format("parameter '{}': not in the DBC", wanted.name));
+  const auto value = static_cast<float>(wanted.value);
+  dialogue.mailbox().acknowledgement.reset();
+  auto answered = dialogue.until(
+      fmt::format("setting parameter '{}'", wanted.name), answer_limit_ns,
+      [&](nodes::Transmission& out) { out.send(ParamSet{.parameter = *parameter, .value = value}); },
+      [&](const Mailbox& box) {
+        return box.acknowledgement && box.acknowledgement->parameter == *parameter;
+      });
+  if (!answered) return answered;
+  const ParamAck& ack = *dialogue.mailbox().acknowledgement;
+  if (ack.status != ParameterStatus::accepted) {
+    return failure(fmt::format("parameter '{}' = {:g}: refused by the target: {} (value in force: {:g})",
+                               wanted.name, wanted.value, name_of(ack.status),
+                               static_cast<double>(ack.value)));
+  }
+  // Read-back: the value in force is the one sent, up to the rounding of a conversion of units in the target.
+  if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
+    return failure(fmt::format("parameter '{}' = {:g}: the target reads back {:g}", wanted.name, wanted.value,
+                               static_cast<double>(ack.value)));
+  }
+  return {};
+}
+
+void send_initial_state(nodes::Transmission& out, const world::NavigationSolution& initial,
+                        const scenario::InitialSigma& sigma) {
+  const world::Euler angles = world::euler_from(initial.C_bn);
+  out.send(TargetInitLatitude{.latitude_deg = initial.position.latitude / deg,
+                              .height_m = initial.position.height});
+  out.send(TargetInitLongitude{.longitude_deg = initial.position.longitude / deg,
+                               .position_sigma_m = sigma.position});
+  out.send(TargetInitVelocityNE{.velocity_north_mps = initial.v_eb_n.x(),
+                                .velocity_east_mps = initial.v_eb_n.y()});
+  out.send(TargetInitAttitude{
+      .roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg});
+  out.send(TargetInitSigma{.velocity_sigma_mps = sigma.velocity,
+                           .tilt_sigma_deg = sigma.tilt / deg,
+                           .heading_sigma_deg = sigma.heading / deg});
+  out.send(TargetInitVelocityD{.velocity_down_mps = initial.v_eb_n.z(),
+                               .time_of_validity_us = wrap_us(initial.t_us)});
+}
+
+}  // namespace
+
+Result<void> configure(Link& link, nodes::Transmission& out, const scenario::TargetSetup& setup,
+                       const world::NavigationSolution& initial,
+                       const std::function<std::optional<std::string>()>& gone) {
+  const auto estimator = from_name<Estimator>(setup.estimator);
+  const auto algorithm = from_name<Algorithm>(setup.algorithm);
+  if (!estimator || !algorithm) {
+    return failure(
+        fmt::format("estimator '{}' with algorithm '{}': not in the DBC", setup.estimator, setup.algorithm));
+  }
+  Dialogue dialogue(link, out, gone);
+  Mailbox& box = dialogue.mailbox();
+
+  auto found = dialogue.until(
+      "waiting for its heartbeat", find_limit_ns, [](nodes::Transmission&) {},
+      [](const Mailbox& mailbox) { return mailbox.heartbeat.has_value(); });
+  if (!found) return found;
+  if (box.heartbeat->dbc_hash != dbc_hash24) {
+    return failure(
+        fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
+                    "different DBC files",
+                    link.port().name(), box.heartbeat->dbc_hash, dbc_hash24));
+  }
+
+  box.heartbeat.reset();
+  auto reset = dialogue.until(
+      "being reset", answer_limit_ns,
+      [&](nodes::Transmission& o) { o.send(command(Command::reset, *estimator, *algorithm)); },
+      [&](const Mailbox& mailbox) {
+        return mailbox.heartbeat && mailbox.heartbeat->state == TargetState::idle &&
+               (mailbox.heartbeat->estimator == *estimator || mailbox.heartbeat->error_command != 0);
+      });
+  if (!reset) return reset;
+  if (box.heartbeat->error_command != 0) {
+    return failure(
+        fmt::format("target on '{}': does not offer estimator '{}' with algorithm '{}' (errors: {})",
+                    link.port().name(), setup.estimator, setup.algorithm, errors_of(*box.heartbeat)));
+  }
+  for (const scenario::Parameter& parameter : setup.parameters) {
+    if (auto set = set_parameter(dialogue, parameter); !set) return set;
+  }
+  auto ready = dialogue.until(
+      "taking its initial state", answer_limit_ns,
+      [&](nodes::Transmission& o) { send_initial_state(o, initial, setup.initial_sigma); },
+      [](const Mailbox& mailbox) { return mailbox.heartbeat->state == TargetState::ready; });
+  if (!ready) return ready;
+  return dialogue.until(
+      "starting", answer_limit_ns,
+      [&](nodes::Transmission& o) { o.send(command(Command::start, *estimator, *algorithm)); },
+      [](const Mailbox& mailbox) { return mailbox.heartbeat->state == TargetState::running; });
+}
+
+void stop(Link& link, nodes::Transmission& out) {
+  out.clear();
+  out.send(command(Command::stop, Estimator::none, Algorithm::kalman));
+  for (const Frame& frame : out.frames()) static_cast<void>(link.send(frame, repeat_ns));
+}
+
+}  // namespace canhil::run

@@ -1,0 +1,26 @@
+// Before a run: find the target, make sure it was built from the same DBC, configure it, start it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "bench/nodes/node.hpp"
+#include "bench/run/link.hpp"
+#include "bench/scenario/target_setup.hpp"
+#include "bench/world/navigation_errors.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::run {
+
+/// Waits for the target's heartbeat and checks its DBC hash, resets it, sets and reads back every parameter,
+/// sends the initial state with its sigmas, starts it. Each step is repeated until it is acknowledged. `gone`
+/// says why the target cannot answer any more, if that is known. Error: one line.
+Result<void> configure(Link& link, nodes::Transmission& out, const scenario::TargetSetup& setup,
+                       const world::NavigationSolution& initial,
+                       const std::function<std::optional<std::string>()>& gone);
+
+/// Stops the estimator; does not wait for an answer.
+void stop(Link& link, nodes::Transmission& out);
+
+}  // namespace canhil::run

@@ -1,0 +1,65 @@
+// The bench's access to the bus: every frame that passes is shown to the observers, in order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dbc/ports/port.hpp"
+
+namespace canhil::run {
+
+/// Sees every frame of a run. Times are of the port's stamp clock [ns].
+class Observer {
+ public:
+  Observer() = default;
+  Observer(const Observer&) = delete;
+  Observer& operator=(const Observer&) = delete;
+  virtual ~Observer() = default;
+  /// The bench handed a frame to the bus. `late_ns`: after its deadline; 0 where there was none.
+  virtual void transmitted(const Frame& /*frame*/, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {}
+  /// A frame came from the bus; `received.own`: the echo of one of ours, with its transmit stamp.
+  virtual void received(const Received& /*received*/) {}
+};
+
+/// Result of handing over a frame.
+enum class LinkState : std::uint8_t { up, congested, down };
+
+/// A port with its observers.
+class Link {
+ public:
+  explicit Link(Port& port) : port_(port) {}
+
+  void attach(Observer& observer) { observers_.push_back(&observer); }
+  void detach(Observer& observer) { std::erase(observers_, &observer); }
+
+  /// Hands a frame to the bus. While the bus has no room it receives, until `patience_ns` from now; then
+  /// `congested`.
+  LinkState send(const Frame& frame, std::int64_t patience_ns, std::int64_t late_ns = 0);
+
+  /// Shows every waiting frame to the observers, without blocking; `down` once the bus is gone.
+  LinkState drain();
+
+  /// Sleeps until a frame arrives, or until `deadline_ns` on CLOCK_MONOTONIC.
+  void wait_until(std::int64_t deadline_ns);
+
+  [[nodiscard]] const Port& port() const { return port_; }
+
+ private:
+  Port& port_;
+  std::vector<Observer*> observers_;
+};
+
+/// Keeps an observer attached while it lives.
+class Attached {
+ public:
+  Attached(Link& link, Observer& observer) : link_(link), observer_(observer) { link_.attach(observer_); }
+  ~Attached() { link_.detach(observer_); }
+  Attached(const Attached&) = delete;
+  Attached& operator=(const Attached&) = delete;
+
+ private:
+  Link& link_;
+  Observer& observer_;
+};
+
+}  // namespace canhil::run

@@ -1,0 +1,83 @@
+#include "bench/run/lockstep.hpp"
+
+#include <fmt/format.h>
+
+#include "messages/canhil.hpp"
+
+namespace canhil::run {
+namespace {
+
+std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
+
+// The end of a step as the target sees it.
+class StepWatch final : public Observer {
+ public:
+  void await(std::uint16_t step) {
+    awaited_ = step;
+    done_ = false;
+  }
+  void received(const Received& received) override {
+    const Frame& frame = received.frame;
+    if (frame.id == messages::StepDone::info.id) {
+      done_ = done_ || from_frame<messages::StepDone>(frame).step == awaited_;
+    } else if (frame.id == messages::TargetHeartbeat::info.id) {
+      fault_ = from_frame<messages::TargetHeartbeat>(frame).state == messages::TargetState::fault;
+    }
+  }
+  [[nodiscard]] std::uint16_t awaited() const { return awaited_; }
+  [[nodiscard]] bool done() const { return done_; }
+  [[nodiscard]] bool fault() const { return fault_; }
+
+ private:
+  std::uint16_t awaited_ = 0;
+  bool done_ = false;
+  bool fault_ = false;
+};
+
+}  // namespace
+
+Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, const std::atomic<bool>& stop,
+                    const Progress& progress) {
+  StepWatch watch;
+  const Attached attached(link, watch);
+  std::int64_t progress_due_us = 0;
+  constexpr std::int64_t progress_period_us = 1'000'000;
+
+  while (schedule.due_us() != nodes::never_us) {
+    const std::int64_t t_us = schedule.due_us();
+    if (t_us >= progress_due_us) {
+      progress(t_us);
+      progress_due_us = t_us + progress_period_us;
+    }
+    bool closes_step = false;
+    for (const Frame& frame : schedule.take()) {
+      if (frame.id == messages::Sync::info.id) {
+        closes_step = true;
+        watch.await(from_frame<messages::Sync>(frame).step);
+      }
+      if (link.send(frame, step_limit_ns) != LinkState::up) {
+        return {Ending::Kind::bus_down, t_us,
+                fmt::format("the bus took no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
+      }
+    }
+    if (!closes_step) continue;
+    const std::int64_t deadline_ns = now_ns() + step_limit_ns;
+    while (!watch.done()) {
+      if (link.drain() == LinkState::down) {
+        return {Ending::Kind::bus_down, t_us, "the bus is gone"};
+      }
+      if (watch.done()) break;
+      if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
+      if (now_ns() > deadline_ns) {
+        return {Ending::Kind::target_silent, t_us,
+                fmt::format("target silent since t={:.3f} s: step {} was not answered",
+                            static_cast<double>(t_us) * 1e-6, watch.awaited())};
+      }
+      link.wait_until(deadline_ns);
+    }
+    if (watch.fault()) return {Ending::Kind::target_fault, t_us, "the target reported a fault"};
+  }
+  return {Ending::Kind::completed, 0, ""};
+}
+
+}  // namespace canhil::run

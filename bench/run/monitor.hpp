@@ -1,0 +1,43 @@
+// Frames to observations: decodes what the target sends, pairs it with its cause, keeps the stamps.
+#pragma once
+
+#include <array>
+
+#include "bench/checks/observations.hpp"
+#include "bench/run/link.hpp"
+#include "dbc/wire/e2e.hpp"
+#include "dbc/wire/sample_group.hpp"
+
+namespace canhil::run {
+
+/// Watches a run from the target's start on.
+class Monitor final : public Observer {
+ public:
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
+  void received(const Received& received) override;
+
+  [[nodiscard]] const checks::Observations& observations() const { return seen_; }
+  checks::Observations& observations() { return seen_; }
+
+ private:
+  void echoed(const Received& received);
+  void decode(const Frame& frame, std::uint8_t counter);
+  void on_navigation();
+  void on_filter();
+  void attribute(std::string_view group, std::int64_t cause_us);
+  template <class Message>
+  void put_navigation(const Frame& frame, std::uint8_t counter);
+  template <class Message>
+  void put_filter(const Frame& frame, std::uint8_t counter);
+
+  checks::Observations seen_;
+  std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
+  SampleGroup<messages::AlignAttitude, messages::AlignVelocityNE, messages::AlignVelocityD> navigation_;
+  SampleGroup<messages::AlignInnovation, messages::AlignAttitudeSigma, messages::AlignAttitudeCorrelation,
+              messages::AlignVelocitySigma, messages::AlignGyroBias, messages::AlignGyroBiasSigma,
+              messages::AlignAccelBias, messages::AlignAccelBiasSigma, messages::AlignUpdate>
+      filter_;
+  std::int64_t now_us_ = 0;  // last Sync
+};
+
+}  // namespace canhil::run

@@ -1,0 +1,97 @@
+#include "bench/run/real_time.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <optional>
+
+#include "messages/canhil.hpp"
+
+namespace canhil::run {
+namespace {
+
+std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
+
+constexpr std::int64_t ns_per_us = 1000;
+constexpr std::int64_t lead_ns = 20'000'000;           // from here to the first deadline
+constexpr std::int64_t last_answers_ns = 150'000'000;  // longer than a heartbeat period
+constexpr std::int64_t progress_period_us = 100'000;
+
+bool from_target(const Frame& frame) {
+  const MessageInfo* info = messages::find_message(frame.id, frame.extended);
+  return info != nullptr && info->sender == messages::TargetHeartbeat::info.sender;
+}
+
+// When the target was last heard and whether it gave up.
+class TargetWatch final : public Observer {
+ public:
+  explicit TargetWatch(std::int64_t heard_ns) : heard_ns_(heard_ns) {}
+  void received(const Received& received) override {
+    const Frame& frame = received.frame;
+    if (received.own || !from_target(frame)) return;
+    heard_ns_ = now_ns();
+    if (frame.id != messages::TargetHeartbeat::info.id) return;
+    fault_ = from_frame<messages::TargetHeartbeat>(frame).state == messages::TargetState::fault;
+  }
+  [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
+  [[nodiscard]] bool fault() const { return fault_; }
+
+ private:
+  std::int64_t heard_ns_;
+  bool fault_ = false;
+};
+
+}  // namespace
+
+Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
+                     const std::atomic<bool>& stop, const Progress& progress) {
+  const std::int64_t start_ns = now_ns() + lead_ns;
+  const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
+  TargetWatch watch(start_ns);
+  const Attached attached(link, watch);
+  std::int64_t progress_due_us = 0;
+
+  // Receives until `deadline_ns`; says why the run is over, if it is.
+  const auto receive_until = [&](std::int64_t deadline_ns) -> std::optional<Ending> {
+    for (;;) {
+      const LinkState state = link.drain();
+      const std::int64_t now = now_ns();
+      if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
+      if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
+      if (watch.fault())
+        return Ending{Ending::Kind::target_fault, bench_us(now), "the target reported a fault"};
+      if (now - watch.heard_ns() > silence_limit_ns) {
+        return Ending{Ending::Kind::target_silent, bench_us(watch.heard_ns()),
+                      fmt::format("target silent since t={:.3f} s",
+                                  static_cast<double>(bench_us(watch.heard_ns())) * 1e-6)};
+      }
+      if (now >= deadline_ns) return std::nullopt;
+      link.wait_until(std::min(deadline_ns, watch.heard_ns() + silence_limit_ns + 1));
+    }
+  };
+
+  while (schedule.due_us() != nodes::never_us) {
+    const std::int64_t due_us = schedule.due_us();
+    const std::int64_t due_ns = start_ns + due_us * ns_per_us;
+    if (auto ending = receive_until(due_ns)) return *ending;
+    for (const Frame& frame : schedule.take()) {
+      switch (link.send(frame, silence_limit_ns, now_ns() - due_ns)) {
+        case LinkState::up:
+          break;
+        case LinkState::congested:
+          return {Ending::Kind::target_silent, due_us,
+                  fmt::format("the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6)};
+        case LinkState::down:
+          return {Ending::Kind::bus_down, due_us, "the bus is down"};
+      }
+    }
+    if (due_us >= progress_due_us) {
+      progress(due_us);
+      progress_due_us = due_us + progress_period_us;
+    }
+  }
+  const std::int64_t end_ns = now_ns();
+  if (auto ending = receive_until(end_ns + last_answers_ns)) return *ending;
+  return {Ending::Kind::completed, bench_us(end_ns), ""};
+}
+
+}  // namespace canhil::run

@@ -1,0 +1,48 @@
+#include "bench/run/recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstring>
+
+namespace canhil::run {
+namespace {
+
+std::string unfinished(const std::string& path) { return path + ".part"; }
+
+}  // namespace
+
+Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const Port& port) {
+  return LogWriter::create(unfinished(path)).map([&](LogWriter writer) {
+    return std::unique_ptr<Recorder>(new Recorder(std::move(writer), path, port));
+  });
+}
+
+Recorder::Recorder(LogWriter writer, std::string path, const Port& port)
+    : writer_(std::move(writer)),
+      path_(std::move(path)),
+      interface_(port.name()),
+      to_realtime_ns_(clock_ns(CLOCK_REALTIME) - clock_ns(port.stamp_clock())) {}
+
+void Recorder::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t /*late_ns*/) {
+  started_ = true;
+  write(frame, t_ns, true);
+}
+
+void Recorder::received(const Received& received) {
+  if (started_ && !received.own) write(received.frame, received.t_ns, false);
+}
+
+void Recorder::write(const Frame& frame, std::int64_t t_ns, bool transmitted) {
+  writer_.write(
+      {.t_ns = t_ns + to_realtime_ns_, .interface = interface_, .frame = frame, .transmitted = transmitted});
+}
+
+Result<void> Recorder::close() {
+  return writer_.close().and_then([&]() -> Result<void> {
+    if (std::rename(unfinished(path_).c_str(), path_.c_str()) == 0) return {};
+    return failure(fmt::format("log '{}': cannot be given its name: {}", path_, std::strerror(errno)));
+  });
+}
+
+}  // namespace canhil::run

@@ -1,0 +1,122 @@
+#include "bench/run/session.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/time_keeper.hpp"
+#include "bench/run/handshake.hpp"
+#include "bench/run/in_process_port.hpp"
+#include "bench/run/lockstep.hpp"
+#include "bench/run/monitor.hpp"
+#include "bench/run/recorder.hpp"
+#include "bench/run/schedule.hpp"
+#include "bench/run/target_process.hpp"
+#include "dbc/ports/local_bus.hpp"
+
+namespace canhil::run {
+namespace {
+
+constexpr std::int64_t silence_limit_ns =
+    400'000'000;  // four heartbeats; a dead target is named within 0.5 s
+constexpr std::int64_t step_limit_ns = 5'000'000'000;
+constexpr std::string_view in_process = "in-process";
+
+// A local bus is hosted by the bench, unless somebody does already.
+Result<std::unique_ptr<Port>> open(const std::string& bus) {
+  if (bus == in_process) return std::make_unique<InProcessPort>();
+  PortOptions options;
+  options.own_echo = true;
+  options.node_name = "hil-bench";
+  auto joined = open_port(bus, options);
+  if (joined || !bus.starts_with("local:")) return joined;
+  return host_local_bus(bus, options).map([](auto hub) -> std::unique_ptr<Port> { return hub; });
+}
+
+Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                       std::uint64_t run_index, bool lockstep) {
+  std::vector<std::unique_ptr<nodes::Node>> sensors;
+  const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
+  if (scenario.slave_imu) {
+    sensors.push_back(std::make_unique<nodes::SlaveImu>(truth, *scenario.slave_imu, stream("slave_imu")));
+  }
+  if (scenario.master_ins) {
+    sensors.push_back(std::make_unique<nodes::MasterIns>(truth, *scenario.master_ins, stream("master_ins")));
+  }
+  return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep)};
+}
+
+std::int64_t imu_period_us(const scenario::Scenario& scenario) {
+  const std::int64_t cycle_us = messages::SlaveImuStatus::info.cycle_time_us;
+  return scenario.slave_imu ? scenario.slave_imu->schedule.period_us.value_or(cycle_us) : cycle_us;
+}
+
+}  // namespace
+
+Result<Run> run(const scenario::Scenario& scenario, const Options& options,
+                const std::atomic<bool>& stop_requested, const Progress& progress) {
+  const bool lockstep = options.clock == ClockKind::lockstep;
+  world::FlightRecord truth(scenario.truth, scenario.duration_us, imu_period_us(scenario));
+
+  auto port = open(options.bus);
+  if (!port) return tl::unexpected(port.error());
+  Link link(**port);
+  std::unique_ptr<Recorder> recorder;
+  if (options.log_path) {
+    auto opened = Recorder::open(*options.log_path, **port);
+    if (!opened) return tl::unexpected(opened.error());
+    recorder = std::move(*opened);
+    link.attach(*recorder);
+  }
+  std::optional<TargetProcess> target;
+  if (options.target && options.bus != in_process) {
+    auto started = TargetProcess::start(*options.target, options.bus);
+    if (!started) return tl::unexpected(started.error());
+    target.emplace(std::move(*started));
+  }
+  const auto gone = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
+
+  Schedule schedule = make_schedule(scenario, truth, options.run_index, lockstep);
+  world::Stream initial_stream(scenario.seed, options.run_index, "initial_error");
+  const world::NavigationSolution initial =
+      measure(truth.epochs().front(), scenario.initial_error, initial_stream);
+  if (auto configured = configure(link, schedule.outbox(), scenario.target, initial, gone); !configured) {
+    return tl::unexpected(configured.error());
+  }
+
+  Monitor monitor;
+  link.attach(monitor);
+  const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
+  Ending ending = lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
+                           : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress);
+  const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
+  link.detach(monitor);
+  if (const auto why = gone(); why && ending.kind == Ending::Kind::target_silent) {
+    ending.detail += fmt::format(" (its process {})", *why);
+  }
+  stop(link, schedule.outbox());
+  if (recorder) {
+    link.detach(*recorder);
+    if (auto closed = recorder->close(); !closed) return tl::unexpected(closed.error());
+  }
+
+  checks::Observations seen = std::move(monitor.observations());
+  seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
+  const checks::Evidence evidence{.seen = seen,
+                                  .truth = truth,
+                                  .duration_us = scenario.duration_us,
+                                  .ended_early = ending.detail,
+                                  .timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen)};
+  checks::Verdict verdict = judge(scenario, evidence);
+  if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
+  return Run{.verdict = std::move(verdict),
+             .ending = std::move(ending),
+             .seen = std::move(seen),
+             .truth = std::move(truth),
+             .options = options,
+             .wall_s = wall_s};
+}
+
+}  // namespace canhil::run

@@ -1,0 +1,62 @@
+#include "bench/run/target_process.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <utility>
+
+namespace canhil::run {
+
+Result<TargetProcess> TargetProcess::start(const std::string& program, const std::string& bus) {
+  if (access(program.c_str(), X_OK) != 0) {
+    return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", program,
+                               strerror(errno)));
+  }
+  const pid_t parent = getpid();
+  const pid_t pid = fork();
+  if (pid < 0)
+    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(errno)));
+  if (pid == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(127);
+    execl(program.c_str(), program.c_str(), "--bus", bus.c_str(), nullptr);
+    _exit(127);
+  }
+  return TargetProcess(pid);
+}
+
+TargetProcess::TargetProcess(TargetProcess&& other) noexcept
+    : pid_(std::exchange(other.pid_, -1)), ended_(std::move(other.ended_)) {}
+
+TargetProcess& TargetProcess::operator=(TargetProcess&& other) noexcept {
+  std::swap(pid_, other.pid_);
+  std::swap(ended_, other.ended_);
+  return *this;
+}
+
+TargetProcess::~TargetProcess() {
+  if (pid_ < 0 || ended()) return;
+  kill(pid_, SIGTERM);
+  for (int i = 0; i < 100; ++i) {
+    if (ended()) return;
+    usleep(5000);
+  }
+  kill(pid_, SIGKILL);
+  waitpid(pid_, nullptr, 0);
+}
+
+std::optional<std::string> TargetProcess::ended() {
+  int status = 0;
+  if (pid_ >= 0 && !ended_ && waitpid(pid_, &status, WNOHANG) == pid_) {
+    ended_ = WIFSIGNALED(status)
+                 ? fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))
+                 : fmt::format("exited with {}", WEXITSTATUS(status));
+  }
+  return ended_;
+}
+
+}  // namespace canhil::run

@@ -1,0 +1,34 @@
+// The target as a child process of the bench.
+#pragma once
+
+#include <sys/types.h>
+#include <optional>
+#include <string>
+
+#include "dbc/wire/result.hpp"
+
+namespace canhil::run {
+
+/// A started hil-target; it is terminated with this object, and by the kernel should the bench die.
+class TargetProcess {
+ public:
+  /// Starts `program --bus BUS`. Error: the program cannot be started.
+  static Result<TargetProcess> start(const std::string& program, const std::string& bus);
+
+  TargetProcess(TargetProcess&& other) noexcept;
+  TargetProcess& operator=(TargetProcess&& other) noexcept;
+  TargetProcess(const TargetProcess&) = delete;
+  TargetProcess& operator=(const TargetProcess&) = delete;
+  ~TargetProcess();
+
+  /// How the process ended, if it has: one phrase for a person.
+  std::optional<std::string> ended();
+  [[nodiscard]] pid_t pid() const { return pid_; }
+
+ private:
+  explicit TargetProcess(pid_t pid) : pid_(pid) {}
+  pid_t pid_ = -1;
+  std::optional<std::string> ended_;
+};
+
+}  // namespace canhil::run

@@ -1,0 +1,13 @@
+// The generated struct of one message. Internal to dbcgen.
+#pragma once
+
+#include <string>
+
+#include "dbc/codegen/names.hpp"
+
+namespace canhil::dbc {
+
+/// Signal metadata and the struct, as C++.
+std::string message_text(const Enums& enums, const Message& message);
+
+}  // namespace canhil::dbc

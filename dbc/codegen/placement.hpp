@@ -1,0 +1,32 @@
+// Where the bits of a signal lie in 64-bit words of its message.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dbc/parser/database.hpp"
+
+namespace canhil::dbc {
+
+/// A load of up to 8 bytes, least (little-endian) or most significant byte first.
+struct Word {
+  unsigned first = 0;
+  unsigned bytes = 8;
+  ByteOrder order = ByteOrder::little_endian;
+  friend bool operator==(const Word&, const Word&) = default;
+  friend auto operator<=>(const Word&, const Word&) = default;
+};
+
+/// `length` bits of a word from `shift` on are the bits of the raw value from `raw_shift` on.
+struct Piece {
+  Word word;
+  unsigned shift = 0;
+  unsigned length = 0;
+  unsigned raw_shift = 0;
+};
+
+/// One piece, or two (most significant first) for a signal that touches nine bytes.
+/// Messages of up to 8 bytes are one word; in longer ones the word starts with the signal.
+std::vector<Piece> pieces_of(const Message& message, const Signal& signal);
+
+}  // namespace canhil::dbc

@@ -1,0 +1,23 @@
+// Rules of canhil's contract beyond the DBC format: protection, and resolution against the sensor (design,
+// section 5).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "dbc/parser/database.hpp"
+
+namespace canhil::dbc {
+
+struct Breach {
+  Position at;
+  std::string what;  ///< one line: what, expected ...
+};
+
+/// The first breach, or none.
+std::optional<Breach> find_breach(const Database& database);
+
+/// Table of every measurement: signal, LSB, sensor sigma, (LSB / sqrt 12) / sigma, remainder, verdict.
+std::string quantisation_table(const Database& database);
+
+}  // namespace canhil::dbc

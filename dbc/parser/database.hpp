@@ -1,0 +1,197 @@
+// A DBC file as values: what the text says, resolved and checked. Filled in by parse(), read by the codec and
+// dbcgen.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace canhil::dbc {
+
+/// Where something stands in the text, both counted from 1; columns count characters.
+struct Position {
+  int line = 1;
+  int column = 1;
+};
+
+/// INT and HEX: int64; FLOAT: double; STRING and ENUM (its label): string.
+using AttributeValue = std::variant<std::int64_t, double, std::string>;
+using Attributes = std::map<std::string, AttributeValue, std::less<>>;
+
+/// What an attribute may be attached to; the last three are relations of a node to one of these.
+enum class Owner : std::uint8_t {
+  network,
+  node,
+  message,
+  signal,
+  variable,
+  node_message,
+  node_signal,
+  node_variable
+};
+
+enum class AttributeType : std::uint8_t { integer, hexadecimal, real, text, enumeration };
+
+struct AttributeDefinition {
+  std::string name;
+  Owner owner = Owner::network;
+  AttributeType type = AttributeType::integer;
+  double minimum = 0;  ///< minimum and maximum both 0: no limits
+  double maximum = 0;
+  std::vector<std::string> labels;  ///< of an enumeration
+  std::optional<AttributeValue> initial;
+};
+
+struct ValueName {
+  std::int64_t value = 0;
+  std::string name;
+  friend bool operator==(const ValueName&, const ValueName&) = default;
+};
+
+/// Names of raw values, in the order of the text.
+struct ValueTable {
+  std::string name;
+  std::vector<ValueName> values;
+};
+
+struct Node {
+  std::string name;
+  std::string comment;
+  Attributes attributes;
+};
+
+enum class ByteOrder : std::uint8_t { little_endian, big_endian };
+enum class RawType : std::uint8_t { unsigned_integer, signed_integer, float32, float64 };
+
+/// Raw values of a multiplexor, both ends included.
+struct MuxRange {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+  friend bool operator==(const MuxRange&, const MuxRange&) = default;
+};
+
+/// physical = raw * scale + offset.
+struct Signal {
+  std::string name;
+  std::string unit;
+  std::string comment;
+  unsigned start_bit = 0;  ///< as the DBC counts: of the least (Intel) or the most (Motorola) significant bit
+  unsigned length = 0;     ///< bits, 1..64
+  ByteOrder byte_order = ByteOrder::little_endian;
+  RawType type = RawType::unsigned_integer;
+  double scale = 1;
+  double offset = 0;
+  double minimum = 0;  ///< minimum and maximum both 0: no limits but those of the raw value
+  double maximum = 0;
+  std::vector<std::string> receivers;
+  std::vector<ValueName> values;
+  bool multiplexor = false;
+  std::string multiplexed_by;        ///< name of the multiplexor; empty: always there
+  std::vector<MuxRange> mux_ranges;  ///< there when the multiplexor's raw value is in one of these
+  Attributes attributes;
+  Position at;
+
+  /// From the attributes SensorSigma and CarriesRemainder.
+  double sensor_sigma = 0;
+  bool carries_remainder = false;
+
+  [[nodiscard]] bool is_signed() const { return type == RawType::signed_integer; }
+  [[nodiscard]] bool is_float() const { return type == RawType::float32 || type == RawType::float64; }
+};
+
+struct SignalGroup {
+  std::string name;
+  int repetitions = 1;
+  std::vector<std::string> signals;
+};
+
+struct Message {
+  std::string name;
+  std::uint32_t id = 0;  ///< without the flag of the extended format
+  bool extended = false;
+  unsigned size = 0;   ///< bytes
+  std::string sender;  ///< empty: Vector__XXX, nobody
+  std::vector<std::string> further_senders;
+  std::string comment;
+  std::vector<Signal> signals;
+  std::vector<SignalGroup> groups;
+  Attributes attributes;
+  Position at;
+
+  /// From the attributes VFrameFormat, GenMsgCycleTime, E2eDataId and SampleGroup.
+  bool fd = false;
+  std::int64_t cycle_time_us = 0;
+  std::uint16_t e2e_data_id = 0;
+  std::string sample_group;
+};
+
+struct EnvironmentVariable {
+  std::string name;
+  std::string unit;
+  std::string comment;
+  int type = 0;  ///< 0 integer, 1 float, 2 string
+  double minimum = 0;
+  double maximum = 0;
+  double initial = 0;
+  unsigned data_size = 0;  ///< ENVVAR_DATA_; 0: not a data variable
+  std::vector<std::string> nodes;
+  std::vector<ValueName> values;
+  Attributes attributes;
+};
+
+/// An attribute of a node together with a message, a signal or an environment variable.
+struct RelationAttribute {
+  std::string attribute;
+  Owner owner = Owner::node_message;
+  std::string node;
+  std::uint32_t message_id = 0;  ///< as in the text, bit 31 set: extended
+  std::string target;            ///< signal or variable
+  AttributeValue value;
+};
+
+struct Database {
+  std::string version;
+  std::string comment;
+  std::vector<Node> nodes;
+  std::vector<Message> messages;  ///< in the order of the text
+  std::vector<ValueTable> value_tables;
+  std::vector<EnvironmentVariable> variables;
+  std::vector<AttributeDefinition> definitions;
+  Attributes attributes;
+  std::vector<RelationAttribute> relations;
+  std::uint64_t hash = 0;  ///< of the text, see hash()
+};
+
+/// The message with this id, or none.
+const Message* find_message(const Database& database, std::uint32_t id, bool extended = false);
+/// The message with this name, or none.
+const Message* find_message(const Database& database, std::string_view name);
+/// The signal with this name, or none.
+const Signal* find_signal(const Message& message, std::string_view name);
+/// The value of an attribute: the object's own, else the default of its definition, else none.
+const AttributeValue* find_attribute(const Database& database, const Attributes& attributes, Owner owner,
+                                     std::string_view name);
+
+/// True if no frame can hold both: a multiplexor above both has different values for them.
+bool mutually_exclusive(const Message& message, const Signal& a, const Signal& b);
+
+/// The raw values that a signal may take: as wide as its bits, and inside [minimum, maximum].
+/// Integers: in `lowest` and `highest` as two's complement of 64 bits. Empty if no raw value lies inside.
+struct RawRange {
+  std::int64_t lowest = 0;
+  std::int64_t highest = 0;
+};
+std::optional<RawRange> raw_range(const Signal& signal);
+
+/// The same for a float signal: finite, and inside [minimum, maximum].
+struct RealRange {
+  double lowest = 0;
+  double highest = 0;
+};
+RealRange real_range(const Signal& signal);
+
+}  // namespace canhil::dbc

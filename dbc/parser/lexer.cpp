@@ -1,0 +1,170 @@
+#include "dbc/parser/lexer.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace canhil::dbc {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+class Lexer {
+ public:
+  explicit Lexer(std::string_view text) : text_(text) {}
+
+  Token next() {
+    while (!at_end() && is_space(peek())) take();
+    Token token{TokenKind::end, {}, at_};
+    if (at_end()) return token;
+    const char c = peek();
+    if (c == '"') {
+      token.kind = TokenKind::string;
+      token.text = string(token.at);
+    } else if (is_letter(c)) {
+      token.kind = TokenKind::word;
+      while (!at_end() && (is_letter(peek()) || is_digit(peek()))) token.text += take();
+    } else if (starts_number()) {
+      token.kind = TokenKind::number;
+      token.text = number();
+    } else if (std::string_view(":;|@()[],+-").find(c) != std::string_view::npos) {
+      token.kind = TokenKind::mark;
+      token.text = take();
+    } else {
+      throw ParseFailure{token.at, "unexpected character " + printable(c) +
+                                       ", expected a keyword, a name, a number, a string or punctuation"};
+    }
+    return token;
+  }
+
+ private:
+  [[nodiscard]] bool at_end() const { return index_ >= text_.size(); }
+  [[nodiscard]] char peek(std::size_t ahead = 0) const {
+    return index_ + ahead < text_.size() ? text_[index_ + ahead] : '\0';
+  }
+  char take() {
+    const char c = text_[index_++];
+    if (c == '\n') {
+      ++at_.line;
+      at_.column = 1;
+    } else if (!is_continuation(c)) {
+      ++at_.column;
+    }
+    return c;
+  }
+  static std::string printable(char c) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code > 0x20 && code < 0x7F) return std::string("'") + c + "'";
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    return std::string("0x") + digits[code >> 4U] + digits[code & 15U];
+  }
+
+  // A sign belongs to a number only if a digit follows: "@1- (" ends with the sign of the signal.
+  [[nodiscard]] bool starts_number() const {
+    const std::size_t sign = (peek() == '-' || peek() == '+') ? 1 : 0;
+    const std::size_t dot = peek(sign) == '.' ? 1 : 0;
+    return is_digit(peek(sign + dot));
+  }
+  std::string number() {
+    std::string text;
+    if (peek() == '-' || peek() == '+') text += take();
+    while (is_digit(peek())) text += take();
+    if (peek() == '.') text += take();
+    while (is_digit(peek())) text += take();
+    if (peek() == 'e' || peek() == 'E') {
+      const std::size_t sign = (peek(1) == '-' || peek(1) == '+') ? 1 : 0;
+      if (is_digit(peek(1 + sign))) {
+        for (std::size_t i = 0; i < 1 + sign; ++i) text += take();
+        while (is_digit(peek())) text += take();
+      }
+    }
+    return text;
+  }
+  // Backslash escapes a quote or itself; a backslash before anything else is one. Line breaks stay, as \n.
+  std::string string(Position start) {
+    std::string text;
+    take();
+    while (!at_end() && peek() != '"') {
+      char c = take();
+      if (c == '\r') continue;
+      if (c == '\\' && (peek() == '"' || peek() == '\\')) c = take();
+      text += c;
+    }
+    if (at_end()) throw ParseFailure{start, "string without end, expected '\"' before the end of the file"};
+    take();
+    return text;
+  }
+
+  std::string_view text_;
+  std::size_t index_ = 0;
+  Position at_;
+};
+
+/// Length of the UTF-8 sequence that starts here, 0 if there is none.
+std::size_t utf8_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t length = lead < 0x80                     ? 1
+                             : (lead >= 0xC2 && lead < 0xE0) ? 2
+                             : (lead & 0xF0U) == 0xE0        ? 3
+                             : (lead >= 0xF0 && lead < 0xF5) ? 4
+                                                             : 0;
+  if (length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if (!is_continuation(text[i])) return 0;
+  }
+  return length;
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+void append_utf8(std::string& out, std::uint32_t code) {
+  if (code < 0x80) {
+    out += static_cast<char>(code);
+  } else if (code < 0x800) {
+    out += static_cast<char>(0xC0U | (code >> 6U));
+    out += static_cast<char>(0x80U | (code & 0x3FU));
+  } else {
+    out += static_cast<char>(0xE0U | (code >> 12U));
+    out += static_cast<char>(0x80U | ((code >> 6U) & 0x3FU));
+    out += static_cast<char>(0x80U | (code & 0x3FU));
+  }
+}
+
+// Windows-1252 differs from Latin-1 in 0x80..0x9F; bytes without a character there become U+FFFD.
+constexpr std::array<std::uint16_t, 32> cp1252_high{
+    0x20AC, 0xFFFD, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160,
+    0x2039, 0x0152, 0xFFFD, 0x017D, 0xFFFD, 0xFFFD, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022,
+    0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0xFFFD, 0x017E, 0x0178};
+
+}  // namespace
+
+std::vector<Token> tokens_of(std::string_view text) {
+  Lexer lexer(text);
+  std::vector<Token> tokens;
+  do {
+    tokens.push_back(lexer.next());
+  } while (tokens.back().kind != TokenKind::end);
+  return tokens;
+}
+
+std::string to_utf8(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (is_utf8(text)) return std::string(text);
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    append_utf8(out, byte >= 0x80 && byte < 0xA0 ? cp1252_high[byte - 0x80U] : byte);
+  }
+  return out;
+}
+
+}  // namespace canhil::dbc

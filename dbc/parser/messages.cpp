@@ -1,0 +1,314 @@
+// The sections that define messages, signals, environment variables, their values and their comments.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "dbc/parser/reader.hpp"
+
+namespace canhil::dbc {
+namespace {
+
+constexpr std::string_view nobody = "Vector__XXX";
+
+[[noreturn]] void fail_at(Position at, std::string what) { throw ParseFailure{at, std::move(what)}; }
+
+// M: multiplexor; m3: there when it is 3; m3M: both.
+void read_mux_indicator(Reader& in, Signal& signal) {
+  const std::string expected = "':' or a multiplexing indicator M, m<number> or m<number>M";
+  std::string_view text = in.peek().text;
+  if (text == "M") {
+    signal.multiplexor = true;
+  } else {
+    if (!text.starts_with('m')) in.fail(expected);
+    text.remove_prefix(1);
+    if (text.ends_with('M')) {
+      signal.multiplexor = true;
+      text.remove_suffix(1);
+    }
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (text.empty() || error != std::errc{} || end != text.data() + text.size()) in.fail(expected);
+    signal.mux_ranges = {{value, value}};
+  }
+  in.take();
+}
+
+void read_receivers(Reader& in, Draft& draft, Signal& signal) {
+  do {
+    const Position at = in.peek().at;
+    std::string name = in.word("a receiver");
+    if (name == nobody) continue;
+    node_of(draft, name, at);
+    signal.receivers.push_back(std::move(name));
+  } while (in.take_mark_if(',') || (in.peek().kind == TokenKind::word && !is_keyword(in.peek().text)));
+}
+
+Signal read_signal(Reader& in, Draft& draft) {
+  Signal signal;
+  signal.at = in.peek().at;
+  signal.name = in.word("the name of a signal");
+  if (in.peek().kind == TokenKind::word) read_mux_indicator(in, signal);
+  in.mark(':');
+  signal.start_bit = static_cast<unsigned>(in.natural("a start bit", 511));
+  in.mark('|');
+  signal.length = static_cast<unsigned>(in.natural("a length in bits", 512));
+  in.mark('@');
+  const bool intel = in.natural("the byte order 0 (Motorola) or 1 (Intel)", 1) == 1;
+  signal.byte_order = intel ? ByteOrder::little_endian : ByteOrder::big_endian;
+  if (!in.at_mark('+') && !in.at_mark('-')) in.fail("the sign '+' (unsigned) or '-' (signed)");
+  signal.type = in.take().text == "-" ? RawType::signed_integer : RawType::unsigned_integer;
+  in.mark('(');
+  signal.scale = in.real("a scale");
+  in.mark(',');
+  signal.offset = in.real("an offset");
+  in.mark(')');
+  in.mark('[');
+  signal.minimum = in.real("a minimum");
+  in.mark('|');
+  signal.maximum = in.real("a maximum");
+  in.mark(']');
+  signal.unit = in.string("a unit");
+  read_receivers(in, draft, signal);
+  return signal;
+}
+
+std::vector<ValueName> read_value_names(Reader& in) {
+  std::vector<ValueName> values;
+  while (!in.take_mark_if(';')) {
+    const Position at = in.peek().at;
+    const std::int64_t value = in.integer("';' or a value");
+    if (std::ranges::find(values, value, &ValueName::value) != values.end()) {
+      fail_at(at, fmt::format("value {} named a second time, expected every value once", value));
+    }
+    values.push_back({value, in.string("the name of the value")});
+  }
+  return values;
+}
+
+}  // namespace
+
+void read_message(Reader& in, Draft& draft) {
+  Message message;
+  message.at = in.peek().at;
+  const auto raw_id = static_cast<std::uint32_t>(in.natural("a message id", UINT32_MAX));
+  message.extended = (raw_id & extended_flag) != 0;
+  message.id = raw_id == independent_signals_id ? raw_id : raw_id & ~extended_flag;
+  const std::uint32_t last_id = message.extended ? 0x1FFF'FFFFU : 0x7FFU;
+  if (message.id > last_id && message.id != independent_signals_id) {
+    fail_at(message.at, fmt::format("message id {} out of range, expected at most {}{}", message.id, last_id,
+                                    message.extended ? "" : ", or bit 31 set for an extended id"));
+  }
+  const Position name_at = in.peek().at;
+  message.name = in.word("the name of the message");
+  for (const Message& other : draft.database.messages) {
+    if (other.id == message.id && other.extended == message.extended) {
+      fail_at(message.at, fmt::format("message {} has the id {} of {}, expected an id of its own",
+                                      message.name, message.id, other.name));
+    }
+    if (other.name == message.name) {
+      fail_at(name_at, fmt::format("message {} a second time, expected a name of its own", message.name));
+    }
+  }
+  in.mark(':');
+  message.size = static_cast<unsigned>(in.natural("the size in bytes", 64));
+  const Position sender_at = in.peek().at;
+  message.sender = in.word("the sender");
+  if (message.sender == nobody) {
+    message.sender.clear();
+  } else {
+    node_of(draft, message.sender, sender_at);
+  }
+  while (in.at_word("SG_")) {
+    in.take();
+    Signal signal = read_signal(in, draft);
+    if (std::ranges::find(message.signals, signal.name, &Signal::name) != message.signals.end()) {
+      fail_at(signal.at, fmt::format("signal {}.{} a second time, expected a name of its own", message.name,
+                                     signal.name));
+    }
+    message.signals.push_back(std::move(signal));
+  }
+  draft.database.messages.push_back(std::move(message));
+}
+
+void read_transmitters(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
+  in.mark(':');
+  while (!in.take_mark_if(';')) {
+    const Position node_at = in.peek().at;
+    const std::string node = in.word("';' or a sender");
+    if (node != nobody) {
+      node_of(draft, node, node_at);
+      if (node != message.sender) message.further_senders.push_back(node);
+    }
+    in.take_mark_if(',');
+  }
+}
+
+void read_signal_group(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
+  SignalGroup group;
+  group.name = in.word("the name of the signal group");
+  group.repetitions = static_cast<int>(in.natural("the repetitions", INT32_MAX));
+  in.mark(':');
+  while (!in.take_mark_if(';')) {
+    const Position signal_at = in.peek().at;
+    group.signals.push_back(in.word("';' or a signal"));
+    signal_of(message, group.signals.back(), signal_at);
+    in.take_mark_if(',');
+  }
+  message.groups.push_back(std::move(group));
+}
+
+void read_signal_type(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
+  const Position signal_at = in.peek().at;
+  Signal& signal = signal_of(message, in.word("a signal"), signal_at);
+  in.take_mark_if(':');
+  const std::uint64_t type = in.natural("the type 0 (integer), 1 (float) or 2 (double)", 2);
+  in.mark(';');
+  if (type == 0) return;
+  const unsigned length = type == 1 ? 32 : 64;
+  if (signal.length != length) {
+    fail_at(signal_at, fmt::format("signal {}.{} has {} bits, expected {} for a {}", message.name,
+                                   signal.name, signal.length, length, type == 1 ? "float" : "double"));
+  }
+  signal.type = type == 1 ? RawType::float32 : RawType::float64;
+}
+
+void read_extended_mux(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  const std::uint64_t id = in.natural("a message id", UINT32_MAX);
+  Message& message = message_of(draft, id, at);
+  const Position signal_at = in.peek().at;
+  Signal& signal = signal_of(message, in.word("a multiplexed signal"), signal_at);
+  const Position mux_at = in.peek().at;
+  const Signal& multiplexor = signal_of(message, in.word("its multiplexor"), mux_at);
+  if (!draft.mux_extended.emplace(fmt::format("{} {}", id, signal.name), signal_at).second) {
+    fail_at(signal_at, fmt::format("multiplexing of {}.{} a second time, expected SG_MUL_VAL_ once",
+                                   message.name, signal.name));
+  }
+  if (signal.mux_ranges.empty()) {
+    fail_at(signal_at,
+            fmt::format("signal {}.{} is not multiplexed, expected the indicator m<number> in its SG_",
+                        message.name, signal.name));
+  }
+  if (!multiplexor.multiplexor) {
+    fail_at(mux_at, fmt::format("signal {}.{} is no multiplexor, expected the indicator M in its SG_",
+                                message.name, multiplexor.name));
+  }
+  signal.multiplexed_by = multiplexor.name;
+  signal.mux_ranges.clear();
+  do {
+    const Position range_at = in.peek().at;
+    MuxRange range;
+    range.first = in.natural("a range first-last", UINT64_MAX);
+    // "3-5" is read as the numbers 3 and -5.
+    if (in.peek().kind == TokenKind::number && in.peek().text.starts_with('-')) {
+      range.last = static_cast<std::uint64_t>(-in.integer("the last value"));
+    } else {
+      in.mark('-');
+      range.last = in.natural("the last value", UINT64_MAX);
+    }
+    if (range.first > range.last) {
+      fail_at(range_at, fmt::format("range {}-{} is empty, expected first <= last", range.first, range.last));
+    }
+    signal.mux_ranges.push_back(range);
+  } while (in.take_mark_if(','));
+  in.mark(';');
+}
+
+void read_values(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  if (in.peek().kind == TokenKind::word) {
+    EnvironmentVariable& variable =
+        variable_of(draft, in.word("a message id or an environment variable"), at);
+    variable.values = read_value_names(in);
+    return;
+  }
+  Message& message = message_of(draft, in.natural("a message id or an environment variable", UINT32_MAX), at);
+  const Position signal_at = in.peek().at;
+  Signal& signal = signal_of(message, in.word("a signal"), signal_at);
+  if (!signal.values.empty()) {
+    fail_at(signal_at,
+            fmt::format("values of {}.{} a second time, expected VAL_ once", message.name, signal.name));
+  }
+  signal.values = read_value_names(in);
+}
+
+void read_value_table(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  ValueTable table;
+  table.name = in.word("the name of the value table");
+  auto& tables = draft.database.value_tables;
+  if (std::ranges::find(tables, table.name, &ValueTable::name) != tables.end()) {
+    fail_at(at, fmt::format("value table {} a second time, expected a name of its own", table.name));
+  }
+  table.values = read_value_names(in);
+  tables.push_back(std::move(table));
+}
+
+void read_variable(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  EnvironmentVariable variable;
+  variable.name = in.word("the name of the environment variable");
+  auto& variables = draft.database.variables;
+  if (std::ranges::find(variables, variable.name, &EnvironmentVariable::name) != variables.end()) {
+    fail_at(at,
+            fmt::format("environment variable {} a second time, expected a name of its own", variable.name));
+  }
+  in.mark(':');
+  variable.type = static_cast<int>(in.natural("the type 0, 1 or 2", 2));
+  in.mark('[');
+  variable.minimum = in.real("a minimum");
+  in.mark('|');
+  variable.maximum = in.real("a maximum");
+  in.mark(']');
+  variable.unit = in.string("a unit");
+  variable.initial = in.real("the initial value");
+  in.natural("the number of the variable", UINT32_MAX);
+  in.word("the access type DUMMY_NODE_VECTOR<number>");
+  do {
+    const Position node_at = in.peek().at;
+    std::string node = in.word("an access node");
+    if (node == nobody) continue;
+    node_of(draft, node, node_at);
+    variable.nodes.push_back(std::move(node));
+  } while (in.take_mark_if(','));
+  in.mark(';');
+  variables.push_back(std::move(variable));
+}
+
+void read_variable_data(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  EnvironmentVariable& variable = variable_of(draft, in.word("an environment variable"), at);
+  in.mark(':');
+  variable.data_size = static_cast<unsigned>(in.natural("the size in bytes", UINT32_MAX));
+  in.mark(';');
+}
+
+void read_comment(Reader& in, Draft& draft) {
+  std::string* comment = &draft.database.comment;
+  const std::string kind = in.peek().kind == TokenKind::word ? in.take().text : "";
+  const Position at = in.peek().at;
+  if (kind == "BU_") {
+    comment = &node_of(draft, in.word("a node"), at).comment;
+  } else if (kind == "BO_") {
+    comment = &message_of(draft, in.natural("a message id", UINT32_MAX), at).comment;
+  } else if (kind == "SG_") {
+    Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
+    const Position signal_at = in.peek().at;
+    comment = &signal_of(message, in.word("a signal"), signal_at).comment;
+  } else if (kind == "EV_") {
+    comment = &variable_of(draft, in.word("an environment variable"), at).comment;
+  } else if (!kind.empty()) {
+    fail_at(at, fmt::format("comment on '{}', expected BU_, BO_, SG_, EV_ or a string", kind));
+  }
+  *comment = in.string("a comment");
+  in.mark(';');
+}
+
+}  // namespace canhil::dbc

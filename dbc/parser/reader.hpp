@@ -1,0 +1,83 @@
+// Walks over the tokens of a DBC text and holds what is read so far. Internal to the parser.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dbc/parser/lexer.hpp"
+
+namespace canhil::dbc {
+
+class Reader {
+ public:
+  explicit Reader(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
+
+  [[nodiscard]] const Token& peek(std::size_t ahead = 0) const {
+    return tokens_[std::min(index_ + ahead, tokens_.size() - 1)];
+  }
+  const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
+  [[nodiscard]] bool at_mark(char mark) const {
+    return peek().kind == TokenKind::mark && peek().text[0] == mark;
+  }
+  [[nodiscard]] bool at_word(std::string_view word) const {
+    return peek().kind == TokenKind::word && peek().text == word;
+  }
+  bool take_mark_if(char mark);
+
+  void mark(char mark);
+  std::string word(std::string_view what);  ///< any name that is no keyword
+  std::string string(std::string_view what);
+  double real(std::string_view what);
+  std::int64_t integer(std::string_view what);
+  std::uint64_t natural(std::string_view what, std::uint64_t maximum);
+
+  /// At the token to come.
+  [[noreturn]] void fail(const std::string& expected) const;
+
+ private:
+  std::vector<Token> tokens_;
+  std::size_t index_ = 0;
+};
+
+bool is_keyword(std::string_view word);
+
+/// A Database in the making: a pseudo message may be among the messages until finish() drops it.
+struct Draft {
+  Database database;
+  std::map<std::string, Position, std::less<>> mux_extended;  ///< "id signal" given by SG_MUL_VAL_
+};
+
+/// Identifier of the pseudo message VECTOR__INDEPENDENT_SIG_MSG, whose signals are in no frame.
+inline constexpr std::uint32_t independent_signals_id = 0xC000'0000;
+inline constexpr std::uint32_t extended_flag = 0x8000'0000;
+
+Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
+Signal& signal_of(Message& message, std::string_view name, Position at);
+Node& node_of(Draft& draft, std::string_view name, Position at);
+EnvironmentVariable& variable_of(Draft& draft, std::string_view name, Position at);
+
+/// One section each; the keyword has been taken.
+void read_message(Reader& in, Draft& draft);                    // messages.cpp: BO_ and its SG_
+void read_transmitters(Reader& in, Draft& draft);               // BO_TX_BU_
+void read_signal_group(Reader& in, Draft& draft);               // SIG_GROUP_
+void read_signal_type(Reader& in, Draft& draft);                // SIG_VALTYPE_
+void read_extended_mux(Reader& in, Draft& draft);               // SG_MUL_VAL_
+void read_values(Reader& in, Draft& draft);                     // VAL_
+void read_value_table(Reader& in, Draft& draft);                // VAL_TABLE_
+void read_variable(Reader& in, Draft& draft);                   // EV_
+void read_variable_data(Reader& in, Draft& draft);              // ENVVAR_DATA_
+void read_comment(Reader& in, Draft& draft);                    // CM_
+void read_definition(Reader& in, Draft& draft, bool relation);  // attributes.cpp: BA_DEF_, BA_DEF_REL_
+void read_default(Reader& in, Draft& draft, bool relation);     // BA_DEF_DEF_, BA_DEF_DEF_REL_
+void read_attribute(Reader& in, Draft& draft);                  // BA_
+void read_relation_attribute(Reader& in, Draft& draft);         // BA_REL_
+
+/// Fills in what attributes say of messages and signals, then checks everything that needs the whole.
+/// check.cpp
+void finish(Draft& draft);
+
+}  // namespace canhil::dbc

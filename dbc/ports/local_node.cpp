@@ -1,0 +1,123 @@
+// A node of the embedded bus: one connection to the hub.
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
+#include "dbc/ports/descriptor.hpp"
+#include "dbc/ports/frame_rules.hpp"
+#include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/local_wire.hpp"
+
+namespace canhil {
+namespace {
+
+using local::Datagram;
+using local::Place;
+
+class LocalNode final : public Port {
+ public:
+  LocalNode(Descriptor socket, std::string name, bool fd)
+      : socket_(std::move(socket)), name_(std::move(name)), fd_(fd) {}
+
+  SendOutcome send(const Frame& frame) override {
+    if (!can_carry(frame, fd_)) return SendOutcome::refused;
+    Datagram datagram;
+    local::encode(frame, datagram);
+    if (::send(socket_.get(), &datagram, datagram.bytes(), MSG_NOSIGNAL) >= 0) {
+      ++counters_.sent;
+      return SendOutcome::sent;
+    }
+    return errno == EAGAIN || errno == ENOBUFS || errno == EINTR ? SendOutcome::queue_full
+                                                                 : SendOutcome::down;
+  }
+
+  std::optional<Received> receive() override {
+    Datagram datagram;
+    ssize_t bytes = 0;
+    do {
+      // The hub closing with frames of ours unread is ECONNRESET once; what it had sent before still comes
+      // after that.
+      bytes = ::recv(socket_.get(), &datagram, sizeof datagram, 0);
+    } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
+    if (bytes < 0 && errno == EAGAIN) return std::nullopt;
+    const auto frame =
+        bytes > 0 ? local::decode(datagram, static_cast<std::size_t>(bytes), fd_) : std::nullopt;
+    if (!frame) {  // the hub is gone, or it is no hub
+      closed_ = true;
+      return std::nullopt;
+    }
+    ++counters_.received;
+    if (frame->error) ++counters_.error_frames;
+    return Received{.frame = *frame,
+                    .t_ns = datagram.t_ns,
+                    .source = StampSource::hub,
+                    .own = (datagram.flags & Datagram::own) != 0};
+  }
+
+  [[nodiscard]] int descriptor() const override { return socket_.get(); }
+  [[nodiscard]] RoomWait room_wait() const override { return {.events = POLLOUT}; }
+  [[nodiscard]] bool closed() const override { return closed_; }
+  [[nodiscard]] PortCounters counters() const override { return counters_; }
+  [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+ private:
+  Descriptor socket_;
+  std::string name_;
+  bool fd_;
+  bool closed_ = false;
+  PortCounters counters_;
+};
+
+Descriptor connect_to(const std::string& name, Place place) {
+  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const local::Address at = local::address(name, place);
+  if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&at.socket), at.length) != 0) return {};
+  return socket;
+}
+
+std::string why_not_joined(std::string_view bus, const std::string& name, bool fd, int error) {
+  if (error == EAGAIN)
+    return fmt::format("bus '{}': its host takes no more nodes (too many wait to join)", bus);
+  if (error != ECONNREFUSED) return fmt::format("bus '{}': {}", bus, std::strerror(error));
+  if (connect_to(name, fd ? Place::classic : Place::fd)) {
+    return fd ? fmt::format(
+                    "bus '{}' is classic CAN and this node wants CAN FD: host it with FD, or join without",
+                    bus)
+              : fmt::format("bus '{}' carries CAN FD and this node is classic: join with FD", bus);
+  }
+  return fmt::format("no bus '{0}': nobody hosts it; start `hil-bench` first or `hil-bench bus {0}`", bus);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOptions& options) {
+  const auto name = local::bus_name(bus);
+  if (!name) return tl::unexpected(name.error());
+  const auto wanted = local::id_set(options.only_ids);
+  if (!wanted) return tl::unexpected(wanted.error());
+
+  Descriptor socket = connect_to(*name, options.fd ? Place::fd : Place::classic);
+  if (!socket) return failure(why_not_joined(bus, *name, options.fd, errno));
+
+  local::Hello hello;
+  hello.own_echo = options.own_echo ? 1 : 0;
+  hello.only_some = options.only_ids.empty() ? 0 : 1;
+  for (std::size_t id = 0; id < wanted->size(); ++id) {
+    if (wanted->test(id))
+      hello.wanted[id / 8] = static_cast<std::uint8_t>(hello.wanted[id / 8] | 1U << (id % 8));
+  }
+  const std::size_t length = std::min(options.node_name.size(), hello.node_name.size() - 1);
+  std::memcpy(hello.node_name.data(), options.node_name.data(), length);
+  if (::send(socket.get(), &hello, sizeof hello, MSG_NOSIGNAL) < 0) {
+    return failure(fmt::format("bus '{}': its host went away while this node joined", bus));
+  }
+  return std::make_unique<LocalNode>(std::move(socket), std::string(bus), options.fd);
+}
+
+}  // namespace canhil

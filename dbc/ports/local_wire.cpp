@@ -1,0 +1,74 @@
+#include "dbc/ports/local_wire.hpp"
+
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+
+#include "dbc/ports/frame_rules.hpp"
+
+namespace canhil::local {
+
+void encode(const Frame& frame, Datagram& datagram) {
+  datagram.id = frame.id;
+  datagram.size = frame.size;
+  datagram.flags =
+      static_cast<std::uint8_t>((frame.extended ? Datagram::extended : 0) | (frame.fd ? Datagram::fd : 0) |
+                                (frame.brs ? Datagram::brs : 0) | (frame.error ? Datagram::error : 0));
+  datagram.unused = 0;
+  datagram.t_ns = 0;
+  std::memcpy(datagram.data.data(), frame.data.data(), frame.size);
+}
+
+std::optional<Frame> decode(const Datagram& datagram, std::size_t received, bool fd_bus) {
+  if (received < offsetof(Datagram, data) || received != datagram.bytes()) return std::nullopt;
+  if (datagram.size > Frame::max_size) return std::nullopt;
+  Frame frame;
+  frame.id = datagram.id;
+  frame.size = datagram.size;
+  frame.extended = (datagram.flags & Datagram::extended) != 0;
+  frame.fd = (datagram.flags & Datagram::fd) != 0;
+  frame.brs = (datagram.flags & Datagram::brs) != 0;
+  frame.error = (datagram.flags & Datagram::error) != 0;
+  std::memcpy(frame.data.data(), datagram.data.data(), frame.size);
+  if (!can_carry(frame, fd_bus)) return std::nullopt;
+  return frame;
+}
+
+Result<IdSet> id_set(const std::vector<std::uint32_t>& ids) {
+  IdSet set;
+  for (const std::uint32_t id : ids) {
+    if (id > max_standard_id)
+      return failure(fmt::format("only_ids: 0x{:X} is not a standard id (0 to 0x7FF)", id));
+    set.set(id);
+  }
+  return set;
+}
+
+Result<std::string> bus_name(std::string_view bus) {
+  constexpr std::string_view prefix = "local:";
+  const std::string_view name = bus.starts_with(prefix) ? bus.substr(prefix.size()) : std::string_view{};
+  const auto allowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  };
+  if (name.empty() || name.size() > 64 || !std::ranges::all_of(name, allowed)) {
+    return failure(
+        fmt::format("'{}': expected local:NAME, NAME of 1 to 64 letters, digits, '_' or '-'", bus));
+  }
+  return std::string(name);
+}
+
+Address address(std::string_view name, Place place) {
+  constexpr std::array<std::string_view, 3> suffix{"", "/classic", "/fd"};
+  const std::string text = fmt::format("canhil/{}{}", name, suffix.at(static_cast<std::size_t>(place)));
+  Address result;
+  result.socket.sun_family = AF_UNIX;
+  // A leading 0 byte: the abstract namespace, where a name ends with the socket, however its process ended.
+  std::memcpy(result.socket.sun_path + 1, text.data(), text.size());
+  result.length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + text.size());
+  return result;
+}
+
+}  // namespace canhil::local

@@ -1,0 +1,53 @@
+#include "dbc/ports/port.hpp"
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "dbc/ports/candump_log.hpp"
+#include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/socketcan.hpp"
+
+namespace canhil {
+namespace {
+
+constexpr std::int64_t ns_per_s = 1'000'000'000;
+
+timespec to_timespec(std::int64_t ns) {
+  return {.tv_sec = static_cast<std::time_t>(ns / ns_per_s), .tv_nsec = static_cast<long>(ns % ns_per_s)};
+}
+
+}  // namespace
+
+std::int64_t clock_ns(int clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return now.tv_sec * ns_per_s + now.tv_nsec;
+}
+
+bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns) {
+  const RoomWait how = what == WaitFor::frame ? RoomWait{.events = POLLIN} : port.room_wait();
+  if (how.events == 0 && how.pause_ns == 0) return true;
+  const std::int64_t left_ns = std::max<std::int64_t>(deadline_ns - clock_ns(CLOCK_MONOTONIC), 0);
+  if (how.events == 0) {
+    const timespec pause = to_timespec(std::min(how.pause_ns, left_ns));
+    return ::nanosleep(&pause, nullptr) == 0 && how.pause_ns <= left_ns;
+  }
+  const timespec timeout = to_timespec(left_ns);
+  pollfd entry{.fd = port.descriptor(), .events = how.events, .revents = 0};
+  return ::ppoll(&entry, 1, &timeout, nullptr) > 0;
+}
+
+Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options) {
+  if (bus.starts_with("local:")) return join_local_bus(bus, options);
+  if (bus.starts_with("log:")) return open_log_port(bus, options);
+  if (bus.empty() || bus.find_first_of(":/ ") != std::string_view::npos) {
+    return failure(
+        fmt::format("bus '{}': expected a CAN interface such as can0, local:NAME or log:FILE", bus));
+  }
+  return open_socketcan(bus, options);
+}
+
+}  // namespace canhil

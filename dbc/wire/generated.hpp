@@ -1,0 +1,75 @@
+// What every generated header stands on: codec pieces, and the checks that it asserts on itself.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <tuple>
+
+#include "dbc/wire/bits.hpp"
+#include "dbc/wire/message_info.hpp"
+#include "dbc/wire/quantise.hpp"
+
+namespace canhil::wire {
+
+/// True if every signal lies inside of its message and, multiplexed ones aside, on bits of its own.
+constexpr bool is_sound(const MessageInfo& message) {
+  std::array<bool, 512> taken{};
+  if (message.e2e_data_id != 0) std::fill_n(taken.begin(), 12, true);
+  for (const SignalInfo& signal : message.signals) {
+    for (unsigned i = 0; i < signal.length; ++i) {
+      const unsigned bit = bit_position(signal.start_bit, i, signal.big_endian);
+      if (bit >= message.size * 8U || (!signal.multiplexed && taken[bit])) return false;
+      if (!signal.multiplexed) taken[bit] = true;
+    }
+  }
+  return true;
+}
+
+/// The share of a sensor's noise that rounding may add: LSB / sqrt(12) <= sigma / 4 (design, the bus
+/// contract).
+inline constexpr double largest_quantisation_ratio = 0.25;
+
+/// Standard deviation of rounding to multiples of `scale`, over the sensor's per-sample sigma.
+constexpr double quantisation_ratio(double scale, double sensor_sigma) {
+  constexpr double sqrt_12 = 3.4641016151377544;
+  return (scale < 0 ? -scale : scale) / sqrt_12 / sensor_sigma;
+}
+
+/// What is wrong with a measurement's resolution.
+enum class Resolution : std::uint8_t {
+  enough,
+  too_coarse,       ///< LSB / sqrt(12) > sigma / 4
+  loses_remainder,  ///< an increment (delta_*) that does not carry its rounding remainder: errors would
+                    ///< accumulate
+  unknown_sigma     ///< carries a remainder, so it is a measurement, but has no SensorSigma to judge it by
+};
+
+constexpr Resolution resolution_of(std::string_view name, double scale, double sensor_sigma,
+                                   bool carries_remainder) {
+  if (name.starts_with("delta_") && !carries_remainder) return Resolution::loses_remainder;
+  if (sensor_sigma <= 0) return carries_remainder ? Resolution::unknown_sigma : Resolution::enough;
+  return quantisation_ratio(scale, sensor_sigma) <= largest_quantisation_ratio ? Resolution::enough
+                                                                               : Resolution::too_coarse;
+}
+
+/// True if every measurement of the message is fine enough for its sensor.
+constexpr bool is_fine_enough(const MessageInfo& message) {
+  return std::ranges::all_of(message.signals, [](const SignalInfo& s) {
+    return resolution_of(s.name, s.scale, s.sensor_sigma, s.carries_remainder) == Resolution::enough;
+  });
+}
+
+/// The message with this id in a directory sorted by id, or none.
+constexpr const MessageInfo* find(std::span<const MessageInfo> sorted, std::uint32_t id, bool extended) {
+  const auto found = std::ranges::lower_bound(sorted, id, {}, &MessageInfo::id);
+  for (auto i = found; i != sorted.end() && i->id == id; ++i) {
+    if (i->extended == extended) return &*i;
+  }
+  return nullptr;
+}
+
+}  // namespace canhil::wire

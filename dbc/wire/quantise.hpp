@@ -1,0 +1,99 @@
+// Physical values to raw integers and back. The generated and the run-time codec both call these: same bits.
+#pragma once
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace canhil::wire {
+
+/// physical = raw * scale + offset. An offset of 0 is not added.
+constexpr double physical(double raw, double scale, double offset) {
+  const double scaled = raw * scale;
+  return offset == 0 ? scaled : scaled + offset;
+}
+
+/// The nearest integer, halves to even. |x| < 2^63.
+inline constexpr std::int64_t round_half_even(double x) {
+  if (!std::is_constant_evaluated()) return std::lrint(x);  // the host's rounding mode is never changed
+  const auto down =
+      static_cast<std::int64_t>(x) - (x < static_cast<double>(static_cast<std::int64_t>(x)) ? 1 : 0);
+  const double rest = x - static_cast<double>(down);
+  return rest > 0.5 || (rest == 0.5 && down % 2 != 0) ? down + 1 : down;
+}
+
+/// A bound of a raw integer as double; beyond 2^53 the next double towards zero, so that it stays in the
+/// range.
+constexpr double bound(std::uint64_t raw) {
+  if (raw >> 53U == 0) return static_cast<double>(raw);
+  const int spare = 64 - 53 - __builtin_clzll(raw);
+  return static_cast<double>((raw >> spare) << spare);
+}
+constexpr double bound(std::int64_t raw) {
+  const auto bits = static_cast<std::uint64_t>(raw);
+  return raw < 0 ? -bound(0 - bits) : bound(bits);
+}
+
+/// x held in [low, high]; NaN gives low. Comparisons in this order are minsd and maxsd, which hand NaN on and
+/// replace it.
+constexpr double clamped(double x, double low, double high) {
+  const double at_most = high < x ? high : x;
+  return at_most > low ? at_most : low;
+}
+/// The same with NaN to high: for a negative scale, where high is the physical minimum.
+constexpr double clamped_nan_high(double x, double low, double high) {
+  const double at_least = low > x ? low : x;
+  return at_least < high ? at_least : high;
+}
+
+/// The raw value, before rounding, that stands for a physical one: inside [low, high], NaN at the physical
+/// minimum.
+constexpr double unrounded(double value, double scale, double offset, double low, double high) {
+  const double raw = (offset == 0 ? value : value - offset) / scale;
+  return scale > 0 ? clamped(raw, low, high) : clamped_nan_high(raw, low, high);
+}
+
+/// Raw bits of a signed or narrow unsigned signal (at most 63 bits): rounded half to even, saturated to [low,
+/// high].
+constexpr std::uint64_t quantised(double value, double scale, double offset, double low, double high) {
+  return static_cast<std::uint64_t>(round_half_even(unrounded(value, scale, offset, low, high)));
+}
+
+/// The same for an unsigned signal of 64 bits.
+constexpr std::uint64_t quantised_wide(double value, double scale, double offset, double low, double high) {
+  constexpr double half = 9223372036854775808.0;
+  const double raw = unrounded(value, scale, offset, low, high);
+  if (raw < half) return static_cast<std::uint64_t>(round_half_even(raw));
+  return static_cast<std::uint64_t>(raw);  // integral at this size
+}
+
+/// Raw bits of a float signal, saturated to [low, high].
+template <class Float>
+constexpr std::uint64_t float_bits(double value, double scale, double offset, double low, double high) {
+  const auto raw = static_cast<Float>(unrounded(value, scale, offset, low, high));
+  if constexpr (sizeof(Float) == 4) {
+    return std::bit_cast<std::uint32_t>(raw);
+  } else {
+    return std::bit_cast<std::uint64_t>(raw);
+  }
+}
+
+/// The float that raw bits are.
+template <class Float>
+constexpr Float real(std::uint64_t bits) {
+  if constexpr (sizeof(Float) == 4) {
+    return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+  } else {
+    return std::bit_cast<double>(bits);
+  }
+}
+
+/// An integer held in [low, high].
+template <class Integer>
+constexpr std::uint64_t saturated(Integer value, Integer low, Integer high) {
+  return static_cast<std::uint64_t>(value < low ? low : value > high ? high : value);
+}
+
+}  // namespace canhil::wire

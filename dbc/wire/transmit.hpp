@@ -1,0 +1,61 @@
+// Sending side of the protocol: every message has its own E2E counter, counted up at each transmission.
+// The messages of a sample group are sent equally often, so they carry the same counter.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "dbc/wire/message.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil {
+
+/// Place of a message in messages::all_messages.
+template <class Message>
+consteval std::size_t message_index() {
+  for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
+    if (messages::all_messages[i].id == Message::info.id && messages::all_messages[i].extended == Message::info.extended) {
+      return i;
+    }
+  }
+  throw "message is not in the DBC";
+}
+
+/// The E2E counters of everything that one node sends.
+class TransmitCounters {
+ public:
+  /// The counter for the next transmission of a message (0..14).
+  template <class Message>
+  std::uint8_t take() {
+    std::uint8_t& next = next_[message_index<Message>()];
+    const std::uint8_t now = next;
+    next = e2e::next(now);
+    return now;
+  }
+  void reset() { next_.fill(0); }
+
+ private:
+  std::array<std::uint8_t, messages::all_messages.size()> next_{};
+};
+
+/// A fixed buffer of frames on their way out, with the counters of their sender. Never allocates.
+template <std::size_t capacity>
+class Outbox {
+ public:
+  /// Packs, protects and appends one message.
+  template <class Message>
+  void send(const Message& message) {
+    if (size_ < capacity) frames_[size_++] = to_frame(message, counters_.take<Message>());
+  }
+  [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), size_}; }
+  void clear() { size_ = 0; }
+  void reset_counters() { counters_.reset(); }
+
+ private:
+  std::array<Frame, capacity> frames_{};
+  std::size_t size_ = 0;
+  TransmitCounters counters_;
+};
+
+}  // namespace canhil

@@ -1,0 +1,20 @@
+// The estimators that this target offers.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "target/device/adapter.hpp"
+
+namespace canhil::target {
+
+std::unique_ptr<Adapter> make_transfer_alignment_adapter();
+
+/// One of each: the list that a new estimator joins.
+inline std::vector<std::unique_ptr<Adapter>> make_adapters() {
+  std::vector<std::unique_ptr<Adapter>> adapters;
+  adapters.push_back(make_transfer_alignment_adapter());
+  return adapters;
+}
+
+}  // namespace canhil::target

@@ -1,0 +1,94 @@
+#pragma once
+// Kalman recursions of fixed size, without a domain: N states, M measurements. No allocation, no exception.
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cstdint>
+
+namespace canhil::filtering {
+
+template <int Rows, int Cols>
+using Matrix = Eigen::Matrix<double, Rows, Cols>;
+template <int Rows>
+using Vector = Eigen::Matrix<double, Rows, 1>;
+
+/// Copies the lower triangle into the upper: exact symmetry after computing one half only.
+template <int N>
+void mirror_lower(Matrix<N, N>& P) {
+  for (int column = 1; column < N; ++column)
+    for (int row = 0; row < column; ++row) P(row, column) = P(column, row);
+}
+
+/// True when a symmetric matrix (lower triangle read) is finite and positive definite.
+template <int N>
+bool is_positive_definite(const Matrix<N, N>& P) {
+  return P.allFinite() && Eigen::LLT<Matrix<N, N>>(P).info() == Eigen::Success;
+}
+
+/// P+ = Phi P Phi' + Q, symmetric.
+template <int N>
+Matrix<N, N> propagate_covariance(const Matrix<N, N>& P, const Matrix<N, N>& Phi, const Matrix<N, N>& Q) {
+  const Matrix<N, N> PhiP = Phi.lazyProduct(P);
+  Matrix<N, N> next = Q;
+  next.noalias() += PhiP.lazyProduct(Phi.transpose());
+  mirror_lower<N>(next);
+  return next;
+}
+
+/// The outcome of a measurement update: dx = K innovation, the posterior P, and the innovation statistic (NIS).
+template <int N, int M>
+struct Correction {
+  bool positive_definite = false;  // of S; when false nothing else is set
+  Vector<N> dx;
+  Matrix<N, N> P;
+  Matrix<N, M> K;
+  Matrix<M, M> S;  // innovation covariance H P H' + R
+  double nis = 0;  // innovation' S^-1 innovation: chi-square of M degrees of freedom if the filter is consistent
+};
+
+namespace detail {
+
+// Joseph form (I - K H) P (I - K H)' + K R K' with the products by H left to the caller: PHt = P H', and
+// times_Ht(W) = W H'. W = (I - K H) P; P+ = W + (K R - W H') K', whose bracket vanishes for the optimal K.
+template <int N, int M, class TimesHt>
+Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Matrix<M, M>& HPHt,
+                        const Matrix<M, M>& R, const Vector<M>& innovation, TimesHt times_Ht) {
+  Correction<N, M> c;
+  c.S = HPHt + R;
+  const Eigen::LLT<Matrix<M, M>> factor(c.S);
+  if (!c.S.allFinite() || factor.info() != Eigen::Success) return c;
+  c.positive_definite = true;
+  const Matrix<M, M> S_inverse = factor.solve(Matrix<M, M>::Identity());
+  c.K.noalias() = PHt.lazyProduct(S_inverse);
+  c.dx.noalias() = c.K.lazyProduct(innovation);
+  c.nis = innovation.dot(S_inverse * innovation);
+  c.P = P;
+  c.P.noalias() -= c.K.lazyProduct(PHt.transpose());
+  const Matrix<N, M> bracket = c.K.lazyProduct(R) - times_Ht(c.P);
+  c.P.noalias() += bracket.lazyProduct(c.K.transpose());
+  c.P = (0.5 * (c.P + c.P.transpose())).eval();
+  return c;
+}
+
+}  // namespace detail
+
+/// Measurement update of covariance P with z = H x + v, v ~ (0, R), Joseph form, symmetrised.
+template <int N, int M>
+Correction<N, M> update(const Matrix<N, N>& P, const Matrix<M, N>& H, const Matrix<M, M>& R,
+                        const Vector<M>& innovation) {
+  const Matrix<N, M> PHt = P.lazyProduct(H.transpose());
+  const Matrix<M, M> HPHt = H.lazyProduct(PHt);
+  return detail::joseph<N, M>(P, PHt, HPHt, R, innovation, [&](const Matrix<N, N>& W) -> Matrix<N, M> {
+    return W.lazyProduct(H.transpose());
+  });
+}
+
+/// The same when the measurement is the states First .. First + M - 1 themselves, which spares the products by H.
+template <int First, int N, int M>
+Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, const Vector<M>& innovation) {
+  return detail::joseph<N, M>(
+      P, P.template middleCols<M>(First), P.template block<M, M>(First, First), R, innovation,
+      [](const Matrix<N, N>& W) -> Matrix<N, M> { return W.template middleCols<M>(First); });
+}
+
+}  // namespace canhil::filtering

@@ -1,0 +1,19 @@
+#pragma once
+// What a strapdown IMU delivers once a sample: the integrals of angular rate and specific force over it.
+#include <Eigen/Core>
+
+namespace canhil::strapdown {
+
+struct ImuIncrement {
+  Eigen::Vector3d delta_theta = Eigen::Vector3d::Zero();  // integral of omega_ib_b [rad]
+  Eigen::Vector3d delta_v = Eigen::Vector3d::Zero();      // integral of f_ib_b [m/s]
+  double dt = 0;                                          // [s]
+};
+
+/// The increment less constant biases of the rate [rad/s] and the specific force [m/s^2].
+inline ImuIncrement without_bias(const ImuIncrement& imu, const Eigen::Vector3d& gyro_bias,
+                                 const Eigen::Vector3d& accel_bias) {
+  return {imu.delta_theta - gyro_bias * imu.dt, imu.delta_v - accel_bias * imu.dt, imu.dt};
+}
+
+}  // namespace canhil::strapdown

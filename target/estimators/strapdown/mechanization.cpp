@@ -1,0 +1,71 @@
+#include "target/estimators/strapdown/mechanization.hpp"
+
+#include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/strapdown/earth.hpp"
+
+namespace canhil::strapdown {
+namespace {
+
+// Trapezoidal position from the velocities at both ends, radii and height of the start (as Groves 2013, eq. 5.56).
+void advance_position(NavState& nav, const NavState& from, const LocalEarth& earth, double dt) {
+  const Eigen::Vector3d mean = 0.5 * (from.v_eb_n + nav.v_eb_n);
+  nav.latitude = from.latitude + mean.x() * dt / (earth.meridian_radius + from.height);
+  nav.longitude =
+      from.longitude + mean.y() * dt / ((earth.transverse_radius + from.height) * earth.cos_latitude);
+  nav.height = from.height - mean.z() * dt;
+}
+
+}  // namespace
+
+MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& imu) {
+  const LocalEarth earth = local_earth(nav.latitude, nav.height);
+  MechanizationStep step;
+  step.omega_ie_n = earth.omega_ie_n;
+  step.omega_en_n = transport_rate(earth, nav.height, nav.v_eb_n);
+
+  const Eigen::Vector3d zeta = (step.omega_ie_n + step.omega_en_n) * imu.dt;
+  step.nav.C_bn = exp_rotation(-zeta) * nav.C_bn * exp_rotation(imu.delta_theta);
+  step.C_bn_mean = 0.5 * (nav.C_bn + step.nav.C_bn);
+  step.delta_v_n = step.C_bn_mean * imu.delta_v;
+
+  const Eigen::Vector3d gravity(0, 0, earth.gravity);
+  const Eigen::Vector3d coriolis = 2 * step.omega_ie_n + step.omega_en_n;
+  step.nav.v_eb_n = nav.v_eb_n + step.delta_v_n + (gravity - coriolis.cross(nav.v_eb_n)) * imu.dt;
+  advance_position(step.nav, nav, earth, imu.dt);
+  return step;
+}
+
+MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous, const ImuIncrement& imu) {
+  const double dt = imu.dt;
+  // For w = a + b t, coning = a x b dt^3/12 and previous x current = a x b T dt (T + dt)/2 (T: previous sample time);
+  // 1/12 for equal samples. Sculling has the same factor.
+  const double factor = previous.dt > 0 ? dt * dt / (6 * previous.dt * (previous.dt + dt)) : 0;
+  const Eigen::Vector3d phi = imu.delta_theta + factor * previous.delta_theta.cross(imu.delta_theta);
+  const Eigen::Vector3d delta_v_b = imu.delta_v + 0.5 * imu.delta_theta.cross(imu.delta_v) +
+                                    factor * (previous.delta_theta.cross(imu.delta_v) +
+                                              previous.delta_v.cross(imu.delta_theta));
+
+  const LocalEarth earth = local_earth(nav.latitude, nav.height);
+  const Eigen::Vector3d gravity(0, 0, earth.gravity);
+  const Eigen::Vector3d omega_en_start = transport_rate(earth, nav.height, nav.v_eb_n);
+  const Eigen::Vector3d zeta_start = (earth.omega_ie_n + omega_en_start) * dt;
+
+  MechanizationStep step;
+  const Eigen::Vector3d unturned = nav.C_bn * delta_v_b;
+  step.delta_v_n = unturned - 0.5 * zeta_start.cross(unturned);  // the n axes turn during the sample
+  const Eigen::Vector3d coriolis_start = 2 * earth.omega_ie_n + omega_en_start;
+  const Eigen::Vector3d v_middle =
+      nav.v_eb_n + 0.5 * (step.delta_v_n + (gravity - coriolis_start.cross(nav.v_eb_n)) * dt);
+  step.omega_ie_n = earth.omega_ie_n;
+  step.omega_en_n = transport_rate(earth, nav.height, v_middle);
+  const Eigen::Vector3d coriolis = 2 * step.omega_ie_n + step.omega_en_n;
+  step.nav.v_eb_n = nav.v_eb_n + step.delta_v_n + (gravity - coriolis.cross(v_middle)) * dt;
+  advance_position(step.nav, nav, earth, dt);
+
+  const Eigen::Vector3d zeta = (step.omega_ie_n + step.omega_en_n) * dt;
+  step.nav.C_bn = exp_rotation(-zeta) * nav.C_bn * exp_rotation(phi);
+  step.C_bn_mean = 0.5 * (nav.C_bn + step.nav.C_bn);
+  return step;
+}
+
+}  // namespace canhil::strapdown

@@ -1,0 +1,44 @@
+#include "target/estimators/transfer_alignment/error_model.hpp"
+
+#include "target/estimators/strapdown/attitude.hpp"
+
+namespace canhil::transfer_alignment {
+
+using strapdown::skew;
+
+void extend(Interval& interval, const strapdown::MechanizationStep& step, double dt) {
+  interval.duration += dt;
+  interval.delta_v_n += step.delta_v_n;
+  interval.C_bn_integral += step.C_bn_mean * dt;
+  interval.omega_ie_n = step.omega_ie_n;
+  interval.omega_en_n = step.omega_en_n;
+}
+
+Covariance transition_increment(const Interval& interval) {
+  const double dt = interval.duration;
+  Covariance G = Covariance::Zero();
+  G.block<3, 3>(kVelocity, kVelocity) = skew(-dt * (2 * interval.omega_ie_n + interval.omega_en_n));
+  G.block<3, 3>(kVelocity, kAttitude) = skew(interval.delta_v_n);
+  G.block<3, 3>(kVelocity, kAccelBias) = interval.C_bn_integral;
+  G.block<3, 3>(kAttitude, kAttitude) = skew(-dt * (interval.omega_ie_n + interval.omega_en_n));
+  G.block<3, 3>(kAttitude, kGyroBias) = -interval.C_bn_integral;
+  return G;
+}
+
+StateVector process_noise(const Settings& settings, double duration) {
+  const double accel = settings.accel_noise_density * settings.accel_noise_density * duration;
+  const double gyro = settings.gyro_noise_density * settings.gyro_noise_density * duration;
+  StateVector q = StateVector::Zero();
+  q.segment<3>(kVelocity).setConstant(accel);
+  q.segment<3>(kAttitude).setConstant(gyro);
+  return q;
+}
+
+StateVector initial_variance(const Settings& settings) {
+  StateVector sigma;
+  sigma << settings.velocity_sigma_0, settings.attitude_sigma_0, settings.accel_bias_sigma_0,
+      settings.gyro_bias_sigma_0;
+  return sigma.cwiseAbs2();
+}
+
+}  // namespace canhil::transfer_alignment

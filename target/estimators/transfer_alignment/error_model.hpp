@@ -1,0 +1,48 @@
+#pragma once
+// The 12-state velocity and attitude error model of a slave INS; every error = computed - true.
+// x = [dV (NED), phi (NED), accelerometer bias error (body), gyro bias error (body)],  C_computed = exp(-[phi x]) C_true:
+//   dV'  = -(2 w_ie + w_en) x dV + (C f) x phi + C df + white        (Yang, Shim, Park 2001, eqs. (1)-(5); corrected:
+//   phi' = -(w_ie + w_en) x phi - C dw + white                       blocks (1,1) and (2,2) of A are skew matrices)
+#include <Eigen/Core>
+#include <array>
+
+#include "target/estimators/filtering/block_transition.hpp"
+#include "target/estimators/strapdown/mechanization.hpp"
+#include "target/estimators/transfer_alignment/settings.hpp"
+
+namespace canhil::transfer_alignment {
+
+inline constexpr int kStates = 12;
+using StateVector = Eigen::Matrix<double, kStates, 1>;
+using Covariance = Eigen::Matrix<double, kStates, kStates>;
+
+enum Index : int { kVelocity = 0, kAttitude = 3, kAccelBias = 6, kGyroBias = 9 };
+
+/// What the error model needs of the mechanisation since the last update: integrals, so that a step of the specific
+/// force need not fall on an update.
+struct Interval {
+  double duration = 0;                                            // [s]
+  Eigen::Vector3d delta_v_n = Eigen::Vector3d::Zero();            // integral of C_bn f_ib_b [m/s]
+  Eigen::Matrix3d C_bn_integral = Eigen::Matrix3d::Zero();        // integral of C_bn [s]
+  Eigen::Vector3d omega_ie_n = Eigen::Vector3d::Zero();           // of the last sample [rad/s]
+  Eigen::Vector3d omega_en_n = Eigen::Vector3d::Zero();
+};
+
+/// The interval and one more mechanisation step of dt [s].
+void extend(Interval& interval, const strapdown::MechanizationStep& step, double dt);
+
+/// The non-zero blocks of G = A dt; the H2 term adds P N'N/beta, which fills the attitude column.
+inline constexpr std::array<filtering::Block, 5> kKalmanBlocks{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}}};
+inline constexpr std::array<filtering::Block, 7> kH2Blocks{
+    {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}, {2, 1}, {3, 1}}};
+
+/// G = A dt [12 x 12] of the interval: Phi = I + G.
+Covariance transition_increment(const Interval& interval);
+
+/// The diagonal of Q dt: white noise of the accelerometers on dV and of the gyros on phi.
+StateVector process_noise(const Settings& settings, double duration);
+
+/// The diagonal of P at the start.
+StateVector initial_variance(const Settings& settings);
+
+}  // namespace canhil::transfer_alignment

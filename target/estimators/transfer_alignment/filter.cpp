@@ -1,0 +1,120 @@
+#include "target/estimators/transfer_alignment/filter.hpp"
+
+#include <cmath>
+
+#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/transfer_alignment/uncertainty.hpp"
+
+namespace canhil::transfer_alignment {
+namespace {
+
+struct Prediction {
+  Covariance P;
+  StateVector x;
+  double alpha = 0, beta = 0;
+};
+
+// P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt: one step an update interval, since
+// the step is part of the H2 filter's definition.
+Prediction predict(const State& state, const Settings& settings) {
+  const Interval& interval = state.ins.interval;
+  Prediction next;
+  Covariance G = transition_increment(interval);
+  Eigen::Matrix3d Q_velocity = Eigen::Matrix3d::Zero();
+  if (settings.algorithm == Algorithm::robust_h2) {
+    next.alpha = uncertainty_size(settings, state.P, interval.delta_v_n / interval.duration);
+    next.beta =
+        add_h2_terms(uncertainty(settings.h2_case, next.alpha), state.P, interval.duration, G, Q_velocity);
+  }
+  if (next.beta > 0) {
+    next.P = filtering::propagate_covariance_blocks<kH2Blocks, kStates>(state.P, G);
+    next.P.topLeftCorner<3, 3>() += Q_velocity;
+  } else {
+    next.P = filtering::propagate_covariance_blocks<kKalmanBlocks, kStates>(state.P, G);
+    if (settings.fading_per_s > 0 && settings.algorithm == Algorithm::kalman)
+      next.P *= std::exp(2 * settings.fading_per_s * interval.duration);
+  }
+  next.P.diagonal() += process_noise(settings, interval.duration);
+  next.x = state.x;
+  if (!settings.closed_loop) next.x.noalias() += G.lazyProduct(state.x);
+  return next;
+}
+
+// V -= dV, C <- exp(+[phi x]) C (n axes, from the left), biases += their errors.
+Ins corrected(const Ins& ins, const StateVector& x) {
+  Ins better = ins;
+  better.nav.v_eb_n -= x.segment<3>(kVelocity);
+  better.nav.C_bn =
+      strapdown::reorthonormalised(strapdown::exp_rotation(x.segment<3>(kAttitude)) * ins.nav.C_bn);
+  better.accel_bias += x.segment<3>(kAccelBias);
+  better.gyro_bias += x.segment<3>(kGyroBias);
+  return better;
+}
+
+}  // namespace
+
+State initial(const strapdown::NavState& nav, const Settings& settings) {
+  State state;
+  state.ins.nav = nav;
+  state.P = initial_variance(settings).asDiagonal();
+  state.x.setZero();
+  return state;
+}
+
+void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings) {
+  Ins& ins = state.ins;
+  const strapdown::ImuIncrement clean = strapdown::without_bias(imu, ins.gyro_bias, ins.accel_bias);
+  const strapdown::MechanizationStep step =
+      settings.mechanization == strapdown::Mechanization::reference
+          ? strapdown::mechanize_reference(ins.nav, clean)
+          : strapdown::mechanize_two_sample(ins.nav, ins.previous, clean);
+  ins.nav = step.nav;
+  ins.previous = clean;
+  extend(ins.interval, step, imu.dt);
+}
+
+UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const Settings& settings) {
+  return update_with_difference(state, state.ins.nav.v_eb_n - master_velocity, settings);
+}
+
+UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference, const Settings& settings) {
+  UpdateResult result;
+  const double duration = state.ins.interval.duration;
+  if (!(duration > 0)) return result;
+  result.outcome = Outcome::non_finite;
+  if (!difference.allFinite()) return result;
+
+  const Prediction prior = predict(state, settings);
+  result.alpha = prior.alpha;
+  result.beta = prior.beta;
+  result.innovation = difference - prior.x.segment<3>(kVelocity);
+  // The master's noise is a density: its variance over an interval is R/dt, so the result does not depend on the rate.
+  const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() * (settings.velocity_noise_density / duration);
+  const auto correction = filtering::update_states<kVelocity, kStates, 3>(prior.P, R, result.innovation);
+  result.innovation_covariance = correction.S;
+  if (!correction.S.allFinite()) return result;
+  result.outcome = Outcome::not_positive_definite;
+  if (!correction.positive_definite) return result;
+  result.nis = correction.nis;
+  result.dx = correction.dx;
+  if (!correction.dx.allFinite() || !correction.P.allFinite()) {
+    result.outcome = Outcome::non_finite;
+    return result;
+  }
+  if (!(correction.P.diagonal().minCoeff() > 0)) return result;
+
+  result.outcome = Outcome::ok;
+  state.P = correction.P;
+  state.ins.interval = Interval{};
+  if (settings.closed_loop) {
+    state.ins = corrected(state.ins, correction.dx);
+  } else {
+    state.x = prior.x + correction.dx;
+  }
+  return result;
+}
+
+Ins estimate(const State& state) { return corrected(state.ins, state.x); }
+
+}  // namespace canhil::transfer_alignment

@@ -1,0 +1,65 @@
+#pragma once
+// Velocity-matching transfer alignment (Yang, Shim, Park 2001): a slave INS aligned to a master's velocity by a Kalman
+// or a robust H2 filter. initial() once, propagate() at IMU rate, update() at each velocity of the master.
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "target/estimators/strapdown/mechanization.hpp"
+#include "target/estimators/transfer_alignment/error_model.hpp"
+#include "target/estimators/transfer_alignment/settings.hpp"
+
+namespace canhil::transfer_alignment {
+
+/// The slave INS: all that an IMU sample changes. Copy it to snapshot, assign it to restore.
+struct Ins {
+  strapdown::NavState nav;
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimate, subtracted from the IMU [m/s^2]
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // [rad/s]
+  strapdown::ImuIncrement previous;                      // the last increment, bias-corrected
+  Interval interval;                                     // since the last update
+};
+
+struct State {
+  Ins ins;
+  Covariance P;   // posterior of the last update
+  StateVector x;  // estimated errors of ins at the last update; zero in a closed loop
+};
+
+enum class Outcome : std::uint8_t {
+  ok,
+  no_interval,            // no IMU sample since the last update
+  non_finite,             // a NaN or infinity in the measurement or in the result
+  not_positive_definite,  // of the innovation covariance or of P's diagonal
+  not_reached,            // History: valid after the newest IMU epoch
+  out_of_order,           // History: valid before the last update
+  older_than_history,     // History: valid before the oldest epoch kept
+};
+
+/// An update's answer. Unless outcome is ok the state is as before the call.
+struct UpdateResult {
+  Outcome outcome = Outcome::no_interval;
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();             // V_slave - V_master, less x in an open loop [m/s]
+  Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [(m/s)^2]
+  double nis = 0;                                                   // chi-square of 3 if consistent
+  StateVector dx = StateVector::Zero();                             // K innovation: the correction
+  double alpha = 0;                                                 // H2 [m/s^2]
+  double beta = 0;                                                  // H2; 0: terms dropped, the Kalman step
+};
+
+/// The state at the start of an alignment from the slave's own navigation state; P0 from the settings.
+State initial(const strapdown::NavState& nav, const Settings& settings);
+
+/// One IMU increment (dt > 0): mechanisation with the estimated biases removed, and the interval's means.
+void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
+
+/// The master's velocity [m/s, NED] valid at the last IMU epoch: P over the interval since the last update in one step,
+/// measurement update, and in a closed loop the correction of the INS.
+UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const Settings& settings);
+
+/// The same from the velocity difference V_slave - V_master [m/s], for a caller who has interpolated V_slave.
+UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference, const Settings& settings);
+
+/// The best estimate: the INS itself in a closed loop, the INS less x (as of the last update) in an open one.
+Ins estimate(const State& state);
+
+}  // namespace canhil::transfer_alignment

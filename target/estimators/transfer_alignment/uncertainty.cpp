@@ -1,0 +1,49 @@
+#include "target/estimators/transfer_alignment/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "target/estimators/filtering/robust_h2.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+
+namespace canhil::transfer_alignment {
+
+double uncertainty_size(const Settings& settings, const Covariance& P, const Eigen::Vector3d& f_n) {
+  if (settings.alpha_rule == AlphaRule::constant) return settings.alpha_constant;
+  // tr([f x] P [f x]') = tr(P) |f|^2 - f' P f
+  const auto P_phi = P.block<3, 3>(kAttitude, kAttitude);
+  const double variance = P_phi.trace() * f_n.squaredNorm() - f_n.dot(P_phi * f_n);
+  const double largest_angle = std::min(3 * settings.attitude_sigma_0.norm(), std::numbers::pi);
+  const double cap = 2 * std::sin(largest_angle / 2) * f_n.norm();
+  return std::min(std::sqrt(std::max(variance, 0.0)), cap);
+}
+
+Uncertainty uncertainty(H2Case h2_case, double alpha) {
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d S = strapdown::skew(Eigen::Vector3d::Ones());
+  switch (h2_case) {
+    case H2Case::one: return {alpha * I, I};
+    case H2Case::two: return {alpha * S, I};
+    case H2Case::three: return {I, alpha * S};
+    case H2Case::four: break;
+  }
+  return {I, alpha * I};
+}
+
+double add_h2_terms(const Uncertainty& uncertain, const Covariance& P, double duration, Covariance& G,
+                    Eigen::Matrix3d& Q_velocity) {
+  // P N'N P has the eigenvalues of N P P N': 3 x 3, but from all 12 rows of P's attitude columns.
+  const Eigen::Matrix<double, kStates, 3> PNt =
+      P.middleCols<3>(kAttitude).lazyProduct(uncertain.N.transpose());
+  const Eigen::Matrix3d NPPNt = PNt.transpose().lazyProduct(PNt);
+  const Eigen::Matrix3d LLt = uncertain.L * uncertain.L.transpose();
+  const double beta =
+      filtering::h2_beta(filtering::largest_eigenvalue<3>(NPPNt), filtering::largest_eigenvalue<3>(LLt));
+  if (!(beta > 0)) return 0;
+  G.middleCols<3>(kAttitude).noalias() += PNt.lazyProduct(uncertain.N * (duration / beta));
+  Q_velocity += LLt * (beta * duration);
+  return beta;
+}
+
+}  // namespace canhil::transfer_alignment

@@ -1,0 +1,50 @@
+// hil-target: a Device on a bus.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "target/process/event_loop.hpp"
+#include "target/process/replay.hpp"
+
+namespace {
+
+constexpr int exit_usage = 2;
+
+std::atomic<bool> stop_requested = false;
+void request_stop(int /*signal*/) { stop_requested = true; }
+
+int complain(const canhil::Error& error) {
+  std::fprintf(stderr, "hil-target: %s\n", error.message.c_str());
+  return exit_usage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"The device under test: navigation and guidance estimators behind a CAN interface."};
+  std::string bus;
+  std::string log;
+  auto* bus_option = app.add_option("--bus", bus, "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME");
+  auto* replay_option =
+      app.add_option("--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
+  bus_option->excludes(replay_option);
+  try {
+    app.parse(argc, argv);
+    if (bus.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain({std::string(error.what()) + "; see hil-target --help"});
+  }
+
+  if (!log.empty()) {
+    const auto replayed = canhil::target::replay(log, stdout);
+    return replayed ? 0 : complain(replayed.error());
+  }
+  std::signal(SIGTERM, request_stop);
+  std::signal(SIGINT, request_stop);
+  const auto served = canhil::target::serve(bus, stop_requested);
+  return served ? 0 : complain(served.error());
+}

@@ -1,0 +1,67 @@
+#include "target/process/event_loop.hpp"
+
+#include <algorithm>
+
+#include "dbc/ports/port.hpp"
+#include "target/device/device.hpp"
+#include "target/process/timing_window.hpp"
+
+namespace canhil::target {
+namespace {
+
+constexpr std::int64_t period_ns = messages::TargetHeartbeat::info.cycle_time_us * 1000;
+constexpr std::int64_t bench_gone_ns = 2 * period_ns;
+constexpr std::int64_t send_patience_ns = 50'000'000;
+
+std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
+
+// Sends frames in order; a bus that stays full loses them, which the receiver sees by the E2E counters.
+void send(Port& port, std::span<const Frame> frames) {
+  const std::int64_t deadline_ns = now_ns() + send_patience_ns;
+  for (const Frame& frame : frames) {
+    while (port.send(frame) == SendOutcome::queue_full && wait(port, WaitFor::room, deadline_ns)) {
+    }
+  }
+}
+
+}  // namespace
+
+Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
+  PortOptions options;
+  options.node_name = "hil-target";
+  auto opened = open_port(bus, options);
+  if (!opened) return tl::unexpected(opened.error());
+  Port& port = **opened;
+
+  Device device;
+  TimingWindow window;
+  Outbox<1> reports;
+  std::int64_t sync_ns = now_ns() - bench_gone_ns;  // when the bench last kept the time base
+  std::int64_t report_due_ns = now_ns();
+
+  while (!stop && !port.closed()) {
+    while (const auto received = port.receive()) {
+      const std::int64_t start_ns = clock_ns(port.stamp_clock());
+      const std::span<const Frame> answers = device.receive(received->frame);
+      const std::int64_t end_ns = clock_ns(port.stamp_clock());
+      send(port, answers);
+      window.add(start_ns - received->t_ns, end_ns - start_ns, !answers.empty());
+      if (received->frame.id == messages::Sync::info.id) sync_ns = now_ns();
+    }
+    const std::int64_t now = now_ns();
+    if (now >= report_due_ns) {
+      report_due_ns = now + period_ns;
+      if (now - sync_ns >= bench_gone_ns) {
+        send(port, device.idle_heartbeat());  // the Sync of a bench drives it otherwise
+      } else if (!device.lockstep()) {
+        reports.clear();
+        reports.send(window.take());
+        send(port, reports.frames());
+      }
+    }
+    wait(port, WaitFor::frame, report_due_ns);
+  }
+  return {};
+}
+
+}  // namespace canhil::target

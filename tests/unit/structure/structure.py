@@ -1,0 +1,207 @@
+"""The rules of the tree, read from its text: who includes whom, sizes, names, and that nothing is written twice.
+
+check(root) returns one line for each breach: file:line: what, and what was expected.
+docs/architecture.md gives the reasons for the rules; here is what they forbid.
+"""
+
+import re
+from pathlib import Path
+
+CODE = ("dbc", "target", "bench")
+SKIPPED = {".git", "build", "runs", "__pycache__"}
+
+# Longest prefix wins: a file under KEY may include project headers under these prefixes; one that ends in .hpp is that file alone.
+ESTIMATOR_SHARED = ("target/estimators/strapdown/", "target/estimators/filtering/")
+DEVICE = "target/device/device.hpp"  # the bench may hold a Device, through this header
+MAY_INCLUDE = {
+    "dbc/": ("dbc/",),
+    "target/": ("dbc/", "target/"),  # main.cpp puts it all together
+    "target/device/": ("dbc/", "target/device/", "target/estimators/"),
+    "target/estimators/": ESTIMATOR_SHARED,  # and its own folder, see allowed_prefixes()
+    "bench/": ("dbc/", "bench/"),
+    "bench/run/": ("dbc/", "bench/", DEVICE),
+    "bench/campaign/": ("dbc/", "bench/", DEVICE),
+    "bench/checks/": ("dbc/", "bench/"),
+}
+# Out of reach even through other headers: a check judges decoded frames against the truth, and nothing else.
+NEVER_REACHES = {"bench/checks/": ("target/", "bench/nodes/")}
+
+# Aim for 300. A long table or one long derivation may pass it; at a third more, a file has got a second subject.
+MOST_LINES = 400
+VAGUE = {"util", "utils", "common", "manager", "helper", "helpers", "base"}
+TERMS = {"time_base"}  # terms of the field that hold such a word
+OTHER_SUFFIXES = {".h", ".hh", ".hxx", ".cc", ".cxx", ".c", ".inl", ".inc", ".ipp", ".tpp"}
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*(.*)$', re.M)
+INCLUDED = re.compile(r'([<"])([^>"]+)[>"]')
+COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
+STANDARD_HEADER = re.compile(r"[a-z_]+$")  # <cmath>, never <math.h>
+# A path that exists on one person's machine; behind a variable or in an address it is none.
+MACHINE_PATH = re.compile(r"(?<![\w.~})\-])/(?:work|root|home/\w+|Users/\w+|builds)/")
+
+
+def check(root):
+    root = Path(root)
+    files = sorted(p for p in root.rglob("*") if p.is_file() and not SKIPPED & set(p.relative_to(root).parts))
+    texts = {p.relative_to(root).as_posix(): p.read_text(encoding="utf-8", errors="replace") for p in files}
+    sources = {n: t for n, t in texts.items() if n.split("/")[0] in CODE and n.endswith((".hpp", ".cpp"))}
+    graph = {name: includes(text) for name, text in sources.items()}
+    return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *size_breaches(sources),
+            *name_breaches(texts), *machine_path_breaches(texts), *dbc_breaches(texts, sources)]
+
+
+def without_comments(text, keep_strings=True):
+    """The text with comments (and strings) blanked, lines kept."""
+    def blank(match):
+        if keep_strings and match[0].startswith('"'):
+            return match[0]
+        return re.sub(r"[^\n]", " ", match[0])
+    return COMMENT_OR_STRING.sub(blank, text)
+
+
+def includes(text):
+    """[(line, '<' or '"' or '', name)]; '' where the name is a macro."""
+    clean = without_comments(text)
+    found = []
+    for directive in INCLUDE.finditer(clean):
+        line = clean.count("\n", 0, directive.start()) + 1
+        name = INCLUDED.match(directive[1].strip())
+        found.append((line, name[1], name[2]) if name else (line, "", directive[1].strip()))
+    return found
+
+
+def is_project(name):
+    return name.split("/")[0] in (*CODE, "tests", "docs")
+
+
+def part(name):
+    """The folder of the layout that a file belongs to: dbc/wire, bench/world, target/estimators/wind; inside it all is one."""
+    depth = 3 if name.startswith("target/estimators/") else 2
+    return "/".join(name.split("/")[:-1][:depth])
+
+
+def allowed_prefixes(name):
+    own = (part(name) + "/",) if part(name).startswith("target/estimators/") else ()
+    key = max((k for k in MAY_INCLUDE if name.startswith(k)), key=len)
+    return own + MAY_INCLUDE[key]
+
+
+def may_include(name, included):
+    return any(included == p if p.endswith(".hpp") else included.startswith(p) for p in allowed_prefixes(name))
+
+
+def direct_breaches(graph):
+    for name, included in graph.items():
+        for line, quote, other in included:
+            where = f"{name}:{line}"
+            if not quote:
+                yield f"{where}: includes by a macro, expected a name in quotes or angle brackets"
+            elif ".." in other.split("/"):
+                yield f'{where}: includes "{other}", expected a path from the root, without ".."'
+            elif is_project(other):
+                if not may_include(name, other):
+                    yield f"{where}: includes {other}, expected only {', '.join(allowed_prefixes(name))}"
+            elif quote == '"':
+                yield f'{where}: includes "{other}", expected a path from the root (libraries in angle brackets)'
+            elif name.startswith("target/estimators/") and not (
+                    STANDARD_HEADER.match(other) or other.startswith(("Eigen/", "unsupported/Eigen/"))):
+                yield f"{where}: includes <{other}>, expected only Eigen and the standard library in an estimator"
+
+
+def reach_breaches(graph):
+    for name in graph:
+        for prefix, forbidden in NEVER_REACHES.items():
+            if not name.startswith(prefix):
+                continue
+            seen, ways = {name}, [(name,)]
+            while ways:
+                way = ways.pop()
+                for _, _, other in graph.get(way[-1], ()):
+                    if other.startswith(forbidden):
+                        yield f"{' -> '.join((*way, other))}: {prefix} reaches {other}, expected never to"
+                    elif other not in seen:
+                        seen.add(other)
+                        ways.append((*way, other))
+
+
+def cycle_breaches(graph):
+    edges = {}
+    for name, included in graph.items():
+        for _, _, other in included:
+            if is_project(other) and part(other) != part(name):
+                edges.setdefault(part(name), {}).setdefault(part(other), f"{name} includes {other}")
+    reported = set()
+
+    def visit(node, way):
+        if node in way:
+            ring = way[way.index(node):]
+            if frozenset(ring) not in reported:
+                reported.add(frozenset(ring))
+                reasons = [edges[a][b] for a, b in zip(ring, [*ring[1:], node])]
+                return [f"{' -> '.join([*ring, node])}: a cycle of folders ({'; '.join(reasons)}), expected none"]
+            return []
+        if node in done:
+            return []
+        found = [breach for other in edges.get(node, {}) for breach in visit(other, [*way, node])]
+        done.add(node)
+        return found
+
+    done = set()
+    for start in list(edges):
+        yield from visit(start, [])
+
+
+def size_breaches(sources):
+    for name, text in sources.items():
+        lines = text.count("\n")
+        if lines > MOST_LINES:
+            yield f"{name}: {lines} lines, expected at most {MOST_LINES}"
+
+
+def name_breaches(texts):
+    for name in texts:
+        for part in name.split("/"):
+            stem = part.split(".")[0]
+            words = re.sub("|".join(TERMS), "", stem.lower())
+            vague = VAGUE & set(re.split(r"[_\-.]", words))
+            if vague:
+                yield f"{name}: named '{vague.pop()}', expected a name that says what it does"
+        if name.split("/")[0] in CODE and Path(name).suffix in OTHER_SUFFIXES:
+            yield f"{name}: a C++ file must end in .hpp or .cpp, or these rules do not see it"
+
+
+def machine_path_breaches(texts):
+    for name, text in texts.items():
+        for number, line in enumerate(text.splitlines(), 1):
+            if match := MACHINE_PATH.search(line):
+                yield f"{name}:{number}: '{match[0]}' is a path of one machine, expected a relative one"
+
+
+# What the DBC alone may say. An id counts in hexadecimal anywhere, in decimal only where the line is about an id.
+BUILT_FROM = "dbc/canhil.dbc"
+HEX = re.compile(r"\b0[xX]([0-9a-fA-F']+)[uUlL]*\b")
+ABOUT_ID = re.compile(r"(?:\b\w*_?id\w*\s*(?:==|!=|=|\{|\()\s*|\bcase\s+)(\d+)[uUlL]*\b", re.I)
+ABOUT_SCALE = re.compile(r"scale|factor|lsb|resolution|quantum", re.I)
+NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+)(?:[eE][+-]?\d+)?(?![\w.])")
+CYCLE = re.compile(r"\b\w*(?:cycle_time|cycle_ms|cycle_us)\w*\s*(?:=|\{|\()\s*(\d+)", re.I)
+
+
+def dbc_breaches(texts, sources):
+    dbc = texts.get(BUILT_FROM, "")
+    ids = {int(m) & 0x1FFFFFFF for m in re.findall(r"^BO_ (\d+)", dbc, re.M)}
+    data_ids = {int(m) for m in re.findall(r'^BA_ "E2eDataId" BO_ \d+ (\d+)', dbc, re.M)}
+    scales = {float(m) for m in re.findall(r"^ SG_ .*?@[01][+-] \(([^,]+),", dbc, re.M)} - {1.0}
+    for name, text in sources.items():
+        if name.startswith("dbc/"):
+            continue
+        for number, line in enumerate(without_comments(text, keep_strings=False).splitlines(), 1):
+            where = f"{name}:{number}"
+            hexes = {int(m.replace("'", ""), 16) for m in HEX.findall(line)}
+            decimals = {int(m) for m in ABOUT_ID.findall(line)}
+            for value in sorted((hexes | decimals) & (ids | data_ids)):
+                yield f"{where}: {value} (0x{value:x}) is an id of {BUILT_FROM}, expected the generated name"
+            if ABOUT_SCALE.search(line):
+                for value in sorted({float(m) for m in NUMBER.findall(line)} & scales):
+                    yield f"{where}: {value:g} is a scale of {BUILT_FROM}, expected the generated one"
+            if cycle := CYCLE.search(line):
+                yield f"{where}: a cycle time of {cycle[1]}, expected the one of {BUILT_FROM}"
