@@ -6,10 +6,15 @@
 
 namespace canhil::scenario {
 
+class Section;
+
 struct Schedule {
   std::optional<std::int64_t>
       period_us;                ///< absent: the DBC's cycle time; given: an override that reports must name
   std::int64_t latency_us = 0;  ///< from time of validity to the first frame of the group
 };
+
+/// The keys period_ms and latency_ms of a node's section.
+Schedule read_schedule(Section& section);
 
 }  // namespace canhil::scenario

@@ -1,0 +1,84 @@
+#include "bench/scenario/scenario.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "bench/scenario/initial_error.hpp"
+#include "bench/scenario/section.hpp"
+#include "bench/scenario/truth.hpp"
+#include "bench/world/hash.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+/// Reads the section of a node: it must be there if the estimator cannot do without it.
+template <class Node>
+std::optional<Node> read_node(Section& root, std::string_view key, bool needed, Node (*read)(Section&)) {
+  std::optional<Section> section = needed ? root.table(key) : root.optional_table(key);
+  if (!section) return std::nullopt;
+  return read(*section);
+}
+
+std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract) {
+  std::vector<Check> checks;
+  for (Section& section : root.tables("check")) {
+    Check check = read_check(section, duration_us, contract);
+    const auto same = std::ranges::find(checks, check.name, &Check::name);
+    if (same != checks.end()) {
+      section.reject("name",
+                     fmt::format("'{}' is the name of check[{}] too", check.name, same - checks.begin() + 1),
+                     "another name");
+    }
+    checks.push_back(std::move(check));
+  }
+  return checks;
+}
+
+}  // namespace
+
+Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract) {
+  Section root = Section::parse(text, name);
+  Scenario scenario;
+  scenario.file = name;
+  scenario.hash = world::fnv1a_64(text);
+  scenario.title = root.text("title");
+  scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
+  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
+  Section target = root.table("target");
+  scenario.target = read_target(target, contract);
+  Section truth = root.table("truth");
+  scenario.truth = read_truth(truth);
+  if (auto initial_error = root.optional_table("initial_error")) {
+    scenario.initial_error = read_initial_error(*initial_error);
+  }
+  const bool transfer = scenario.target.estimator == "transfer_alignment";
+  scenario.master_ins = read_node<MasterIns>(root, "master_ins", transfer, read_master_ins);
+  scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer, read_slave_imu);
+  scenario.checks = read_checks(root, scenario.duration_us, contract);
+  root.finish();
+  if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
+  return scenario;
+}
+
+Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract) {
+  const auto unreadable = [&path](int reason) {
+    return failure(fmt::format("{}: cannot be read ({}), expected a scenario file", path.string(),
+                               std::generic_category().message(reason)));
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return unreadable(EISDIR);
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return unreadable(errno);
+  std::ostringstream content;
+  content << file.rdbuf();
+  if (file.bad()) return unreadable(EIO);
+  const std::string text = content.str();
+  return parse(text, path.string(), contract);
+}
+
+}  // namespace canhil::scenario

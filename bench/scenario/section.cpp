@@ -1,0 +1,307 @@
+#include "bench/scenario/section.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "bench/scenario/nearest.hpp"
+
+namespace canhil::scenario {
+
+namespace {
+
+constexpr double longest_us = 1e11;  // a day and more
+
+std::optional<double> as_number(const toml::node& node) {
+  if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
+  if (const auto* real = node.as_floating_point()) return real->get();
+  return std::nullopt;
+}
+
+std::string type_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "is a table";
+    case toml::node_type::array:
+      return "is an array";
+    case toml::node_type::string:
+      return "is a string";
+    case toml::node_type::integer:
+    case toml::node_type::floating_point:
+      return "is a number";
+    case toml::node_type::boolean:
+      return "is a boolean";
+    default:
+      return "is a date or time";
+  }
+}
+
+std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
+
+}  // namespace
+
+struct Section::File {
+  std::string name;
+  toml::table root;
+  std::optional<Error> error;
+
+  void fail(std::size_t line, std::string_view what) {
+    if (error) return;
+    std::string message = fmt::format("{}:{}: {}", name, line, what);
+    for (char& c : message) {
+      if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';  // a quoted key may hold anything
+    }
+    error = Error{std::move(message)};
+  }
+};
+
+struct Section::Node {
+  const toml::node* there;  ///< may be null
+};
+
+struct Section::State {
+  std::shared_ptr<File> file;
+  const toml::table* table = nullptr;  // null: the table is missing, and that has been said
+  std::string path;
+  std::size_t line = 1;
+  std::vector<std::string> asked;
+  std::vector<std::pair<std::string, std::string>> missing;  // key, what was expected
+
+  const toml::node* ask(std::string_view key) {
+    asked.emplace_back(key);
+    return table == nullptr ? nullptr : table->get(key);
+  }
+  [[nodiscard]] std::string path_of(std::string_view key) const {
+    return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+  }
+  void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
+    file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
+  }
+  /// The numbers of an array, or zeros if it is missing or wrong.
+  template <std::size_t n>
+  std::array<double, n> numbers(std::string_view key, const Limits& limits, std::string_view expected) {
+    const toml::node* node = ask(key);
+    if (node == nullptr) return {};
+    const toml::array* array = node->as_array();
+    if (array == nullptr || array->size() != n) {
+      const std::string what =
+          array == nullptr ? type_of(*node) : fmt::format("has {} elements", array->size());
+      fail(key, line_of(*node), what, expected);
+      return {};
+    }
+    std::array<double, n> values{};
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::optional<double> value = as_number((*array)[i]);
+      if (value && holds(limits, *value)) {
+        values[i] = *value;
+      } else {
+        fail(key, line_of(*node), fmt::format("element {} is not", i + 1), expected);
+      }
+    }
+    return values;
+  }
+};
+
+Section Section::parse(std::string_view text, std::string_view file_name) {
+  auto state = std::make_shared<State>();
+  state->file = std::make_shared<File>();
+  state->file->name = file_name;
+  try {
+    state->file->root = toml::parse(text);
+    state->table = &state->file->root;
+  } catch (const toml::parse_error& error) {
+    state->file->fail(error.source().begin.line, fmt::format("not TOML: {}", error.description()));
+  }
+  return Section(std::move(state));
+}
+
+bool Section::has(std::string_view key) const {
+  return state_->table != nullptr && state_->table->contains(key);
+}
+
+int Section::line() const { return static_cast<int>(state_->line); }
+
+std::string Section::path(std::string_view key) const { return state_->path_of(key); }
+
+void Section::optional(std::string_view key) { state_->ask(key); }
+
+double Section::number(std::string_view key, Limits limits, std::optional<double> fallback) {
+  return plain_number(key, limits, fallback) * factor_of(key);
+}
+
+double Section::plain_number(std::string_view key, Limits limits, std::optional<double> fallback) {
+  const std::string expected = description(limits, "a number");
+  const toml::node* node = state_->ask(key);
+  if (node == nullptr) {
+    if (!fallback) state_->missing.emplace_back(key, expected);
+    return fallback.value_or(0.0);
+  }
+  const std::optional<double> value = as_number(*node);
+  if (value && holds(limits, *value)) return *value;
+  reject(key, value ? fmt::format("{} is out of range", *value) : type_of(*node), expected);
+  return 0.0;
+}
+
+world::Vector3 Section::three(std::string_view key, Limits limits) {
+  if (!has(key)) {
+    state_->ask(key);
+    return world::Vector3::Zero();
+  }
+  if (!state_->table->get(key)->is_array()) return world::Vector3::Constant(number(key, limits));
+  const auto values =
+      state_->numbers<3>(key, limits, description(limits, "a number, or an array of three, each"));
+  return factor_of(key) * world::Vector3(values[0], values[1], values[2]);
+}
+
+std::pair<double, double> Section::interval(std::string_view key, Limits limits) {
+  const std::string expected = description(limits, "an array [low, high], each");
+  if (!has(key)) state_->missing.emplace_back(key, expected);
+  const auto values = state_->numbers<2>(key, limits, expected);
+  if (values[0] > values[1]) reject(key, "is descending", expected);
+  return {values[0] * factor_of(key), values[1] * factor_of(key)};
+}
+
+std::int64_t Section::integer(std::string_view key, std::int64_t least) {
+  const std::optional<std::int64_t> value = optional_integer(key, least);
+  if (!value) state_->missing.emplace_back(key, fmt::format("a whole number of at least {}", least));
+  return value.value_or(0);
+}
+
+std::optional<std::int64_t> Section::optional_integer(std::string_view key, std::int64_t least) {
+  const toml::node* node = state_->ask(key);
+  if (node == nullptr) return std::nullopt;
+  const std::string expected = fmt::format("a whole number of at least {}", least);
+  const auto* value = node->as_integer();
+  if (value == nullptr) {
+    reject(key, node->is_floating_point() ? "is not whole" : type_of(*node), expected);
+    return 0;
+  }
+  if (value->get() < least) reject(key, fmt::format("{} is out of range", value->get()), expected);
+  return value->get();
+}
+
+std::int64_t Section::time_us(std::string_view key, Limits limits, std::optional<double> fallback) {
+  const double us = 1e6 * number(key, limits, fallback);
+  if (std::abs(us) > longest_us) {
+    reject(key, "is too long a time", fmt::format("at most {} s", 1e-6 * longest_us));
+    return 0;
+  }
+  const double whole = std::round(us);
+  // A decimal fraction is not exact in binary: it is off by 1e-16 of the time, 1e-5 us in a day.
+  if (std::abs(us - whole) > 1e-3) reject(key, "is not whole in microseconds", "a multiple of 1 us");
+  return static_cast<std::int64_t>(whole);
+}
+
+std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limits limits) {
+  if (has(key)) return time_us(key, limits);
+  state_->ask(key);
+  return std::nullopt;
+}
+
+std::string Section::text(std::string_view key, std::optional<std::string> fallback) {
+  constexpr std::string_view expected = "text on one line";
+  const toml::node* node = state_->ask(key);
+  if (node == nullptr) {
+    if (!fallback) state_->missing.emplace_back(key, expected);
+    return fallback.value_or("");
+  }
+  const auto* value = node->as_string();
+  if (value == nullptr) {
+    reject(key, type_of(*node), expected);
+    return {};
+  }
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
+  if (value->get().empty()) reject(key, "is empty", expected);
+  if (std::ranges::any_of(value->get(), is_control)) reject(key, "has a line break or tab", expected);
+  return value->get();
+}
+
+std::string Section::one_of(std::string_view key, std::span<const std::string> names,
+                            std::optional<std::string> fallback) {
+  const toml::node* node = state_->ask(key);
+  if (node == nullptr) {
+    if (!fallback) state_->missing.emplace_back(key, fmt::format("{}", expected_instead("", names)));
+    return fallback.value_or("");
+  }
+  const auto* value = node->as_string();
+  if (value == nullptr) {
+    reject(key, type_of(*node), expected_instead("", names));
+    return {};
+  }
+  if (std::ranges::find(names, value->get()) != names.end()) return value->get();
+  reject(key, fmt::format("'{}' is unknown", value->get()), expected_instead(value->get(), names));
+  return {};
+}
+
+Section Section::inside(std::string_view key, const Node& node, std::string path) {
+  auto state = std::make_shared<State>();
+  state->file = state_->file;
+  state->path = std::move(path);
+  if (node.there == nullptr) return Section(std::move(state));
+  state->line = line_of(*node.there);
+  state->table = node.there->as_table();
+  if (state->table == nullptr) state_->fail(key, state->line, type_of(*node.there), "a table");
+  return Section(std::move(state));
+}
+
+Section Section::table(std::string_view key) {
+  const toml::node* node = state_->ask(key);
+  if (node == nullptr) state_->missing.emplace_back(key, "a table");
+  return inside(key, {node}, state_->path_of(key));
+}
+
+std::optional<Section> Section::optional_table(std::string_view key) {
+  if (has(key)) return table(key);
+  state_->ask(key);
+  return std::nullopt;
+}
+
+std::vector<Section> Section::tables(std::string_view key) {
+  const std::string expected = fmt::format("at least one [[{}]]", key);
+  std::vector<Section> sections;
+  const toml::node* node = state_->ask(key);
+  if (node == nullptr) {
+    state_->missing.emplace_back(key, expected);
+    return sections;
+  }
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->empty()) {
+    reject(key, array == nullptr ? type_of(*node) : "is empty", expected);
+    return sections;
+  }
+  for (const toml::node& element : *array) {
+    sections.push_back(
+        inside(key, {&element}, fmt::format("{}[{}]", state_->path_of(key), sections.size() + 1)));
+  }
+  return sections;
+}
+
+void Section::reject(std::string_view key, std::string_view what, std::string_view expected) {
+  const toml::node* node = state_->table == nullptr ? nullptr : state_->table->get(key);
+  state_->fail(key, node == nullptr ? state_->line : line_of(*node), what, expected);
+}
+
+void Section::finish() {
+  if (state_->table == nullptr) return;
+  // The first in the file, as the table itself is sorted by key.
+  const toml::node* unknown = nullptr;
+  std::string unknown_key;
+  for (const auto& [key, node] : *state_->table) {
+    if (std::ranges::find(state_->asked, key.str()) != state_->asked.end()) continue;
+    if (unknown != nullptr && line_of(node) >= line_of(*unknown)) continue;
+    unknown = &node;
+    unknown_key = key.str();
+  }
+  if (unknown != nullptr) {
+    state_->fail(unknown_key, line_of(*unknown), "is unknown", expected_instead(unknown_key, state_->asked));
+  }
+  for (const auto& [key, expected] : state_->missing) reject(key, "is missing", expected);
+}
+
+std::optional<Error> Section::error() const { return state_->file->error; }
+
+}  // namespace canhil::scenario

@@ -1,0 +1,80 @@
+// One table of a scenario file, read strictly: every key that is in it must be asked for, with its type and
+// limits.
+//
+// The first error of the file is kept, and readers need not look at it: after it, they get harmless values. A
+// key's unit is the end of its name (heading_deg); values come back in SI and radians.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bench/scenario/quantity.hpp"
+#include "bench/world/attitude.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::scenario {
+
+class Section {
+ public:
+  /// The file as a whole. A text that is not TOML is the file's first error.
+  static Section parse(std::string_view text, std::string_view file_name);
+
+  [[nodiscard]] bool has(std::string_view key) const;
+  [[nodiscard]] int line() const;
+  /// The key with the path of the tables around it.
+  [[nodiscard]] std::string path(std::string_view key) const;
+
+  /// Says that a key may be there, though nothing more of it is wanted.
+  void optional(std::string_view key);
+
+  // Each of these asks for a key. Without a fallback (in the key's unit) a missing key is an error.
+
+  /// A number in SI.
+  double number(std::string_view key, Limits limits, std::optional<double> fallback = {});
+  /// A number in the unit of its key.
+  double plain_number(std::string_view key, Limits limits, std::optional<double> fallback = {});
+  /// One number for three axes, or an array of three, in SI; 0 if absent.
+  world::Vector3 three(std::string_view key, Limits limits = {});
+  /// Lower and upper end of an interval, in SI.
+  std::pair<double, double> interval(std::string_view key, Limits limits);
+  std::int64_t integer(std::string_view key, std::int64_t least);
+  std::optional<std::int64_t> optional_integer(std::string_view key, std::int64_t least);
+  /// A time (key ending in _s or _ms): a whole number of microseconds.
+  std::int64_t time_us(std::string_view key, Limits limits, std::optional<double> fallback = {});
+  std::optional<std::int64_t> optional_time_us(std::string_view key, Limits limits);
+  /// Text on one line, not empty.
+  std::string text(std::string_view key, std::optional<std::string> fallback = {});
+  std::string one_of(std::string_view key, std::span<const std::string> names,
+                     std::optional<std::string> fallback = {});
+
+  /// A table; if it is missing, one whose keys are all silently absent.
+  Section table(std::string_view key);
+  std::optional<Section> optional_table(std::string_view key);
+  /// An array of tables, at least one; its paths count from 1: check[1].
+  std::vector<Section> tables(std::string_view key);
+
+  /// Says what is wrong with the value of a key that is there, or should be.
+  void reject(std::string_view key, std::string_view what, std::string_view expected);
+  /// To be called when all keys have been asked for: reports an unknown key, or else a missing one.
+  void finish();
+
+  /// The first error of the whole file.
+  [[nodiscard]] std::optional<Error> error() const;
+
+ private:
+  struct State;
+  struct File;
+  struct Node;
+  Section inside(std::string_view key, const Node& node, std::string path);
+  explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}
+
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace canhil::scenario

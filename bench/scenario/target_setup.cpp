@@ -1,0 +1,45 @@
+#include "bench/scenario/target_setup.hpp"
+
+#include <utility>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+InitialSigma read_initial_sigma(Section section) {
+  const InitialSigma sigma{.velocity = section.number("velocity_mps", Limits::above(0)),
+                           .tilt = section.number("tilt_deg", Limits::above(0, 90)),
+                           .heading = section.number("heading_deg", Limits::above(0, 180)),
+                           .position = section.number("position_m", Limits::above(0))};
+  section.finish();
+  return sigma;
+}
+
+std::vector<Parameter> read_parameters(Section section, const Contract& contract) {
+  constexpr double largest = 3.4e38;  // ParamSet carries an IEEE single
+  std::vector<Parameter> parameters;
+  for (const std::string& name : contract.parameters) {
+    const bool given = section.has(name);
+    const double value = section.plain_number(name, Limits::between(-largest, largest), 0.0);
+    if (given) parameters.push_back({.name = name, .value = value});
+  }
+  section.finish();
+  return parameters;
+}
+
+}  // namespace
+
+TargetSetup read_target(Section& section, const Contract& contract) {
+  TargetSetup target;
+  target.estimator = section.one_of("estimator", contract.estimators);
+  target.algorithm = section.one_of("algorithm", contract.algorithms);
+  target.initial_sigma = read_initial_sigma(section.table("initial_sigma"));
+  if (auto parameters = section.optional_table("parameters")) {
+    target.parameters = read_parameters(*std::move(parameters), contract);
+  }
+  section.finish();
+  return target;
+}
+
+}  // namespace canhil::scenario

@@ -1,0 +1,198 @@
+// Every way a scenario can be wrong gives exactly one line: where, what, what was expected.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/unit/bench/scenario/texts.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+struct Wrong {
+  std::string from;
+  std::string to;
+  std::string error;  ///< without the file's name
+};
+
+class ScenarioError : public testing::TestWithParam<Wrong> {};
+
+TEST_P(ScenarioError, IsOneExactLine) {
+  EXPECT_EQ(error_of(with(GetParam().from, GetParam().to)), "s.toml:" + GetParam().error);
+}
+
+const std::string sigma =
+    "initial_sigma = { velocity_mps = 1.0, tilt_deg = 2.0, heading_deg = 5.0, position_m = 10.0 }";
+
+INSTANTIATE_TEST_SUITE_P(
+    Toml, ScenarioError,
+    testing::Values(
+        Wrong{"seed = 7", "seed 7", "3: not TOML: Error while parsing key-value pair: expected '=', saw '7'"},
+        Wrong{"seed = 7", "seed = 7\nseed = 8",
+              "4: not TOML: Error while parsing key-value pair: cannot redefine existing integer 'seed'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Keys, ScenarioError,
+    testing::Values(
+        Wrong{"seed = 7", "seeds = 7", "3: key 'seeds': is unknown, expected 'seed'"},
+        Wrong{"[master_ins]", "[master_ins]\nperod_ms = 3",
+              "15: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"},
+        Wrong{"[slave_imu]", "[slave_imuu]", "15: key 'slave_imuu': is unknown, expected 'slave_imu'"},
+        Wrong{"tilt_deg", "tilt", "7: key 'target.initial_sigma.tilt': is unknown, expected 'tilt_deg'"},
+        Wrong{
+            "heading_deg = 90", "heading_deg = 90\nspeed_kmph = 3",
+            "14: key 'truth.speed_kmph': is unknown, expected one of: latitude_deg, longitude_deg, height_m, "
+            "trajectory, roll_deg, pitch_deg, heading_deg"},
+        Wrong{"[[check]]", "[[check]]\nbelow_mrad = 3",
+              "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
+              "silent_at_most_s, name"},
+        Wrong{"seed = 7", "seed = 7\n\"a\\nb\" = 1",
+              "4: key 'a?b': is unknown, expected one of: title, duration_s, seed, target, truth, "
+              "initial_error, master_ins, slave_imu, check"},
+        Wrong{"[truth]", "[target.parameters]\nh2_cases = 1\n[truth]",
+              "9: key 'target.parameters.h2_cases': is unknown, expected 'h2_case'"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Missing, ScenarioError,
+    testing::Values(
+        Wrong{"title = \"A title\"\n", "", "1: key 'title': is missing, expected text on one line"},
+        Wrong{"seed = 7\n", "", "1: key 'seed': is missing, expected a whole number of at least 0"},
+        Wrong{"duration_s = 20.0\n", "",
+              "1: key 'duration_s': is missing, expected a number above 0, at most 86400"},
+        Wrong{"[slave_imu]\n", "", "1: key 'slave_imu': is missing, expected a table"},
+        Wrong{sigma + "\n", "", "4: key 'target.initial_sigma': is missing, expected a table"},
+        Wrong{"algorithm = \"kalman\"\n", "",
+              "4: key 'target.algorithm': is missing, expected one of: kalman, robust_h2"},
+        Wrong{"height_m = 1000.0\n", "",
+              "8: key 'truth.height_m': is missing, expected a number from -1000 to 50000"},
+        Wrong{"silent_at_most_s = 0.5\n", "",
+              "16: key 'check[1].silent_at_most_s': is missing, expected a number above 0"},
+        Wrong{"[[check]]\nkind = \"heartbeat\"\nsilent_at_most_s = 0.5\n", "",
+              "1: key 'check': is missing, expected at least one [[check]]"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Types, ScenarioError,
+    testing::Values(
+        Wrong{"20.0", "\"20\"", "2: key 'duration_s': is a string, expected a number above 0, at most 86400"},
+        Wrong{"20.0", "true", "2: key 'duration_s': is a boolean, expected a number above 0, at most 86400"},
+        Wrong{"20.0", "2020-01-01",
+              "2: key 'duration_s': is a date or time, expected a number above 0, at most 86400"},
+        Wrong{"seed = 7", "seed = 7.5", "3: key 'seed': is not whole, expected a whole number of at least 0"},
+        Wrong{"seed = 7", "seed = [7]", "3: key 'seed': is an array, expected a whole number of at least 0"},
+        Wrong{"\"A title\"", "5", "1: key 'title': is a number, expected text on one line"},
+        Wrong{"\"rest\"", "5",
+              "9: key 'truth.trajectory': is a number, expected one of: rest, level_acceleration, weave"},
+        Wrong{sigma, "initial_sigma = 1", "7: key 'target.initial_sigma': is a number, expected a table"},
+        Wrong{"[[check]]", "[check]", "16: key 'check': is a table, expected at least one [[check]]"},
+        Wrong{"seed = 7\n", "seed = 7\ncheck = [ 5 ]\n",
+              "17: not TOML: Error while parsing table header: cannot redefine existing array 'check' as "
+              "array-of-tables"},
+        Wrong{"[master_ins]", "[master_ins]\nvelocity_noise_mps = [1, 2]",
+              "15: key 'master_ins.velocity_noise_mps': has 2 elements, expected a number, or an array of "
+              "three, each of at "
+              "least 0"},
+        Wrong{"[master_ins]", "[master_ins]\nvelocity_noise_mps = [1, 2, 'x']",
+              "15: key 'master_ins.velocity_noise_mps': element 3 is not, expected a number, or an array of "
+              "three, each of at "
+              "least 0"},
+        Wrong{"[master_ins]", "[master_ins]\nvelocity_noise_mps = 'x'",
+              "15: key 'master_ins.velocity_noise_mps': is a string, expected a number of at least 0"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, ScenarioError,
+    testing::Values(
+        Wrong{"20.0", "0.0",
+              "2: key 'duration_s': 0 is out of range, expected a number above 0, at most 86400"},
+        Wrong{"20.0", "nan",
+              "2: key 'duration_s': nan is out of range, expected a number above 0, at most 86400"},
+        Wrong{"20.0", "1e9",
+              "2: key 'duration_s': 1000000000 is out of range, expected a number above 0, at most 86400"},
+        Wrong{"20.0", "0.1234567",
+              "2: key 'duration_s': is not whole in microseconds, expected a multiple of 1 us"},
+        Wrong{"silent_at_most_s = 0.5", "silent_at_most_s = 1e30",
+              "18: key 'check[1].silent_at_most_s': is too long a time, expected at most 100000 s"},
+        Wrong{"seed = 7", "seed = -1",
+              "3: key 'seed': -1 is out of range, expected a whole number of at least 0"},
+        Wrong{"\"A title\"", "\"\"", "1: key 'title': is empty, expected text on one line"},
+        Wrong{"\"A title\"", "\"A\\nb\"",
+              "1: key 'title': has a line break or tab, expected text on one line"},
+        Wrong{"37.0", "90.0",
+              "10: key 'truth.latitude_deg': 90 is out of range, expected a number from -89 to 89"},
+        Wrong{"tilt_deg = 2.0", "tilt_deg = 0",
+              "7: key 'target.initial_sigma.tilt_deg': 0 is out of range, expected a number above 0, at most "
+              "90"},
+        Wrong{"\"kalman\"", "\"kalmann\"",
+              "6: key 'target.algorithm': 'kalmann' is unknown, expected 'kalman'"},
+        Wrong{"\"kalman\"", "\"particle\"",
+              "6: key 'target.algorithm': 'particle' is unknown, expected one of: kalman, robust_h2"},
+        Wrong{"[slave_imu]", "[slave_imu]\ngyro_noise_degprth = -1",
+              "16: key 'slave_imu.gyro_noise_degprth': -1 is out of range, expected a number of at least 0"},
+        Wrong{"[slave_imu]", "[slave_imu]\nperiod_ms = 0",
+              "16: key 'slave_imu.period_ms': 0 is out of range, expected a number from 1 to 10000"},
+        Wrong{"[truth]", "[target.parameters]\nh2_case = inf\n[truth]",
+              "9: key 'target.parameters.h2_case': inf is out of range, expected a number from -3.4e+38 to "
+              "3.4e+38"}));
+
+std::string check(std::string_view lines) { return "[[check]]\n" + std::string(lines) + "\n[[check]]"; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Checks, ScenarioError,
+    testing::Values(
+        Wrong{"\"heartbeat\"", "\"hartbeat\"",
+              "17: key 'check[1].kind': 'hartbeat' is unknown, expected 'heartbeat'"},
+        Wrong{"\"heartbeat\"", "\"banana\"",
+              "17: key 'check[1].kind': 'banana' is unknown, expected one of: attitude_error, convergence, "
+              "velocity_error, "
+              "consistency, output_period, latency, counters, heartbeat"},
+        Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'yaw'\nbelow_mrad = 1"),
+              "18: key 'check[1].axis': 'yaw' is unknown, expected one of: roll, pitch, heading"},
+        Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),
+              "18: key 'check[1].from_s': is not before the end of the window, expected less than 4"},
+        Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 20\nbelow_mps = 1"),
+              "18: key 'check[1].from_s': is not before the end of the window, expected less than 20"},
+        Wrong{"[[check]]", check("kind = 'velocity_error'\nto_s = 21\nbelow_mps = 1"),
+              "18: key 'check[1].to_s': is after the end of the run, expected at most duration_s = 20"},
+        Wrong{"[[check]]", check("kind = 'convergence'\naxis = 'roll'\nwithin_mrad = 1\nbefore_s = 21"),
+              "20: key 'check[1].before_s': is after the end of the run, expected at most duration_s = 20"},
+        Wrong{"[[check]]", check("kind = 'latency'\nmessage = 'AlignAtitude'\nbelow_ms = 1"),
+              "18: key 'check[1].message': 'AlignAtitude' is unknown, expected 'AlignAttitude'"},
+        Wrong{"[[check]]", check("kind = 'latency'\nmessage = 'AlignUpdate'\nbelow_ms = 1\nquantile = 99"),
+              "20: key 'check[1].quantile': 99 is out of range, expected a number above 0, at most 1"},
+        Wrong{
+            "[[check]]", check("kind = 'consistency'\nstatistic = 'nis'"),
+            "16: key 'check[1].mean_between': is missing, expected an array [low, high], each of at least 0"},
+        Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'nis'\nmean_between = [4, 2]"),
+              "19: key 'check[1].mean_between': is descending, expected an array [low, high], each of at "
+              "least 0"},
+        Wrong{"[[check]]",
+              check("kind = 'consistency'\nstatistic = 'nis'\nmean_between = [1, 2]\nprobability = 0.9"),
+              "19: key 'check[1].mean_between': is given beside probability, expected one of the two"},
+        Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'attitude_nees'\nprobability = 0.9"),
+              "19: key 'check[1].probability': is for nis only, expected mean_between = [low, high]"},
+        Wrong{"[[check]]", check("kind = 'counters'"),
+              "16: key 'check[1].frames_lost_at_most': is missing, as are all its like, expected at least "
+              "one limit"},
+        Wrong{"[[check]]", check("kind = 'heartbeat'\nsilent_at_most_s = 1"),
+              "19: key 'check[2].name': 'heartbeat' is the name of check[1] too, expected another name"}));
+
+TEST(ScenarioFile, ThatCannotBeRead) {
+  const auto missing = read_file("/nonexistent/s.toml", contract);
+  ASSERT_FALSE(missing);
+  EXPECT_EQ(missing.error().message,
+            "/nonexistent/s.toml: cannot be read (No such file or directory), expected a scenario file");
+  const auto folder = read_file(testing::TempDir(), contract);
+  ASSERT_FALSE(folder);
+  EXPECT_EQ(folder.error().message,
+            testing::TempDir() + ": cannot be read (Is a directory), expected a scenario file");
+}
+
+TEST(ScenarioFile, IsReadAsItsText) {
+  const std::string path = testing::TempDir() + "scenario_file_is_read.toml";
+  std::ofstream(path, std::ios::binary) << valid;
+  const auto scenario = read_file(path, contract);
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  EXPECT_EQ(scenario->file, path);
+  EXPECT_EQ(scenario->hash, parsed(valid).hash);
+}
+
+}  // namespace
+}  // namespace canhil::scenario

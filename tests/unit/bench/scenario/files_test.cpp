@@ -1,0 +1,78 @@
+// The scenarios that come with the project are valid, with the names of the project's own DBC.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include "bench/scenario/scenario.hpp"
+#include "bench/world/units.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+std::string dbc() {
+  std::ifstream file(SOURCE_DIR "/dbc/canhil.dbc");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it)
+    found.push_back((*it)[1]);
+  return found;
+}
+
+std::vector<std::string> value_table(const std::string& text, const std::string& name) {
+  const auto tables = matches(text, "\nVAL_TABLE_ " + name + " ([^;]*);");
+  return tables.empty() ? std::vector<std::string>{} : matches(tables[0], "\"([a-z0-9_]+)\"");
+}
+
+Contract of_the_dbc() {
+  const std::string text = dbc();
+  return {.estimators = value_table(text, "Estimator"),
+          .algorithms = value_table(text, "Algorithm"),
+          .parameters = value_table(text, "Parameter"),
+          .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):")};
+}
+
+TEST(ScenarioFiles, AreAllValid) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SOURCE_DIR "/bench/scenarios")) {
+    const auto scenario = read_file(entry.path(), of_the_dbc());
+    EXPECT_TRUE(scenario) << scenario.error().message;
+    ++count;
+  }
+  EXPECT_GE(count, 3);
+}
+
+TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
+  const auto s = read_file(SOURCE_DIR "/bench/scenarios/transfer_alignment.toml", of_the_dbc()).value();
+  EXPECT_EQ(s.target.algorithm, "kalman");
+  EXPECT_DOUBLE_EQ(s.target.initial_sigma.heading, s.initial_error.attitude.sigma.z());
+  EXPECT_DOUBLE_EQ(s.target.initial_sigma.tilt, s.initial_error.attitude.sigma.x());
+  EXPECT_DOUBLE_EQ(s.target.initial_sigma.velocity, s.initial_error.velocity.sigma.x());
+  for (const Parameter& parameter : s.target.parameters) {
+    const auto& imu = s.slave_imu->errors;
+    if (parameter.name == "velocity_noise_m2ps") {
+      // The DBC's 100 ms between updates turn a sigma into a density.
+      EXPECT_NEAR(parameter.value, 0.1 * std::pow(s.master_ins->errors.velocity.sigma.x(), 2), 1e-15);
+    } else if (parameter.name == "accel_bias_sigma_ug") {
+      EXPECT_NEAR(parameter.value * world::units::ug, imu.accel.bias.sigma.x(), 1e-15);
+    } else if (parameter.name == "gyro_noise_degprth") {
+      EXPECT_NEAR(parameter.value * world::units::degprth, imu.gyro.noise.x(), 1e-15);
+    }
+  }
+}
+
+TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
+  const auto s = read_file(SOURCE_DIR "/bench/scenarios/transfer_alignment_h2.toml", of_the_dbc()).value();
+  EXPECT_EQ(s.target.algorithm, "robust_h2");
+  EXPECT_DOUBLE_EQ(s.target.initial_sigma.heading, 1 * world::units::deg);
+  EXPECT_DOUBLE_EQ(s.initial_error.attitude.sigma.z(), 5 * world::units::deg);
+  EXPECT_TRUE(s.master_ins->errors.velocity.sigma.isZero());
+}
+
+}  // namespace
+}  // namespace canhil::scenario

@@ -1,0 +1,66 @@
+// A small valid scenario, and how tests change it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+
+#include "bench/scenario/scenario.hpp"
+
+namespace canhil::scenario {
+
+inline const Contract contract{.estimators = {"transfer_alignment", "inflight_alignment"},
+                               .algorithms = {"kalman", "robust_h2"},
+                               .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
+                               .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"}};
+
+inline constexpr std::string_view valid = R"(title = "A title"
+duration_s = 20.0
+seed = 7
+[target]
+estimator = "transfer_alignment"
+algorithm = "kalman"
+initial_sigma = { velocity_mps = 1.0, tilt_deg = 2.0, heading_deg = 5.0, position_m = 10.0 }
+[truth]
+trajectory = "rest"
+latitude_deg = 37.0
+longitude_deg = 127.0
+height_m = 1000.0
+heading_deg = 90
+[master_ins]
+[slave_imu]
+[[check]]
+kind = "heartbeat"
+silent_at_most_s = 0.5
+)";
+
+/// `text` with the first occurrence of `from` replaced.
+inline std::string with(std::string_view from, std::string_view to, std::string_view text = valid) {
+  std::string changed(text);
+  const std::size_t at = changed.find(from);
+  if (at == std::string::npos) {
+    ADD_FAILURE() << "the text has no '" << from << "'";
+    return changed;
+  }
+  return changed.replace(at, from.size(), to);
+}
+
+/// `valid` with lines put after its table header [section].
+inline std::string inside(std::string_view section, std::string_view lines) {
+  return with(section, std::string(section) + "\n" + std::string(lines));
+}
+
+inline Scenario parsed(std::string_view text) {
+  const Result<Scenario> result = parse(text, "s.toml", contract);
+  if (result) return *result;
+  ADD_FAILURE() << result.error().message;
+  return {};
+}
+
+inline std::string error_of(std::string_view text) {
+  const Result<Scenario> result = parse(text, "s.toml", contract);
+  return result ? "no error" : result.error().message;
+}
+
+}  // namespace canhil::scenario
