@@ -41,9 +41,10 @@ MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& 
   // 1/12 for equal samples. Sculling has the same factor.
   const double factor = previous.dt > 0 ? dt * dt / (6 * previous.dt * (previous.dt + dt)) : 0;
   const Eigen::Vector3d phi = imu.delta_theta + factor * previous.delta_theta.cross(imu.delta_theta);
-  const Eigen::Vector3d delta_v_b = imu.delta_v + 0.5 * imu.delta_theta.cross(imu.delta_v) +
-                                    factor * (previous.delta_theta.cross(imu.delta_v) +
-                                              previous.delta_v.cross(imu.delta_theta));
+  const Eigen::Vector3d turned = imu.delta_theta.cross(imu.delta_v);
+  const Eigen::Vector3d delta_v_b =
+      imu.delta_v + 0.5 * turned + imu.delta_theta.cross(turned) / 6 +
+      factor * (previous.delta_theta.cross(imu.delta_v) + previous.delta_v.cross(imu.delta_theta));
 
   const LocalEarth earth = local_earth(nav.latitude, nav.height);
   const Eigen::Vector3d gravity(0, 0, earth.gravity);

@@ -39,7 +39,7 @@ class History {
     std::size_t epoch = count_;  // epoch i < count_ is the start of increment i; epoch count_ is now
     while (epoch > 0 && epoch_us(epoch - 1) >= t_us) --epoch;
     const bool between = epoch_us(epoch) != t_us;
-    if (epoch_us(epoch) < t_us || (between && epoch == 0)) return refused(Outcome::older_than_history);
+    if (between && epoch == 0) return refused(Outcome::older_than_history);
 
     State then{ins(state, epoch), state.P, state.x};
     Eigen::Vector3d velocity = then.ins.nav.v_eb_n;

@@ -1,6 +1,6 @@
 #pragma once
-// The paper's flight, and the error-free IMU that flies it through the reference mechanisation, inverted exactly:
-// level, heading 0, 500 km/h north for 10 s, then 1 g north.
+// The paper's flight (level, heading 0, 500 km/h north for 10 s, then 9.81 m/s^2 north) and its error-free IMU, as in
+// the published vectors.
 #include <Eigen/Core>
 
 #include "target/estimators/strapdown/attitude.hpp"
@@ -25,6 +25,11 @@ inline strapdown::NavState with_errors(strapdown::NavState nav, const Eigen::Vec
   nav.v_eb_n += dV;
   nav.C_bn = strapdown::exp_rotation(-phi) * nav.C_bn;
   return nav;
+}
+
+/// The start of the published runs: 5 deg and 1 m/s on each axis.
+inline strapdown::NavState published_start() {
+  return with_errors(flight_start(), Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(5 * kRadPerDeg));
 }
 
 /// The true state a sample of dt [s] after `nav` at t [s]: constant acceleration, latitude by the trapezoidal rule.

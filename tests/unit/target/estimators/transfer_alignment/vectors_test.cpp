@@ -4,27 +4,21 @@
 #include <cmath>
 #include <string>
 
-#include "target/estimators/filtering/kalman.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/transfer_alignment/filter.hpp"
 #include "tests/unit/target/estimators/csv.hpp"
 #include "tests/unit/target/estimators/flight.hpp"
+#include "tests/unit/target/estimators/transfer_alignment/full_run.hpp"
 
 namespace canhil::transfer_alignment {
 namespace {
 
 using Eigen::Map;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using strapdown::ImuIncrement;
 using strapdown::NavState;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 const std::string kData = std::string(TEST_DATA_DIR) + "/transfer_alignment/";
-
-NavState start() {
-  return with_errors(flight_start(), Vector3d::Ones(), Vector3d::Constant(5 * kRadPerDeg));
-}
 
 double relative(double value, double expected) { return std::abs(value / expected - 1); }
 
@@ -37,21 +31,18 @@ double largest_relative(const StateVector& value, const double* expected) {
 class FullRun : public testing::TestWithParam<Algorithm> {};
 
 TEST_P(FullRun, ReplaysThePublishedRun) {
-  const Csv inputs(kData + "full_run_inputs.csv");
   const Csv outputs(kData + "full_run_outputs.csv");
   Settings settings;
   settings.algorithm = GetParam();
   settings.mechanization = strapdown::Mechanization::reference;
   const std::string filter = GetParam() == Algorithm::kalman ? "kf_" : "h2_";
-  State state = initial(start(), settings);
+  State state = initial(published_start(), settings);
   std::size_t k = 0;
   double worst_V = 0, worst_C = 0, worst_P = 0, worst_alpha_beta = 0, worst_bias = 0;
-  for (std::size_t row = 0; row < inputs.rows(); ++row) {
-    const double dt = inputs.at(row, "dt");
-    const Map<const Vector3d> rate(inputs.from(row, "wx")), force(inputs.from(row, "fx"));
-    propagate(state, {rate * dt, force * dt, dt}, settings);
-    if (inputs.at(row, "upd") == 0) continue;
-    const UpdateResult result = update(state, Map<const Vector3d>(inputs.from(row, "Vm_N")), settings);
+  for (const Sample& sample : full_run_inputs()) {
+    propagate(state, sample.imu, settings);
+    if (!sample.master_velocity) continue;
+    const UpdateResult result = update(state, *sample.master_velocity, settings);
     ASSERT_EQ(result.outcome, Outcome::ok);
     const Map<const Vector3d> V(outputs.from(k, filter + "V_N"));
     const Map<const RowMajor3> C(outputs.from(k, filter + "C11"));
@@ -88,7 +79,7 @@ TEST_P(FourCases, ReplayThePublishedErrors) {
   settings.mechanization = strapdown::Mechanization::reference;
   const std::string column = "c" + std::to_string(GetParam()) + "_";
   NavState truth = flight_start();
-  State state = initial(start(), settings);
+  State state = initial(published_start(), settings);
   const double dt = 0.01;
   double worst_V = 0, worst_C = 0, worst_P = 0, worst_alpha_beta = 0;
   for (std::size_t k = 0; k < outputs.rows(); ++k) {
