@@ -11,7 +11,8 @@ namespace canhil::transfer_alignment {
 
 double uncertainty_size(const Settings& settings, const Covariance& P, const Eigen::Vector3d& f_n) {
   if (settings.alpha_rule == AlphaRule::constant) return settings.alpha_constant;
-  // Not as tr(P) |f|^2 - f' P f, which cancels for a heading error in level flight, the very case to tell apart.
+  // Not as tr(P) |f|^2 - f' P f, which cancels for a heading error in level flight, the very case to tell
+  // apart.
   const Eigen::Matrix3d F = strapdown::skew(f_n);
   const double variance = (F * P.block<3, 3>(kAttitude, kAttitude)).cwiseProduct(F).sum();
   const double largest_angle = std::min(3 * settings.attitude_sigma_0.norm(), std::numbers::pi);
@@ -23,10 +24,14 @@ Uncertainty uncertainty(H2Case h2_case, double alpha) {
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d S = strapdown::skew(Eigen::Vector3d::Ones());
   switch (h2_case) {
-    case H2Case::one: return {alpha * I, I, alpha * alpha};
-    case H2Case::two: return {alpha * S, I, 3 * alpha * alpha};
-    case H2Case::three: return {I, alpha * S, 1};
-    case H2Case::four: break;
+    case H2Case::one:
+      return {alpha * I, I, alpha * alpha};
+    case H2Case::two:
+      return {alpha * S, I, 3 * alpha * alpha};
+    case H2Case::three:
+      return {I, alpha * S, 1};
+    case H2Case::four:
+      break;
   }
   return {I, alpha * I, 1};
 }

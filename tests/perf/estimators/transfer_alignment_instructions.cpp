@@ -1,4 +1,5 @@
-// Under callgrind: every measured call goes through a function of its own, called once, whose cost is collected.
+// Under callgrind: every measured call goes through a function of its own, called once, whose cost is
+// collected.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_filter.hpp"
@@ -11,7 +12,9 @@ using canhil::strapdown::Mechanization;
 MEASURED void imu_step_reference(WarmFilter& f) { propagate(f.state, f.imu, f.settings); }
 MEASURED void imu_step_two_sample(WarmFilter& f) { propagate(f.state, f.imu, f.settings); }
 MEASURED UpdateResult update_kalman(WarmFilter& f) { return update(f.state, f.master_velocity, f.settings); }
-MEASURED UpdateResult update_robust_h2(WarmFilter& f) { return update(f.state, f.master_velocity, f.settings); }
+MEASURED UpdateResult update_robust_h2(WarmFilter& f) {
+  return update(f.state, f.master_velocity, f.settings);
+}
 
 int main() {
   WarmFilter reference = warm_filter(Algorithm::kalman, Mechanization::reference);

@@ -1,4 +1,5 @@
-// Property: no allocation on the frame path. Counts operator new, and makes Eigen abort on an allocation of its own.
+// Property: no allocation on the frame path. Counts operator new, and makes Eigen abort on an allocation of
+// its own.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -45,7 +46,8 @@ TEST(Allocation, TransferAlignmentAllocatesNothing) {
       for (int k = 1; k <= 200; ++k) {
         history.propagate(state, imu, k * 10'000, settings);
         if (k % 10 != 0) continue;
-        const UpdateResult result = history.update(state, flight_start().v_eb_n, k * 10'000 - 55'000, settings);
+        const UpdateResult result =
+            history.update(state, flight_start().v_eb_n, k * 10'000 - 55'000, settings);
         if (result.outcome != Outcome::ok) worst = result.outcome;
       }
       const std::size_t made = allocations - before;

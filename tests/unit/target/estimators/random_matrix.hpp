@@ -1,5 +1,6 @@
 #pragma once
-// Seeded matrices for tests: Eigen's Random() draws from the C library's generator, which a seed does not pin down.
+// Seeded matrices for tests: Eigen's Random() draws from the C library's generator, which a seed does not pin
+// down.
 #include <Eigen/Core>
 #include <random>
 

@@ -31,7 +31,8 @@ TEST(RobustH2, BetaIsZeroWhenATermVanishes) {
   }
 }
 
-// The point of the step: for every |Delta| <= 1 its P bounds the true covariance of A + L Delta N (to first order in dt).
+// The point of the step: for every |Delta| <= 1 its P bounds the true covariance of A + L Delta N (to first
+// order in dt).
 TEST(RobustH2, StepBoundsEveryUncertainSystem) {
   std::mt19937_64 engine(2);
   const double dt = 1e-4;
@@ -39,8 +40,8 @@ TEST(RobustH2, StepBoundsEveryUncertainSystem) {
   const Matrix<4, 4> Q = Matrix<4, 4>::Identity();
   const Matrix<4, 2> L = random_matrix<4, 2>(engine);
   const Matrix<2, 4> N = random_matrix<2, 4>(engine);
-  const double beta = h2_beta(largest_eigenvalue<2>(N * P * P * N.transpose()),
-                              largest_eigenvalue<2>(L.transpose() * L));
+  const double beta =
+      h2_beta(largest_eigenvalue<2>(N * P * P * N.transpose()), largest_eigenvalue<2>(L.transpose() * L));
   const Matrix<4, 4> bound = propagate_h2<4, 2, 2>(P, A, Q, L, N, beta, dt);
   for (int k = 0; k < 200; ++k) {
     Matrix<2, 2> Delta = random_matrix<2, 2>(engine);
@@ -61,8 +62,8 @@ TEST(RobustH2, StepAddsTheTermsOfTheRiccatiEquation) {
   const Matrix<2, 4> N = random_matrix<2, 4>(engine);
   const Matrix<4, 4> rate = (propagate_h2<4, 2, 2>(P, A, Q, L, N, beta, dt) - P) / dt;
   // P N'N/beta sits in Phi, hence twice on the right-hand side: the step of the published filter.
-  const Matrix<4, 4> expected = A * P + P * A.transpose() + 2 / beta * P * N.transpose() * N * P +
-                                beta * L * L.transpose() + Q;
+  const Matrix<4, 4> expected =
+      A * P + P * A.transpose() + 2 / beta * P * N.transpose() * N * P + beta * L * L.transpose() + Q;
   EXPECT_LT((rate - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff(), 1e-4);
 }
 

@@ -46,8 +46,9 @@ struct Errors {
   double attitude, velocity;
 };
 
-Errors fly(const Motion& motion, Mechanization kind, double duration, double dt,
-           const std::function<double(int)>& stretch = [](int) { return 1.0; }) {
+Errors fly(
+    const Motion& motion, Mechanization kind, double duration, double dt,
+    const std::function<double(int)>& stretch = [](int) { return 1.0; }) {
   NavState nav;
   nav.latitude = kLatitude;
   nav.height = kHeight;
@@ -58,7 +59,9 @@ Errors fly(const Motion& motion, Mechanization kind, double duration, double dt,
   for (int k = 0; t < duration - dt / 2; ++k) {
     const double step = dt * stretch(k);
     const ImuIncrement imu = increment(motion, t, step);
-    nav = (kind == Mechanization::reference ? mechanize_reference(nav, imu) : mechanize_two_sample(nav, previous, imu)).nav;
+    nav = (kind == Mechanization::reference ? mechanize_reference(nav, imu)
+                                            : mechanize_two_sample(nav, previous, imu))
+              .nav;
     previous = imu;
     t += step;
   }
@@ -75,7 +78,7 @@ TEST_P(BothKinds, StaysAtRest) {
   const Matrix3d C = dcm_from_euler({0.3, -0.2, 2.0});
   const Motion rest{[&](double) { return C; }, still, still, still};
   const Errors errors = fly(rest, GetParam(), 60, 0.01);
-  EXPECT_LT(errors.attitude, 1e-12);              // 6000 roundings
+  EXPECT_LT(errors.attitude, 1e-12);             // 6000 roundings
   EXPECT_LT(errors.velocity, 1e-12 * 9.8 * 60);  // that tilt under gravity
 }
 
@@ -92,7 +95,8 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   double velocity_at_quarter = 0;
   for (int k = 0; k < 2 * quarter; ++k) {
     nav = (GetParam() == Mechanization::reference ? mechanize_reference(nav, truth)
-                                                  : mechanize_two_sample(nav, previous, truth)).nav;
+                                                  : mechanize_two_sample(nav, previous, truth))
+              .nav;
     previous = truth;
     if (k + 1 == quarter) velocity_at_quarter = nav.v_eb_n.x();
   }
@@ -102,7 +106,8 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   EXPECT_NEAR(nav.latitude / (2 * amplitude / omega / earth.meridian_radius), 1, 0.01);
 }
 
-// What a filter takes from a step: the velocity change is the specific force's plus gravity and Coriolis terms.
+// What a filter takes from a step: the velocity change is the specific force's plus gravity and Coriolis
+// terms.
 TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   NavState nav;
   nav.C_bn = dcm_from_euler({0.1, 0.2, 0.3});
@@ -110,8 +115,8 @@ TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   nav.v_eb_n << 100, 50, -5;
   const double dt = 0.01;
   const ImuIncrement imu{{0.001, 0.002, -0.003}, {0.02, 0.01, -0.1}, dt};
-  const MechanizationStep step =
-      GetParam() == Mechanization::reference ? mechanize_reference(nav, imu) : mechanize_two_sample(nav, imu, imu);
+  const MechanizationStep step = GetParam() == Mechanization::reference ? mechanize_reference(nav, imu)
+                                                                        : mechanize_two_sample(nav, imu, imu);
   const LocalEarth earth = local_earth(kLatitude, 0);
   const Vector3d coriolis = (2 * step.omega_ie_n + step.omega_en_n).cross(nav.v_eb_n);
   const Vector3d force = step.nav.v_eb_n - nav.v_eb_n - (Vector3d(0, 0, earth.gravity) - coriolis) * dt;
@@ -120,10 +125,13 @@ TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   EXPECT_LT((step.C_bn_mean - 0.5 * (nav.C_bn + step.nav.C_bn)).norm(), 1e-15);
 }
 
-// Coning: rotation vector theta (0, cos wt, sin wt); body rate (-w (1 - cos theta), -w sin theta sin wt, w sin theta cos wt)
-// up to the axis's sign. With x = w dt one sample drifts by theta^2 (x - sin x)/2 a sample, two by theta^2 x^5/60.
+// Coning: rotation vector theta (0, cos wt, sin wt); body rate (-w (1 - cos theta), -w sin theta sin wt, w
+// sin theta cos wt) up to the axis's sign. With x = w dt one sample drifts by theta^2 (x - sin x)/2 a sample,
+// two by theta^2 x^5/60.
 Motion coning(double theta, double omega) {
-  const auto phi = [=](double t) { return Vector3d(0, theta * std::cos(omega * t), theta * std::sin(omega * t)); };
+  const auto phi = [=](double t) {
+    return Vector3d(0, theta * std::cos(omega * t), theta * std::sin(omega * t));
+  };
   return {[=](double t) { return exp_rotation(phi(t)); },
           [=](double t) {
             return Vector3d(-omega * (1 - std::cos(theta)), -omega * std::sin(theta) * std::sin(omega * t),
@@ -154,11 +162,13 @@ TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
   EXPECT_LT(two.attitude, one.attitude / 30);
 }
 
-// Sculling: roll theta sin wt with an eastward acceleration A sin wt. The one-sample step misses part of the rectified
-// acceleration theta A/2: x^2/6 of it (x = w dt); two samples x^4/30.
+// Sculling: roll theta sin wt with an eastward acceleration A sin wt. The one-sample step misses part of the
+// rectified acceleration theta A/2: x^2/6 of it (x = w dt); two samples x^4/30.
 TEST(Mechanization, TwoSamplesFollowSculling) {
   const double theta = 0.02, A = 10, omega = 2 * std::numbers::pi * 5;
-  const Motion motion{[=](double t) { return exp_rotation({theta * std::sin(omega * t), 0, 0}); },
+  const Motion motion{[=](double t) {
+                        return exp_rotation({theta * std::sin(omega * t), 0, 0});
+                      },
                       [=](double t) { return Vector3d(theta * omega * std::cos(omega * t), 0, 0); },
                       [=](double t) { return Vector3d(0, -A / omega * std::cos(omega * t), 0); },
                       [=](double t) { return Vector3d(0, A * std::sin(omega * t), 0); }};

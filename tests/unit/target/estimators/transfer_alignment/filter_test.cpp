@@ -32,9 +32,9 @@ State run(const Settings& settings) {
 }
 
 bool same_bits(const State& a, const State& b) {
-  return a.P == b.P && a.x == b.x && a.ins.nav.C_bn == b.ins.nav.C_bn && a.ins.nav.v_eb_n == b.ins.nav.v_eb_n &&
-         a.ins.nav.latitude == b.ins.nav.latitude && a.ins.accel_bias == b.ins.accel_bias &&
-         a.ins.gyro_bias == b.ins.gyro_bias;
+  return a.P == b.P && a.x == b.x && a.ins.nav.C_bn == b.ins.nav.C_bn &&
+         a.ins.nav.v_eb_n == b.ins.nav.v_eb_n && a.ins.nav.latitude == b.ins.nav.latitude &&
+         a.ins.accel_bias == b.ins.accel_bias && a.ins.gyro_bias == b.ins.gyro_bias;
 }
 
 TEST(TransferAlignment, H2WithoutUncertaintyIsTheKalmanFilterBitForBit) {
@@ -56,7 +56,8 @@ TEST(TransferAlignment, H2CasesOneAndFourAreTheSameFilter) {
   one.h2_case = H2Case::one;
   four.h2_case = H2Case::four;
   const State a = run(one), b = run(four);
-  EXPECT_LT((a.P.diagonal().cwiseQuotient(b.P.diagonal()) - StateVector::Ones()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((a.P.diagonal().cwiseQuotient(b.P.diagonal()) - StateVector::Ones()).cwiseAbs().maxCoeff(),
+            1e-12);
   EXPECT_LT((a.ins.nav.v_eb_n - b.ins.nav.v_eb_n).norm() / a.ins.nav.v_eb_n.norm(), 1e-12);
   EXPECT_LT((a.ins.nav.C_bn - b.ins.nav.C_bn).norm(), 1e-12);
 }
@@ -88,7 +89,8 @@ TEST(TransferAlignment, VanishingAttitudeCovarianceGivesNoNan) {
     const State state = run(settings, [&](const State&, const UpdateResult& result) {
       if (result.outcome == Outcome::ok) ++updates;
     });
-    EXPECT_TRUE(state.P.allFinite() && state.ins.nav.C_bn.allFinite() && state.ins.nav.v_eb_n.allFinite()) << sigma;
+    EXPECT_TRUE(state.P.allFinite() && state.ins.nav.C_bn.allFinite() && state.ins.nav.v_eb_n.allFinite())
+        << sigma;
     // A variance of exactly 0 is no covariance: refused until the gyro bias has put some there.
     if (sigma > 1e-100) {
       EXPECT_EQ(updates, 200) << sigma;

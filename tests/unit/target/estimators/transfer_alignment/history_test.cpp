@@ -36,7 +36,8 @@ State run_late(std::size_t late) {
   History<kCapacity> history(0);
   std::deque<std::pair<std::size_t, Vector3d>> under_way;
   const std::vector<Sample> samples = full_run_inputs();
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {  // the last row's velocity would arrive after the end
+  for (std::size_t i = 0; i + 1 < samples.size();
+       ++i) {  // the last row's velocity would arrive after the end
     history.propagate(state, samples[i].imu, epoch_us(i), settings);
     if (samples[i].master_velocity) under_way.emplace_back(i, *samples[i].master_velocity);
     if (!under_way.empty() && under_way.front().first + late <= i) {

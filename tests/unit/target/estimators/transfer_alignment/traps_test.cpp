@@ -29,8 +29,8 @@ State flown(const Settings& settings, int samples, const strapdown::NavState& st
   return state;
 }
 
-// Chat <- exp(+[phi x]) Chat, phi in n axes and from the left: what dx holds is what the misalignment loses. A heading of
-// 100 deg tells body from navigation axes.
+// Chat <- exp(+[phi x]) Chat, phi in n axes and from the left: what dx holds is what the misalignment loses.
+// A heading of 100 deg tells body from navigation axes.
 TEST(Traps, CorrectionRemovesTheEstimatedError) {
   const Settings settings;
   std::mt19937_64 engine(5);
@@ -164,13 +164,14 @@ TEST(Traps, AlphaOfAHeadingErrorVanishesInLevelFlight) {
   EXPECT_NEAR(uncertainty_size(settings, P, Vector3d(5, 0, -9.8)), 0.5, 1e-12);
 }
 
-// Chat f is averaged over the interval: where in it the step of the specific force falls must not matter much, and the
-// last sample's alone would differ by half of it.
+// Chat f is averaged over the interval: where in it the step of the specific force falls must not matter
+// much, and the last sample's alone would differ by half of it.
 TEST(Traps, SpecificForceIsAveragedOverTheInterval) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;
   State step_late = initial(flight_start(), settings), step_early = step_late;
-  const auto calm = flight_increment(flight_start(), 0, 0.01), accelerated = flight_increment(flight_start(), 11, 0.01);
+  const auto calm = flight_increment(flight_start(), 0, 0.01),
+             accelerated = flight_increment(flight_start(), 11, 0.01);
   for (int k = 0; k < 10; ++k) {
     propagate(step_late, k < 5 ? calm : accelerated, settings);
     propagate(step_early, k < 5 ? accelerated : calm, settings);

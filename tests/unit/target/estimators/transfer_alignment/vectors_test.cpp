@@ -49,13 +49,14 @@ TEST_P(FullRun, ReplaysThePublishedRun) {
     worst_V = std::max(worst_V, (state.ins.nav.v_eb_n - V).cwiseAbs().maxCoeff());
     worst_C = std::max(worst_C, (state.ins.nav.C_bn - C).cwiseAbs().maxCoeff());
     worst_P = std::max(worst_P, largest_relative(state.P.diagonal(), outputs.from(k, filter + "P_dV_N")));
-    worst_bias = std::max({worst_bias, (state.ins.accel_bias - Map<const Vector3d>(outputs.from(k, filter + "ba_x"))).norm(),
-                           (state.ins.gyro_bias - Map<const Vector3d>(outputs.from(k, filter + "bg_x"))).norm()});
+    worst_bias = std::max(
+        {worst_bias, (state.ins.accel_bias - Map<const Vector3d>(outputs.from(k, filter + "ba_x"))).norm(),
+         (state.ins.gyro_bias - Map<const Vector3d>(outputs.from(k, filter + "bg_x"))).norm()});
     if (GetParam() == Algorithm::robust_h2) {
-      worst_alpha_beta =
-          std::max({worst_alpha_beta, relative(result.alpha, outputs.at(k, "h2_alpha")),
-                    relative(result.beta, outputs.at(k, "h2_beta")),
-                    relative(result.beta * result.alpha * result.alpha * 2, outputs.at(k, "h2_beta_LLt_NN"))});
+      worst_alpha_beta = std::max(
+          {worst_alpha_beta, relative(result.alpha, outputs.at(k, "h2_alpha")),
+           relative(result.beta, outputs.at(k, "h2_beta")),
+           relative(result.beta * result.alpha * result.alpha * 2, outputs.at(k, "h2_beta_LLt_NN"))});
     }
     ++k;
   }
@@ -68,7 +69,9 @@ TEST_P(FullRun, ReplaysThePublishedRun) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Filters, FullRun, testing::Values(Algorithm::kalman, Algorithm::robust_h2),
-                         [](const auto& which) { return which.param == Algorithm::kalman ? "Kalman" : "RobustH2"; });
+                         [](const auto& which) {
+                           return which.param == Algorithm::kalman ? "Kalman" : "RobustH2";
+                         });
 
 class FourCases : public testing::TestWithParam<int> {};
 
@@ -92,8 +95,10 @@ TEST_P(FourCases, ReplayThePublishedErrors) {
     ASSERT_EQ(result.outcome, Outcome::ok);
     const Vector3d dV = state.ins.nav.v_eb_n - truth.v_eb_n;
     const Vector3d phi = strapdown::misalignment(state.ins.nav.C_bn, truth.C_bn);
-    worst_V = std::max(worst_V, (dV - Map<const Vector3d>(outputs.from(k, column + "dV_N"))).cwiseAbs().maxCoeff());
-    worst_C = std::max(worst_C, (phi - Map<const Vector3d>(outputs.from(k, column + "phi_N"))).cwiseAbs().maxCoeff());
+    worst_V =
+        std::max(worst_V, (dV - Map<const Vector3d>(outputs.from(k, column + "dV_N"))).cwiseAbs().maxCoeff());
+    worst_C = std::max(worst_C,
+                       (phi - Map<const Vector3d>(outputs.from(k, column + "phi_N"))).cwiseAbs().maxCoeff());
     worst_P = std::max(worst_P, largest_relative(state.P.diagonal(), outputs.from(k, column + "P0")));
     worst_alpha_beta = std::max({worst_alpha_beta, relative(result.alpha, outputs.at(k, column + "alpha")),
                                  relative(result.beta, outputs.at(k, column + "beta"))});
