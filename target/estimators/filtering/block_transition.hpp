@@ -13,12 +13,13 @@ struct Block {
   int row = 0, column = 0;  // in blocks of 3
 };
 
-/// (I + G) P (I + G)' for symmetric P [N x N]; of G only the 3x3 blocks in `pattern` (std::array of Block) are read.
-/// Costs 27 N multiplications a block in place of 2 N^3.
+/// (I + G) P (I + G)' for symmetric P [N x N]; of G only the 3x3 blocks in `pattern` (std::array of Block)
+/// are read. Costs 27 N multiplications a block in place of 2 N^3.
 template <auto pattern, int N>
 Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, N>& G) {
   static_assert(N % 3 == 0);
-  // By columns (contiguous): X = P + P G', then, as P is symmetric, P+ = X' + X' G'; its lower triangle suffices.
+  // By columns (contiguous): X = P + P G', then, as P is symmetric, P+ = X' + X' G'; its lower triangle
+  // suffices.
   Matrix<N, N> X = P;
   const auto right = [&]<std::size_t I>() {
     constexpr int i = 3 * pattern[I].row, j = 3 * pattern[I].column;

@@ -35,7 +35,8 @@ Matrix<N, N> propagate_covariance(const Matrix<N, N>& P, const Matrix<N, N>& Phi
   return next;
 }
 
-/// The outcome of a measurement update: dx = K innovation, the posterior P, and the innovation statistic (NIS).
+/// The outcome of a measurement update: dx = K innovation, the posterior P, and the innovation statistic
+/// (NIS).
 template <int N, int M>
 struct Correction {
   bool positive_definite = false;  // of S; when false nothing else is set
@@ -43,7 +44,8 @@ struct Correction {
   Matrix<N, N> P;
   Matrix<N, M> K;
   Matrix<M, M> S;  // innovation covariance H P H' + R
-  double nis = 0;  // innovation' S^-1 innovation: chi-square of M degrees of freedom if the filter is consistent
+  double nis =
+      0;  // innovation' S^-1 innovation: chi-square of M degrees of freedom if the filter is consistent
 };
 
 namespace detail {
@@ -83,7 +85,8 @@ Correction<N, M> update(const Matrix<N, N>& P, const Matrix<M, N>& H, const Matr
   });
 }
 
-/// The same when the measurement is the states First .. First + M - 1 themselves, which spares the products by H.
+/// The same when the measurement is the states First .. First + M - 1 themselves, which spares the products
+/// by H.
 template <int First, int N, int M>
 Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, const Vector<M>& innovation) {
   return detail::joseph<N, M>(

@@ -1,13 +1,14 @@
 #pragma once
-// The WGS-84 earth as a navigator at (latitude, height) meets it: radii, gravity, rates in north-east-down axes.
+// The WGS-84 earth as a navigator at (latitude, height) meets it: radii, gravity, rates in north-east-down
+// axes.
 #include <Eigen/Core>
 
 namespace canhil::strapdown {
 
-inline constexpr double kEarthRate = 7.292115e-5;              // [rad/s]
-inline constexpr double kSemiMajorAxis = 6378137.0;            // [m]
+inline constexpr double kEarthRate = 7.292115e-5;    // [rad/s]
+inline constexpr double kSemiMajorAxis = 6378137.0;  // [m]
 inline constexpr double kEccentricitySquared = 6.69437999014e-3;
-inline constexpr double kFreeAirGradient = 3.086e-6;           // [1/s^2]
+inline constexpr double kFreeAirGradient = 3.086e-6;  // [1/s^2]
 
 struct LocalEarth {
   double sin_latitude, cos_latitude;
@@ -17,10 +18,12 @@ struct LocalEarth {
   Eigen::Vector3d omega_ie_n;                 // earth's rate [rad/s]
 };
 
-/// The earth at a latitude [rad] and height [m] (Groves 2013, eqs. 2.105, 2.106, 2.123, 2.134 with the linear gradient).
+/// The earth at a latitude [rad] and height [m] (Groves 2013, eqs. 2.105, 2.106, 2.123, 2.134 with the linear
+/// gradient).
 LocalEarth local_earth(double latitude, double height);
 
-/// omega_en_n [rad/s] of velocity v_eb_n [m/s] at a height [m]; singular at the poles (Groves 2013, eq. 5.44).
+/// omega_en_n [rad/s] of velocity v_eb_n [m/s] at a height [m]; singular at the poles (Groves 2013,
+/// eq. 5.44).
 inline Eigen::Vector3d transport_rate(const LocalEarth& earth, double height, const Eigen::Vector3d& v_eb_n) {
   const double east = v_eb_n.y() / (earth.transverse_radius + height);
   return {east, -v_eb_n.x() / (earth.meridian_radius + height),

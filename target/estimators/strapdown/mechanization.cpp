@@ -6,7 +6,8 @@
 namespace canhil::strapdown {
 namespace {
 
-// Trapezoidal position from the velocities at both ends, radii and height of the start (as Groves 2013, eq. 5.56).
+// Trapezoidal position from the velocities at both ends, radii and height of the start (as Groves 2013,
+// eq. 5.56).
 void advance_position(NavState& nav, const NavState& from, const LocalEarth& earth, double dt) {
   const Eigen::Vector3d mean = 0.5 * (from.v_eb_n + nav.v_eb_n);
   nav.latitude = from.latitude + mean.x() * dt / (earth.meridian_radius + from.height);
@@ -35,15 +36,17 @@ MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& i
   return step;
 }
 
-MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous, const ImuIncrement& imu) {
+MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous,
+                                       const ImuIncrement& imu) {
   const double dt = imu.dt;
-  // For w = a + b t, coning = a x b dt^3/12 and previous x current = a x b T dt (T + dt)/2 (T: previous sample time);
-  // 1/12 for equal samples. Sculling has the same factor.
+  // For w = a + b t, coning = a x b dt^3/12 and previous x current = a x b T dt (T + dt)/2 (T: previous
+  // sample time); 1/12 for equal samples. Sculling has the same factor.
   const double factor = previous.dt > 0 ? dt * dt / (6 * previous.dt * (previous.dt + dt)) : 0;
   const Eigen::Vector3d phi = imu.delta_theta + factor * previous.delta_theta.cross(imu.delta_theta);
-  const Eigen::Vector3d delta_v_b = imu.delta_v + 0.5 * imu.delta_theta.cross(imu.delta_v) +
-                                    factor * (previous.delta_theta.cross(imu.delta_v) +
-                                              previous.delta_v.cross(imu.delta_theta));
+  const Eigen::Vector3d turned = imu.delta_theta.cross(imu.delta_v);
+  const Eigen::Vector3d delta_v_b =
+      imu.delta_v + 0.5 * turned + imu.delta_theta.cross(turned) / 6 +
+      factor * (previous.delta_theta.cross(imu.delta_v) + previous.delta_v.cross(imu.delta_theta));
 
   const LocalEarth earth = local_earth(nav.latitude, nav.height);
   const Eigen::Vector3d gravity(0, 0, earth.gravity);

@@ -1,5 +1,6 @@
 #pragma once
-// The strapdown navigation equations in north-east-down axes: one IMU increment carries a NavState one sample on.
+// The strapdown navigation equations in north-east-down axes: one IMU increment carries a NavState one sample
+// on.
 #include <Eigen/Core>
 #include <cstdint>
 
@@ -24,13 +25,16 @@ struct MechanizationStep {
 
 enum class Mechanization : std::uint8_t { reference, two_sample };
 
-/// One sample taken as constant rate and specific force; earth terms frozen at its start (the published vectors' rule).
-/// C1 = exp(-[w_in dt x]) C exp([dtheta x]), V1 = V + (C + C1)/2 dv + (g - (2w_ie + w_en) x V) dt. Requires dt > 0.
+/// One sample taken as constant rate and specific force; earth terms frozen at its start (the published
+/// vectors' rule). C1 = exp(-[w_in dt x]) C exp([dtheta x]), V1 = V + (C + C1)/2 dv + (g - (2w_ie + w_en) x
+/// V) dt. Requires dt > 0.
 MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& imu);
 
-/// Rate and specific force taken as linear over this sample and the one before: coning, rotation and sculling terms
-/// to second order, earth terms at the middle of the sample (Savage 1998, parts 1 and 2, for unequal sample times).
-/// `previous` with dt = 0 (none yet) leaves out the terms that need it. Requires dt > 0.
-MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous, const ImuIncrement& imu);
+/// Rate and specific force taken as linear over this sample and the one before: coning and sculling to
+/// second order, rotation to third, earth terms at the middle of the sample (Savage 1998, parts 1 and 2, for
+/// unequal sample times). `previous` with dt = 0 (none yet) leaves out the terms that need it. Requires dt >
+/// 0.
+MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous,
+                                       const ImuIncrement& imu);
 
 }  // namespace canhil::strapdown

@@ -1,8 +1,10 @@
 #pragma once
 // The 12-state velocity and attitude error model of a slave INS; every error = computed - true.
-// x = [dV (NED), phi (NED), accelerometer bias error (body), gyro bias error (body)],  C_computed = exp(-[phi x]) C_true:
-//   dV'  = -(2 w_ie + w_en) x dV + (C f) x phi + C df + white        (Yang, Shim, Park 2001, eqs. (1)-(5); corrected:
-//   phi' = -(w_ie + w_en) x phi - C dw + white                       blocks (1,1) and (2,2) of A are skew matrices)
+// x = [dV (NED), phi (NED), accelerometer bias error (body), gyro bias error (body)],  C_computed = exp(-[phi
+// x]) C_true:
+//   dV'  = -(2 w_ie + w_en) x dV + (C f) x phi + C df + white        (Yang, Shim, Park 2001, eqs. (1)-(5);
+//   corrected: phi' = -(w_ie + w_en) x phi - C dw + white                       blocks (1,1) and (2,2) of A
+//   are skew matrices)
 #include <Eigen/Core>
 #include <array>
 
@@ -18,13 +20,13 @@ using Covariance = Eigen::Matrix<double, kStates, kStates>;
 
 enum Index : int { kVelocity = 0, kAttitude = 3, kAccelBias = 6, kGyroBias = 9 };
 
-/// What the error model needs of the mechanisation since the last update: integrals, so that a step of the specific
-/// force need not fall on an update.
+/// What the error model needs of the mechanisation since the last update: integrals, so that a step of the
+/// specific force need not fall on an update.
 struct Interval {
-  double duration = 0;                                            // [s]
-  Eigen::Vector3d delta_v_n = Eigen::Vector3d::Zero();            // integral of C_bn f_ib_b [m/s]
-  Eigen::Matrix3d C_bn_integral = Eigen::Matrix3d::Zero();        // integral of C_bn [s]
-  Eigen::Vector3d omega_ie_n = Eigen::Vector3d::Zero();           // of the last sample [rad/s]
+  double duration = 0;                                      // [s]
+  Eigen::Vector3d delta_v_n = Eigen::Vector3d::Zero();      // integral of C_bn f_ib_b [m/s]
+  Eigen::Matrix3d C_bn_integral = Eigen::Matrix3d::Zero();  // integral of C_bn [s]
+  Eigen::Vector3d omega_ie_n = Eigen::Vector3d::Zero();     // of the last sample [rad/s]
   Eigen::Vector3d omega_en_n = Eigen::Vector3d::Zero();
 };
 

@@ -15,8 +15,8 @@ struct Prediction {
   double alpha = 0, beta = 0;
 };
 
-// P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt: one step an update interval, since
-// the step is part of the H2 filter's definition.
+// P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt: one step an update
+// interval, since the step is part of the H2 filter's definition.
 Prediction predict(const State& state, const Settings& settings) {
   const Interval& interval = state.ins.interval;
   Prediction next;
@@ -78,7 +78,8 @@ UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const 
   return update_with_difference(state, state.ins.nav.v_eb_n - master_velocity, settings);
 }
 
-UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference, const Settings& settings) {
+UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference,
+                                    const Settings& settings) {
   UpdateResult result;
   const double duration = state.ins.interval.duration;
   if (!(duration > 0)) return result;
@@ -89,7 +90,8 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   result.alpha = prior.alpha;
   result.beta = prior.beta;
   result.innovation = difference - prior.x.segment<3>(kVelocity);
-  // The master's noise is a density: its variance over an interval is R/dt, so the result does not depend on the rate.
+  // The master's noise is a density: its variance over an interval is R/dt, so the result does not depend on
+  // the rate.
   const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() * (settings.velocity_noise_density / duration);
   const auto correction = filtering::update_states<kVelocity, kStates, 3>(prior.P, R, result.innovation);
   result.innovation_covariance = correction.S;

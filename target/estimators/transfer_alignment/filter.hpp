@@ -1,6 +1,7 @@
 #pragma once
-// Velocity-matching transfer alignment (Yang, Shim, Park 2001): a slave INS aligned to a master's velocity by a Kalman
-// or a robust H2 filter. initial() once, propagate() at IMU rate, update() at each velocity of the master.
+// Velocity-matching transfer alignment (Yang, Shim, Park 2001): a slave INS aligned to a master's velocity by
+// a Kalman or a robust H2 filter. initial() once, propagate() at IMU rate, update() at each velocity of the
+// master.
 #include <Eigen/Core>
 #include <cstdint>
 
@@ -38,7 +39,7 @@ enum class Outcome : std::uint8_t {
 /// An update's answer. Unless outcome is ok the state is as before the call.
 struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
-  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();             // V_slave - V_master, less x in an open loop [m/s]
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // V_slave - V_master, less x in an open loop [m/s]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [(m/s)^2]
   double nis = 0;                                                   // chi-square of 3 if consistent
   StateVector dx = StateVector::Zero();                             // K innovation: the correction
@@ -52,12 +53,13 @@ State initial(const strapdown::NavState& nav, const Settings& settings);
 /// One IMU increment (dt > 0): mechanisation with the estimated biases removed, and the interval's means.
 void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
 
-/// The master's velocity [m/s, NED] valid at the last IMU epoch: P over the interval since the last update in one step,
-/// measurement update, and in a closed loop the correction of the INS.
+/// The master's velocity [m/s, NED] valid at the last IMU epoch: P over the interval since the last update in
+/// one step, measurement update, and in a closed loop the correction of the INS.
 UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const Settings& settings);
 
 /// The same from the velocity difference V_slave - V_master [m/s], for a caller who has interpolated V_slave.
-UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference, const Settings& settings);
+UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference,
+                                    const Settings& settings);
 
 /// The best estimate: the INS itself in a closed loop, the INS less x (as of the last update) in an open one.
 Ins estimate(const State& state);

@@ -1,7 +1,7 @@
 #pragma once
-// Aiding that arrives late: the last IMU increments with the INS before each, so that a velocity valid at an earlier
-// epoch is applied at that epoch, and the increments since are mechanised again with the corrected INS. The result is
-// that of a measurement in time, bit for bit.
+// Aiding that arrives late: the last IMU increments with the INS before each, so that a velocity valid at an
+// earlier epoch is applied at that epoch, and the increments since are mechanised again with the corrected
+// INS. The result is that of a measurement in time, bit for bit.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,14 +11,16 @@
 namespace canhil::transfer_alignment {
 
 /// Keeps the last `Capacity` increments (about 0.4 kB each). Epochs are the ends of increments, in integer
-/// microseconds of the measurements' time base. Every propagate and update of a State goes through its History.
+/// microseconds of the measurements' time base. Every propagate and update of a State goes through its
+/// History.
 template <std::size_t Capacity>
 class History {
  public:
   explicit History(std::int64_t start_us) : now_us_(start_us), last_update_us_(start_us) {}
 
   /// transfer_alignment::propagate() of an increment that ends at t_us, remembered.
-  void propagate(State& state, const strapdown::ImuIncrement& imu, std::int64_t t_us, const Settings& settings) {
+  void propagate(State& state, const strapdown::ImuIncrement& imu, std::int64_t t_us,
+                 const Settings& settings) {
     if (count_ == Capacity) {
       first_ = (first_ + 1) % Capacity;
     } else {
@@ -29,9 +31,9 @@ class History {
     transfer_alignment::propagate(state, imu, settings);
   }
 
-  /// update() of a master velocity [m/s, NED] valid at t_us: at that epoch, or, between two epochs, at the later one
-  /// with the INS velocity interpolated linearly to t_us. Refused, with the state untouched: not_reached,
-  /// out_of_order (before the last update), older_than_history.
+  /// update() of a master velocity [m/s, NED] valid at t_us: at that epoch, or, between two epochs, at the
+  /// later one with the INS velocity interpolated linearly to t_us. Refused, with the state untouched:
+  /// not_reached, out_of_order (before the last update), older_than_history.
   UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, std::int64_t t_us,
                       const Settings& settings) {
     if (t_us > now_us_) return refused(Outcome::not_reached);
@@ -39,7 +41,7 @@ class History {
     std::size_t epoch = count_;  // epoch i < count_ is the start of increment i; epoch count_ is now
     while (epoch > 0 && epoch_us(epoch - 1) >= t_us) --epoch;
     const bool between = epoch_us(epoch) != t_us;
-    if (epoch_us(epoch) < t_us || (between && epoch == 0)) return refused(Outcome::older_than_history);
+    if (between && epoch == 0) return refused(Outcome::older_than_history);
 
     State then{ins(state, epoch), state.P, state.x};
     Eigen::Vector3d velocity = then.ins.nav.v_eb_n;
@@ -73,7 +75,9 @@ class History {
   }
   Entry& at(std::size_t i) { return entries_[(first_ + i) % Capacity]; }
   std::int64_t epoch_us(std::size_t i) { return i < count_ ? at(i).before_us : now_us_; }
-  const Ins& ins(const State& state, std::size_t epoch) { return epoch < count_ ? at(epoch).before : state.ins; }
+  const Ins& ins(const State& state, std::size_t epoch) {
+    return epoch < count_ ? at(epoch).before : state.ins;
+  }
 
   std::array<Entry, Capacity> entries_;
   std::size_t first_ = 0, count_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
-// What a user may choose of the transfer-alignment filter. Defaults: the reproduction of Yang, Shim, Park 2001, where
-// P0 of the attitude is deliberately 1 deg for true errors of 5 deg (target/estimators/transfer_alignment/NOTES.md).
+// What a user may choose of the transfer-alignment filter. Defaults: the reproduction of Yang, Shim, Park
+// 2001, where P0 of the attitude is deliberately 1 deg for true errors of 5 deg
+// (target/estimators/transfer_alignment/NOTES.md).
 #include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
@@ -9,16 +10,17 @@
 
 namespace canhil::transfer_alignment {
 
-inline constexpr double kStandardGravity = 9.80665;               // of "g" and "ug" in sensor figures [m/s^2]
+inline constexpr double kStandardGravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
 inline constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 enum class Algorithm : std::uint8_t { kalman, robust_h2 };
 
-/// Structure of the uncertain block A_v,phi = L Delta N, S = [(1 1 1) x]: (alpha I, I), (alpha S, I), (I, alpha S), (I, alpha I).
-/// one and four are the same filter: alpha cancels in beta.
+/// Structure of the uncertain block A_v,phi = L Delta N, S = [(1 1 1) x]: (alpha I, I), (alpha S, I), (I,
+/// alpha S), (I, alpha I). one and four are the same filter: alpha cancels in beta.
 enum class H2Case : std::uint8_t { one = 1, two, three, four };
 
-/// cov_df: alpha = sqrt(tr([f x] P_phi [f x]')), capped, anew at each step (the paper's ||dC f|| needs the unknown dC).
+/// cov_df: alpha = sqrt(tr([f x] P_phi [f x]')), capped, anew at each step (the paper's ||dC f|| needs the
+/// unknown dC).
 enum class AlphaRule : std::uint8_t { cov_df, constant };
 
 struct Settings {
@@ -26,18 +28,19 @@ struct Settings {
   H2Case h2_case = H2Case::two;
   AlphaRule alpha_rule = AlphaRule::cov_df;
   double alpha_constant = 0;  // [m/s^2], for AlphaRule::constant
-  double fading_per_s = 0;    // Kalman only: P grows by exp(2 fading dt), i.e. sigmas by exp(fading dt), before Q
+  double fading_per_s =
+      0;  // Kalman only: P grows by exp(2 fading dt), i.e. sigmas by exp(fading dt), before Q
   bool closed_loop = true;
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
 
-  double velocity_noise_density = 0.01;                                  // of the master, R_k = this/dt [(m/s)^2 s]
-  double accel_noise_density = 50e-6 * kStandardGravity;                 // [m/s^2/sqrt(Hz)]
-  double gyro_noise_density = 0.125 * kRadPerDeg / 60;                   // [rad/s/sqrt(Hz)]
+  double velocity_noise_density = 0.01;                   // of the master, R_k = this/dt [(m/s)^2 s]
+  double accel_noise_density = 50e-6 * kStandardGravity;  // [m/s^2/sqrt(Hz)]
+  double gyro_noise_density = 0.125 * kRadPerDeg / 60;    // [rad/s/sqrt(Hz)]
 
-  Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(1.0);                               // NED [m/s]
-  Eigen::Vector3d attitude_sigma_0 = Eigen::Vector3d::Constant(kRadPerDeg);                        // NED [rad]
-  Eigen::Vector3d accel_bias_sigma_0 = Eigen::Vector3d::Constant(300e-6 * kStandardGravity);       // body [m/s^2]
-  Eigen::Vector3d gyro_bias_sigma_0 = Eigen::Vector3d::Constant(3 * kRadPerDeg / 3600);            // body [rad/s]
+  Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(1.0);                          // NED [m/s]
+  Eigen::Vector3d attitude_sigma_0 = Eigen::Vector3d::Constant(kRadPerDeg);                   // NED [rad]
+  Eigen::Vector3d accel_bias_sigma_0 = Eigen::Vector3d::Constant(300e-6 * kStandardGravity);  // body [m/s^2]
+  Eigen::Vector3d gyro_bias_sigma_0 = Eigen::Vector3d::Constant(3 * kRadPerDeg / 3600);       // body [rad/s]
 };
 
 }  // namespace canhil::transfer_alignment

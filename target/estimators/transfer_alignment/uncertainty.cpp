@@ -11,9 +11,10 @@ namespace canhil::transfer_alignment {
 
 double uncertainty_size(const Settings& settings, const Covariance& P, const Eigen::Vector3d& f_n) {
   if (settings.alpha_rule == AlphaRule::constant) return settings.alpha_constant;
-  // tr([f x] P [f x]') = tr(P) |f|^2 - f' P f
-  const auto P_phi = P.block<3, 3>(kAttitude, kAttitude);
-  const double variance = P_phi.trace() * f_n.squaredNorm() - f_n.dot(P_phi * f_n);
+  // Not as tr(P) |f|^2 - f' P f, which cancels for a heading error in level flight, the very case to tell
+  // apart.
+  const Eigen::Matrix3d F = strapdown::skew(f_n);
+  const double variance = (F * P.block<3, 3>(kAttitude, kAttitude)).cwiseProduct(F).sum();
   const double largest_angle = std::min(3 * settings.attitude_sigma_0.norm(), std::numbers::pi);
   const double cap = 2 * std::sin(largest_angle / 2) * f_n.norm();
   return std::min(std::sqrt(std::max(variance, 0.0)), cap);
@@ -23,12 +24,16 @@ Uncertainty uncertainty(H2Case h2_case, double alpha) {
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d S = strapdown::skew(Eigen::Vector3d::Ones());
   switch (h2_case) {
-    case H2Case::one: return {alpha * I, I};
-    case H2Case::two: return {alpha * S, I};
-    case H2Case::three: return {I, alpha * S};
-    case H2Case::four: break;
+    case H2Case::one:
+      return {alpha * I, I, alpha * alpha};
+    case H2Case::two:
+      return {alpha * S, I, 3 * alpha * alpha};
+    case H2Case::three:
+      return {I, alpha * S, 1};
+    case H2Case::four:
+      break;
   }
-  return {I, alpha * I};
+  return {I, alpha * I, 1};
 }
 
 double add_h2_terms(const Uncertainty& uncertain, const Covariance& P, double duration, Covariance& G,
@@ -37,12 +42,10 @@ double add_h2_terms(const Uncertainty& uncertain, const Covariance& P, double du
   const Eigen::Matrix<double, kStates, 3> PNt =
       P.middleCols<3>(kAttitude).lazyProduct(uncertain.N.transpose());
   const Eigen::Matrix3d NPPNt = PNt.transpose().lazyProduct(PNt);
-  const Eigen::Matrix3d LLt = uncertain.L * uncertain.L.transpose();
-  const double beta =
-      filtering::h2_beta(filtering::largest_eigenvalue<3>(NPPNt), filtering::largest_eigenvalue<3>(LLt));
+  const double beta = filtering::h2_beta(filtering::largest_eigenvalue<3>(NPPNt), uncertain.lambda_LL);
   if (!(beta > 0)) return 0;
   G.middleCols<3>(kAttitude).noalias() += PNt.lazyProduct(uncertain.N * (duration / beta));
-  Q_velocity += LLt * (beta * duration);
+  Q_velocity += uncertain.L * uncertain.L.transpose() * (beta * duration);
   return beta;
 }
 

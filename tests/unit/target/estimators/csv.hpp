@@ -29,7 +29,9 @@ class Csv {
   std::size_t rows() const { return rows_.size(); }
   double at(std::size_t row, const std::string& name) const { return rows_.at(row).at(column_.at(name)); }
   /// `count` neighbouring columns, the first by name.
-  const double* from(std::size_t row, const std::string& name) const { return &rows_.at(row).at(column_.at(name)); }
+  const double* from(std::size_t row, const std::string& name) const {
+    return &rows_.at(row).at(column_.at(name));
+  }
 
  private:
   std::map<std::string, std::size_t> column_;

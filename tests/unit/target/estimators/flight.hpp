@@ -1,6 +1,6 @@
 #pragma once
-// The paper's flight, and the error-free IMU that flies it through the reference mechanisation, inverted exactly:
-// level, heading 0, 500 km/h north for 10 s, then 1 g north.
+// The paper's flight (level, heading 0, 500 km/h north for 10 s, then 9.81 m/s^2 north) and its error-free
+// IMU, as in the published vectors.
 #include <Eigen/Core>
 
 #include "target/estimators/strapdown/attitude.hpp"
@@ -21,13 +21,20 @@ inline strapdown::NavState flight_start() {
 }
 
 /// The slave's navigation state whose errors (computed - true) are dV [m/s] and phi [rad].
-inline strapdown::NavState with_errors(strapdown::NavState nav, const Eigen::Vector3d& dV, const Eigen::Vector3d& phi) {
+inline strapdown::NavState with_errors(strapdown::NavState nav, const Eigen::Vector3d& dV,
+                                       const Eigen::Vector3d& phi) {
   nav.v_eb_n += dV;
   nav.C_bn = strapdown::exp_rotation(-phi) * nav.C_bn;
   return nav;
 }
 
-/// The true state a sample of dt [s] after `nav` at t [s]: constant acceleration, latitude by the trapezoidal rule.
+/// The start of the published runs: 5 deg and 1 m/s on each axis.
+inline strapdown::NavState published_start() {
+  return with_errors(flight_start(), Eigen::Vector3d::Ones(), Eigen::Vector3d::Constant(5 * kRadPerDeg));
+}
+
+/// The true state a sample of dt [s] after `nav` at t [s]: constant acceleration, latitude by the trapezoidal
+/// rule.
 inline strapdown::NavState flight_next(const strapdown::NavState& nav, double t, double dt) {
   strapdown::NavState next = nav;
   if (t + dt / 2 > 10) next.v_eb_n.x() += kFlightAcceleration * dt;

@@ -1,0 +1,28 @@
+// Under callgrind: every measured call goes through a function of its own, called once, whose cost is
+// collected.
+#include <cstdio>
+
+#include "tests/perf/estimators/warm_filter.hpp"
+
+using namespace canhil::transfer_alignment;
+using canhil::strapdown::Mechanization;
+
+#define MEASURED extern "C" [[gnu::noinline]]
+
+MEASURED void imu_step_reference(WarmFilter& f) { propagate(f.state, f.imu, f.settings); }
+MEASURED void imu_step_two_sample(WarmFilter& f) { propagate(f.state, f.imu, f.settings); }
+MEASURED UpdateResult update_kalman(WarmFilter& f) { return update(f.state, f.master_velocity, f.settings); }
+MEASURED UpdateResult update_robust_h2(WarmFilter& f) {
+  return update(f.state, f.master_velocity, f.settings);
+}
+
+int main() {
+  WarmFilter reference = warm_filter(Algorithm::kalman, Mechanization::reference);
+  WarmFilter kalman = warm_filter(Algorithm::kalman, Mechanization::two_sample);
+  WarmFilter robust_h2 = warm_filter(Algorithm::robust_h2, Mechanization::two_sample);
+  imu_step_reference(reference);
+  imu_step_two_sample(kalman);
+  const double nis = update_kalman(kalman).nis + update_robust_h2(robust_h2).nis;
+  std::printf("NIS %g\n", nis);
+  return 0;
+}

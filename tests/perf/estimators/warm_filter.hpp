@@ -1,0 +1,31 @@
+#pragma once
+// A transfer-alignment filter in mid-flight, ready for one more IMU sample or one more update.
+#include "target/estimators/transfer_alignment/filter.hpp"
+#include "tests/unit/target/estimators/flight.hpp"
+
+namespace canhil::transfer_alignment {
+
+struct WarmFilter {
+  Settings settings;
+  State state;  // an IMU interval after its last update
+  strapdown::ImuIncrement imu;
+  Eigen::Vector3d master_velocity;
+};
+
+inline WarmFilter warm_filter(Algorithm algorithm, strapdown::Mechanization mechanization) {
+  WarmFilter filter;
+  filter.settings.algorithm = algorithm;
+  filter.settings.mechanization = mechanization;
+  filter.state = initial(published_start(), filter.settings);
+  strapdown::NavState truth = flight_start();
+  for (int k = 0; k < 1200; ++k) {
+    filter.imu = flight_increment(truth, k * 0.01, 0.01);
+    propagate(filter.state, filter.imu, filter.settings);
+    truth = flight_next(truth, k * 0.01, 0.01);
+    if (k % 10 == 9 && k < 1190) update(filter.state, truth.v_eb_n, filter.settings);
+  }
+  filter.master_velocity = truth.v_eb_n;
+  return filter;
+}
+
+}  // namespace canhil::transfer_alignment

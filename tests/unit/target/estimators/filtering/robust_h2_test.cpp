@@ -1,0 +1,71 @@
+#include "target/estimators/filtering/robust_h2.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/unit/target/estimators/random_matrix.hpp"
+
+namespace canhil::filtering {
+namespace {
+
+TEST(RobustH2, LargestEigenvalueAgreesWithTheIterativeSolver) {
+  std::mt19937_64 engine(1);
+  for (int k = 0; k < 100; ++k) {
+    const Matrix<3, 3> m = random_covariance<3>(engine);
+    const Eigen::SelfAdjointEigenSolver<Matrix<3, 3>> solver(m, Eigen::EigenvaluesOnly);
+    EXPECT_NEAR(largest_eigenvalue<3>(m) / solver.eigenvalues()(2), 1, 1e-14);
+  }
+  EXPECT_NEAR(largest_eigenvalue<3>(1e-9 * Matrix<3, 3>::Identity()), 1e-9, 1e-23) << "threefold eigenvalue";
+  EXPECT_NEAR(largest_eigenvalue<5>(Matrix<5, 5>::Identity() * 2), 2, 1e-15);
+}
+
+TEST(RobustH2, BetaIsZeroWhenATermVanishes) {
+  EXPECT_DOUBLE_EQ(h2_beta(2, 1), 2);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const double nothing : {0.0, -1e-30, std::nan(""), infinity}) {
+    EXPECT_EQ(h2_beta(nothing, 1), 0) << nothing;
+    EXPECT_EQ(h2_beta(1, nothing), 0) << nothing;
+  }
+}
+
+// The point of the step: for every |Delta| <= 1 its P bounds the true covariance of A + L Delta N (to first
+// order in dt).
+TEST(RobustH2, StepBoundsEveryUncertainSystem) {
+  std::mt19937_64 engine(2);
+  const double dt = 1e-4;
+  const Matrix<4, 4> P = random_covariance<4>(engine), A = random_matrix<4, 4>(engine);
+  const Matrix<4, 4> Q = Matrix<4, 4>::Identity();
+  const Matrix<4, 2> L = random_matrix<4, 2>(engine);
+  const Matrix<2, 4> N = random_matrix<2, 4>(engine);
+  const double beta =
+      h2_beta(largest_eigenvalue<2>(N * P * P * N.transpose()), largest_eigenvalue<2>(L.transpose() * L));
+  const Matrix<4, 4> bound = propagate_h2<4, 2, 2>(P, A, Q, L, N, beta, dt);
+  for (int k = 0; k < 200; ++k) {
+    Matrix<2, 2> Delta = random_matrix<2, 2>(engine);
+    Delta /= Delta.operatorNorm();
+    const Matrix<4, 4> truth = propagate_h2<4, 2, 2>(P, A + L * Delta * N, Q, L, N, 0, dt);
+    const Eigen::SelfAdjointEigenSolver<Matrix<4, 4>> gap((bound - truth) / dt, Eigen::EigenvaluesOnly);
+    // Of the neglected order dt * |A|^2 |P|.
+    EXPECT_GT(gap.eigenvalues()(0), -0.05);
+  }
+}
+
+TEST(RobustH2, StepAddsTheTermsOfTheRiccatiEquation) {
+  std::mt19937_64 engine(3);
+  const double dt = 1e-6, beta = 0.7;
+  const Matrix<4, 4> P = random_covariance<4>(engine), A = random_matrix<4, 4>(engine);
+  const Matrix<4, 4> Q = Matrix<4, 4>::Identity();
+  const Matrix<4, 2> L = random_matrix<4, 2>(engine);
+  const Matrix<2, 4> N = random_matrix<2, 4>(engine);
+  const Matrix<4, 4> rate = (propagate_h2<4, 2, 2>(P, A, Q, L, N, beta, dt) - P) / dt;
+  // P N'N/beta sits in Phi, hence twice on the right-hand side: the step of the published filter.
+  const Matrix<4, 4> expected =
+      A * P + P * A.transpose() + 2 / beta * P * N.transpose() * N * P + beta * L * L.transpose() + Q;
+  EXPECT_LT((rate - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff(), 1e-4);
+}
+
+}  // namespace
+}  // namespace canhil::filtering

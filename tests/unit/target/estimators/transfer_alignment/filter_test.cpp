@@ -1,0 +1,179 @@
+// Properties of the transfer-alignment filter that hold without a reference.
+#include "target/estimators/transfer_alignment/filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cstring>
+#include <limits>
+
+#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+#include "tests/unit/target/estimators/flight.hpp"
+#include "tests/unit/target/estimators/transfer_alignment/full_run.hpp"
+
+namespace canhil::transfer_alignment {
+namespace {
+
+using Eigen::Vector3d;
+
+// Runs the published inputs, handing each state and result to `inspect`.
+template <class Inspect>
+State run(const Settings& settings, Inspect inspect) {
+  State state = initial(published_start(), settings);
+  for (const Sample& sample : full_run_inputs()) {
+    propagate(state, sample.imu, settings);
+    if (sample.master_velocity) inspect(state, update(state, *sample.master_velocity, settings));
+  }
+  return state;
+}
+State run(const Settings& settings) {
+  return run(settings, [](const State&, const UpdateResult&) {});
+}
+
+bool same_bits(const State& a, const State& b) {
+  return a.P == b.P && a.x == b.x && a.ins.nav.C_bn == b.ins.nav.C_bn &&
+         a.ins.nav.v_eb_n == b.ins.nav.v_eb_n && a.ins.nav.latitude == b.ins.nav.latitude &&
+         a.ins.accel_bias == b.ins.accel_bias && a.ins.gyro_bias == b.ins.gyro_bias;
+}
+
+TEST(TransferAlignment, H2WithoutUncertaintyIsTheKalmanFilterBitForBit) {
+  Settings kalman;
+  kalman.algorithm = Algorithm::kalman;
+  const State expected = run(kalman);
+  for (const double alpha : {0.0, 1e-200}) {
+    Settings h2;
+    h2.alpha_rule = AlphaRule::constant;
+    h2.alpha_constant = alpha;
+    const State state = run(h2, [](const State&, const UpdateResult& result) { ASSERT_EQ(result.beta, 0); });
+    EXPECT_TRUE(same_bits(state, expected)) << alpha;
+  }
+  EXPECT_FALSE(same_bits(run(Settings{}), expected));
+}
+
+TEST(TransferAlignment, H2CasesOneAndFourAreTheSameFilter) {
+  Settings one, four;
+  one.h2_case = H2Case::one;
+  four.h2_case = H2Case::four;
+  const State a = run(one), b = run(four);
+  EXPECT_LT((a.P.diagonal().cwiseQuotient(b.P.diagonal()) - StateVector::Ones()).cwiseAbs().maxCoeff(),
+            1e-12);
+  EXPECT_LT((a.ins.nav.v_eb_n - b.ins.nav.v_eb_n).norm() / a.ins.nav.v_eb_n.norm(), 1e-12);
+  EXPECT_LT((a.ins.nav.C_bn - b.ins.nav.C_bn).norm(), 1e-12);
+}
+
+TEST(TransferAlignment, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
+  for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::robust_h2}) {
+    Settings settings;
+    settings.algorithm = algorithm;
+    double smallest = std::numeric_limits<double>::infinity();
+    run(settings, [&](const State& state, const UpdateResult& result) {
+      ASSERT_EQ(result.outcome, Outcome::ok);
+      ASSERT_EQ(state.P, state.P.transpose());
+      ASSERT_TRUE(filtering::is_positive_definite<kStates>(state.P));
+      const Eigen::SelfAdjointEigenSolver<Covariance> solver(state.P, Eigen::EigenvaluesOnly);
+      smallest = std::min(smallest, solver.eigenvalues()(0));
+    });
+    // The gyro biases hardly move from (3 deg/h)^2 = 2.1e-10; the reference saw 1.6e-10.
+    EXPECT_GT(smallest, 1.4e-10);
+  }
+}
+
+TEST(TransferAlignment, VanishingAttitudeCovarianceGivesNoNan) {
+  for (const double sigma : {0.0, 1e-160, 1e-80, 1e-20}) {
+    Settings settings;
+    settings.attitude_sigma_0.setConstant(sigma);
+    settings.gyro_noise_density = 0;
+    settings.gyro_bias_sigma_0.setConstant(1e-12);
+    int updates = 0;
+    const State state = run(settings, [&](const State&, const UpdateResult& result) {
+      if (result.outcome == Outcome::ok) ++updates;
+    });
+    EXPECT_TRUE(state.P.allFinite() && state.ins.nav.C_bn.allFinite() && state.ins.nav.v_eb_n.allFinite())
+        << sigma;
+    // A variance of exactly 0 is no covariance: refused until the gyro bias has put some there.
+    if (sigma > 1e-100) {
+      EXPECT_EQ(updates, 200) << sigma;
+    }
+  }
+}
+
+TEST(TransferAlignment, TwoMechanisationsAgreeOnTheFullRun) {
+  Settings reference, two_sample;
+  reference.algorithm = two_sample.algorithm = Algorithm::kalman;
+  reference.mechanization = strapdown::Mechanization::reference;
+  two_sample.mechanization = strapdown::Mechanization::two_sample;
+  std::vector<strapdown::NavState> expected;
+  run(reference, [&](const State& state, const UpdateResult&) { expected.push_back(state.ins.nav); });
+  std::size_t k = 0;
+  run(two_sample, [&](const State& state, const UpdateResult&) {
+    EXPECT_LT((state.ins.nav.v_eb_n - expected[k].v_eb_n).norm(), 1e-3) << k;
+    EXPECT_LT(strapdown::misalignment(state.ins.nav.C_bn, expected[k].C_bn).norm(), 1e-5) << k;
+    EXPECT_NE(state.ins.nav.C_bn, expected[k].C_bn) << "the setting has no effect";
+    ++k;
+  });
+  EXPECT_EQ(k, 200);
+}
+
+// Small errors are linear: open and closed loop must estimate the same.
+TEST(TransferAlignment, OpenLoopEstimatesWhatTheClosedLoopDoesForSmallErrors) {
+  Settings closed, open;
+  closed.algorithm = open.algorithm = Algorithm::kalman;
+  open.closed_loop = false;
+  const auto start = with_errors(flight_start(), Vector3d(0.01, -0.02, 0.01), Vector3d(1e-4, -1e-4, 2e-4));
+  State a = initial(start, closed), b = initial(start, open);
+  strapdown::NavState truth = flight_start();
+  for (int k = 0; k < 2000; ++k) {
+    const double dt = 0.01, t = k * dt;
+    const auto imu = flight_increment(truth, t, dt);
+    truth = flight_next(truth, t, dt);
+    propagate(a, imu, closed);
+    propagate(b, imu, open);
+    if (k % 10 != 9) continue;
+    ASSERT_EQ(update(a, truth.v_eb_n, closed).outcome, Outcome::ok);
+    ASSERT_EQ(update(b, truth.v_eb_n, open).outcome, Outcome::ok);
+  }
+  EXPECT_TRUE(a.x.isZero(0));
+  EXPECT_GT(b.x.segment<3>(kAttitude).norm(), 1e-4) << "the open loop leaves the INS alone";
+  const Ins from_a = estimate(a), from_b = estimate(b);
+  // Second order: |phi| 2e-4 squared, and 20 s of g times that.
+  EXPECT_LT(strapdown::misalignment(from_a.nav.C_bn, from_b.nav.C_bn).norm(), 2e-7);
+  EXPECT_LT((from_a.nav.v_eb_n - from_b.nav.v_eb_n).norm(), 1e-5);
+}
+
+TEST(TransferAlignment, FadingGrowsTheSigmasAtItsRate) {
+  Settings plain, fading;
+  plain.algorithm = fading.algorithm = Algorithm::kalman;
+  fading.fading_per_s = 0.1;
+  const auto imu = flight_increment(flight_start(), 0, 0.01);
+  State a = initial(flight_start(), plain), b = a;
+  for (int k = 0; k < 10; ++k) propagate(a, imu, plain), propagate(b, imu, fading);
+  update(a, flight_start().v_eb_n, plain);
+  update(b, flight_start().v_eb_n, fading);
+  // Gyro biases are not observed yet: their sigma has grown by exp(0.1 * 0.1).
+  EXPECT_NEAR(std::sqrt(b.P(11, 11) / a.P(11, 11)), std::exp(0.01), 1e-9);
+}
+
+TEST(TransferAlignment, RefusedUpdatesLeaveTheStateAlone) {
+  const Settings settings;
+  State state = initial(published_start(), settings);
+  EXPECT_EQ(update(state, Vector3d::Zero(), settings).outcome, Outcome::no_interval);
+
+  propagate(state, flight_increment(flight_start(), 0, 0.01), settings);
+  const State before = state;
+  const Vector3d nan = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(update(state, nan, settings).outcome, Outcome::non_finite);
+  EXPECT_TRUE(same_bits(state, before));
+  EXPECT_EQ(state.ins.interval.duration, before.ins.interval.duration);
+
+  State broken = before;
+  broken.P(0, 0) = -10;
+  EXPECT_EQ(update(broken, Vector3d::Zero(), settings).outcome, Outcome::not_positive_definite);
+  EXPECT_EQ(broken.P(0, 0), -10);
+  EXPECT_EQ(broken.ins.nav.v_eb_n, before.ins.nav.v_eb_n);
+
+  EXPECT_EQ(update(state, flight_start().v_eb_n, settings).outcome, Outcome::ok) << "and the next one serves";
+}
+
+}  // namespace
+}  // namespace canhil::transfer_alignment
