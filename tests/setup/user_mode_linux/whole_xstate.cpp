@@ -1,9 +1,11 @@
-// Preloaded into user-mode Linux: lets it run on hosts whose processors have more register state than it knows of.
+// Preloaded into user-mode Linux: lets it run on hosts whose processors have more register state than it
+// knows of.
 //
-// User-mode Linux 6.1 keeps 2696 bytes of XSAVE state for each task (x87, SSE, AVX, AVX-512, PKRU). The host takes back
-// only a whole state (xstateregs_set() in Linux: EFAULT for a shorter one), which on processors with AMX has 11008 bytes.
-// What the guest does not know it cannot have used: those bytes are zero, and the header's bit vector, which
-// travels within the known part, says that these components are in their initial state.
+// User-mode Linux 6.1 keeps 2696 bytes of XSAVE state for each task (x87, SSE, AVX, AVX-512, PKRU). The host
+// takes back only a whole state (xstateregs_set() in Linux: EFAULT for a shorter one), which on processors
+// with AMX has 11008 bytes. What the guest does not know it cannot have used: those bytes are zero, and the
+// header's bit vector, which travels within the known part, says that these components are in their initial
+// state.
 #include <dlfcn.h>
 #include <elf.h>
 #include <sys/ptrace.h>
@@ -39,7 +41,8 @@ extern "C" long ptrace(enum __ptrace_request request, ...) noexcept {
     static const std::size_t whole_size = size_on_host(real, pid);
     const auto* known = static_cast<const iovec*>(data);
     if (known->iov_len < whole_size) {
-      static std::array<char, most_state> state;  // zero behind the known part; user-mode Linux has one thread here
+      static std::array<char, most_state>
+          state;  // zero behind the known part; user-mode Linux has one thread here
       std::memcpy(state.data(), known->iov_base, known->iov_len);
       iovec whole{state.data(), whole_size};
       return real(request, pid, address, &whole);
