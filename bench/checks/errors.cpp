@@ -32,11 +32,12 @@ std::vector<NavigationError> navigation_errors(const Observations& seen, const w
     if (answer.cause_us < 0 || answer.cause_us > truth.end_us()) continue;
     const world::Truth at = truth.at(answer.cause_us);
     const world::Euler angles = world::euler_from(at.C_bn);
-    errors.push_back({.t_us = answer.cause_us,
-                      .angles = {wrapped(answer.angles.roll - angles.roll), wrapped(answer.angles.pitch - angles.pitch),
-                                 wrapped(answer.angles.heading - angles.heading)},
-                      .v_eb_n = answer.v_eb_n - at.v_eb_n,
-                      .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn)});
+    errors.push_back(
+        {.t_us = answer.cause_us,
+         .angles = {wrapped(answer.angles.roll - angles.roll), wrapped(answer.angles.pitch - angles.pitch),
+                    wrapped(answer.angles.heading - angles.heading)},
+         .v_eb_n = answer.v_eb_n - at.v_eb_n,
+         .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn)});
   }
   return errors;
 }
@@ -56,8 +57,8 @@ std::vector<Normalised> attitude_nees(const Observations& seen, const std::vecto
   return series;
 }
 
-std::optional<std::int64_t> convergence_us(const std::vector<NavigationError>& errors, double world::Euler::*angle,
-                                           double within_rad) {
+std::optional<std::int64_t> convergence_us(const std::vector<NavigationError>& errors,
+                                           double world::Euler::*angle, double within_rad) {
   const auto outside = std::find_if(errors.rbegin(), errors.rend(), [&](const NavigationError& error) {
     return !(std::abs(error.angles.*angle) <= within_rad);  // NaN is outside
   });

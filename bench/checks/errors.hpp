@@ -32,7 +32,7 @@ struct Normalised {
 std::vector<Normalised> attitude_nees(const Observations& seen, const std::vector<NavigationError>& errors);
 
 /// When |error| of an angle enters the band for good [us]; none: it is outside at the end.
-std::optional<std::int64_t> convergence_us(const std::vector<NavigationError>& errors, double world::Euler::*angle,
-                                           double within_rad);
+std::optional<std::int64_t> convergence_us(const std::vector<NavigationError>& errors,
+                                           double world::Euler::*angle, double within_rad);
 
 }  // namespace canhil::checks

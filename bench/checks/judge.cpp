@@ -1,9 +1,9 @@
 #include "bench/checks/judge.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
-#include <fmt/format.h>
 #include <numeric>
 
 #include "bench/checks/timing.hpp"
@@ -16,8 +16,8 @@ using world::units::mrad;
 
 constexpr double degrees_of_freedom = 3;
 
-// The bench must keep its own deadlines to judge those of the target: a transmission later than this is a fault of the
-// host. A tenth of the shortest period of the bus.
+// The bench must keep its own deadlines to judge those of the target: a transmission later than this is a
+// fault of the host. A tenth of the shortest period of the bus.
 constexpr std::int64_t lateness_limit_ns = 1'000'000;
 constexpr double lateness_quantile = 0.99;
 
@@ -58,8 +58,9 @@ double component(const world::Vector3& v, scenario::VelocityAxis axis) {
 template <class Series>
 auto inside(const Series& series, const scenario::Window& window) {
   Series part;
-  std::ranges::copy_if(series, std::back_inserter(part),
-                       [&](const auto& item) { return item.t_us >= window.from_us && item.t_us <= window.to_us; });
+  std::ranges::copy_if(series, std::back_inserter(part), [&](const auto& item) {
+    return item.t_us >= window.from_us && item.t_us <= window.to_us;
+  });
   return part;
 }
 
@@ -76,11 +77,13 @@ class Judge {
 
   Finding operator()(const scenario::AttitudeError& rule) const {
     const auto part = inside(errors_, rule.window);
-    const std::string expected = fmt::format("|error| < {:g} mrad {}", rule.below / mrad, seconds(rule.window));
+    const std::string expected =
+        fmt::format("|error| < {:g} mrad {}", rule.below / mrad, seconds(rule.window));
     if (part.empty()) return {Outcome::fail, "no answers", expected};
     double worst = 0;
     for (const auto& error : part) worst = std::max(worst, std::abs(error.angles.*member(rule.axis)));
-    return {pass_if(worst < rule.below), fmt::format("max {:.3f} mrad of {}", worst / mrad, part.size()), expected};
+    return {pass_if(worst < rule.below), fmt::format("max {:.3f} mrad of {}", worst / mrad, part.size()),
+            expected};
   }
 
   Finding operator()(const scenario::Convergence& rule) const {
@@ -88,7 +91,8 @@ class Judge {
     const std::string expected = fmt::format("within {:g} mrad for good before {:g} s", rule.within / mrad,
                                              static_cast<double>(rule.before_us) * 1e-6);
     if (!t_us) return {Outcome::fail, errors_.empty() ? "no answers" : "not within at the end", expected};
-    return {pass_if(*t_us < rule.before_us), fmt::format("{:.2f} s", static_cast<double>(*t_us) * 1e-6), expected};
+    return {pass_if(*t_us < rule.before_us), fmt::format("{:.2f} s", static_cast<double>(*t_us) * 1e-6),
+            expected};
   }
 
   Finding operator()(const scenario::VelocityError& rule) const {
@@ -101,15 +105,18 @@ class Judge {
   }
 
   Finding operator()(const scenario::Consistency& rule) const {
-    const auto part = inside(rule.statistic == scenario::Statistic::nis ? nis() : attitude_nees(evidence_.seen, errors_),
-                             rule.window);
+    const auto part =
+        inside(rule.statistic == scenario::Statistic::nis ? nis() : attitude_nees(evidence_.seen, errors_),
+               rule.window);
     const auto [low, high] = interval(rule, part.size());
-    const std::string expected = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(rule.window));
+    const std::string expected =
+        fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(rule.window));
     if (part.empty()) return {Outcome::fail, "no answers", expected};
-    const double sum =
-        std::accumulate(part.begin(), part.end(), 0.0, [](double s, const Normalised& n) { return s + n.value; });
+    const double sum = std::accumulate(part.begin(), part.end(), 0.0,
+                                       [](double s, const Normalised& n) { return s + n.value; });
     const double mean = sum / static_cast<double>(part.size());
-    return {pass_if(mean >= low && mean <= high), fmt::format("mean {:.3f} of {}", mean, part.size()), expected};
+    return {pass_if(mean >= low && mean <= high), fmt::format("mean {:.3f} of {}", mean, part.size()),
+            expected};
   }
 
   Finding operator()(const scenario::OutputPeriod& rule) const {
@@ -118,15 +125,17 @@ class Judge {
     if (!evidence_.timing_unfit.empty()) return {Outcome::not_measured, evidence_.timing_unfit, expected};
     const Distribution periods = distribution(periods_s(evidence_.seen, rule.message, rule.window));
     if (periods.count == 0) return {Outcome::fail, "fewer than two arrivals", expected};
-    const bool good = periods.min >= nominal * (1 - rule.within) && periods.max <= nominal * (1 + rule.within);
+    const bool good =
+        periods.min >= nominal * (1 - rule.within) && periods.max <= nominal * (1 + rule.within);
     return {pass_if(good),
-            fmt::format("{:.3f} to {:.3f} ms of {}", periods.min * 1e3, periods.max * 1e3, periods.count), expected};
+            fmt::format("{:.3f} to {:.3f} ms of {}", periods.min * 1e3, periods.max * 1e3, periods.count),
+            expected};
   }
 
   Finding operator()(const scenario::Latency& rule) const {
-    const std::string expected =
-        fmt::format("{} < {:g} ms", rule.quantile >= 1 ? "max" : fmt::format("{:g} % quantile", rule.quantile * 100),
-                    static_cast<double>(rule.below_us) * 1e-3);
+    const std::string expected = fmt::format(
+        "{} < {:g} ms", rule.quantile >= 1 ? "max" : fmt::format("{:g} % quantile", rule.quantile * 100),
+        static_cast<double>(rule.below_us) * 1e-3);
     if (!evidence_.timing_unfit.empty()) return {Outcome::not_measured, evidence_.timing_unfit, expected};
     const auto sample = latencies_s(evidence_.seen, rule.message, rule.window);
     if (sample.empty()) return {Outcome::fail, "no answers", expected};
@@ -139,7 +148,8 @@ class Judge {
     if (!evidence_.seen.counters) return {Outcome::fail, "no TargetCounters", "counters reported"};
     const messages::TargetCounters& counters = *evidence_.seen.counters;
     Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
-    const auto judge_one = [&](std::string_view what, const std::optional<std::int64_t>& most, std::int64_t value) {
+    const auto judge_one = [&](std::string_view what, const std::optional<std::int64_t>& most,
+                               std::int64_t value) {
       if (!most) return;
       const std::string_view separator = finding.expected.empty() ? "" : ", ";
       finding.expected += fmt::format("{}{} <= {}", separator, what, *most);
@@ -154,10 +164,11 @@ class Judge {
   }
 
   Finding operator()(const scenario::Heartbeat& rule) const {
-    const std::string expected = fmt::format("never silent for more than {:g} s", static_cast<double>(rule.silent_at_most_us) * 1e-6);
+    const std::string expected =
+        fmt::format("never silent for more than {:g} s", static_cast<double>(rule.silent_at_most_us) * 1e-6);
     if (!evidence_.timing_unfit.empty()) return {Outcome::not_measured, evidence_.timing_unfit, expected};
-    const Distribution gaps =
-        distribution(periods_s(evidence_.seen, messages::TargetHeartbeat::info.name, {0, evidence_.duration_us}));
+    const Distribution gaps = distribution(
+        periods_s(evidence_.seen, messages::TargetHeartbeat::info.name, {0, evidence_.duration_us}));
     if (gaps.count == 0) return {Outcome::fail, "fewer than two heartbeats", expected};
     return {pass_if(gaps.max * 1e6 <= static_cast<double>(rule.silent_at_most_us)),
             fmt::format("longest gap {:.3f} s of {}", gaps.max, gaps.count), expected};
@@ -172,7 +183,8 @@ class Judge {
 
   // The mean of n independent chi-squares of k degrees of freedom is chi-square of n k, divided by n.
   static std::pair<double, double> interval(const scenario::Consistency& rule, std::size_t count) {
-    if (const auto* between = std::get_if<scenario::MeanBetween>(&rule.bound)) return {between->low, between->high};
+    if (const auto* between = std::get_if<scenario::MeanBetween>(&rule.bound))
+      return {between->low, between->high};
     const double probability = std::get<scenario::Probability>(rule.bound).value;
     const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
     const boost::math::chi_squared chi_squared(n * degrees_of_freedom);
@@ -187,8 +199,10 @@ class Judge {
 }  // namespace
 
 std::string unfit_for_timing(const Observations& seen) {
-  if (seen.receive_overflows > 0) return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
-  if (seen.target_frames_lost > 0) return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
+  if (seen.receive_overflows > 0)
+    return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
+  if (seen.target_frames_lost > 0)
+    return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
   if (seen.lateness_ns.empty()) return "the bench sent nothing";
   std::vector<double> late(seen.lateness_ns.begin(), seen.lateness_ns.end());
   const double typical_ns = quantile(std::move(late), lateness_quantile);
@@ -209,7 +223,9 @@ Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
                               .measured = std::move(finding.measured),
                               .expected = std::move(finding.expected)});
   }
-  const auto count = [&](Outcome outcome) { return std::ranges::count(verdict.checks, outcome, &CheckResult::outcome); };
+  const auto count = [&](Outcome outcome) {
+    return std::ranges::count(verdict.checks, outcome, &CheckResult::outcome);
+  };
   if (!evidence.ended_early.empty()) {
     verdict.outcome = Outcome::fail;
     verdict.reason = evidence.ended_early;
@@ -218,7 +234,8 @@ Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
     verdict.reason = fmt::format("{} of {} checks failed", count(Outcome::fail), verdict.checks.size());
   } else if (count(Outcome::not_measured) > 0) {
     verdict.outcome = Outcome::not_measured;
-    verdict.reason = fmt::format("{} of {} checks could not be measured", count(Outcome::not_measured), verdict.checks.size());
+    verdict.reason = fmt::format("{} of {} checks could not be measured", count(Outcome::not_measured),
+                                 verdict.checks.size());
   } else {
     verdict.outcome = Outcome::pass;
     verdict.reason = fmt::format("{} checks passed", verdict.checks.size());

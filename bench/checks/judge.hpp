@@ -15,14 +15,15 @@ struct Evidence {
   const Observations& seen;
   const world::FlightRecord& truth;
   std::int64_t duration_us = 0;
-  std::string ended_early;     ///< why the run did not come to its end; empty: it did
-  std::string timing_unfit;    ///< why timing cannot be judged; empty: it can
+  std::string ended_early;   ///< why the run did not come to its end; empty: it did
+  std::string timing_unfit;  ///< why timing cannot be judged; empty: it can
 };
 
 /// Judges every check of the scenario. A run that ended early fails, whatever its checks say.
 Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence);
 
-/// Why the bench's own timing forbids to judge the target's: drops, overflow, late transmissions. Empty: it does not.
+/// Why the bench's own timing forbids to judge the target's: drops, overflow, late transmissions. Empty: it
+/// does not.
 std::string unfit_for_timing(const Observations& seen);
 
 }  // namespace canhil::checks

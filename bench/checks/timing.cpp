@@ -22,7 +22,9 @@ const std::vector<Stimulus>* stimuli_of(const Observations& seen, const MessageI
   return nullptr;
 }
 
-bool within(const scenario::Window& window, std::int64_t t_us) { return t_us >= window.from_us && t_us <= window.to_us; }
+bool within(const scenario::Window& window, std::int64_t t_us) {
+  return t_us >= window.from_us && t_us <= window.to_us;
+}
 
 }  // namespace
 
@@ -40,7 +42,8 @@ Distribution distribution(std::vector<double> sample) {
     const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
     return sample[std::max<std::size_t>(rank, 1) - 1];
   };
-  return {.count = sample.size(), .min = sample.front(), .p50 = at(0.5), .p99 = at(0.99), .max = sample.back()};
+  return {
+      .count = sample.size(), .min = sample.front(), .p50 = at(0.5), .p99 = at(0.99), .max = sample.back()};
 }
 
 bool answers_a_stimulus(std::string_view message) {
@@ -49,7 +52,8 @@ bool answers_a_stimulus(std::string_view message) {
   return info != nullptr && stimuli_of(nothing, *info) != nullptr;
 }
 
-std::vector<double> latencies_s(const Observations& seen, std::string_view message, const scenario::Window& window) {
+std::vector<double> latencies_s(const Observations& seen, std::string_view message,
+                                const scenario::Window& window) {
   std::vector<double> sample;
   const MessageInfo* info = info_of(message);
   const std::vector<Stimulus>* stimuli = info == nullptr ? nullptr : stimuli_of(seen, *info);
@@ -63,7 +67,8 @@ std::vector<double> latencies_s(const Observations& seen, std::string_view messa
   return sample;
 }
 
-std::vector<double> periods_s(const Observations& seen, std::string_view message, const scenario::Window& window) {
+std::vector<double> periods_s(const Observations& seen, std::string_view message,
+                              const scenario::Window& window) {
   std::vector<double> sample;
   const MessageInfo* info = info_of(message);
   if (info == nullptr) return sample;

@@ -23,11 +23,14 @@ Distribution distribution(std::vector<double> sample);
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
 double quantile(std::vector<double> sample, double q);
 
-/// Latency [s] of every answer of a message within a window: its stamp less that of the last frame of its stimulus.
-std::vector<double> latencies_s(const Observations& seen, std::string_view message, const scenario::Window& window);
+/// Latency [s] of every answer of a message within a window: its stamp less that of the last frame of its
+/// stimulus.
+std::vector<double> latencies_s(const Observations& seen, std::string_view message,
+                                const scenario::Window& window);
 
 /// Time [s] between successive arrivals of a message. With a window: of answers to causes within it.
-std::vector<double> periods_s(const Observations& seen, std::string_view message, const scenario::Window& window);
+std::vector<double> periods_s(const Observations& seen, std::string_view message,
+                              const scenario::Window& window);
 
 /// The period [s] a message should have: that of its stimulus as it was sent, or its cycle time in the DBC.
 double nominal_period_s(const Observations& seen, std::string_view message);

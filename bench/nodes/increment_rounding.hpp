@@ -1,4 +1,5 @@
-// Rounding of increments onto the bus: what a sample loses, the next one carries, so that nothing accumulates.
+// Rounding of increments onto the bus: what a sample loses, the next one carries, so that nothing
+// accumulates.
 #pragma once
 
 #include <algorithm>

@@ -7,7 +7,8 @@ namespace canhil::nodes {
 
 using world::units::deg;
 
-MasterIns::MasterIns(const world::FlightRecord& flight, const scenario::MasterIns& config, world::Stream stream)
+MasterIns::MasterIns(const world::FlightRecord& flight, const scenario::MasterIns& config,
+                     world::Stream stream)
     : flight_(flight),
       errors_(config.errors),
       stream_(std::move(stream)),

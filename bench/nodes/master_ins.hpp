@@ -8,8 +8,8 @@
 
 namespace canhil::nodes {
 
-/// Sends the group MasterIns: the truth of the flight record with the errors of a navigation system. The record must
-/// outlive the node.
+/// Sends the group MasterIns: the truth of the flight record with the errors of a navigation system. The
+/// record must outlive the node.
 class MasterIns final : public Node {
  public:
   MasterIns(const world::FlightRecord& flight, const scenario::MasterIns& config, world::Stream stream);

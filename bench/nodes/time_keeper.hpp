@@ -5,7 +5,8 @@
 
 namespace canhil::nodes {
 
-/// Sends Sync at the DBC's cycle time, from 0 until after `end_us`. Its transmission closes a step in lockstep.
+/// Sends Sync at the DBC's cycle time, from 0 until after `end_us`. Its transmission closes a step in
+/// lockstep.
 class TimeKeeper final : public Node {
  public:
   TimeKeeper(std::int64_t end_us, bool lockstep) : end_us_(end_us), lockstep_(lockstep) {}

@@ -1,8 +1,8 @@
 #include "bench/run/handshake.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
@@ -38,7 +38,8 @@ class Mailbox final : public Observer {
  private:
   template <class Message>
   static bool intact(const Frame& frame) {
-    return frame.size == Message::size && frame.data[0] == e2e::crc(frame.payload(), Message::info.e2e_data_id);
+    return frame.size == Message::size &&
+           frame.data[0] == e2e::crc(frame.payload(), Message::info.e2e_data_id);
   }
 };
 
@@ -48,7 +49,8 @@ class Dialogue {
   Dialogue(Link& link, nodes::Transmission& out, const std::function<std::optional<std::string>()>& gone)
       : link_(link), out_(out), gone_(gone), attached_(link, mailbox_) {}
 
-  // Waits until `condition` holds of the mailbox, calling `request` first and whenever it went unanswered for a while.
+  // Waits until `condition` holds of the mailbox, calling `request` first and whenever it went unanswered for
+  // a while.
   template <class Request, class Condition>
   Result<void> until(std::string_view what, std::int64_t limit_ns, Request&& request, Condition&& condition) {
     const std::int64_t deadline_ns = now_ns() + limit_ns;
@@ -59,7 +61,8 @@ class Dialogue {
         repeat_at_ns = now_ns() + repeat_ns;
       }
       link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
-      if (link_.drain() == LinkState::down) return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
+      if (link_.drain() == LinkState::down)
+        return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
       if (condition(mailbox_)) return {};
       if (const auto why = gone_()) return failure(fmt::format("target: {} while {}", *why, what));
       if (now_ns() >= deadline_ns) {
@@ -78,7 +81,9 @@ class Dialogue {
     request(out_);
     for (const Frame& frame : out_.frames()) {
       if (link_.send(frame, answer_limit_ns) != LinkState::up) {
-        return failure(fmt::format("bus '{}': takes no frames; is another node connected and the interface up?", link_.port().name()));
+        return failure(
+            fmt::format("bus '{}': takes no frames; is another node connected and the interface up?",
+                        link_.port().name()));
       }
     }
     return {};
@@ -117,16 +122,20 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
   auto answered = dialogue.until(
       fmt::format("setting parameter '{}'", wanted.name), answer_limit_ns,
       [&](nodes::Transmission& out) { out.send(ParamSet{.parameter = *parameter, .value = value}); },
-      [&](const Mailbox& box) { return box.acknowledgement && box.acknowledgement->parameter == *parameter; });
+      [&](const Mailbox& box) {
+        return box.acknowledgement && box.acknowledgement->parameter == *parameter;
+      });
   if (!answered) return answered;
   const ParamAck& ack = *dialogue.mailbox().acknowledgement;
   if (ack.status != ParameterStatus::accepted) {
-    return failure(fmt::format("parameter '{}' = {:g}: refused by the target: {} (value in force: {:g})", wanted.name, wanted.value,
-                               name_of(ack.status), static_cast<double>(ack.value)));
+    return failure(fmt::format("parameter '{}' = {:g}: refused by the target: {} (value in force: {:g})",
+                               wanted.name, wanted.value, name_of(ack.status),
+                               static_cast<double>(ack.value)));
   }
   // Read-back: the value in force is the one sent, up to the rounding of a conversion of units in the target.
   if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
-    return failure(fmt::format("parameter '{}' = {:g}: the target reads back {:g}", wanted.name, wanted.value, static_cast<double>(ack.value)));
+    return failure(fmt::format("parameter '{}' = {:g}: the target reads back {:g}", wanted.name, wanted.value,
+                               static_cast<double>(ack.value)));
   }
   return {};
 }
@@ -134,15 +143,19 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
 void send_initial_state(nodes::Transmission& out, const world::NavigationSolution& initial,
                         const scenario::InitialSigma& sigma) {
   const world::Euler angles = world::euler_from(initial.C_bn);
-  out.send(TargetInitLatitude{.latitude_deg = initial.position.latitude / deg, .height_m = initial.position.height});
-  out.send(TargetInitLongitude{.longitude_deg = initial.position.longitude / deg, .position_sigma_m = sigma.position});
-  out.send(TargetInitVelocityNE{.velocity_north_mps = initial.v_eb_n.x(), .velocity_east_mps = initial.v_eb_n.y()});
+  out.send(TargetInitLatitude{.latitude_deg = initial.position.latitude / deg,
+                              .height_m = initial.position.height});
+  out.send(TargetInitLongitude{.longitude_deg = initial.position.longitude / deg,
+                               .position_sigma_m = sigma.position});
+  out.send(TargetInitVelocityNE{.velocity_north_mps = initial.v_eb_n.x(),
+                                .velocity_east_mps = initial.v_eb_n.y()});
   out.send(TargetInitAttitude{
       .roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg});
   out.send(TargetInitSigma{.velocity_sigma_mps = sigma.velocity,
                            .tilt_sigma_deg = sigma.tilt / deg,
                            .heading_sigma_deg = sigma.heading / deg});
-  out.send(TargetInitVelocityD{.velocity_down_mps = initial.v_eb_n.z(), .time_of_validity_us = wrap_us(initial.t_us)});
+  out.send(TargetInitVelocityD{.velocity_down_mps = initial.v_eb_n.z(),
+                               .time_of_validity_us = wrap_us(initial.t_us)});
 }
 
 }  // namespace
@@ -153,7 +166,8 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
   const auto estimator = from_name<Estimator>(setup.estimator);
   const auto algorithm = from_name<Algorithm>(setup.algorithm);
   if (!estimator || !algorithm) {
-    return failure(fmt::format("estimator '{}' with algorithm '{}': not in the DBC", setup.estimator, setup.algorithm));
+    return failure(
+        fmt::format("estimator '{}' with algorithm '{}': not in the DBC", setup.estimator, setup.algorithm));
   }
   Dialogue dialogue(link, out, gone);
   Mailbox& box = dialogue.mailbox();
@@ -163,8 +177,10 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
       [](const Mailbox& mailbox) { return mailbox.heartbeat.has_value(); });
   if (!found) return found;
   if (box.heartbeat->dbc_hash != dbc_hash24) {
-    return failure(fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from different DBC files",
-                               link.port().name(), box.heartbeat->dbc_hash, dbc_hash24));
+    return failure(
+        fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
+                    "different DBC files",
+                    link.port().name(), box.heartbeat->dbc_hash, dbc_hash24));
   }
 
   box.heartbeat.reset();
@@ -177,8 +193,9 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
       });
   if (!reset) return reset;
   if (box.heartbeat->error_command != 0) {
-    return failure(fmt::format("target on '{}': does not offer estimator '{}' with algorithm '{}' (errors: {})",
-                               link.port().name(), setup.estimator, setup.algorithm, errors_of(*box.heartbeat)));
+    return failure(
+        fmt::format("target on '{}': does not offer estimator '{}' with algorithm '{}' (errors: {})",
+                    link.port().name(), setup.estimator, setup.algorithm, errors_of(*box.heartbeat)));
   }
   for (const scenario::Parameter& parameter : setup.parameters) {
     if (auto set = set_parameter(dialogue, parameter); !set) return set;

@@ -21,7 +21,8 @@ class InProcessPort final : public Port {
   }
   std::optional<Received> receive() override {
     if (answers_.empty()) return std::nullopt;
-    Received received{.frame = answers_.front(), .t_ns = 0, .source = StampSource::virtual_time, .own = false};
+    Received received{
+        .frame = answers_.front(), .t_ns = 0, .source = StampSource::virtual_time, .own = false};
     answers_.pop_front();
     ++counters_.received;
     return received;
@@ -34,7 +35,9 @@ class InProcessPort final : public Port {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
-  void append(std::span<const Frame> frames) { answers_.insert(answers_.end(), frames.begin(), frames.end()); }
+  void append(std::span<const Frame> frames) {
+    answers_.insert(answers_.end(), frames.begin(), frames.end());
+  }
 
   target::Device device_;
   std::deque<Frame> answers_;

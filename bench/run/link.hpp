@@ -32,7 +32,8 @@ class Link {
   void attach(Observer& observer) { observers_.push_back(&observer); }
   void detach(Observer& observer) { std::erase(observers_, &observer); }
 
-  /// Hands a frame to the bus. While the bus has no room it receives, until `patience_ns` from now; then `congested`.
+  /// Hands a frame to the bus. While the bus has no room it receives, until `patience_ns` from now; then
+  /// `congested`.
   LinkState send(const Frame& frame, std::int64_t patience_ns, std::int64_t late_ns = 0);
 
   /// Shows every waiting frame to the observers, without blocking; `down` once the bus is gone.

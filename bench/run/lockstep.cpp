@@ -56,7 +56,8 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
         watch.await(from_frame<messages::Sync>(frame).step);
       }
       if (link.send(frame, step_limit_ns) != LinkState::up) {
-        return {Ending::Kind::bus_down, t_us, fmt::format("the bus took no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
+        return {Ending::Kind::bus_down, t_us,
+                fmt::format("the bus took no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
       }
     }
     if (!closes_step) continue;
@@ -69,7 +70,8 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
       if (now_ns() > deadline_ns) {
         return {Ending::Kind::target_silent, t_us,
-                fmt::format("target silent since t={:.3f} s: step {} was not answered", static_cast<double>(t_us) * 1e-6, watch.awaited())};
+                fmt::format("target silent since t={:.3f} s: step {} was not answered",
+                            static_cast<double>(t_us) * 1e-6, watch.awaited())};
       }
       link.wait_until(deadline_ns);
     }

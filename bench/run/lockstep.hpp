@@ -11,7 +11,8 @@
 namespace canhil::run {
 
 /// Sends each step's frames; Sync closes the step, StepDone with the same counter opens the next.
-/// The frames and their order are those of run_real_time. A step that is not answered within `step_limit_ns` ends the run.
+/// The frames and their order are those of run_real_time. A step that is not answered within `step_limit_ns`
+/// ends the run.
 Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, const std::atomic<bool>& stop,
                     const Progress& progress);
 

@@ -16,8 +16,9 @@ using world::units::ug;
 
 // The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
 void restamp(std::vector<checks::Stimulus>& stimuli, std::int64_t valid_us, std::int64_t t_ns) {
-  const auto found = std::find_if(stimuli.rbegin(), stimuli.rend(),
-                                  [&](const checks::Stimulus& stimulus) { return stimulus.valid_us == valid_us; });
+  const auto found = std::find_if(stimuli.rbegin(), stimuli.rend(), [&](const checks::Stimulus& stimulus) {
+    return stimulus.valid_us == valid_us;
+  });
   if (found != stimuli.rend()) found->t_ns = t_ns;
 }
 
@@ -28,9 +29,11 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
   if (frame.id == Sync::info.id) {
     now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
   } else if (frame.id == SlaveImuStatus::info.id) {
-    seen_.slave_imu.push_back({unwrap_us(from_frame<SlaveImuStatus>(frame).time_of_validity_us, now_us_), t_ns});
+    seen_.slave_imu.push_back(
+        {unwrap_us(from_frame<SlaveImuStatus>(frame).time_of_validity_us, now_us_), t_ns});
   } else if (frame.id == MasterInsVelocityD::info.id) {
-    seen_.master_ins.push_back({unwrap_us(from_frame<MasterInsVelocityD>(frame).time_of_validity_us, now_us_), t_ns});
+    seen_.master_ins.push_back(
+        {unwrap_us(from_frame<MasterInsVelocityD>(frame).time_of_validity_us, now_us_), t_ns});
   }
 }
 
@@ -38,7 +41,8 @@ void Monitor::echoed(const Received& received) {
   const Frame& frame = received.frame;
   if (frame.id == SlaveImuStatus::info.id) {
     seen_.transmit_stamps_echoed = true;
-    restamp(seen_.slave_imu, unwrap_us(from_frame<SlaveImuStatus>(frame).time_of_validity_us, now_us_), received.t_ns);
+    restamp(seen_.slave_imu, unwrap_us(from_frame<SlaveImuStatus>(frame).time_of_validity_us, now_us_),
+            received.t_ns);
   } else if (frame.id == MasterInsVelocityD::info.id) {
     restamp(seen_.master_ins, unwrap_us(from_frame<MasterInsVelocityD>(frame).time_of_validity_us, now_us_),
             received.t_ns);
@@ -135,7 +139,8 @@ void Monitor::on_navigation() {
   seen_.navigation.push_back(
       {.cause_us = cause_us,
        .angles = {attitude.roll_deg * deg, attitude.pitch_deg * deg, attitude.heading_deg * deg},
-       .v_eb_n = Vector3(horizontal.velocity_north_mps, horizontal.velocity_east_mps, vertical.velocity_down_mps),
+       .v_eb_n =
+           Vector3(horizontal.velocity_north_mps, horizontal.velocity_east_mps, vertical.velocity_down_mps),
        .coasting = attitude.coasting != 0});
   attribute(AlignVelocityD::info.sample_group, cause_us);
 }
@@ -152,8 +157,10 @@ void Monitor::on_filter() {
   seen_.filter.push_back(
       {.cause_us = cause_us,
        .nis = update.nis,
-       .innovation = {innovation.innovation_north_mps, innovation.innovation_east_mps, innovation.innovation_down_mps},
-       .attitude_sigma = {sigma.attitude_sigma_north_rad, sigma.attitude_sigma_east_rad, sigma.attitude_sigma_down_rad},
+       .innovation = {innovation.innovation_north_mps, innovation.innovation_east_mps,
+                      innovation.innovation_down_mps},
+       .attitude_sigma = {sigma.attitude_sigma_north_rad, sigma.attitude_sigma_east_rad,
+                          sigma.attitude_sigma_down_rad},
        .attitude_correlation = {correlation.attitude_correlation_ne, correlation.attitude_correlation_nd,
                                 correlation.attitude_correlation_ed},
        .velocity_sigma = {velocity.velocity_sigma_north_mps, velocity.velocity_sigma_east_mps,
@@ -166,7 +173,8 @@ void Monitor::on_filter() {
 // Gives the newest arrival of every message of a whole group its cause.
 void Monitor::attribute(std::string_view group, std::int64_t cause_us) {
   for (std::size_t i = 0; i < all_messages.size(); ++i) {
-    if (all_messages[i].sample_group == group && !seen_.arrivals[i].empty()) seen_.arrivals[i].back().cause_us = cause_us;
+    if (all_messages[i].sample_group == group && !seen_.arrivals[i].empty())
+      seen_.arrivals[i].back().cause_us = cause_us;
   }
 }
 

@@ -1,7 +1,7 @@
 #include "bench/run/real_time.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <optional>
 
 #include "messages/canhil.hpp"
@@ -12,7 +12,7 @@ namespace {
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
 constexpr std::int64_t ns_per_us = 1000;
-constexpr std::int64_t lead_ns = 20'000'000;         // from here to the first deadline
+constexpr std::int64_t lead_ns = 20'000'000;           // from here to the first deadline
 constexpr std::int64_t last_answers_ns = 150'000'000;  // longer than a heartbeat period
 constexpr std::int64_t progress_period_us = 100'000;
 
@@ -42,8 +42,8 @@ class TargetWatch final : public Observer {
 
 }  // namespace
 
-Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns, const std::atomic<bool>& stop,
-                     const Progress& progress) {
+Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
+                     const std::atomic<bool>& stop, const Progress& progress) {
   const std::int64_t start_ns = now_ns() + lead_ns;
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
   TargetWatch watch(start_ns);
@@ -57,10 +57,12 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       const std::int64_t now = now_ns();
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
-      if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), "the target reported a fault"};
+      if (watch.fault())
+        return Ending{Ending::Kind::target_fault, bench_us(now), "the target reported a fault"};
       if (now - watch.heard_ns() > silence_limit_ns) {
         return Ending{Ending::Kind::target_silent, bench_us(watch.heard_ns()),
-                      fmt::format("target silent since t={:.3f} s", static_cast<double>(bench_us(watch.heard_ns())) * 1e-6)};
+                      fmt::format("target silent since t={:.3f} s",
+                                  static_cast<double>(bench_us(watch.heard_ns())) * 1e-6)};
       }
       if (now >= deadline_ns) return std::nullopt;
       link.wait_until(std::min(deadline_ns, watch.heard_ns() + silence_limit_ns + 1));
@@ -76,7 +78,8 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
         case LinkState::up:
           break;
         case LinkState::congested:
-          return {Ending::Kind::target_silent, due_us, fmt::format("the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6)};
+          return {Ending::Kind::target_silent, due_us,
+                  fmt::format("the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6)};
         case LinkState::down:
           return {Ending::Kind::bus_down, due_us, "the bus is down"};
       }

@@ -13,9 +13,10 @@ namespace canhil::run {
 /// What a run tells while it goes on: bench time [us].
 using Progress = std::function<void(std::int64_t t_us)>;
 
-/// Transmits a schedule at absolute deadlines on CLOCK_MONOTONIC until it is exhausted, then waits for the last answers.
-/// Ends early when the target stays silent for `silence_limit_ns`, when the bus goes down, or when `stop` is set.
-Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns, const std::atomic<bool>& stop,
-                     const Progress& progress);
+/// Transmits a schedule at absolute deadlines on CLOCK_MONOTONIC until it is exhausted, then waits for the
+/// last answers. Ends early when the target stays silent for `silence_limit_ns`, when the bus goes down, or
+/// when `stop` is set.
+Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
+                     const std::atomic<bool>& stop, const Progress& progress);
 
 }  // namespace canhil::run

@@ -12,9 +12,9 @@ std::string unfinished(const std::string& path) { return path + ".part"; }
 
 }  // namespace
 
-Result<Recorder> Recorder::open(const std::string& path, const Port& port) {
+Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const Port& port) {
   return LogWriter::create(unfinished(path)).map([&](LogWriter writer) {
-    return Recorder(std::move(writer), path, port);
+    return std::unique_ptr<Recorder>(new Recorder(std::move(writer), path, port));
   });
 }
 
@@ -34,7 +34,8 @@ void Recorder::received(const Received& received) {
 }
 
 void Recorder::write(const Frame& frame, std::int64_t t_ns, bool transmitted) {
-  writer_.write({.t_ns = t_ns + to_realtime_ns_, .interface = interface_, .frame = frame, .transmitted = transmitted});
+  writer_.write(
+      {.t_ns = t_ns + to_realtime_ns_, .interface = interface_, .frame = frame, .transmitted = transmitted});
 }
 
 Result<void> Recorder::close() {

@@ -1,6 +1,7 @@
 // Every frame of a run in candump's log format.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "bench/run/link.hpp"
@@ -8,11 +9,12 @@
 
 namespace canhil::run {
 
-/// Records from the first transmission of the bench on, so that the log alone is a whole session of the target.
+/// Records from the first transmission of the bench on, so that the log alone is a whole session of the
+/// target.
 class Recorder final : public Observer {
  public:
   /// Writes beside `path` until close() gives the file its name. Error: the file cannot be created.
-  static Result<Recorder> open(const std::string& path, const Port& port);
+  static Result<std::unique_ptr<Recorder>> open(const std::string& path, const Port& port);
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;

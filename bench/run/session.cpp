@@ -19,7 +19,8 @@
 namespace canhil::run {
 namespace {
 
-constexpr std::int64_t silence_limit_ns = 400'000'000;  // four heartbeats; a dead target is named within 0.5 s
+constexpr std::int64_t silence_limit_ns =
+    400'000'000;  // four heartbeats; a dead target is named within 0.5 s
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
 constexpr std::string_view in_process = "in-process";
 
@@ -34,8 +35,8 @@ Result<std::unique_ptr<Port>> open(const std::string& bus) {
   return host_local_bus(bus, options).map([](auto hub) -> std::unique_ptr<Port> { return hub; });
 }
 
-Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth, std::uint64_t run_index,
-                       bool lockstep) {
+Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                       std::uint64_t run_index, bool lockstep) {
   std::vector<std::unique_ptr<nodes::Node>> sensors;
   const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
   if (scenario.slave_imu) {
@@ -54,19 +55,19 @@ std::int64_t imu_period_us(const scenario::Scenario& scenario) {
 
 }  // namespace
 
-Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop_requested,
-                const Progress& progress) {
+Result<Run> run(const scenario::Scenario& scenario, const Options& options,
+                const std::atomic<bool>& stop_requested, const Progress& progress) {
   const bool lockstep = options.clock == ClockKind::lockstep;
   world::FlightRecord truth(scenario.truth, scenario.duration_us, imu_period_us(scenario));
 
   auto port = open(options.bus);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
-  std::optional<Recorder> recorder;
+  std::unique_ptr<Recorder> recorder;
   if (options.log_path) {
     auto opened = Recorder::open(*options.log_path, **port);
     if (!opened) return tl::unexpected(opened.error());
-    recorder.emplace(std::move(*opened));
+    recorder = std::move(*opened);
     link.attach(*recorder);
   }
   std::optional<TargetProcess> target;
@@ -79,7 +80,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 
   Schedule schedule = make_schedule(scenario, truth, options.run_index, lockstep);
   world::Stream initial_stream(scenario.seed, options.run_index, "initial_error");
-  const world::NavigationSolution initial = measure(truth.epochs().front(), scenario.initial_error, initial_stream);
+  const world::NavigationSolution initial =
+      measure(truth.epochs().front(), scenario.initial_error, initial_stream);
   if (auto configured = configure(link, schedule.outbox(), scenario.target, initial, gone); !configured) {
     return tl::unexpected(configured.error());
   }

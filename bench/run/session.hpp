@@ -18,8 +18,8 @@ enum class ClockKind : std::uint8_t { real_time, lockstep };
 
 /// What the command line decides.
 struct Options {
-  std::string bus;                      ///< "local:NAME", a SocketCAN interface, or "in-process" (lockstep only)
-  std::optional<std::string> target;    ///< program to start; none: the target already runs on the bus
+  std::string bus;  ///< "local:NAME", a SocketCAN interface, or "in-process" (lockstep only)
+  std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
   ClockKind clock = ClockKind::real_time;
   std::optional<std::string> log_path;  ///< candump log of every frame from the first command on
   std::uint64_t run_index = 0;          ///< of a campaign: selects the random numbers together with the seed
@@ -35,7 +35,8 @@ struct Run {
   double wall_s = 0;  ///< from the start of the estimator to the end
 };
 
-/// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a verdict.
+/// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a
+/// verdict.
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress);
 

@@ -13,11 +13,13 @@ namespace canhil::run {
 
 Result<TargetProcess> TargetProcess::start(const std::string& program, const std::string& bus) {
   if (access(program.c_str(), X_OK) != 0) {
-    return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", program, strerror(errno)));
+    return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", program,
+                               strerror(errno)));
   }
   const pid_t parent = getpid();
   const pid_t pid = fork();
-  if (pid < 0) return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(errno)));
+  if (pid < 0)
+    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(errno)));
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);
@@ -50,8 +52,9 @@ TargetProcess::~TargetProcess() {
 std::optional<std::string> TargetProcess::ended() {
   int status = 0;
   if (pid_ >= 0 && !ended_ && waitpid(pid_, &status, WNOHANG) == pid_) {
-    ended_ = WIFSIGNALED(status) ? fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))
-                                 : fmt::format("exited with {}", WEXITSTATUS(status));
+    ended_ = WIFSIGNALED(status)
+                 ? fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))
+                 : fmt::format("exited with {}", WEXITSTATUS(status));
   }
   return ended_;
 }

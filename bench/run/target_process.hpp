@@ -1,9 +1,9 @@
 // The target as a child process of the bench.
 #pragma once
 
+#include <sys/types.h>
 #include <optional>
 #include <string>
-#include <sys/types.h>
 
 #include "dbc/wire/result.hpp"
 

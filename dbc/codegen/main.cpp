@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include "dbc/codegen/generate.hpp"
+#include "dbc/codegen/json.hpp"
+#include "dbc/codegen/load.hpp"
 #include "dbc/codegen/rules.hpp"
 #include "dbc/parser/parse.hpp"
 
@@ -17,6 +19,8 @@ struct Options {
   std::string output;
   std::string name_space = "messages";
   bool quantisation = false;
+  bool load = false;
+  bool json = false;
 };
 
 int complain(const std::string& line) {
@@ -24,14 +28,16 @@ int complain(const std::string& line) {
   return 2;
 }
 
+int print(const std::string& text) {
+  fmt::print("{}", text);
+  return 0;
+}
+
 int write_header(const canhil::dbc::Database& database, const Options& options) {
   const auto text = canhil::dbc::generate_header(database, options.name_space,
                                                  std::filesystem::path(options.dbc).filename().string());
   if (!text) return complain(text.error().message);
-  if (options.output.empty()) {
-    fmt::print("{}", *text);
-    return 0;
-  }
+  if (options.output.empty()) return print(*text);
   std::ofstream file(options.output, std::ios::binary);
   file << *text << std::flush;
   return file
@@ -49,13 +55,14 @@ int main(int argc, char** argv) {
   app.add_option("-n,--namespace", options.name_space, "namespace of the header");
   app.add_flag("--quantisation", options.quantisation,
                "print the resolution of every measurement against its sensor");
+  app.add_flag("--load", options.load, "print the worst-case bus load of every sender");
+  app.add_flag("--json", options.json, "print the database as JSON");
   CLI11_PARSE(app, argc, argv);
 
   const auto database = canhil::dbc::read_file(options.dbc);
   if (!database) return complain(database.error().message);
-  if (options.quantisation) {
-    fmt::print("{}", canhil::dbc::quantisation_table(*database));
-    return 0;
-  }
+  if (options.quantisation) return print(canhil::dbc::quantisation_table(*database));
+  if (options.load) return print(canhil::dbc::load_table(*database));
+  if (options.json) return print(canhil::dbc::to_json(*database) + "\n");
   return write_header(*database, options);
 }

@@ -21,7 +21,7 @@ std::vector<const Signal*> members_of(const Message& message) {
 }
 
 std::string word_name(const Word& word) {
-  return fmt::format("{}{}", word.order == ByteOrder::little_endian ? "le" : "be", word.first);
+  return fmt::format("{}_word_{}_", word.order == ByteOrder::little_endian ? "le" : "be", word.first);
 }
 
 std::set<Word> words_of(const Message& message, const std::vector<const Signal*>& members) {
@@ -67,8 +67,8 @@ std::string integer_literal(std::int64_t raw, bool is_signed) {
 }
 
 /// The raw bits of the member, rounded and saturated, as a std::uint64_t expression.
-std::string pack_expression(const Signal& signal) {
-  const std::string name = member_name(signal);
+std::string pack_expression(const Message& message, const Signal& signal) {
+  const std::string name = member_name(message, signal);
   const auto scaled = [&](std::string_view function, double low, double high) {
     return fmt::format("wire::{}({}, {}, {}, {}, {})", function, name, literal(signal.scale),
                        literal(signal.offset), literal(low), literal(high));
@@ -90,7 +90,7 @@ std::string pack_expression(const Signal& signal) {
                 wire::bound(static_cast<std::uint64_t>(range.highest)));
 }
 
-std::string raw_name(const Signal& signal) { return "raw_of_" + identifier(signal.name); }
+std::string raw_name(const Signal& signal) { return "raw_of_" + identifier(signal.name) + "_"; }
 
 /// When the signal is there, as an expression on the raw values of the multiplexors; empty: always.
 std::string presence(const Message& message, const Signal& signal) {
@@ -117,15 +117,15 @@ std::string guarded(const std::string& condition, const std::string& statements)
 std::string unpack_text(const Enums& enums, const Message& message,
                         const std::vector<const Signal*>& members) {
   std::string text;
-  const std::string type = identifier(message.name);
+  const std::string type = type_name(message);
   text += fmt::format(
       "  /// From the frame's bytes.\n  static constexpr {} unpack([[maybe_unused]] std::span<const "
       "std::uint8_t, "
-      "size> data) noexcept {{\n",
+      "size> data_) noexcept {{\n",
       type);
   for (const Word& word : words_of(message, members)) {
-    text += fmt::format("    const std::uint64_t {} = wire::load_{}<{}, {}>(data.data());\n", word_name(word),
-                        word_name(word).substr(0, 2), word.first, word.bytes);
+    text += fmt::format("    const std::uint64_t {} = wire::load_{}<{}, {}>(data_.data());\n",
+                        word_name(word), word_name(word).substr(0, 2), word.first, word.bytes);
   }
   for (const Signal* signal : members) {
     if (signal->multiplexor) {
@@ -133,12 +133,13 @@ std::string unpack_text(const Enums& enums, const Message& message,
                           raw_expression(message, *signal));
     }
   }
-  text += fmt::format("    {} message;\n", type);
+  text += fmt::format("    {} message_;\n", type);
   for (const Signal* signal : members) {
-    text += guarded(presence(message, *signal), fmt::format("    message.{} = {};\n", member_name(*signal),
-                                                            unpack_expression(enums, message, *signal)));
+    text += guarded(presence(message, *signal),
+                    fmt::format("    message_.{} = {};\n", member_name(message, *signal),
+                                unpack_expression(enums, message, *signal)));
   }
-  return text + "    return message;\n  }\n";
+  return text + "    return message_;\n  }\n";
 }
 
 std::string pack_text(const Message& message, const std::vector<const Signal*>& members) {
@@ -146,16 +147,17 @@ std::string pack_text(const Message& message, const std::vector<const Signal*>& 
       "  /// Into the frame's bytes: rounded half to even, saturated, NaN to the minimum; the E2E fields and "
       "bits "
       "of no signal are 0.\n"
-      "  constexpr void pack([[maybe_unused]] std::span<std::uint8_t, size> data) const noexcept {\n";
+      "  constexpr void pack([[maybe_unused]] std::span<std::uint8_t, size> data_) const noexcept {\n";
   const auto words = words_of(message, members);
   for (const Word& word : words) text += fmt::format("    std::uint64_t {} = 0;\n", word_name(word));
   for (const Signal* signal : members) {
     if (signal->multiplexor)
-      text += fmt::format("    const std::uint64_t {} = {};\n", raw_name(*signal), pack_expression(*signal));
+      text += fmt::format("    const std::uint64_t {} = {};\n", raw_name(*signal),
+                          pack_expression(message, *signal));
   }
   for (const Signal* signal : members) {
     const auto pieces = pieces_of(message, *signal);
-    std::string raw = signal->multiplexor ? raw_name(*signal) : pack_expression(*signal);
+    std::string raw = signal->multiplexor ? raw_name(*signal) : pack_expression(message, *signal);
     std::string statements;
     if (pieces.size() > 1) {
       statements += fmt::format("    const std::uint64_t {} = {};\n", raw_name(*signal), raw);
@@ -169,12 +171,25 @@ std::string pack_text(const Message& message, const std::vector<const Signal*>& 
     text += guarded(presence(message, *signal), statements);
   }
   const bool whole = words.size() == 1 && words.begin()->bytes == message.size;
-  if (!whole && message.size > 0) text += "    std::ranges::fill(data, std::uint8_t{0});\n";
+  if (!whole && message.size > 0) text += "    std::ranges::fill(data_, std::uint8_t{0});\n";
   for (const Word& word : words) {
-    text += fmt::format("    wire::{}_{}<{}, {}>(data.data(), {});\n", whole ? "store" : "merge",
+    text += fmt::format("    wire::{}_{}<{}, {}>(data_.data(), {});\n", whole ? "store" : "merge",
                         word_name(word).substr(0, 2), word.first, word.bytes, word_name(word));
   }
   return text + "  }\n";
+}
+
+std::string visit_text(const Message& message, const std::vector<const Signal*>& members) {
+  std::string calls;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    calls += fmt::format("    visitor_(detail::signals_of_{}[{}], message_.{});\n", type_name(message), i,
+                         member_name(message, *members[i]));
+  }
+  return fmt::format(
+      "  /// Calls visitor(info, member) for every signal, in the order of the DBC.\n"
+      "  template <class Message_, class Visitor_>\n  static constexpr void visit([[maybe_unused]] Message_& "
+      "message_, [[maybe_unused]] Visitor_&& visitor_) {{\n{}  }}\n",
+      calls);
 }
 
 std::string comment_line(std::string_view indent, std::string_view text) {
@@ -191,13 +206,14 @@ std::string members_text(const Enums& enums, const Message& message,
   for (const Signal* signal : members) {
     const std::string unit = signal->unit.empty() ? "" : fmt::format("[{}] ", signal->unit);
     text += comment_line("  ", unit + signal->comment);
-    text += fmt::format("  {} {}{{}};\n", member_type(enums, message, *signal), member_name(*signal));
+    text +=
+        fmt::format("  {} {}{{}};\n", member_type(enums, message, *signal), member_name(message, *signal));
   }
   return text;
 }
 
 std::string info_text(const Message& message, const std::vector<const Signal*>& members) {
-  const std::string type = identifier(message.name);
+  const std::string type = type_name(message);
   std::string text =
       fmt::format("namespace detail {{\ninline constexpr std::array<SignalInfo, {}> signals_of_{}{{{{\n",
                   members.size(), type);
@@ -217,7 +233,7 @@ std::string info_text(const Message& message, const std::vector<const Signal*>& 
 
 std::string message_text(const Enums& enums, const Message& message) {
   const auto members = members_of(message);
-  const std::string type = identifier(message.name);
+  const std::string type = type_name(message);
   std::string text = info_text(message, members) + comment_line("", message.comment);
   text += fmt::format("struct {} {{\n", type) + members_text(enums, message, members);
   text += fmt::format("\n  static constexpr std::size_t size = {};\n", message.size);
@@ -228,7 +244,7 @@ std::string message_text(const Enums& enums, const Message& message) {
       "                                   .sample_group = {}, .signals = detail::signals_of_{}}};\n\n",
       quoted(message.name), message.id, message.extended, message.fd, message.cycle_time_us,
       message.e2e_data_id, quoted(message.sender), quoted(message.sample_group), type);
-  text += unpack_text(enums, message, members) + pack_text(message, members);
+  text += unpack_text(enums, message, members) + pack_text(message, members) + visit_text(message, members);
   text += fmt::format("\n  friend constexpr bool operator==(const {0}&, const {0}&) = default;\n}};\n", type);
   text += fmt::format(
       "static_assert(wire::is_sound({0}::info));\nstatic_assert(wire::is_fine_enough({0}::info));\n\n", type);

@@ -10,7 +10,7 @@
 namespace canhil::dbc {
 namespace {
 
-constexpr std::array<std::string_view, 97> keywords{
+constexpr std::array keywords{
     "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
     "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
     "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
@@ -25,6 +25,10 @@ constexpr std::array<std::string_view, 97> keywords{
     "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
     "xor_eq",      "std",      "canhil",     "wire",      "linux",     "unix"};
+
+constexpr std::array<std::string_view, 13> names_of_header{
+    "all_messages", "AllMessages", "dbc_hash", "dbc_hash24", "detail",      "enumerators", "find_message",
+    "from_name",    "name_of",     "types",    "wire",       "MessageInfo", "SignalInfo"};
 
 bool is_plain_letter(char c) {
   return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
@@ -82,16 +86,22 @@ std::string identifier(std::string_view text) {
   return name;
 }
 
-std::string member_name(const Signal& signal) {
-  constexpr std::array<std::string_view, 7> generated{"size", "info", "pack", "unpack", "data", "le", "be"};
+std::string type_name(const Message& message) {
+  std::string name = identifier(message.name);
+  if (std::ranges::find(names_of_header, name) != names_of_header.end()) name += '_';
+  return name;
+}
+
+std::string member_name(const Message& message, const Signal& signal) {
+  constexpr std::array<std::string_view, 5> taken{"size", "info", "pack", "unpack", "visit"};
   std::string name = identifier(signal.name);
-  if (std::ranges::find(generated, name) != generated.end()) name += '_';
+  if (std::ranges::find(taken, name) != taken.end() || name == type_name(message)) name += '_';
   return name;
 }
 
 Enums::Enums(const Database& database) {
-  std::set<std::string> names;
-  for (const Message& message : database.messages) names.insert(identifier(message.name));
+  std::set<std::string> names(names_of_header.begin(), names_of_header.end());
+  for (const Message& message : database.messages) names.insert(type_name(message));
   const auto free_name = [&names](std::string name) {
     while (!names.insert(name).second) name += '_';
     return name;
@@ -134,7 +144,7 @@ std::string integer_type(unsigned bits, bool is_signed) {
 }
 
 std::string member_type(const Enums& enums, const Message& message, const Signal& signal) {
-  if (const auto name = enums.name_of(message, signal); !name.empty()) return std::string(name);
+  if (const auto name = enums.name_of(message, signal); !name.empty()) return fmt::format("types::{}", name);
   if (!is_plain(signal) || signal.type == RawType::float64) return "double";
   if (signal.type == RawType::float32) return "float";
   return integer_type(signal.length, signal.is_signed());

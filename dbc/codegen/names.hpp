@@ -13,8 +13,11 @@ namespace canhil::dbc {
 /// A C++ identifier as close to the text as can be: "fault (hot)" -> fault_hot, "3" -> _3, "class" -> class_.
 std::string identifier(std::string_view text);
 
-/// The member of a signal: its name, with "_" behind it where it would hide a keyword or a generated member.
-std::string member_name(const Signal& signal);
+/// The struct of a message: its name, with "_" behind it where the header has that name already.
+std::string type_name(const Message& message);
+
+/// The member of a signal: its name, with "_" behind it where the struct has that name already.
+std::string member_name(const Message& message, const Signal& signal);
 
 struct EnumType {
   std::string name;
@@ -40,7 +43,7 @@ class Enums {
 bool is_plain(const Signal& signal);
 /// The smallest std::intN_t or std::uintN_t of at least this many bits.
 std::string integer_type(unsigned bits, bool is_signed);
-/// The type of the signal's member.
+/// The type of the signal's member. Enumerations with "types::" in front: members may be named as their type.
 std::string member_type(const Enums& enums, const Message& message, const Signal& signal);
 /// True if the signal is E2E's own and so no member.
 bool is_protection(const Message& message, const Signal& signal);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <tuple>
 
 #include "dbc/wire/bits.hpp"
 #include "dbc/wire/message_info.hpp"

@@ -36,15 +36,16 @@ constexpr double bound(std::int64_t raw) {
   return raw < 0 ? -bound(0 - bits) : bound(bits);
 }
 
-/// x held in [low, high]; NaN gives low.
+/// x held in [low, high]; NaN gives low. Comparisons in this order are minsd and maxsd, which hand NaN on and
+/// replace it.
 constexpr double clamped(double x, double low, double high) {
-  const double at_least = x > low ? x : low;  // maxsd and minsd
-  return at_least < high ? at_least : high;
+  const double at_most = high < x ? high : x;
+  return at_most > low ? at_most : low;
 }
 /// The same with NaN to high: for a negative scale, where high is the physical minimum.
 constexpr double clamped_nan_high(double x, double low, double high) {
-  const double at_most = x < high ? x : high;
-  return at_most > low ? at_most : low;
+  const double at_least = low > x ? low : x;
+  return at_least < high ? at_least : high;
 }
 
 /// The raw value, before rounding, that stands for a physical one: inside [low, high], NaN at the physical

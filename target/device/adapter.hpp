@@ -1,4 +1,5 @@
-// What the device asks of an estimator's adapter: sample groups in, output frames out. One adapter file an estimator.
+// What the device asks of an estimator's adapter: sample groups in, output frames out. One adapter file an
+// estimator.
 #pragma once
 
 #include <cstdint>

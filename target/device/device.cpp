@@ -15,18 +15,22 @@ constexpr std::int64_t heartbeat_period_us = TargetHeartbeat::info.cycle_time_us
 constexpr double radians = std::numbers::pi / 180.0;
 constexpr std::uint8_t not_for_us = 0xFF;
 
-// From an 11-bit id to its place in all_messages; not_for_us for unknown ids and for the target's own messages.
+// From an 11-bit id to its place in all_messages; not_for_us for unknown ids and for the target's own
+// messages.
 constexpr auto routes = [] {
   std::array<std::uint8_t, 2048> table{};
   table.fill(not_for_us);
   for (std::size_t i = 0; i < all_messages.size(); ++i) {
     const MessageInfo& info = all_messages[i];
-    if (!info.extended && info.sender != TargetHeartbeat::info.sender) table[info.id] = static_cast<std::uint8_t>(i);
+    if (!info.extended && info.sender != TargetHeartbeat::info.sender)
+      table[info.id] = static_cast<std::uint8_t>(i);
   }
   return table;
 }();
 
-constexpr std::uint16_t saturated(std::uint32_t count) { return static_cast<std::uint16_t>(std::min(count, 8191U)); }
+constexpr std::uint16_t saturated(std::uint32_t count) {
+  return static_cast<std::uint16_t>(std::min(count, 8191U));
+}
 
 }  // namespace
 
@@ -142,7 +146,8 @@ void Device::reset(Estimator estimator, Algorithm algorithm) {
 void Device::start() {
   if (state_ == TargetState::ready) {
     adapter_->start(initial_);
-    answers_.reset_counters();  // what follows depends on this run's frames alone, not on how often a command was repeated
+    answers_.reset_counters();  // what follows depends on this run's frames alone, not on how often a command
+                                // was repeated
     return enter(TargetState::running);
   }
   if (state_ == TargetState::idle) {

@@ -14,7 +14,8 @@
 
 namespace canhil::target {
 
-/// hil-target without its process: commands, parameters, initial state, heartbeat, counters, and one estimator at work.
+/// hil-target without its process: commands, parameters, initial state, heartbeat, counters, and one
+/// estimator at work.
 class Device {
  public:
   Device();

@@ -24,11 +24,11 @@ class TimingWindow {
 
   /// The message of the window; starts a new one. Times saturate at 8191 us, as the message does.
   messages::TargetTiming take() {
-    const messages::TargetTiming message{.queue_max_us = microseconds(queue_max_ns_),
-                                         .queue_mean_us = microseconds(queue_sum_ns_ / std::max<std::int64_t>(frames_, 1)),
-                                         .compute_max_us = microseconds(compute_max_ns_),
-                                         .compute_mean_us =
-                                             microseconds(compute_sum_ns_ / std::max<std::int64_t>(answers_, 1))};
+    const messages::TargetTiming message{
+        .queue_max_us = microseconds(queue_max_ns_),
+        .queue_mean_us = microseconds(queue_sum_ns_ / std::max<std::int64_t>(frames_, 1)),
+        .compute_max_us = microseconds(compute_max_ns_),
+        .compute_mean_us = microseconds(compute_sum_ns_ / std::max<std::int64_t>(answers_, 1))};
     *this = TimingWindow();
     return message;
   }

@@ -1,0 +1,31 @@
+// What the process tells its caller.
+#pragma once
+
+#include <cstdio>
+
+#include "bench/checks/verdict.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::commands {
+
+enum class ExitCode : int { pass = 0, fail = 1, usage = 2, not_measured = 3 };
+
+constexpr ExitCode exit_code(checks::Outcome outcome) {
+  switch (outcome) {
+    case checks::Outcome::pass:
+      return ExitCode::pass;
+    case checks::Outcome::fail:
+      return ExitCode::fail;
+    case checks::Outcome::not_measured:
+      break;
+  }
+  return ExitCode::not_measured;
+}
+
+/// Says on stderr, in one line, why nothing was done.
+inline ExitCode complain(const Error& error) {
+  std::fprintf(stderr, "hil-bench: %s\n", error.message.c_str());
+  return ExitCode::usage;
+}
+
+}  // namespace canhil::commands

@@ -1,0 +1,131 @@
+#include "bench/commands/run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/interrupt.hpp"
+#include "bench/report/file.hpp"
+#include "bench/report/json.hpp"
+#include "bench/report/junit.hpp"
+#include "bench/report/text.hpp"
+#include "bench/run/contract.hpp"
+#include "bench/run/session.hpp"
+
+namespace canhil::commands {
+namespace {
+
+constexpr std::string_view private_bus = "local:";
+constexpr std::string_view in_process = "in-process";
+
+// As typed.
+struct Arguments {
+  std::string scenario;
+  std::string bus{private_bus};
+  std::string target;  // empty: the hil-target beside this program
+  bool lockstep = false;
+  std::optional<std::uint64_t> seed;
+  std::string json;
+  std::string junit;
+  std::string log;
+};
+
+std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
+
+run::Options options_of(const Arguments& arguments) {
+  run::Options options;
+  const bool external = arguments.target == "none";
+  options.bus = arguments.bus;
+  // Nobody else can know the name of a private bus, so two benches on one machine do not meet.
+  if (options.bus == private_bus)
+    options.bus = external ? "local:canhil" : fmt::format("local:canhil-{}", getpid());
+  if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
+  const bool virtual_time = arguments.lockstep || options.bus == in_process;
+  options.clock = virtual_time ? run::ClockKind::lockstep : run::ClockKind::real_time;
+  if (!arguments.log.empty()) options.log_path = arguments.log;
+  return options;
+}
+
+// A line that renews itself, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::int64_t duration_us)
+      : duration_us_(duration_us), shown_(isatty(STDERR_FILENO) != 0) {}
+  ~ProgressLine() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void operator()(std::int64_t t_us) const {
+    if (!shown_) return;
+    constexpr int width = 30;
+    const int done = static_cast<int>(std::clamp<std::int64_t>(t_us * width / duration_us_, 0, width));
+    fmt::print(stderr, "\r  [{:=<{}}{:{}}] {:.1f} / {:g} s ", "", done, "", width - done,
+               static_cast<double>(t_us) * 1e-6, static_cast<double>(duration_us_) * 1e-6);
+  }
+
+ private:
+  std::int64_t duration_us_;
+  bool shown_;
+};
+
+Result<void> write_reports(const Arguments& arguments, const scenario::Scenario& scenario,
+                           const run::Run& run) {
+  if (arguments.json == "-") {
+    fmt::print("{}", report::json(scenario, run));
+  } else {
+    fmt::print("{}", report::text(scenario, run));
+    if (!arguments.json.empty()) {
+      if (auto written = report::write_file(arguments.json, report::json(scenario, run)); !written)
+        return written;
+    }
+  }
+  if (!arguments.junit.empty()) return report::write_file(arguments.junit, report::junit(scenario, run));
+  return {};
+}
+
+ExitCode execute(const Arguments& arguments) {
+  auto scenario = scenario::read_file(arguments.scenario, run::contract());
+  if (!scenario) return complain(scenario.error());
+  if (arguments.seed) scenario->seed = *arguments.seed;
+  for (const std::string& path : {arguments.json, arguments.junit, arguments.log}) {
+    if (path.empty() || path == "-") continue;
+    if (auto writable = report::check_writable(path); !writable) return complain(writable.error());
+  }
+  catch_interrupts();
+  Result<run::Run> finished = [&] {
+    const ProgressLine progress(scenario->duration_us);
+    return run::run(*scenario, options_of(arguments), interrupted, std::cref(progress));
+  }();
+  if (!finished) return complain(finished.error());
+  if (auto written = write_reports(arguments, *scenario, *finished); !written)
+    return complain(written.error());
+  return exit_code(finished->verdict.outcome);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand("run", "run a scenario against a target and judge it");
+  command->add_option("SCENARIO", arguments->scenario, "scenario file (TOML)")->required();
+  command->add_option(
+      "--bus", arguments->bus,
+      "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process");
+  command->add_option(
+      "--target", arguments->target,
+      "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
+  command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
+  command->add_option("--seed", arguments->seed, "another seed than the scenario's");
+  command->add_option("--json", arguments->json,
+                      "write the report as JSON to a file; -: to stdout, in place of the text");
+  command->add_option("--junit", arguments->junit, "write the checks as JUnit XML to a file");
+  command->add_option("--log", arguments->log, "record every frame in candump's log format");
+  command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+}
+
+}  // namespace canhil::commands

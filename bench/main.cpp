@@ -1,0 +1,28 @@
+// hil-bench: plays every node but the target, and judges it.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+
+#include "bench/commands/bus.hpp"
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/run.hpp"
+
+int main(int argc, char** argv) {
+  using canhil::commands::ExitCode;
+  CLI::App app{
+      "A hardware-in-the-loop bench over CAN for navigation and guidance estimators.\n"
+      "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured."};
+  app.require_subcommand(1);
+  int code = 0;
+  canhil::commands::add_run(app, code);
+  canhil::commands::add_bus(app, code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    std::fprintf(stderr, "hil-bench: %s; see hil-bench --help\n", error.what());
+    return static_cast<int>(ExitCode::usage);
+  }
+  return code;
+}

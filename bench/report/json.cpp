@@ -1,0 +1,76 @@
+#include "bench/report/json.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/report/summary.hpp"
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json object(const checks::Distribution& d) {
+  return {{"count", d.count}, {"min", d.min}, {"p50", d.p50}, {"p99", d.p99}, {"max", d.max}};
+}
+
+}  // namespace
+
+std::string json(const scenario::Scenario& scenario, const run::Run& run) {
+  const Summary summary = summarise(run);
+  Json page;
+  page["title"] = scenario.title;
+  page["verdict"] = checks::name(run.verdict.outcome);
+  page["reason"] = run.verdict.reason;
+  page["provenance"] = {{"scenario", scenario.file},
+                        {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
+                        {"dbc_hash", fmt::format("{:016x}", messages::dbc_hash)},
+                        {"seed", scenario.seed},
+                        {"run", run.options.run_index},
+                        {"bus", run.options.bus},
+                        {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
+                        {"latency_stamps", summary.stamp_source}};
+  page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
+  page["wall_s"] = run.wall_s;
+  page["checks"] = Json::array();
+  for (const checks::CheckResult& check : run.verdict.checks) {
+    page["checks"].push_back({{"name", check.name},
+                              {"kind", check.kind},
+                              {"requirement", check.requirement},
+                              {"outcome", checks::name(check.outcome)},
+                              {"measured", check.measured},
+                              {"expected", check.expected}});
+  }
+  page["heading_convergence"] = Json::array();
+  for (const BandEntry& entry : summary.heading_entries) {
+    page["heading_convergence"].push_back(
+        {{"within_mrad", entry.within_mrad}, {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
+  }
+  if (summary.final_error_rad) {
+    page["final_error"] = {{"roll_rad", summary.final_error_rad->roll},
+                           {"pitch_rad", summary.final_error_rad->pitch},
+                           {"heading_rad", summary.final_error_rad->heading},
+                           {"velocity_mps", summary.final_velocity_error_mps}};
+  }
+  if (run.options.clock == run::ClockKind::real_time) {
+    for (const MessageLatency& row : summary.latencies) {
+      page["latency_s"][row.message] = object(row.latency_s);
+      page["period_s"][row.message] = object(row.period_s);
+    }
+    page["bench_lateness_s"] = object(summary.lateness_s);
+  }
+  if (run.seen.counters) {
+    page["target_counters"] = {{"frames_lost", run.seen.counters->frames_lost},
+                               {"bad_crc", run.seen.counters->bad_crc},
+                               {"bad_group", run.seen.counters->bad_group},
+                               {"late", run.seen.counters->late}};
+  }
+  page["from_target"] = {{"navigation_answers", summary.navigation_answers},
+                         {"filter_answers", summary.filter_answers},
+                         {"frames_lost", run.seen.target_frames_lost},
+                         {"bad_crc", run.seen.target_bad_crc},
+                         {"bench_overflows", run.seen.receive_overflows}};
+  return page.dump(2) + "\n";
+}
+
+}  // namespace canhil::report

@@ -1,0 +1,74 @@
+#include "bench/report/junit.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
+
+namespace canhil::report {
+namespace {
+
+using checks::CheckResult;
+using checks::Outcome;
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      default:
+        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string junit(const scenario::Scenario& scenario, const run::Run& run) {
+  // The run as a whole is a case of its own: a run that ended early fails even if no check does.
+  std::vector<CheckResult> cases = run.verdict.checks;
+  const bool early = run.ending.kind != run::Ending::Kind::completed;
+  cases.insert(cases.begin(), CheckResult{.name = "run completes",
+                                          .kind = "run",
+                                          .requirement = "",
+                                          .outcome = early ? Outcome::fail : Outcome::pass,
+                                          .measured = early ? run.ending.detail : "completed",
+                                          .expected = "completed"});
+  const auto count = [&](Outcome outcome) {
+    return std::ranges::count(cases, outcome, &CheckResult::outcome);
+  };
+  std::string page;
+  auto out = std::back_inserter(page);
+  fmt::format_to(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n");
+  fmt::format_to(
+      out, "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
+      escaped(scenario.title), cases.size(), count(Outcome::fail), count(Outcome::not_measured), run.wall_s);
+  for (const CheckResult& check : cases) {
+    fmt::format_to(out, "    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
+                   escaped(check.name));
+    if (!check.requirement.empty()) {
+      fmt::format_to(out, "      <properties><property name=\"requirement\" value=\"{}\"/></properties>\n",
+                     escaped(check.requirement));
+    }
+    const std::string message = escaped(fmt::format("{}; expected {}", check.measured, check.expected));
+    if (check.outcome == Outcome::fail) fmt::format_to(out, "      <failure message=\"{}\"/>\n", message);
+    if (check.outcome == Outcome::not_measured)
+      fmt::format_to(out, "      <skipped message=\"not measured: {}\"/>\n", message);
+    fmt::format_to(out, "    </testcase>\n");
+  }
+  fmt::format_to(out, "  </testsuite>\n</testsuites>\n");
+  return page;
+}
+
+}  // namespace canhil::report

@@ -1,0 +1,15 @@
+// A run's report for CI servers.
+#pragma once
+
+#include <string>
+
+#include "bench/run/session.hpp"
+#include "bench/scenario/scenario.hpp"
+
+namespace canhil::report {
+
+/// JUnit XML: one test case a check; not measured is 'skipped' with the reason; requirement ids are
+/// properties.
+std::string junit(const scenario::Scenario& scenario, const run::Run& run);
+
+}  // namespace canhil::report

@@ -1,0 +1,48 @@
+#include "bench/report/summary.hpp"
+
+#include "bench/checks/errors.hpp"
+#include "bench/world/units.hpp"
+
+namespace canhil::report {
+namespace {
+
+using messages::AlignUpdate;
+using messages::AlignVelocityD;
+
+constexpr double bands_mrad[] = {10, 3, 2, 1};
+
+}  // namespace
+
+Summary summarise(const run::Run& run) {
+  Summary summary;
+  const auto errors = checks::navigation_errors(run.seen, run.truth);
+  for (const double band : bands_mrad) {
+    const auto t_us = checks::convergence_us(errors, &world::Euler::heading, band * world::units::mrad);
+    summary.heading_entries.push_back(
+        {band, t_us ? std::optional(static_cast<double>(*t_us) * 1e-6) : std::nullopt});
+  }
+  if (!errors.empty()) {
+    summary.final_error_rad = errors.back().angles;
+    summary.final_velocity_error_mps = errors.back().v_eb_n.norm();
+  }
+  summary.navigation_answers = run.seen.navigation.size();
+  summary.filter_answers = run.seen.filter.size();
+
+  const scenario::Window everything{0, run.truth.end_us()};
+  for (const std::string_view message : {AlignVelocityD::info.name, AlignUpdate::info.name}) {
+    summary.latencies.push_back(
+        {.message = std::string(message),
+         .latency_s = checks::distribution(checks::latencies_s(run.seen, message, everything)),
+         .period_s = checks::distribution(checks::periods_s(run.seen, message, everything))});
+  }
+  std::vector<double> lateness(run.seen.lateness_ns.begin(), run.seen.lateness_ns.end());
+  for (double& late : lateness) late *= 1e-9;
+  summary.lateness_s = checks::distribution(std::move(lateness));
+  summary.stamp_source = run.options.clock == run::ClockKind::lockstep ? "virtual time"
+                         : run.seen.transmit_stamps_echoed
+                             ? "bus stamps of stimulus and answer"
+                             : "bench's stamp of the stimulus, bus stamp of the answer";
+  return summary;
+}
+
+}  // namespace canhil::report

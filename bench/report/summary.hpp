@@ -1,0 +1,39 @@
+// What a run measured, apart from its checks: the figures that every report shows.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/checks/timing.hpp"
+#include "bench/run/session.hpp"
+
+namespace canhil::report {
+
+/// Time at which the heading error enters a band for good.
+struct BandEntry {
+  double within_mrad = 0;
+  std::optional<double> t_s;  ///< none: outside at the end
+};
+
+/// Latency of one message of the target.
+struct MessageLatency {
+  std::string message;
+  checks::Distribution latency_s;
+  checks::Distribution period_s;
+};
+
+struct Summary {
+  std::vector<BandEntry> heading_entries;
+  std::optional<world::Euler> final_error_rad;  ///< of the last navigation answer
+  double final_velocity_error_mps = 0;
+  std::size_t navigation_answers = 0;
+  std::size_t filter_answers = 0;
+  std::vector<MessageLatency> latencies;  ///< of the closing message of each group
+  checks::Distribution lateness_s;        ///< of the bench's own transmissions
+  std::string stamp_source;               ///< what the latencies were measured with
+};
+
+Summary summarise(const run::Run& run);
+
+}  // namespace canhil::report

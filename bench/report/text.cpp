@@ -1,0 +1,88 @@
+#include "bench/report/text.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <iterator>
+
+#include "bench/report/summary.hpp"
+#include "bench/world/units.hpp"
+
+namespace canhil::report {
+namespace {
+
+using world::units::mrad;
+
+std::string_view label(checks::Outcome outcome) {
+  switch (outcome) {
+    case checks::Outcome::pass:
+      return "PASS";
+    case checks::Outcome::fail:
+      return "FAIL";
+    case checks::Outcome::not_measured:
+      return "NOT MEASURED";
+  }
+  return "?";
+}
+
+}  // namespace
+
+std::string text(const scenario::Scenario& scenario, const run::Run& run) {
+  const Summary summary = summarise(run);
+  std::string page;
+  auto out = std::back_inserter(page);
+
+  fmt::format_to(out, "{}\n", scenario.title);
+  fmt::format_to(out, "  scenario {} · bus {} · {} · {:g} s in {:.2f} s\n\n", scenario.file, run.options.bus,
+                 run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time",
+                 static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
+
+  std::size_t width = 5;
+  for (const checks::CheckResult& check : run.verdict.checks) width = std::max(width, check.name.size());
+  for (const checks::CheckResult& check : run.verdict.checks) {
+    fmt::format_to(out, "  {:<12}  {:<{}}  {}  (expected {})\n", label(check.outcome), check.name, width,
+                   check.measured, check.expected);
+  }
+
+  fmt::format_to(out, "\n  heading error for good within");
+  for (const BandEntry& entry : summary.heading_entries) {
+    fmt::format_to(out, "  {:g} mrad: {}", entry.within_mrad,
+                   entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
+  }
+  if (summary.final_error_rad) {
+    fmt::format_to(out,
+                   "\n  error at the end              roll {:+.3f}  pitch {:+.3f}  heading {:+.3f} mrad  "
+                   "velocity {:.4f} m/s\n",
+                   summary.final_error_rad->roll / mrad, summary.final_error_rad->pitch / mrad,
+                   summary.final_error_rad->heading / mrad, summary.final_velocity_error_mps);
+  } else {
+    fmt::format_to(out, "\n  the target gave no navigation answers\n");
+  }
+  if (run.options.clock == run::ClockKind::real_time) {
+    for (const MessageLatency& row : summary.latencies) {
+      fmt::format_to(out, "  latency {:<22}p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} answers\n",
+                     row.message, row.latency_s.p50 * 1e3, row.latency_s.p99 * 1e3, row.latency_s.max * 1e3,
+                     row.latency_s.count);
+    }
+    fmt::format_to(out,
+                   "  bench's own lateness          p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} frames  "
+                   "(latency by {})\n",
+                   summary.lateness_s.p50 * 1e3, summary.lateness_s.p99 * 1e3, summary.lateness_s.max * 1e3,
+                   summary.lateness_s.count, summary.stamp_source);
+    if (run.seen.target_timing_seen) {
+      fmt::format_to(out, "  target's own account          queue max {} us  compute max {} us\n",
+                     run.seen.queue_max_us, run.seen.compute_max_us);
+    }
+  }
+  const auto& counters = run.seen.counters;
+  fmt::format_to(
+      out, "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",
+      counters ? fmt::format("{} frames, {} bad CRC, {} bad groups, {} late", counters->frames_lost,
+                             counters->bad_crc, counters->bad_group, counters->late)
+               : "unknown",
+      run.seen.target_frames_lost, run.seen.target_bad_crc, run.seen.receive_overflows);
+
+  fmt::format_to(out, "\n{}: {}\n", checks::name(run.verdict.outcome), run.verdict.reason);
+  return page;
+}
+
+}  // namespace canhil::report

@@ -1,0 +1,13 @@
+// A Database as JSON, for other tools and for comparison with other readers of DBC files.
+#pragma once
+
+#include <string>
+
+#include "dbc/parser/database.hpp"
+
+namespace canhil::dbc {
+
+/// Messages, signals, value tables, nodes, attributes; in the order of the DBC.
+std::string to_json(const Database& database);
+
+}  // namespace canhil::dbc

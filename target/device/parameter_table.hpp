@@ -1,0 +1,67 @@
+// An estimator's parameters as a table: range, default, when it may change, and what it changes.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "messages/canhil.hpp"
+
+namespace canhil::target {
+
+/// Values of the parameters in the unit of their name, applied to an estimator's own `Tuning`.
+template <class Tuning>
+class ParameterTable {
+ public:
+  struct Row {
+    messages::Parameter parameter;
+    double initial;
+    double minimum;
+    double maximum;
+    bool while_running;
+    void (*apply)(Tuning&, double);
+  };
+
+  constexpr explicit ParameterTable(std::span<const Row> rows) : rows_(rows) {}
+
+  /// Every parameter back to its default.
+  void reset(Tuning& tuning) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) take(tuning, i, rows_[i].initial);
+  }
+
+  messages::ParameterStatus set(Tuning& tuning, messages::Parameter parameter, double value, bool running) {
+    const auto index = find(parameter);
+    if (!index) return messages::ParameterStatus::unknown;
+    const Row& row = rows_[*index];
+    if (running && !row.while_running) return messages::ParameterStatus::wrong_state;
+    if (!(value >= row.minimum && value <= row.maximum))
+      return messages::ParameterStatus::out_of_range;  // NaN too
+    take(tuning, *index, value);
+    return messages::ParameterStatus::accepted;
+  }
+
+  [[nodiscard]] std::optional<double> get(messages::Parameter parameter) const {
+    const auto index = find(parameter);
+    return index ? std::optional(values_[*index]) : std::nullopt;
+  }
+
+ private:
+  static constexpr std::size_t capacity = 64;
+
+  [[nodiscard]] std::optional<std::size_t> find(messages::Parameter parameter) const {
+    const auto found = std::ranges::find(rows_, parameter, &Row::parameter);
+    if (found == rows_.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - rows_.begin());
+  }
+  void take(Tuning& tuning, std::size_t index, double value) {
+    values_[index] = value;
+    rows_[index].apply(tuning, value);
+  }
+
+  std::span<const Row> rows_;
+  std::array<double, capacity> values_{};
+};
+
+}  // namespace canhil::target

@@ -1,0 +1,221 @@
+#include "target/device/device.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/target/device/bench_side.hpp"
+
+namespace canhil::target {
+namespace {
+
+using namespace messages;
+
+TEST(Device, AnswersAResetWithItsStateAndTheHashOfItsDbc) {
+  BenchSide bench;
+  bench.command(Command::reset);
+  const auto heartbeat = bench.last<TargetHeartbeat>();
+  ASSERT_TRUE(heartbeat);
+  EXPECT_EQ(heartbeat->state, TargetState::idle);
+  EXPECT_EQ(heartbeat->estimator, Estimator::transfer_alignment);
+  EXPECT_EQ(heartbeat->dbc_hash, dbc_hash24);
+  EXPECT_EQ(heartbeat->error_command, 0);
+}
+
+TEST(Device, RefusesACommandOfAnotherDbc) {
+  BenchSide bench;
+  bench.command(Command::reset);
+  bench.initialise();
+  bench.send(TargetCommand{.command = Command::start, .dbc_hash = dbc_hash24 ^ 1U});
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->state, TargetState::ready);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_dbc_mismatch, 1);
+}
+
+TEST(Device, RefusesAnEstimatorThatItDoesNotOffer) {
+  BenchSide bench;
+  bench.command(Command::reset, Estimator::wind);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_command, 1);
+  bench.initialise();
+  bench.command(Command::start);
+  EXPECT_EQ(bench.device().state(), TargetState::idle);
+}
+
+TEST(Device, DoesNotStartWithoutAWholeInitialState) {
+  BenchSide bench;
+  bench.command(Command::reset);
+  bench.send(TargetInitLatitude{.latitude_deg = 37, .height_m = 1000});
+  bench.command(Command::start);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->state, TargetState::idle);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_not_initialised, 1);
+}
+
+TEST(Device, ReadsBackEveryParameterAsItWasSet) {
+  BenchSide bench;
+  bench.command(Command::reset);
+  for (const Parameter parameter : enumerators<Parameter>) {
+    bench.send(ParamSet{.parameter = parameter, .value = 1.0F});
+    ASSERT_EQ(bench.last<ParamAck>()->parameter, parameter);
+    EXPECT_EQ(bench.last<ParamAck>()->status, ParameterStatus::accepted) << name_of(parameter);
+    EXPECT_EQ(bench.last<ParamAck>()->value, 1.0F) << name_of(parameter);
+  }
+}
+
+TEST(Device, KeepsTheOldValueOfAParameterThatItRefuses) {
+  BenchSide bench;
+  bench.command(Command::reset);
+  bench.send(ParamSet{.parameter = Parameter::h2_case, .value = 5.0F});
+  EXPECT_EQ(bench.last<ParamAck>()->status, ParameterStatus::out_of_range);
+  EXPECT_EQ(bench.last<ParamAck>()->value, 2.0F);
+  bench.send(ParamSet{.parameter = Parameter::velocity_noise_m2ps, .value = std::nanf("")});
+  EXPECT_EQ(bench.last<ParamAck>()->status, ParameterStatus::out_of_range);
+  bench.send(ParamSet{.parameter = static_cast<Parameter>(200), .value = 1.0F});
+  EXPECT_EQ(bench.last<ParamAck>()->status, ParameterStatus::unknown);
+  bench.start();
+  bench.send(ParamSet{.parameter = Parameter::h2_case, .value = 1.0F});
+  EXPECT_EQ(bench.last<ParamAck>()->status, ParameterStatus::wrong_state);
+}
+
+TEST(Device, AnswersEachImuGroupNamingItsCause) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  bench.imu(20'000);
+  const auto closing = bench.all<AlignVelocityD>();
+  ASSERT_EQ(closing.size(), 2U);
+  EXPECT_EQ(closing[0].cause_time_us, 10'000U);
+  EXPECT_EQ(closing[1].cause_time_us, 20'000U);
+  EXPECT_EQ(bench.all<AlignVelocityNE>()[1].cause_counter, 1);
+  EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 0);
+  EXPECT_NEAR(bench.last<AlignVelocityNE>()->velocity_north_mps, BenchSide::speed, 0.01);
+}
+
+TEST(Device, AnswersFasterImuGroupsAtTheOutputInterval) {
+  BenchSide bench;
+  bench.start();
+  for (int k = 1; k <= 20; ++k) bench.imu(k * 5'000, 5'000);
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 10U);
+}
+
+TEST(Device, AnswersEachMasterGroupWithSigmasAndInnovation) {
+  BenchSide bench;
+  bench.start();
+  for (int k = 1; k <= 10; ++k) bench.imu(k * 10'000);
+  bench.master(100'000, BenchSide::speed - 0.5);
+  const auto update = bench.last<AlignUpdate>();
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->cause_time_us, 100'000U);
+  EXPECT_NEAR(bench.last<AlignInnovation>()->innovation_north_mps, 0.5, 0.01);
+  EXPECT_GT(update->nis, 0);
+  EXPECT_GT(bench.last<AlignAttitudeSigma>()->attitude_sigma_down_rad, 0.01);
+  EXPECT_LT(bench.last<AlignVelocitySigma>()->velocity_sigma_north_mps, 0.5);
+}
+
+TEST(Device, AppliesALateFixAtItsTimeOfValidity) {
+  // The same fixes, one stream in time, one 60 ms late: once both have everything, the answers agree bit for
+  // bit.
+  const auto last_answer = [](int delay_samples) {
+    BenchSide bench;
+    bench.start();
+    for (int k = 1; k <= 60; ++k) {
+      bench.imu(k * 10'000);
+      const int valid = k - delay_samples;
+      if (valid > 0 && valid % 10 == 0 && valid <= 50) bench.master(valid * 10'000, BenchSide::speed - 0.3);
+    }
+    return std::tuple(bench.last<AlignVelocityNE>()->velocity_north_mps,
+                      bench.last<AlignAttitude>()->pitch_deg, bench.last<TargetHeartbeat>()->state);
+  };
+  EXPECT_EQ(last_answer(0), last_answer(6));
+}
+
+TEST(Device, KeepsAFixThatIsAheadOfTheImu) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  bench.master(20'000);
+  EXPECT_FALSE(bench.last<AlignUpdate>());
+  bench.imu(20'000);
+  ASSERT_TRUE(bench.last<AlignUpdate>());
+  EXPECT_EQ(bench.last<AlignUpdate>()->cause_time_us, 20'000U);
+}
+
+TEST(Device, CountsAFixOlderThanItsHistoryAsLate) {
+  BenchSide bench;
+  bench.start();
+  for (int k = 1; k <= 100; ++k) bench.imu(k * 10'000);
+  bench.master(10'000);
+  bench.sync(1'000'000);
+  EXPECT_FALSE(bench.last<AlignUpdate>());
+  EXPECT_EQ(bench.last<TargetCounters>()->late, 1);
+}
+
+TEST(Device, AnswersAStepOfVirtualTimeLast) {
+  BenchSide bench;
+  bench.start();
+  bench.forget();
+  bench.sync(0, true);
+  EXPECT_TRUE(bench.device().lockstep());
+  ASSERT_FALSE(bench.answers().empty());
+  EXPECT_EQ(bench.answers().back().id, StepDone::info.id);
+  bench.imu(10'000);
+  bench.sync(10'000, true);
+  EXPECT_EQ(bench.last<StepDone>()->step, 1);
+  bench.forget();
+  bench.sync(20'000, false);
+  EXPECT_FALSE(bench.last<StepDone>());
+}
+
+TEST(Device, BeatsEveryHundredMillisecondsOfTheTimeBase) {
+  BenchSide bench;
+  bench.start();
+  bench.forget();
+  for (int k = 0; k <= 40; ++k) {
+    bench.sync(k * 10'000);
+    bench.imu((k + 1) * 10'000);
+  }
+  EXPECT_EQ(bench.all<TargetHeartbeat>().size(), 5U);
+  EXPECT_EQ(bench.all<TargetCounters>().size(), 5U);
+}
+
+TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
+  BenchSide used;
+  used.start();
+  for (int k = 1; k <= 30; ++k) used.imu(k * 10'000);
+  used.master(300'000);
+
+  const auto session = [](BenchSide& bench) {
+    bench.forget();
+    bench.start();
+    bench.sync(0);
+    for (int k = 1; k <= 30; ++k) {
+      bench.imu(k * 10'000);
+      if (k % 10 == 0) bench.master(k * 10'000);
+      bench.sync(k * 10'000);
+    }
+    return bench.answers();
+  };
+  // A bench that starts anew counts from 0 again; the fresh one here is fed what the used one was fed.
+  BenchSide again;
+  const std::size_t before = used.fed().size();
+  const auto answers = session(used);
+  std::vector<Frame> fresh;
+  Device device;
+  for (std::size_t i = before; i < used.fed().size(); ++i) {
+    const auto part = device.receive(used.fed()[i]);
+    fresh.insert(fresh.end(), part.begin(), part.end());
+  }
+  EXPECT_EQ(fresh, answers);
+  EXPECT_GT(answers.size(), 100U);
+}
+
+TEST(Device, HearsACommandThatRepeatsTheCounterOfTheLast) {
+  BenchSide first;
+  first.command(Command::reset);
+  Outbox<1> second_bench;
+  second_bench.send(TargetCommand{.command = Command::reset,
+                                  .estimator = Estimator::transfer_alignment,
+                                  .algorithm = Algorithm::robust_h2,
+                                  .dbc_hash = dbc_hash24});
+  first.feed(second_bench.frames().front());  // counter 0 again
+  EXPECT_EQ(first.last<TargetHeartbeat>()->algorithm, Algorithm::robust_h2);
+}
+
+}  // namespace
+}  // namespace canhil::target

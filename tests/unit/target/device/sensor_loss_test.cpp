@@ -1,0 +1,143 @@
+// What the device makes of frames that are lost, broken, late, or say that they are invalid.
+#include <gmock/gmock.h>
+
+#include "tests/unit/target/device/bench_side.hpp"
+
+namespace canhil::target {
+namespace {
+
+using namespace messages;
+
+TEST(SensorLoss, AFrameWithAWrongCrcIsDroppedAndCounted) {
+  BenchSide bench;
+  bench.start();
+  Outbox<1> out;
+  out.send(BenchSide::velocity());
+  Frame frame = out.frames().front();
+  frame.data[3] ^= 0x10U;
+  bench.feed(frame);
+  bench.sync(0);
+  EXPECT_EQ(bench.last<TargetCounters>()->bad_crc, 1);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_lost, 1);
+}
+
+TEST(SensorLoss, AFrameOfTheWrongSizeIsDroppedAndCounted) {
+  BenchSide bench;
+  bench.start();
+  Outbox<1> out;
+  out.send(BenchSide::velocity());
+  Frame frame = out.frames().front();
+  frame.size = 4;
+  bench.feed(frame);
+  bench.sync(0);
+  EXPECT_EQ(bench.last<TargetCounters>()->bad_crc, 1);
+}
+
+TEST(SensorLoss, AGroupThatMissesAFrameIsNotUsed) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  bench.send(BenchSide::theta(Validity::valid));
+  bench.lose(BenchSide::velocity());
+  bench.send(BenchSide::status(20'000, 10'000));
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 1U);
+  bench.imu(30'000);
+  bench.sync(30'000);
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 2U);
+  EXPECT_EQ(bench.last<TargetCounters>()->bad_group, 1);
+  EXPECT_EQ(bench.last<TargetCounters>()->frames_lost, 1);
+}
+
+TEST(SensorLoss, ALostGroupIsBridgedAndFlaggedOnce) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  bench.lose_imu(20'000);
+  bench.imu(30'000);
+  EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 1);
+  EXPECT_EQ(bench.last<AlignVelocityD>()->cause_time_us, 30'000U);
+  // The specific force of the missing sample was not left out: the vertical velocity stays near zero.
+  EXPECT_NEAR(bench.last<AlignVelocityD>()->velocity_down_mps, 0, 0.01);
+  bench.imu(40'000);
+  EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 0);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->state, TargetState::running);
+}
+
+TEST(SensorLoss, AnInvalidGroupIsBridgedAndCounted) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  bench.imu(20'000, 10'000, Validity::invalid);
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 1U);
+  bench.imu(30'000);
+  bench.sync(30'000);
+  EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 1);
+  EXPECT_EQ(bench.last<TargetCounters>()->bad_group, 1);
+}
+
+TEST(SensorLoss, AGroupOutOfOrderIsLateNotUsed) {
+  BenchSide bench;
+  bench.start();
+  for (int k = 1; k <= 5; ++k) bench.imu(k * 10'000);
+  bench.imu(30'000);
+  bench.sync(50'000);
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 5U);
+  EXPECT_EQ(bench.last<TargetCounters>()->late, 1);
+}
+
+TEST(SensorLoss, AnImuThatStaysAwayIsNamed) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  for (int k = 1; k <= 51; ++k) bench.sync(k * 10'000);
+  EXPECT_EQ(bench.device().state(), TargetState::running);
+  bench.sync(520'000);
+  EXPECT_EQ(bench.device().state(), TargetState::fault);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_silent, 1);
+}
+
+TEST(SensorLoss, AGapTooLongToBridgeEndsTheAlignment) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  bench.imu(400'000);
+  EXPECT_EQ(bench.device().state(), TargetState::fault);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_silent, 1);
+}
+
+TEST(SensorLoss, AFixFromTheFutureIsDropped) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  bench.master(2'000'000);
+  for (int k = 2; k <= 20; ++k) bench.imu(k * 10'000);
+  bench.sync(200'000);
+  EXPECT_FALSE(bench.last<AlignUpdate>());
+  EXPECT_EQ(bench.last<TargetCounters>()->bad_group, 1);
+}
+
+TEST(SensorLoss, TimeOfValidityMayWrap) {
+  BenchSide bench;
+  bench.command(Command::reset);
+  const std::int64_t start_us = (std::int64_t{1} << 32) - 50'000;
+  bench.sync(start_us);
+  bench.initialise();
+  bench.send(TargetInitLatitude{.latitude_deg = 37, .height_m = 1000});
+  bench.send(TargetInitLongitude{.longitude_deg = 127, .position_sigma_m = 10});
+  bench.send(TargetInitVelocityNE{.velocity_north_mps = BenchSide::speed});
+  bench.send(TargetInitAttitude{});
+  bench.send(TargetInitSigma{.velocity_sigma_mps = 1, .tilt_sigma_deg = 1, .heading_sigma_deg = 1});
+  bench.send(TargetInitVelocityD{.time_of_validity_us = wrap_us(start_us)});
+  bench.command(Command::start);
+  for (int k = 1; k <= 20; ++k) {
+    bench.imu(start_us + k * 10'000);
+    bench.sync(start_us + k * 10'000);
+  }
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 20U);
+  EXPECT_EQ(bench.last<AlignVelocityD>()->cause_time_us, wrap_us(start_us + 200'000));
+  EXPECT_EQ(bench.last<TargetCounters>()->late, 0);
+  EXPECT_EQ(bench.device().state(), TargetState::running);
+}
+
+}  // namespace
+}  // namespace canhil::target
