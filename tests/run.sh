@@ -36,7 +36,14 @@ finish() {
   printf '\n%d passed, %d failed\n' "$passed" "$failed"
   exit $((failed > 0))
 }
-trap 'echo "tests/run.sh: interrupted" >&2; failed=$((failed + 1)); finish' INT TERM HUP
+running= # process group of the ctest that runs
+interrupted() {
+  echo "tests/run.sh: interrupted" >&2
+  if [[ -n "$running" ]]; then kill -TERM -- "-$running" 2>/dev/null; fi
+  failed=$((failed + 1))
+  finish
+}
+trap interrupted INT TERM HUP
 
 stage() { # stage NAME FUNCTION...: runs it; it adds to passed and failed
   local name=$1 p=$passed f=$failed start=$SECONDS took
@@ -67,8 +74,11 @@ build() { # build PRESET [TARGET...]
 run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
   local preset=$1 junit=$results/$1.xml code=0 counts
   shift
-  "${personality[@]}" ctest --test-dir "build/$preset" -j "$jobs" --timeout 300 --output-on-failure \
-    --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" || code=$?
+  setsid "${personality[@]}" ctest --test-dir "build/$preset" -j "$jobs" --timeout 300 --output-on-failure \
+    --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" &
+  running=$!
+  wait "$running" || code=$?
+  running=
   if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then failure "no results of ctest for $preset"; return; fi
   local p f
   read -r p f <<<"$counts"
@@ -132,4 +142,5 @@ if [[ $quick == no ]]; then
   if [[ -d tests/fuzz ]]; then stage "fuzzing, a short run each" fuzzers; fi
 fi
 if [[ $static == yes ]]; then stage "clang-tidy" one_check python3 tests/static/tidy.py build/default; fi
+if [[ -n "$only" ]] && ((!passed && !failed)); then failure "no test matches '$only'"; fi
 finish

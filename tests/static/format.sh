@@ -1,8 +1,13 @@
 #!/usr/bin/env bash
-# Fails when a C++ file is not formatted as .clang-format says; format.sh --fix formats them all.
+# Names the C++ files that are not formatted as .clang-format says, and fails if there are any; format.sh --fix formats them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-mode=(--dry-run --Werror)
-if [[ "${1:-}" == --fix ]]; then mode=(-i); fi
-find dbc target bench tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 |
-  xargs -0 -r -P "$(nproc)" -n 8 clang-format --style=file "${mode[@]}"
+each_file() { find dbc target bench tests \( -name '*.hpp' -o -name '*.cpp' \) -print0 | xargs -0 -r -P "$(nproc)" -n 1 "$@"; }
+if [[ "${1:-}" == --fix ]]; then
+  each_file clang-format -i
+  exit
+fi
+if ! each_file bash -c 'clang-format "$0" | cmp -s - "$0" || { echo "$0: not formatted"; exit 1; }'; then
+  echo "format them by: bash tests/static/format.sh --fix"
+  exit 1
+fi

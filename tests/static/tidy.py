@@ -8,14 +8,12 @@ import concurrent.futures
 import hashlib
 import json
 import os
-import re
 import subprocess
 import sys
 import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-PRECOMPILED = re.compile(r"-Winvalid-pch|-include \S*cmake_pch\.hxx|-fpch-preprocess")  # GCC's, clang cannot read them
 LONGEST_S = 900
 
 
@@ -24,9 +22,9 @@ def recorded_includes(build):
     text = subprocess.run(["ninja", "-C", build, "-t", "deps"], capture_output=True, text=True, check=True).stdout
     found = {}
     for block in text.split("\n\n"):
-        head, *files = block.strip().splitlines()[:1] + [line.strip() for line in block.strip().splitlines()[1:]] or [""]
+        head, *files = [line.strip() for line in block.strip().splitlines()] or [""]
         if head.endswith("(VALID)"):
-            found[head.split(":")[0]] = [os.path.join(build, f) for f in files]
+            found[head.split(":")[0]] = [os.path.join(build, file) for file in files]
     return found
 
 
@@ -39,9 +37,7 @@ def main():
     for entry in json.loads((build / "compile_commands.json").read_text()):
         file = Path(entry["file"])
         if file.is_relative_to(ROOT) and not file.is_relative_to(build):
-            entry["command"] = PRECOMPILED.sub("", entry["command"])
             commands.append(entry)
-    (cache / "compile_commands.json").write_text(json.dumps(commands))
     if not commands:
         sys.exit(f"tidy.py: {build}/compile_commands.json names no source of the project, expected all of them")
 
@@ -72,7 +68,7 @@ def main():
             return name, 0.0, True, ""
         start = time.monotonic()
         try:
-            run = subprocess.run(["clang-tidy", "-p", cache, "--quiet", entry["file"]], capture_output=True, text=True,
+            run = subprocess.run(["clang-tidy", "-p", build, "--quiet", entry["file"]], capture_output=True, text=True,
                                  cwd=ROOT, timeout=LONGEST_S)
             clean, output = run.returncode == 0, run.stdout + run.stderr
         except subprocess.TimeoutExpired:

@@ -12,6 +12,7 @@ SKIPPED = {".git", "build", "runs", "__pycache__"}
 
 # Longest prefix wins: a file under KEY may include project headers under these prefixes; one that ends in .hpp is that file alone.
 ESTIMATOR_SHARED = ("target/estimators/strapdown/", "target/estimators/filtering/")
+GENERATED = "messages/"  # dbcgen's headers, made from dbc/: whoever may include dbc/ may include them
 DEVICE = "target/device/device.hpp"  # the bench may hold a Device, through this header
 MAY_INCLUDE = {
     "dbc/": ("dbc/",),
@@ -66,7 +67,10 @@ def includes(text):
     for directive in INCLUDE.finditer(clean):
         line = clean.count("\n", 0, directive.start()) + 1
         name = INCLUDED.match(directive[1].strip())
-        found.append((line, name[1], name[2]) if name else (line, "", directive[1].strip()))
+        if not name:
+            found.append((line, "", directive[1].strip()))
+        else:
+            found.append((line, name[1], "dbc/" + name[2] if name[2].startswith(GENERATED) else name[2]))
     return found
 
 

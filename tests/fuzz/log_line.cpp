@@ -1,0 +1,20 @@
+// Any line: an entry, or one line of error; and what is written of an entry reads as the same frame.
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "dbc/ports/candump_log.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view line(reinterpret_cast<const char*>(data), size);
+  const auto entry = canhil::parse_log_line(line, "fuzz");
+  if (!entry) {
+    const std::string& message = entry.error().message;
+    if (!message.starts_with("fuzz:") || message.find('\n') != std::string::npos) std::abort();
+    return 0;
+  }
+  const auto again = canhil::parse_log_line(canhil::format_log_line(*entry), "fuzz");
+  if (!again || again->frame != entry->frame || again->interface != entry->interface) std::abort();
+  return 0;
+}
