@@ -59,7 +59,8 @@ double to_physical(const Signal& signal, std::uint64_t raw) {
       break;
   }
   // Plain values are not computed with: a signalling NaN keeps its bits.
-  return signal.scale == 1 && signal.offset == 0 ? number : wire::physical(number, signal.scale, signal.offset);
+  return signal.scale == 1 && signal.offset == 0 ? number
+                                                 : wire::physical(number, signal.scale, signal.offset);
 }
 
 std::uint64_t to_raw(const Signal& signal, double value) {
