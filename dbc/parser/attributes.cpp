@@ -9,8 +9,6 @@
 namespace canhil::dbc {
 namespace {
 
-[[noreturn]] void fail_at(Position at, std::string what) { throw ParseFailure{at, std::move(what)}; }
-
 struct OwnerName {
   std::string_view keyword;
   std::string_view name;

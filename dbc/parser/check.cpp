@@ -14,8 +14,6 @@
 namespace canhil::dbc {
 namespace {
 
-[[noreturn]] void fail_at(Position at, std::string what) { throw ParseFailure{at, std::move(what)}; }
-
 std::string full_name(const Message& message, const Signal& signal) {
   return fmt::format("{}.{}", message.name, signal.name);
 }

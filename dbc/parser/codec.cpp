@@ -58,7 +58,9 @@ double to_physical(const Signal& signal, std::uint64_t raw) {
       number = wire::real<double>(raw);
       break;
   }
-  return wire::physical(number, signal.scale, signal.offset);
+  // Plain values are not computed with: a signalling NaN keeps its bits.
+  return signal.scale == 1 && signal.offset == 0 ? number
+                                                 : wire::physical(number, signal.scale, signal.offset);
 }
 
 std::uint64_t to_raw(const Signal& signal, double value) {

@@ -1,9 +1,9 @@
 // DBC text to tokens. Internal to the parser.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "dbc/parser/database.hpp"
@@ -15,6 +15,8 @@ struct ParseFailure {
   Position at;
   std::string what;
 };
+
+[[noreturn]] inline void fail_at(Position at, std::string what) { throw ParseFailure{at, std::move(what)}; }
 
 enum class TokenKind : unsigned char { word, number, string, mark, end };
 

@@ -1,4 +1,4 @@
-// The sections that define messages, signals, environment variables, their values and their comments.
+// The sections that define messages and signals.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,10 +8,6 @@
 
 namespace canhil::dbc {
 namespace {
-
-constexpr std::string_view nobody = "Vector__XXX";
-
-[[noreturn]] void fail_at(Position at, std::string what) { throw ParseFailure{at, std::move(what)}; }
 
 // M: multiplexor; m3: there when it is 3; m3M: both.
 void read_mux_indicator(Reader& in, Signal& signal) {
@@ -34,14 +30,20 @@ void read_mux_indicator(Reader& in, Signal& signal) {
   in.take();
 }
 
+// Separated by commas, in old files by blanks on one line.
 void read_receivers(Reader& in, Draft& draft, Signal& signal) {
+  Position at;
+  const auto follows = [&] {
+    return in.take_mark_if(',') ||
+           (in.peek().kind == TokenKind::word && in.peek().at.line == at.line && !is_keyword(in.peek().text));
+  };
   do {
-    const Position at = in.peek().at;
+    at = in.peek().at;
     std::string name = in.word("a receiver");
     if (name == nobody) continue;
     node_of(draft, name, at);
     signal.receivers.push_back(std::move(name));
-  } while (in.take_mark_if(',') || (in.peek().kind == TokenKind::word && !is_keyword(in.peek().text)));
+  } while (follows());
 }
 
 Signal read_signal(Reader& in, Draft& draft) {
@@ -71,19 +73,6 @@ Signal read_signal(Reader& in, Draft& draft) {
   signal.unit = in.string("a unit");
   read_receivers(in, draft, signal);
   return signal;
-}
-
-std::vector<ValueName> read_value_names(Reader& in) {
-  std::vector<ValueName> values;
-  while (!in.take_mark_if(';')) {
-    const Position at = in.peek().at;
-    const std::int64_t value = in.integer("';' or a value");
-    if (std::ranges::find(values, value, &ValueName::value) != values.end()) {
-      fail_at(at, fmt::format("value {} named a second time, expected every value once", value));
-    }
-    values.push_back({value, in.string("the name of the value")});
-  }
-  return values;
 }
 
 }  // namespace
@@ -218,96 +207,6 @@ void read_extended_mux(Reader& in, Draft& draft) {
     }
     signal.mux_ranges.push_back(range);
   } while (in.take_mark_if(','));
-  in.mark(';');
-}
-
-void read_values(Reader& in, Draft& draft) {
-  const Position at = in.peek().at;
-  if (in.peek().kind == TokenKind::word) {
-    EnvironmentVariable& variable =
-        variable_of(draft, in.word("a message id or an environment variable"), at);
-    variable.values = read_value_names(in);
-    return;
-  }
-  Message& message = message_of(draft, in.natural("a message id or an environment variable", UINT32_MAX), at);
-  const Position signal_at = in.peek().at;
-  Signal& signal = signal_of(message, in.word("a signal"), signal_at);
-  if (!signal.values.empty()) {
-    fail_at(signal_at,
-            fmt::format("values of {}.{} a second time, expected VAL_ once", message.name, signal.name));
-  }
-  signal.values = read_value_names(in);
-}
-
-void read_value_table(Reader& in, Draft& draft) {
-  const Position at = in.peek().at;
-  ValueTable table;
-  table.name = in.word("the name of the value table");
-  auto& tables = draft.database.value_tables;
-  if (std::ranges::find(tables, table.name, &ValueTable::name) != tables.end()) {
-    fail_at(at, fmt::format("value table {} a second time, expected a name of its own", table.name));
-  }
-  table.values = read_value_names(in);
-  tables.push_back(std::move(table));
-}
-
-void read_variable(Reader& in, Draft& draft) {
-  const Position at = in.peek().at;
-  EnvironmentVariable variable;
-  variable.name = in.word("the name of the environment variable");
-  auto& variables = draft.database.variables;
-  if (std::ranges::find(variables, variable.name, &EnvironmentVariable::name) != variables.end()) {
-    fail_at(at,
-            fmt::format("environment variable {} a second time, expected a name of its own", variable.name));
-  }
-  in.mark(':');
-  variable.type = static_cast<int>(in.natural("the type 0, 1 or 2", 2));
-  in.mark('[');
-  variable.minimum = in.real("a minimum");
-  in.mark('|');
-  variable.maximum = in.real("a maximum");
-  in.mark(']');
-  variable.unit = in.string("a unit");
-  variable.initial = in.real("the initial value");
-  in.natural("the number of the variable", UINT32_MAX);
-  in.word("the access type DUMMY_NODE_VECTOR<number>");
-  do {
-    const Position node_at = in.peek().at;
-    std::string node = in.word("an access node");
-    if (node == nobody) continue;
-    node_of(draft, node, node_at);
-    variable.nodes.push_back(std::move(node));
-  } while (in.take_mark_if(','));
-  in.mark(';');
-  variables.push_back(std::move(variable));
-}
-
-void read_variable_data(Reader& in, Draft& draft) {
-  const Position at = in.peek().at;
-  EnvironmentVariable& variable = variable_of(draft, in.word("an environment variable"), at);
-  in.mark(':');
-  variable.data_size = static_cast<unsigned>(in.natural("the size in bytes", UINT32_MAX));
-  in.mark(';');
-}
-
-void read_comment(Reader& in, Draft& draft) {
-  std::string* comment = &draft.database.comment;
-  const std::string kind = in.peek().kind == TokenKind::word ? in.take().text : "";
-  const Position at = in.peek().at;
-  if (kind == "BU_") {
-    comment = &node_of(draft, in.word("a node"), at).comment;
-  } else if (kind == "BO_") {
-    comment = &message_of(draft, in.natural("a message id", UINT32_MAX), at).comment;
-  } else if (kind == "SG_") {
-    Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
-    const Position signal_at = in.peek().at;
-    comment = &signal_of(message, in.word("a signal"), signal_at).comment;
-  } else if (kind == "EV_") {
-    comment = &variable_of(draft, in.word("an environment variable"), at).comment;
-  } else if (!kind.empty()) {
-    fail_at(at, fmt::format("comment on '{}', expected BU_, BO_, SG_, EV_ or a string", kind));
-  }
-  *comment = in.string("a comment");
   in.mark(';');
 }
 

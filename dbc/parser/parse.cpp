@@ -40,7 +40,7 @@ void read_nodes(Reader& in, Draft& draft) {
       throw ParseFailure{name.at,
                          fmt::format("node '{}' a second time, expected every node once", name.text)};
     }
-    if (name.text != "Vector__XXX") nodes.push_back({name.text, {}, {}});
+    if (name.text != nobody) nodes.push_back({name.text, {}, {}});
   }
 }
 

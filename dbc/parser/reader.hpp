@@ -1,6 +1,7 @@
 // Walks over the tokens of a DBC text and holds what is read so far. Internal to the parser.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -43,6 +44,9 @@ class Reader {
   std::size_t index_ = 0;
 };
 
+/// The DBC's word for no node.
+inline constexpr std::string_view nobody = "Vector__XXX";
+
 bool is_keyword(std::string_view word);
 
 /// A Database in the making: a pseudo message may be among the messages until finish() drops it.
@@ -66,7 +70,7 @@ void read_transmitters(Reader& in, Draft& draft);               // BO_TX_BU_
 void read_signal_group(Reader& in, Draft& draft);               // SIG_GROUP_
 void read_signal_type(Reader& in, Draft& draft);                // SIG_VALTYPE_
 void read_extended_mux(Reader& in, Draft& draft);               // SG_MUL_VAL_
-void read_values(Reader& in, Draft& draft);                     // VAL_
+void read_values(Reader& in, Draft& draft);                     // annotations.cpp: VAL_
 void read_value_table(Reader& in, Draft& draft);                // VAL_TABLE_
 void read_variable(Reader& in, Draft& draft);                   // EV_
 void read_variable_data(Reader& in, Draft& draft);              // ENVVAR_DATA_

@@ -9,8 +9,8 @@ namespace canhil {
 
 /// One signal of a message. physical = raw * scale + offset, clamped to [minimum, maximum] when packed.
 struct SignalInfo {
-  std::string_view name;
-  std::string_view unit;
+  std::string_view name{};
+  std::string_view unit{};
   double scale = 1;
   double offset = 0;
   double minimum = 0;
@@ -26,16 +26,16 @@ struct SignalInfo {
 
 /// One message.
 struct MessageInfo {
-  std::string_view name;
+  std::string_view name{};
   std::uint32_t id = 0;
   bool extended = false;
   bool fd = false;
   std::uint8_t size = 0;
   std::int64_t cycle_time_us = 0;  ///< 0: sent on events
   std::uint16_t e2e_data_id = 0;   ///< 0: not protected
-  std::string_view sender;
-  std::string_view sample_group;        ///< empty: stands alone
-  std::span<const SignalInfo> signals;  ///< in the order of the DBC, without the E2E fields
+  std::string_view sender{};
+  std::string_view sample_group{};        ///< empty: stands alone
+  std::span<const SignalInfo> signals{};  ///< in the order of the DBC, without the E2E fields
 };
 
 }  // namespace canhil

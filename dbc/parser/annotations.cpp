@@ -1,0 +1,116 @@
+// The sections that say more about what is defined: named values, comments; and environment variables.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dbc/parser/reader.hpp"
+
+namespace canhil::dbc {
+namespace {
+
+std::vector<ValueName> read_value_names(Reader& in) {
+  std::vector<ValueName> values;
+  while (!in.take_mark_if(';')) {
+    const Position at = in.peek().at;
+    const std::int64_t value = in.integer("';' or a value");
+    if (std::ranges::find(values, value, &ValueName::value) != values.end()) {
+      fail_at(at, fmt::format("value {} named a second time, expected every value once", value));
+    }
+    values.push_back({value, in.string("the name of the value")});
+  }
+  return values;
+}
+
+}  // namespace
+
+void read_values(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  if (in.peek().kind == TokenKind::word) {
+    EnvironmentVariable& variable =
+        variable_of(draft, in.word("a message id or an environment variable"), at);
+    variable.values = read_value_names(in);
+    return;
+  }
+  Message& message = message_of(draft, in.natural("a message id or an environment variable", UINT32_MAX), at);
+  const Position signal_at = in.peek().at;
+  Signal& signal = signal_of(message, in.word("a signal"), signal_at);
+  if (!signal.values.empty()) {
+    fail_at(signal_at,
+            fmt::format("values of {}.{} a second time, expected VAL_ once", message.name, signal.name));
+  }
+  signal.values = read_value_names(in);
+}
+
+void read_value_table(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  ValueTable table;
+  table.name = in.word("the name of the value table");
+  auto& tables = draft.database.value_tables;
+  if (std::ranges::find(tables, table.name, &ValueTable::name) != tables.end()) {
+    fail_at(at, fmt::format("value table {} a second time, expected a name of its own", table.name));
+  }
+  table.values = read_value_names(in);
+  tables.push_back(std::move(table));
+}
+
+void read_variable(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  EnvironmentVariable variable;
+  variable.name = in.word("the name of the environment variable");
+  auto& variables = draft.database.variables;
+  if (std::ranges::find(variables, variable.name, &EnvironmentVariable::name) != variables.end()) {
+    fail_at(at,
+            fmt::format("environment variable {} a second time, expected a name of its own", variable.name));
+  }
+  in.mark(':');
+  variable.type = static_cast<int>(in.natural("the type 0, 1 or 2", 2));
+  in.mark('[');
+  variable.minimum = in.real("a minimum");
+  in.mark('|');
+  variable.maximum = in.real("a maximum");
+  in.mark(']');
+  variable.unit = in.string("a unit");
+  variable.initial = in.real("the initial value");
+  in.natural("the number of the variable", UINT32_MAX);
+  in.word("the access type DUMMY_NODE_VECTOR<number>");
+  do {
+    const Position node_at = in.peek().at;
+    std::string node = in.word("an access node");
+    if (node == nobody) continue;
+    node_of(draft, node, node_at);
+    variable.nodes.push_back(std::move(node));
+  } while (in.take_mark_if(','));
+  in.mark(';');
+  variables.push_back(std::move(variable));
+}
+
+void read_variable_data(Reader& in, Draft& draft) {
+  const Position at = in.peek().at;
+  EnvironmentVariable& variable = variable_of(draft, in.word("an environment variable"), at);
+  in.mark(':');
+  variable.data_size = static_cast<unsigned>(in.natural("the size in bytes", UINT32_MAX));
+  in.mark(';');
+}
+
+void read_comment(Reader& in, Draft& draft) {
+  std::string* comment = &draft.database.comment;
+  const bool on_object = in.at_word("BU_") || in.at_word("BO_") || in.at_word("SG_") || in.at_word("EV_");
+  if (!on_object && in.peek().kind != TokenKind::string) in.fail("BU_, BO_, SG_, EV_ or a comment in quotes");
+  const std::string kind = on_object ? in.take().text : "";
+  const Position at = in.peek().at;
+  if (kind == "BU_") {
+    comment = &node_of(draft, in.word("a node"), at).comment;
+  } else if (kind == "BO_") {
+    comment = &message_of(draft, in.natural("a message id", UINT32_MAX), at).comment;
+  } else if (kind == "SG_") {
+    Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
+    const Position signal_at = in.peek().at;
+    comment = &signal_of(message, in.word("a signal"), signal_at).comment;
+  } else if (kind == "EV_") {
+    comment = &variable_of(draft, in.word("an environment variable"), at).comment;
+  }
+  *comment = in.string("a comment");
+  in.mark(';');
+}
+
+}  // namespace canhil::dbc

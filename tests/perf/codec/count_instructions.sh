@@ -1,0 +1,23 @@
+#!/bin/sh
+# Instructions of one pack and one unpack, counted by callgrind. Exit status 1 where a goal is missed:
+# 30 instructions to unpack, 60 to pack a message of four signals.
+# usage: count_instructions.sh path/to/codec_instructions
+set -eu
+program=${1:?usage: count_instructions.sh path/to/codec_instructions}
+times=1000
+out=$(mktemp)
+trap 'rm -f "$out" "$out.log"' EXIT
+status=0
+for message in SlaveImuDeltaTheta FourSignals FourSignalsBig; do
+  for way in unpack pack; do
+    valgrind --tool=callgrind --toggle-collect="${way}_$message" --callgrind-out-file="$out" "$program" $times \
+      > "$out.log" 2>&1 || { cat "$out.log"; exit 2; }
+    total=$(sed -n 's/^\(summary\|totals\): *//p' "$out" | head -n 1)
+    count=$((total / times))
+    goal=30
+    [ $way = pack ] && goal=60
+    echo "instructions per $way of $message: $count (goal: at most $goal)"
+    [ "$count" -gt 0 ] && [ "$count" -le $goal ] || status=1
+  done
+done
+exit $status

@@ -1,0 +1,80 @@
+#include "dbc/codegen/rules.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "dbc/parser/parse.hpp"
+#include "dbc/wire/generated.hpp"
+
+namespace canhil::dbc {
+namespace {
+
+/// What is wrong with one signal of this name, scale, sigma and CarriesRemainder; empty: nothing.
+std::string breach(std::string_view name, double scale, double sigma, bool carries) {
+  const auto database =
+      parse(fmt::format("BS_:\nBU_: A\nBO_ 1 M: 8 A\n SG_ {} : 0|16@1- ({},0) [0|0] \"\" A\n"
+                        "BA_DEF_ SG_ \"SensorSigma\" FLOAT 0 1000;\n"
+                        "BA_DEF_ SG_ \"CarriesRemainder\" ENUM \"no\",\"yes\";\n"
+                        "BA_ \"SensorSigma\" SG_ 1 {} {};\nBA_ \"CarriesRemainder\" SG_ 1 {} {};\n",
+                        name, scale, name, sigma, name, carries ? 1 : 0),
+            "x.dbc");
+  EXPECT_TRUE(database) << database.error().message;
+  const auto found = find_breach(*database);
+  return found ? found->what : "";
+}
+
+// sqrt(12) / 4 = 0.8660254: the coarsest LSB for a sigma of 1.
+TEST(QuantisationRule, LsbOverSqrt12IsAtMostAQuarterOfSigma) {
+  EXPECT_EQ(breach("v", 0.8660, 1, false), "");
+  EXPECT_EQ(breach("v", -0.8660, 1, false), "");
+  EXPECT_EQ(breach("v", 0.8661, 1, false),
+            "signal M.v has LSB 0.8661 for a sensor sigma of 1, expected LSB / sqrt(12) <= sigma / 4: at "
+            "most 0.866");
+  EXPECT_NE(breach("v", -0.8661, 1, false), "");
+}
+
+TEST(QuantisationRule, SignalsThatAreNoMeasurementsAreFree) { EXPECT_EQ(breach("v", 1000, 0, false), ""); }
+
+TEST(QuantisationRule, IncrementsCarryTheirRemainder) {
+  EXPECT_EQ(breach("delta_v", 0.1, 1, true), "");
+  EXPECT_EQ(breach("delta_v", 0.1, 1, false),
+            "signal M.delta_v is an increment, expected the attribute CarriesRemainder \"yes\"");
+}
+
+TEST(QuantisationRule, WhatCarriesARemainderIsJudgedBySomeSensor) {
+  EXPECT_EQ(breach("delta_v", 0.1, 0, true),
+            "signal M.delta_v carries its remainder but has no sensor, expected SensorSigma > 0");
+}
+
+TEST(QuantisationRule, TheHeaderAssertsTheSame) {
+  constexpr SignalInfo fine{.name = "v", .scale = 0.8, .sensor_sigma = 1};
+  constexpr SignalInfo coarse{.name = "v", .scale = 0.9, .sensor_sigma = 1};
+  EXPECT_TRUE(wire::is_fine_enough({.signals = {&fine, 1}}));
+  EXPECT_FALSE(wire::is_fine_enough({.signals = {&coarse, 1}}));
+}
+
+TEST(SoundLayout, AssertsBoundsOverlapAndProtection) {
+  const std::array apart{SignalInfo{.start_bit = 0, .length = 8},
+                         SignalInfo{.start_bit = 15, .length = 8, .big_endian = true}};
+  const std::array overlapping{SignalInfo{.start_bit = 0, .length = 9},
+                               SignalInfo{.start_bit = 8, .length = 8}};
+  EXPECT_TRUE(wire::is_sound({.size = 2, .signals = apart}));
+  EXPECT_FALSE(wire::is_sound({.size = 1, .signals = apart}));
+  EXPECT_FALSE(wire::is_sound({.size = 2, .signals = overlapping}));
+  EXPECT_FALSE(wire::is_sound({.size = 2, .e2e_data_id = 1, .signals = apart}));
+}
+
+TEST(QuantisationTable, ListsEveryMeasurementOfTheContract) {
+  const auto database = read_file(SOURCE_DIR "/dbc/canhil.dbc");
+  ASSERT_TRUE(database);
+  EXPECT_EQ(find_breach(*database), std::nullopt) << find_breach(*database)->what;
+  const std::string table = quantisation_table(*database);
+  EXPECT_THAT(
+      table,
+      testing::HasSubstr(
+          "SlaveImuDeltaTheta.delta_theta_x_rad              2e-06     2.57e-06    0.225    carried  ok\n"));
+  EXPECT_THAT(table, testing::Not(testing::HasSubstr("AlignAttitude")));
+}
+
+}  // namespace
+}  // namespace canhil::dbc

@@ -1,0 +1,38 @@
+#include "dbc/parser/lexer.hpp"
+
+#include <gtest/gtest.h>
+
+namespace canhil::dbc {
+namespace {
+
+TEST(Lexer, ASignIsOfTheNumberOnlyBeforeADigit) {
+  const auto tokens = tokens_of("@1- (-2.5E-3,+.5)");
+  const std::vector<std::string> expected{"@", "1", "-", "(", "-2.5E-3", ",", "+.5", ")", ""};
+  ASSERT_EQ(tokens.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(tokens[i].text, expected[i]);
+  EXPECT_EQ(tokens.back().kind, TokenKind::end);
+}
+
+TEST(Lexer, StringsHoldEscapesAndLineBreaks) {
+  const auto tokens = tokens_of("\"a \\\"b\\\" \\\\ \\n\r\nc\"");
+  EXPECT_EQ(tokens[0].kind, TokenKind::string);
+  EXPECT_EQ(tokens[0].text, "a \"b\" \\ \\n\nc");
+}
+
+TEST(Lexer, CountsLinesAndCharacters) {
+  const auto tokens = tokens_of("a\r\n  \"\xC3\xA4\" b");
+  EXPECT_EQ(tokens[1].at.line, 2);
+  EXPECT_EQ(tokens[1].at.column, 3);
+  EXPECT_EQ(tokens[2].at.column, 7);  // the umlaut is one character
+}
+
+TEST(ToUtf8, LeavesUtf8AndReadsTheRestAsWindows1252) {
+  EXPECT_EQ(to_utf8("\xEF\xBB\xBF\xC2\xB0"), "\xC2\xB0");
+  EXPECT_EQ(to_utf8("\xB0\x80\x96"), "\xC2\xB0\xE2\x82\xAC\xE2\x80\x93");
+  EXPECT_EQ(to_utf8("\x81"), "\xEF\xBF\xBD");
+  EXPECT_EQ(to_utf8("\xC2"), "\xC3\x82");                  // an unfinished sequence is no UTF-8
+  EXPECT_EQ(to_utf8("\xC0\x80"), "\xC3\x80\xE2\x82\xAC");  // neither is an overlong one
+}
+
+}  // namespace
+}  // namespace canhil::dbc
