@@ -1,0 +1,114 @@
+// A node (or host) of an embedded bus in a process of its own, for local_bus_processes_test.
+//   node ROLE BUS SENDER COUNT; ends with 0 if all went as it should, else says what did not.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <climits>
+#include <cstdlib>
+#include <functional>
+#include <map>
+
+#include "dbc/ports/local_bus.hpp"
+#include "tests/processes/ports/stream.hpp"
+
+namespace canhil {
+namespace {
+
+struct Task {
+  std::string bus;
+  std::uint64_t sender;
+  std::uint64_t count;
+};
+
+[[noreturn]] void give_up(const std::string& why) {
+  fmt::print("{}\n", why);
+  std::exit(1);
+}
+
+std::unique_ptr<Port> join(const Task& task, bool own_echo) {
+  auto port =
+      open_port(task.bus, {.fd = true, .own_echo = own_echo, .node_name = fmt::format("{}", task.sender)});
+  if (!port) give_up(port.error().message);
+  return std::move(*port);
+}
+
+void wait_for(Port& port, WaitFor what) {
+  if (port.closed()) give_up("the bus closed");
+  wait(port, what, INT64_MAX);
+}
+
+/// Sends its stream while it receives that of sender 0.
+void exchange(const Task& task) {
+  const auto port = join(task, false);
+  std::uint64_t sent = 0;
+  std::uint64_t received = 0;
+  while (sent < task.count || received < task.count) {
+    while (sent < task.count && port->send(streamed(task.sender, sent)) == SendOutcome::sent) ++sent;
+    while (const auto got = port->receive()) {
+      if (!(got->frame == streamed(0, received))) give_up(fmt::format("frame {} differs", received));
+      ++received;
+    }
+    if (received < task.count) {
+      wait_for(*port, WaitFor::frame);
+    } else if (sent < task.count) {
+      wait_for(*port, WaitFor::room);
+    }
+  }
+}
+
+/// Sends its stream, receives the streams of three nodes, own included, and prints their order.
+void witness(const Task& task) {
+  const auto port = join(task, true);
+  while (!port->receive()) wait_for(*port, WaitFor::frame);  // the start
+  std::uint64_t sent = 0;
+  std::uint64_t received = 0;
+  Order order;
+  while (sent < task.count || received < 3 * task.count) {
+    if (sent < task.count && port->send(streamed(task.sender, sent)) == SendOutcome::sent) ++sent;
+    while (const auto got = port->receive()) {
+      order.add(*got);
+      ++received;
+    }
+    if (received < 3 * task.count && sent == task.count) wait_for(*port, WaitFor::frame);
+  }
+  fmt::print("{:016x}\n", order.sum());
+}
+
+/// Receives the stream of sender 0, far more slowly than it is sent.
+void dawdle(const Task& task) {
+  const auto port = join(task, false);
+  for (std::uint64_t n = 0; n < task.count; ++n) {
+    if (n % 100 == 0) ::usleep(1000);
+    auto got = port->receive();
+    for (; !got; got = port->receive()) wait_for(*port, WaitFor::frame);
+    if (!(got->frame == streamed(0, n))) give_up(fmt::format("frame {} differs", n));
+  }
+}
+
+/// Joins and never reads.
+void ignore(const Task& task) {
+  const auto port = join(task, false);
+  for (;;) ::pause();
+}
+
+/// Hosts the bus until killed; its first frame tells a node that it is known.
+void host(const Task& task) {
+  auto hub = host_local_bus(task.bus, {.fd = true});
+  if (!hub) give_up(hub.error().message);
+  run_hub(**hub, [&] {
+    if (!(*hub)->nodes().empty()) (*hub)->send(streamed(0, 0));
+    return false;
+  });
+}
+
+}  // namespace
+}  // namespace canhil
+
+int main(int argc, char** argv) {
+  using namespace canhil;
+  const std::map<std::string, std::function<void(const Task&)>> roles{
+      {"exchange", exchange}, {"witness", witness}, {"dawdle", dawdle}, {"ignore", ignore}, {"host", host}};
+  if (argc != 5 || !roles.contains(argv[1])) give_up("expected ROLE BUS SENDER COUNT");
+  roles.at(argv[1])({argv[2], std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10)});
+  return 0;
+}
