@@ -202,7 +202,7 @@ std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limi
   return std::nullopt;
 }
 
-std::string Section::text(std::string_view key, std::optional<std::string> fallback) {
+std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
   constexpr std::string_view expected = "text on one line";
   const toml::node* node = state_->ask(key);
   if (node == nullptr) {
@@ -221,7 +221,7 @@ std::string Section::text(std::string_view key, std::optional<std::string> fallb
 }
 
 std::string Section::one_of(std::string_view key, std::span<const std::string> names,
-                            std::optional<std::string> fallback) {
+                            const std::optional<std::string>& fallback) {
   const toml::node* node = state_->ask(key);
   if (node == nullptr) {
     if (!fallback) state_->missing.emplace_back(key, fmt::format("{}", expected_instead("", names)));

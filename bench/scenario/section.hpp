@@ -49,9 +49,9 @@ class Section {
   std::int64_t time_us(std::string_view key, Limits limits, std::optional<double> fallback = {});
   std::optional<std::int64_t> optional_time_us(std::string_view key, Limits limits);
   /// Text on one line, not empty.
-  std::string text(std::string_view key, std::optional<std::string> fallback = {});
+  std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
   std::string one_of(std::string_view key, std::span<const std::string> names,
-                     std::optional<std::string> fallback = {});
+                     const std::optional<std::string>& fallback = {});
 
   /// A table; if it is missing, one whose keys are all silently absent.
   Section table(std::string_view key);

@@ -33,6 +33,9 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Keys, ScenarioError,
     testing::Values(
+        Wrong{"seed = 7", "seed = 7\nzebra_crossing = 1\nape_house = 1",
+              "4: key 'zebra_crossing': is unknown, expected one of: title, duration_s, seed, target, truth, "
+              "initial_error, master_ins, slave_imu, check"},
         Wrong{"seed = 7", "seeds = 7", "3: key 'seeds': is unknown, expected 'seed'"},
         Wrong{"[master_ins]", "[master_ins]\nperod_ms = 3",
               "15: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"},
@@ -126,6 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
               "6: key 'target.algorithm': 'particle' is unknown, expected one of: kalman, robust_h2"},
         Wrong{"[slave_imu]", "[slave_imu]\ngyro_noise_degprth = -1",
               "16: key 'slave_imu.gyro_noise_degprth': -1 is out of range, expected a number of at least 0"},
+        Wrong{"[slave_imu]", "[slave_imu]\ngyro_noise_degprth = inf",
+              "16: key 'slave_imu.gyro_noise_degprth': inf is out of range, expected a number of at least 0"},
         Wrong{"[slave_imu]", "[slave_imu]\nperiod_ms = 0",
               "16: key 'slave_imu.period_ms': 0 is out of range, expected a number from 1 to 10000"},
         Wrong{"[truth]", "[target.parameters]\nh2_case = inf\n[truth]",
