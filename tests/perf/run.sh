@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # Builds and runs every benchmark of tests/perf, prints the figures, and records them with what they were measured on.
-#   bash tests/perf/run.sh [BENCHMARK OPTIONS...]        e.g.  --benchmark_filter=check --benchmark_repetitions=5
-# Records: build/perf/DATE/PROGRAM.json, whose "context" holds processor, kernel, compiler and commit.
+#   bash tests/perf/run.sh [BENCHMARK OPTIONS...]        e.g.  --benchmark_filter=unpack --benchmark_repetitions=5
+# Records, in build/perf/DATE/: PROGRAM.json of each *_benchmark, whose "context" holds processor, kernel, compiler and commit;
+# machine.txt, which holds the same, and NAME.txt of each other program and of the instruction counts.
 # Figures, no verdict: exit code 1 only when something did not build or run.
 set -euo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
-bash tests/setup/install.sh build
+bash tests/setup/install.sh tests
 
 build=build/default
 cmake --preset default >/dev/null
-rm -rf "$build/perf" # no benchmark that the sources no longer have
-ninja -C "$build" tests_perf
+ninja -C "$build" tests/perf/all
 
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo unknown)
 if [[ -n "$(git status --porcelain 2>/dev/null)" ]]; then commit+=-changed; fi
@@ -28,12 +28,30 @@ about=(
 context=$(printf '%s,' "${about[@]//[,]/ }")
 records=build/perf/$(date -u +%Y%m%dT%H%M%SZ)
 mkdir -p "$records"
+printf '%s\n' "${about[@]}" | tee "$records/machine.txt"
+
 code=0
-for program in "$build"/perf/*; do
-  printf '\n== %s\n' "${program##*/}"
-  "$program" --benchmark_context="${context%,}" --benchmark_out="$records/${program##*/}.json" \
-    --benchmark_out_format=json "$@" || { echo "tests/perf/run.sh: ${program##*/} failed" >&2; code=1; }
-  grep -q '"error_occurred": true' "$records/${program##*/}.json" && code=1
-done
+failed() { echo "tests/perf/run.sh: $1 failed" >&2; code=1; }
+as_text() { # as_text NAME COMMAND...
+  local name=$1
+  shift
+  printf '\n== %s\n' "$name"
+  "$@" 2>&1 | tee "$records/$name.txt" || failed "$name"
+}
+while read -r program; do
+  name=${program##*/}
+  case $name in
+    *_instructions) ;; # for callgrind, below
+    *_benchmark)
+      printf '\n== %s\n' "$name"
+      "$program" --benchmark_context="${context%,}" --benchmark_out="$records/$name.json" --benchmark_out_format=json "$@" ||
+        failed "$name"
+      if grep -q '"error_occurred": true' "$records/$name.json"; then failed "$name"; fi
+      ;;
+    *) as_text "$name" "$program" ;;
+  esac
+done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
+as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
+as_text estimators_instructions sh tests/perf/estimators/count_instructions "$build"
 printf '\nrecorded in %s\n' "$records"
 exit "$code"
