@@ -101,7 +101,7 @@ void dawdle(const Task& task) {
 /// Joins and never reads.
 void ignore(const Task& task) {
   const auto port = join(task, false);
-  for (;;) ::pause();
+  while (!port->closed()) ::pause();
 }
 
 /// Hosts the bus until killed; its first frame tells a node that it is known.

@@ -126,8 +126,10 @@ TEST_F(Log, IsWrittenAndReplayed) {
   auto writer = LogWriter::create(path_);
   ASSERT_TRUE(writer);
   for (std::uint32_t n = 0; n < 3; ++n) {
-    writer->write(
-        {.t_ns = 1'000 * n, .interface = "vcan0", .frame = frame_of(0x100 + n), .transmitted = n == 1});
+    writer->write({.t_ns = std::int64_t{1'000} * n,
+                   .interface = "vcan0",
+                   .frame = frame_of(0x100 + n),
+                   .transmitted = n == 1});
   }
   ASSERT_TRUE(writer->close());
   EXPECT_EQ(text(), "(0.000000) vcan0 100# R\n(0.000001) vcan0 101# T\n(0.000002) vcan0 102# R\n");

@@ -11,7 +11,6 @@
 namespace canhil {
 namespace {
 
-using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 std::string why_not(const std::string& bus) {
