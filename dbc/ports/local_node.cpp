@@ -45,18 +45,17 @@ class LocalNode final : public Port {
       bytes = ::recv(socket_.get(), &datagram, sizeof datagram, 0);
     } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
     if (bytes < 0 && errno == EAGAIN) return std::nullopt;
-    const auto frame =
-        bytes > 0 ? local::decode(datagram, static_cast<std::size_t>(bytes), fd_) : std::nullopt;
-    if (!frame) {  // the hub is gone, or it is no hub
-      closed_ = true;
+    std::optional<Received> received(std::in_place);
+    if (bytes <= 0 || !local::decode(datagram, static_cast<std::size_t>(bytes), fd_, received->frame)) {
+      closed_ = true;  // the hub is gone, or it is no hub
       return std::nullopt;
     }
+    received->t_ns = datagram.t_ns;
+    received->source = StampSource::hub;
+    received->own = (datagram.flags & Datagram::own) != 0;
     ++counters_.received;
-    if (frame->error) ++counters_.error_frames;
-    return Received{.frame = *frame,
-                    .t_ns = datagram.t_ns,
-                    .source = StampSource::hub,
-                    .own = (datagram.flags & Datagram::own) != 0};
+    if (received->frame.error) ++counters_.error_frames;
+    return received;
   }
 
   [[nodiscard]] int descriptor() const override { return socket_.get(); }

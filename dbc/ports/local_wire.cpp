@@ -22,10 +22,9 @@ void encode(const Frame& frame, Datagram& datagram) {
   std::memcpy(datagram.data.data(), frame.data.data(), frame.size);
 }
 
-std::optional<Frame> decode(const Datagram& datagram, std::size_t received, bool fd_bus) {
-  if (received < offsetof(Datagram, data) || received != datagram.bytes()) return std::nullopt;
-  if (datagram.size > Frame::max_size) return std::nullopt;
-  Frame frame;
+bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame) {
+  if (received < offsetof(Datagram, data) || received != datagram.bytes()) return false;
+  if (datagram.size > Frame::max_size) return false;
   frame.id = datagram.id;
   frame.size = datagram.size;
   frame.extended = (datagram.flags & Datagram::extended) != 0;
@@ -33,8 +32,7 @@ std::optional<Frame> decode(const Datagram& datagram, std::size_t received, bool
   frame.brs = (datagram.flags & Datagram::brs) != 0;
   frame.error = (datagram.flags & Datagram::error) != 0;
   std::memcpy(frame.data.data(), datagram.data.data(), frame.size);
-  if (!can_carry(frame, fd_bus)) return std::nullopt;
-  return frame;
+  return can_carry(frame, fd_bus);
 }
 
 Result<IdSet> id_set(const std::vector<std::uint32_t>& ids) {

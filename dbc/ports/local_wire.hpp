@@ -7,7 +7,6 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 #include "dbc/ports/port.hpp"
@@ -45,8 +44,9 @@ using IdSet = std::bitset<2048>;  ///< of standard ids
 
 /// The frame as a datagram; only the first bytes() of it are set.
 void encode(const Frame& frame, Datagram& datagram);
-/// The frame of a datagram of so many bytes; nothing if they make no frame that the bus can carry.
-std::optional<Frame> decode(const Datagram& datagram, std::size_t received, bool fd_bus);
+/// The frame of a datagram of so many bytes, into a fresh one; false if they make no frame that the bus can
+/// carry.
+bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& frame);
 
 /// The set of the ids; error if one is not a standard id.
 Result<IdSet> id_set(const std::vector<std::uint32_t>& ids);

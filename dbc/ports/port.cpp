@@ -30,14 +30,16 @@ std::int64_t clock_ns(int clock) {
 bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns) {
   const RoomWait how = what == WaitFor::frame ? RoomWait{.events = POLLIN} : port.room_wait();
   if (how.events == 0 && how.pause_ns == 0) return true;
-  const std::int64_t left_ns = std::max<std::int64_t>(deadline_ns - clock_ns(CLOCK_MONOTONIC), 0);
+  const bool forever = deadline_ns == no_deadline && how.events != 0;  // saves a clock reading and a timer
+  const std::int64_t left_ns =
+      forever ? 0 : std::max<std::int64_t>(deadline_ns - clock_ns(CLOCK_MONOTONIC), 0);
   if (how.events == 0) {
     const timespec pause = to_timespec(std::min(how.pause_ns, left_ns));
     return ::nanosleep(&pause, nullptr) == 0 && how.pause_ns <= left_ns;
   }
   const timespec timeout = to_timespec(left_ns);
   pollfd entry{.fd = port.descriptor(), .events = how.events, .revents = 0};
-  return ::ppoll(&entry, 1, &timeout, nullptr) > 0;
+  return ::ppoll(&entry, 1, forever ? nullptr : &timeout, nullptr) > 0;
 }
 
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options) {

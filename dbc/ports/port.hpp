@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -79,6 +80,8 @@ class Port {
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options);
 
 enum class WaitFor : std::uint8_t { frame, room };
+
+constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 
 /// Waits until the port is worth another receive() or send(): true; or until deadline_ns on CLOCK_MONOTONIC,
 /// or a signal came: false. A frame may turn out not to be there: receive() decides.

@@ -212,6 +212,7 @@ bool set(int socket, int level, int option, const T& value) {
 /// Which frames to receive: the ids, or all; never remote frames.
 bool set_filters(int socket, const std::vector<std::uint32_t>& only_ids) {
   std::vector<can_filter> filters;
+  filters.reserve(only_ids.size() + 1);
   for (const std::uint32_t id : only_ids) {
     filters.push_back({.can_id = id, .can_mask = CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG});
   }

@@ -49,7 +49,7 @@ bool bare_receive(int socket) {  // false: the other end is gone
 bool bus_receive(Port& port) {
   while (!port.closed()) {
     if (port.receive()) return true;
-    wait(port, WaitFor::frame, INT64_MAX);
+    wait(port, WaitFor::frame, no_deadline);
   }
   return false;
 }

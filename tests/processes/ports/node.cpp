@@ -34,12 +34,13 @@ std::unique_ptr<Port> join(const Task& task, bool own_echo) {
 
 void wait_for(Port& port, WaitFor what) {
   if (port.closed()) give_up("the bus closed");
-  wait(port, what, INT64_MAX);
+  wait(port, what, no_deadline);
 }
 
-/// Sends its stream while it receives that of sender 0.
+/// Sends its stream while it receives that of sender 0, which begins.
 void exchange(const Task& task) {
   const auto port = join(task, false);
+  wait_for(*port, WaitFor::frame);
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
   while (sent < task.count || received < task.count) {
@@ -51,6 +52,18 @@ void exchange(const Task& task) {
     if (received < task.count) {
       wait_for(*port, WaitFor::frame);
     } else if (sent < task.count) {
+      wait_for(*port, WaitFor::room);
+    }
+  }
+}
+
+/// Sends its stream and reads nothing.
+void babble(const Task& task) {
+  const auto port = join(task, false);
+  for (std::uint64_t sent = 0; sent < task.count;) {
+    if (port->send(streamed(task.sender, sent)) == SendOutcome::sent) {
+      ++sent;
+    } else {
       wait_for(*port, WaitFor::room);
     }
   }
@@ -88,7 +101,7 @@ void dawdle(const Task& task) {
 /// Joins and never reads.
 void ignore(const Task& task) {
   const auto port = join(task, false);
-  for (;;) ::pause();
+  while (!port->closed()) ::pause();
 }
 
 /// Hosts the bus until killed; its first frame tells a node that it is known.
@@ -107,7 +120,8 @@ void host(const Task& task) {
 int main(int argc, char** argv) {
   using namespace canhil;
   const std::map<std::string, std::function<void(const Task&)>> roles{
-      {"exchange", exchange}, {"witness", witness}, {"dawdle", dawdle}, {"ignore", ignore}, {"host", host}};
+      {"exchange", exchange}, {"babble", babble}, {"witness", witness},
+      {"dawdle", dawdle},     {"ignore", ignore}, {"host", host}};
   if (argc != 5 || !roles.contains(argv[1])) give_up("expected ROLE BUS SENDER COUNT");
   roles.at(argv[1])({argv[2], std::strtoull(argv[3], nullptr, 10), std::strtoull(argv[4], nullptr, 10)});
   return 0;

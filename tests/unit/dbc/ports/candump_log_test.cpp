@@ -1,0 +1,184 @@
+#include "dbc/ports/candump_log.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "tests/unit/dbc/ports/frames.hpp"
+
+namespace canhil {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+/// A file of this test, gone at its end.
+class Log : public ::testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(path_); }
+  void write(const std::string& text) const { std::ofstream(path_) << text; }
+  [[nodiscard]] std::string text() const {
+    std::ifstream file(path_);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  [[nodiscard]] std::string why_not(const PortOptions& options = {}) const {
+    const auto port = open_port("log:" + path_, options);
+    return port ? "opened" : port.error().message;
+  }
+
+  const std::string path_ =
+      (std::filesystem::temp_directory_path() / fmt::format("canhil-{}.log", ::getpid())).string();
+};
+
+Frame parsed(const std::string& what) {
+  const auto entry = parse_log_line("(1.000000) vcan0 " + what, "x");
+  EXPECT_TRUE(entry) << entry.error().message;
+  return entry ? entry->frame : Frame{};
+}
+
+std::string complaint(const std::string& line) {
+  const auto entry = parse_log_line(line, "a.log:7");
+  return entry ? "accepted" : entry.error().message;
+}
+
+TEST(LogLine, OfCandumpIsRead) {
+  const auto entry = parse_log_line("(1436509052.249713) vcan0 044#2A366C2BBA", "x");
+  ASSERT_TRUE(entry);
+  EXPECT_EQ(entry->t_ns, 1'436'509'052'249'713'000);
+  EXPECT_EQ(entry->interface, "vcan0");
+  EXPECT_EQ(entry->frame, frame_of(0x44, {0x2A, 0x36, 0x6C, 0x2B, 0xBA}));
+  EXPECT_FALSE(entry->transmitted);
+}
+
+TEST(LogLine, TimesHaveMicrosecondsOrNanoseconds) {
+  EXPECT_EQ(parse_log_line("(1.000001) c 001#", "x")->t_ns, 1'000'001'000);
+  EXPECT_EQ(parse_log_line("(1.000000001) c 001#", "x")->t_ns, 1'000'000'001);
+}
+
+TEST(LogLine, TellsDirections) {
+  EXPECT_TRUE(parse_log_line("(1.000000) c 001#00 T", "x")->transmitted);
+  EXPECT_FALSE(parse_log_line("(1.000000) c 001#00 R", "x")->transmitted);
+}
+
+TEST(LogLine, OfEveryKindOfFrameIsRead) {
+  Frame extended = frame_of(0x12345678, {0xFF});
+  extended.extended = true;
+  EXPECT_EQ(parsed("12345678#ff"), extended);
+  extended.id = 0x44;
+  EXPECT_EQ(parsed("00000044#FF"), extended) << "8 digits are an extended id, however small";
+  Frame error = frame_of(0x40, {0, 1, 2, 3, 4, 5, 6, 7});
+  error.error = true;
+  EXPECT_EQ(parsed("20000040#0001020304050607"), error);
+  Frame fd = frame_of(0x7FF, {1, 2});
+  fd.fd = true;
+  EXPECT_EQ(parsed("7FF##00102"), fd);
+  EXPECT_EQ(parsed("7FF##40102"), fd);
+  EXPECT_EQ(parsed("7FF##60102"), fd) << "the error state indicator is not a frame's";
+  fd.brs = true;
+  EXPECT_EQ(parsed("7FF##10102"), fd);
+  EXPECT_EQ(parsed("7FF##50102"), fd);
+}
+
+TEST(LogLine, ThatIsWrongIsExplainedWithItsColumn) {
+  EXPECT_EQ(complaint(""), "a.log:7:1: expected '(' and the time in seconds");
+  EXPECT_EQ(complaint("(x"), "a.log:7:2: expected the time, 1 to 10 digits of seconds");
+  EXPECT_EQ(complaint("(1)"), "a.log:7:3: expected '.' and 6 or 9 digits of the second");
+  EXPECT_EQ(complaint("(1.12345) c 001#"), "a.log:7:9: expected 6 or 9 digits of the second");
+  EXPECT_EQ(complaint("(1.123456 c 001#"), "a.log:7:10: expected ')' after the time");
+  EXPECT_EQ(complaint("(1.123456)  001#"), "a.log:7:12: expected the interface's name");
+  EXPECT_THAT(complaint("(1.123456) c 800#"),
+              HasSubstr("a.log:7:14: expected an id of 3 hex digits up to 7FF"));
+  EXPECT_THAT(complaint("(1.123456) c 44#"), HasSubstr("a.log:7:14: expected an id"));
+  EXPECT_THAT(complaint("(1.123456) c 40000000#"), HasSubstr("a.log:7:14: expected an id"));
+  EXPECT_EQ(complaint("(1.123456) c 001"), "a.log:7:17: expected '#' after the id");
+  EXPECT_EQ(complaint("(1.123456) c 001#1"), "a.log:7:19: expected two hex digits a byte");
+  EXPECT_EQ(complaint("(1.123456) c 001#112233445566778899"), "a.log:7:18: expected 0 to 8 bytes");
+  EXPECT_EQ(complaint("(1.123456) c 001##0112233445566778899"),
+            "a.log:7:20: expected 0-8, 12, 16, 20, 24, 32, 48 or 64 bytes");
+  EXPECT_EQ(complaint("(1.123456) c 001##"), "a.log:7:19: expected a hex digit of FD flags");
+  EXPECT_EQ(complaint("(1.123456) c 20000001##0"), "a.log:7:25: expected no FD error frame");
+  EXPECT_EQ(complaint("(1.123456) c 001#R"),
+            "a.log:7:18: expected data as hex digits, then ' T', ' R' or the end of the line");
+  EXPECT_EQ(complaint("(1.123456) c 001#00 X"), "a.log:7:21: expected 'T' or 'R'");
+  EXPECT_EQ(complaint("(1.123456) c 001#00 T "),
+            "a.log:7:22: expected data as hex digits, then ' T', ' R' or the end of the line");
+}
+
+TEST(LogLine, WrittenIsReadBack) {
+  for (const char* line : {"(0.000000) vcan0 000# R", "(1436509052.249713) can1 1FFFFFFF#DEADBEEF T",
+                           "(1.000002) vcan1 123##5000102030405060708090A0B R",
+                           "(1.000002) vcan1 00000001##400 T", "(1.000003) c 2000000C#0000000000000000 R"}) {
+    const auto entry = parse_log_line(line, "x");
+    ASSERT_TRUE(entry) << entry.error().message;
+    EXPECT_EQ(format_log_line(*entry), line);
+  }
+}
+
+TEST(LogLine, RoundsTimesDownToMicroseconds) {
+  EXPECT_EQ(format_log_line({.t_ns = 1'999'999'999, .interface = "c", .frame = frame_of(1)}),
+            "(1.999999) c 001# R");
+}
+
+TEST_F(Log, IsWrittenAndReplayed) {
+  auto writer = LogWriter::create(path_);
+  ASSERT_TRUE(writer);
+  for (std::uint32_t n = 0; n < 3; ++n) {
+    writer->write({.t_ns = std::int64_t{1'000} * n,
+                   .interface = "vcan0",
+                   .frame = frame_of(0x100 + n),
+                   .transmitted = n == 1});
+  }
+  ASSERT_TRUE(writer->close());
+  EXPECT_EQ(text(), "(0.000000) vcan0 100# R\n(0.000001) vcan0 101# T\n(0.000002) vcan0 102# R\n");
+
+  auto opened = open_port("log:" + path_, {});
+  ASSERT_TRUE(opened) << opened.error().message;
+  Port& port = **opened;
+  EXPECT_TRUE(wait(port, WaitFor::frame, 0));
+  EXPECT_EQ(port.send(frame_of(1)), SendOutcome::sent);
+  std::vector<std::pair<std::uint32_t, std::int64_t>> seen;
+  while (const auto received = port.receive()) {
+    EXPECT_FALSE(received->own) << "this port has not sent it";
+    seen.emplace_back(received->frame.id, received->t_ns);
+  }
+  EXPECT_THAT(seen, ElementsAre(std::pair(0x100U, 0), std::pair(0x101U, 1000), std::pair(0x102U, 2000)));
+  EXPECT_TRUE(port.closed());
+  EXPECT_EQ(port.counters().received, 3U);
+}
+
+TEST_F(Log, IsFiltered) {
+  write("(0.000000) c 001#\n(0.000000) c 00000002#\n(0.000000) c 002#\n(0.000000) c 20000002#\n");
+  const auto port = open_port("log:" + path_, {.only_ids = {2}});
+  ASSERT_TRUE(port);
+  EXPECT_EQ((*port)->receive()->frame, frame_of(2));
+  EXPECT_TRUE((*port)->receive()->frame.error);
+  EXPECT_FALSE((*port)->receive());
+}
+
+TEST_F(Log, IsCheckedOnOpening) {
+  write("(0.000000) c 001#\n(0.000000) c 001#0\n");
+  EXPECT_EQ(why_not(), path_ + ":2:19: expected two hex digits a byte");
+  write("(0.000000) c 001#\n(0.000000) c 001#01");
+  EXPECT_EQ(why_not(), path_ + ":2:20: expected the end of the line: the log is cut");
+  write("(0.000000) c 001##0\n");
+  EXPECT_THAT(why_not(), EndsWith("holds CAN FD frames: open it with FD"));
+  EXPECT_EQ(why_not({.fd = true}), "opened");
+  std::filesystem::remove(path_);
+  EXPECT_EQ(why_not(), "cannot read log '" + path_ + "': No such file or directory");
+}
+
+TEST(LogWriting, TellsOfAFullDisk) {
+  auto writer = LogWriter::create("/dev/full");
+  ASSERT_TRUE(writer);
+  writer->write({.interface = "c", .frame = frame_of(1)});
+  const auto closed = writer->close();
+  ASSERT_FALSE(closed);
+  EXPECT_EQ(closed.error().message, "cannot write log '/dev/full': No space left on device");
+  EXPECT_FALSE(LogWriter::create("/no/such/folder/x.log"));
+}
+
+}  // namespace
+}  // namespace canhil
