@@ -26,9 +26,10 @@ int main(int argc, char** argv) {
   CLI::App app{"The device under test: navigation and guidance estimators behind a CAN interface."};
   std::string bus;
   std::string log;
-  auto* bus_option = app.add_option("--bus", bus, "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME");
-  auto* replay_option =
-      app.add_option("--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
+  auto* bus_option =
+      app.add_option("--bus", bus, "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME");
+  auto* replay_option = app.add_option(
+      "--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
   bus_option->excludes(replay_option);
   try {
     app.parse(argc, argv);

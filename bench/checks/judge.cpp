@@ -121,7 +121,8 @@ class Judge {
 
   Finding operator()(const scenario::OutputPeriod& rule) const {
     const double nominal = nominal_period_s(evidence_.seen, rule.message);
-    const std::string expected = fmt::format("{:g} ms +- {:g} %", nominal * 1e3, rule.within * 100);
+    const std::string expected =
+        fmt::format("{} {:g} ms +- {:g} %", quantile_name(rule.quantile), nominal * 1e3, rule.within * 100);
     if (!evidence_.timing_unfit.empty()) return {Outcome::not_measured, evidence_.timing_unfit, expected};
     const Distribution periods = distribution(periods_s(evidence_.seen, rule.message, rule.window));
     if (periods.count == 0) return {Outcome::fail, "fewer than two arrivals", expected};
@@ -133,15 +134,15 @@ class Judge {
   }
 
   Finding operator()(const scenario::Latency& rule) const {
-    const std::string expected = fmt::format(
-        "{} < {:g} ms", rule.quantile >= 1 ? "max" : fmt::format("{:g} % quantile", rule.quantile * 100),
-        static_cast<double>(rule.below_us) * 1e-3);
-    if (!evidence_.timing_unfit.empty()) return {Outcome::not_measured, evidence_.timing_unfit, expected};
-    const auto sample = latencies_s(evidence_.seen, rule.message, rule.window);
+    const double bar_s = static_cast<double>(rule.below_us) * 1e-6;
+    const std::string expected = fmt::format("{} < {:g} ms", quantile_name(rule.quantile), bar_s * 1e3);
+    if (auto why = unfit(rule.quantile, bar_s); !why.empty())
+      return {Outcome::not_measured, std::move(why), expected};
+    auto sample = latencies_s(evidence_.seen, rule.message, rule.window);
     if (sample.empty()) return {Outcome::fail, "no answers", expected};
-    const double value = quantile(sample, rule.quantile);
-    return {pass_if(value < static_cast<double>(rule.below_us) * 1e-6),
-            fmt::format("{:.3f} ms of {}", value * 1e3, sample.size()), expected};
+    const std::size_t count = sample.size();
+    const double value = quantile(std::move(sample), rule.quantile);
+    return {pass_if(value < bar_s), fmt::format("{:.3f} ms of {}", value * 1e3, count), expected};
   }
 
   Finding operator()(const scenario::Counters& rule) const {
@@ -166,7 +167,9 @@ class Judge {
   Finding operator()(const scenario::Heartbeat& rule) const {
     const std::string expected =
         fmt::format("never silent for more than {:g} s", static_cast<double>(rule.silent_at_most_us) * 1e-6);
-    if (!evidence_.timing_unfit.empty()) return {Outcome::not_measured, evidence_.timing_unfit, expected};
+    if (auto why = unfit(1, static_cast<double>(rule.silent_at_most_us) * 1e-6); !why.empty()) {
+      return {Outcome::not_measured, std::move(why), expected};
+    }
     const Distribution gaps = distribution(
         periods_s(evidence_.seen, messages::TargetHeartbeat::info.name, {0, evidence_.duration_us}));
     if (gaps.count == 0) return {Outcome::fail, "fewer than two heartbeats", expected};
@@ -175,6 +178,21 @@ class Judge {
   }
 
  private:
+  static std::string quantile_name(double q) {
+    return q >= 1 ? "max" : fmt::format("{:g} % quantile", q * 100);
+  }
+
+  // Why timing with this bar cannot be judged; empty: it can.
+  [[nodiscard]] std::string unfit(double q, double bar_s) const {
+    if (!evidence_.timing_unfit.empty()) return evidence_.timing_unfit;
+    const auto& lateness = evidence_.seen.lateness_ns;
+    if (lateness.empty()) return "the bench sent nothing";
+    const double late_s = quantile({lateness.begin(), lateness.end()}, q) * 1e-9;
+    if (late_s <= lateness_share * bar_s) return "";
+    return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the bar",
+                       late_s * 1e3, quantile_name(q), lateness_share * 100);
+  }
+
   [[nodiscard]] std::vector<Normalised> nis() const {
     std::vector<Normalised> series;
     for (const FilterAnswer& answer : evidence_.seen.filter) series.push_back({answer.cause_us, answer.nis});
@@ -203,12 +221,7 @@ std::string unfit_for_timing(const Observations& seen) {
     return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
   if (seen.target_frames_lost > 0)
     return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
-  if (seen.lateness_ns.empty()) return "the bench sent nothing";
-  std::vector<double> late(seen.lateness_ns.begin(), seen.lateness_ns.end());
-  const double typical_ns = quantile(std::move(late), lateness_quantile);
-  if (typical_ns <= static_cast<double>(lateness_limit_ns)) return "";
-  return fmt::format("this host kept the bench {:.2f} ms late at p99 (limit {:g} ms)", typical_ns * 1e-6,
-                     static_cast<double>(lateness_limit_ns) * 1e-6);
+  return "";
 }
 
 Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {

@@ -95,6 +95,7 @@ OutputPeriod read(Section& section, const Context& context, OutputPeriod rule) {
   rule.message = section.one_of("message", context.contract.messages);
   rule.window = read_window(section, context);
   rule.within = section.number("within_percent", Limits::above(0));
+  rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
   return rule;
 }
 

@@ -71,7 +71,8 @@ struct OutputPeriod {
   static constexpr std::string_view kind = "output_period";
   std::string message;
   Window window;
-  double within = 0;  ///< fraction of the period: 0.1 is 10 %
+  double within = 0;    ///< fraction of the period: 0.1 is 10 %
+  double quantile = 1;  ///< 1: every interval; 0.99: all but one in a hundred
 };
 
 /// Timing: from the last frame of the stimulus to the message that answers it.

@@ -24,16 +24,20 @@ void expect_one_line(const Ended& ended, const std::string& what) {
 }
 
 TEST(BadInput, UnknownBus) {
-  expect_one_line(hil_bench(fmt::format("run {} --bus nocan7", scenario("transfer_alignment_quick"))), "nocan7");
+  expect_one_line(hil_bench(fmt::format("run {} --bus nocan7", scenario("transfer_alignment_quick"))),
+                  "nocan7");
   expect_one_line(hil_target("--bus nocan7"), "nocan7");
 }
 
-TEST(BadInput, NobodyHostsTheBus) { expect_one_line(hil_target("--bus local:nobody-here"), "nobody hosts it"); }
+TEST(BadInput, NobodyHostsTheBus) {
+  expect_one_line(hil_target("--bus local:nobody-here"), "nobody hosts it");
+}
 
 TEST(BadInput, MissingScenario) { expect_one_line(hil_bench("run no_such.toml"), "no_such.toml"); }
 
 TEST(BadInput, UnknownScenarioKey) {
-  std::ofstream(scratch("typo.toml")) << read(scenario("transfer_alignment_quick")) << "\n[slave_inu]\nperiod_ms = 10\n";
+  std::ofstream(scratch("typo.toml"))
+      << read(scenario("transfer_alignment_quick")) << "\n[slave_inu]\nperiod_ms = 10\n";
   expect_one_line(hil_bench("run " + scratch("typo.toml")), "slave_inu");
 }
 
@@ -54,8 +58,9 @@ TEST(BadInput, UnknownOption) {
 }
 
 TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {
-  expect_one_line(hil_bench(fmt::format("run {} --json /no/such/folder/x.json", scenario("transfer_alignment_quick"))),
-                  "/no/such/folder/x.json");
+  expect_one_line(
+      hil_bench(fmt::format("run {} --json /no/such/folder/x.json", scenario("transfer_alignment_quick"))),
+      "/no/such/folder/x.json");
 }
 
 TEST(BadInput, LogThatIsNoLog) {
@@ -65,7 +70,8 @@ TEST(BadInput, LogThatIsNoLog) {
 
 TEST(BadInput, AnUnfinishedRunLeavesNoLog) {
   const std::string log = scratch("unfinished.log");
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target /bin/false --log {}", scenario("transfer_alignment_quick"), bus(), log));
+  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target /bin/false --log {}",
+                                            scenario("transfer_alignment_quick"), bus(), log));
   EXPECT_EQ(ended.code, 2);
   EXPECT_FALSE(std::filesystem::exists(log));
   EXPECT_FALSE(std::filesystem::exists(log + ".part"));
@@ -90,7 +96,8 @@ TEST(BadInput, TargetBuiltFromAnotherDbc) {
       }
     }
   });
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target none", scenario("transfer_alignment_quick"), bus));
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --target none", scenario("transfer_alignment_quick"), bus));
   stop = true;
   other_target.join();
   expect_one_line(ended, "target and bench are built from different DBC files");

@@ -16,7 +16,8 @@
 namespace canhil::test {
 
 std::string scratch(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("canhil-{}", getpid());
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / fmt::format("canhil-{}", getpid());
   std::filesystem::create_directories(folder);
   return folder / name;
 }
@@ -43,7 +44,9 @@ std::string bus() {
   return chosen == nullptr ? "local:" : chosen;
 }
 
-std::string scenario(const std::string& name) { return fmt::format("{}/bench/scenarios/{}.toml", SOURCE_DIR, name); }
+std::string scenario(const std::string& name) {
+  return fmt::format("{}/bench/scenarios/{}.toml", SOURCE_DIR, name);
+}
 
 std::vector<Frame> target_frames(const std::string& log_path) {
   auto reader = LogReader::open(log_path);

@@ -29,7 +29,8 @@ std::string scratch(const std::string& name);
 std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
 
-/// The target's frames in a log, in order, from the first Sync on, without those that speak of the host or of the step.
+/// The target's frames in a log, in order, from the first Sync on, without those that speak of the host or of
+/// the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
 }  // namespace canhil::test

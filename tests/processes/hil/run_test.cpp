@@ -11,26 +11,29 @@
 namespace canhil::test {
 namespace {
 
-using testing::AnyOf;
 using testing::HasSubstr;
 
-// Outputs are judged on any host; timing only where the bench kept its own deadlines, else the verdict is 'not measured'.
+// Outputs are judged on any host. What the clock of a shared machine did to timing is the verdict's business,
+// not this test's.
 void expect_outputs_passed(const Ended& ended, const nlohmann::json& report) {
-  EXPECT_THAT(ended.code, AnyOf(0, 3)) << ended.out << ended.err;
   EXPECT_TRUE(report["ending"]["completed"]) << report["ending"];
-  EXPECT_FALSE(report["checks"].empty());
+  int outputs = 0;
   for (const auto& check : report["checks"]) {
-    EXPECT_NE(check["outcome"], "fail") << check;
-    if (ended.code == 3 && check["outcome"] == "not measured") {
-      EXPECT_THAT(check["kind"].get<std::string>(), AnyOf("latency", "output_period", "heartbeat")) << check;
-    }
+    const auto kind = check["kind"].get<std::string>();
+    if (kind == "latency" || kind == "output_period" || kind == "heartbeat") continue;
+    EXPECT_EQ(check["outcome"], "pass") << check;
+    ++outputs;
   }
+  EXPECT_GE(outputs, 5);
+  const int expected_code = report["verdict"] == "pass" ? 0 : report["verdict"] == "fail" ? 1 : 3;
+  EXPECT_EQ(ended.code, expected_code);
 }
 
 TEST(Run, ThePapersFlightPassesInRealTime) {
   const std::string report = scratch("report.json");
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --json {}", scenario("transfer_alignment"), bus(), report));
-  ASSERT_THAT(ended.code, AnyOf(0, 1, 3)) << ended.err;
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --json {}", scenario("transfer_alignment"), bus(), report));
+  ASSERT_NE(ended.code, 2) << ended.err;
   expect_outputs_passed(ended, read_json(report));
   EXPECT_EQ(read_json(report)["from_target"]["navigation_answers"], 2000);
   EXPECT_EQ(read_json(report)["from_target"]["filter_answers"], 200);
@@ -42,8 +45,8 @@ TEST(Run, ATargetKilledInMidRunIsNamed) {
   std::ofstream(mortal) << "#!/bin/sh\nexec timeout -s KILL 1 " HIL_TARGET " \"$@\"\n";
   ASSERT_EQ(shell("chmod +x " + mortal).code, 0);
   const std::string report = scratch("killed.json");
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target {} --json {}", scenario("transfer_alignment"),
-                                            bus(), mortal, report));
+  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target {} --json {}",
+                                            scenario("transfer_alignment"), bus(), mortal, report));
   EXPECT_EQ(ended.code, 1) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("fail: target silent since t="));
   // Not at the end of the 20 s, but when the silence was noticed.
@@ -52,24 +55,29 @@ TEST(Run, ATargetKilledInMidRunIsNamed) {
 }
 
 TEST(Run, ATargetThatIsNotThereIsAConfigurationErrorNotAHang) {
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target none", scenario("transfer_alignment_quick"),
-                                            bus() == "local:" ? "local:nobody" : bus()));
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --target none", scenario("transfer_alignment_quick"),
+                            bus() == "local:" ? "local:nobody" : bus()));
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("no answer within 5 s while waiting for its heartbeat"));
 }
 
 TEST(Run, ATargetThatExitsAtOnceIsNamedWithItsExitCode) {
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target /bin/false", scenario("transfer_alignment_quick"), bus()));
+  const Ended ended = hil_bench(
+      fmt::format("run {} --bus {} --target /bin/false", scenario("transfer_alignment_quick"), bus()));
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("target: exited with 1 while waiting for its heartbeat"));
 }
 
 TEST(Run, ACheckThatCannotHoldFailsTheRun) {
   std::string text = read(scenario("transfer_alignment_quick"));
-  text += "\n[[check]]\nkind = \"attitude_error\"\naxis = \"heading\"\nfrom_s = 1.0\nbelow_mrad = 1e-6\nrequirement = \"R<1>\"\n";
+  text +=
+      "\n[[check]]\nkind = \"attitude_error\"\naxis = \"heading\"\nfrom_s = 1.0\nbelow_mrad = "
+      "1e-6\nrequirement = \"R<1>\"\n";
   std::ofstream(scratch("impossible.toml")) << text;
   const std::string junit = scratch("report.xml");
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --lockstep --junit {}", scratch("impossible.toml"), bus(), junit));
+  const Ended ended = hil_bench(
+      fmt::format("run {} --bus {} --lockstep --junit {}", scratch("impossible.toml"), bus(), junit));
   EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("FAIL"));
 
@@ -82,7 +90,8 @@ TEST(Run, ACheckThatCannotHoldFailsTheRun) {
 }
 
 TEST(Run, JsonToStdoutReplacesTheText) {
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --lockstep --json -", scenario("transfer_alignment_quick"), bus()));
+  const Ended ended = hil_bench(
+      fmt::format("run {} --bus {} --lockstep --json -", scenario("transfer_alignment_quick"), bus()));
   const auto report = nlohmann::json::parse(ended.out);
   EXPECT_EQ(report["provenance"]["clock"], "lockstep");
 }

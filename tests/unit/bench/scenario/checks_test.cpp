@@ -94,6 +94,10 @@ TEST(ScenarioChecks, OutputPeriod) {
   EXPECT_EQ(rule.window.from_us, 1'000'000);
   EXPECT_EQ(rule.window.to_us, 2'000'000);
   EXPECT_DOUBLE_EQ(rule.within, 0.2);
+  EXPECT_EQ(rule.quantile, 1.0);
+  const auto most = rule_of<OutputPeriod>(
+      "kind = 'output_period'\nmessage = 'AlignAttitude'\nwithin_percent = 20\nquantile = 0.99");
+  EXPECT_EQ(most.quantile, 0.99);
 }
 
 TEST(ScenarioChecks, Latency) {
