@@ -35,6 +35,8 @@ TEST(Clamped, NanGoesToTheLowerBoundOrOnANegativeScaleToTheUpper) {
   EXPECT_EQ(clamped(-5, -2, 3), -2);
   EXPECT_EQ(clamped_nan_high(5, -2, 3), 3);
   EXPECT_EQ(clamped_nan_high(-5, -2, 3), -2);
+  EXPECT_EQ(unrounded(nan, 1, 0, -2, 3), -2);
+  EXPECT_EQ(unrounded(nan, -1, 0, -2, 3), 3);
 }
 
 TEST(Bound, NeverLeavesTheRange) {
