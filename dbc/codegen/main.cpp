@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 
@@ -45,9 +46,7 @@ int write_header(const canhil::dbc::Database& database, const Options& options) 
              : complain(fmt::format("{}: cannot be written, expected a path for the header", options.output));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Turns a DBC file into a C++ header of constexpr codecs."};
   app.add_option("dbc", options.dbc, "the DBC file")->required();
@@ -65,4 +64,15 @@ int main(int argc, char** argv) {
   if (options.load) return print(canhil::dbc::load_table(*database));
   if (options.json) return print(canhil::dbc::to_json(*database) + "\n");
   return write_header(*database, options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fputs(error.what(), stderr);
+    return 2;
+  }
 }

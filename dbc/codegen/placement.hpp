@@ -1,7 +1,7 @@
 // Where the bits of a signal lie in 64-bit words of its message.
 #pragma once
 
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "dbc/parser/database.hpp"
@@ -13,8 +13,10 @@ struct Word {
   unsigned first = 0;
   unsigned bytes = 8;
   ByteOrder order = ByteOrder::little_endian;
-  friend bool operator==(const Word&, const Word&) = default;
-  friend auto operator<=>(const Word&, const Word&) = default;
+  /// Words of one message differ in where they begin and in their order.
+  friend bool operator<(const Word& a, const Word& b) {
+    return std::pair(a.first, a.order) < std::pair(b.first, b.order);
+  }
 };
 
 /// `length` bits of a word from `shift` on are the bits of the raw value from `raw_shift` on.

@@ -84,8 +84,7 @@ AttributeValue read_label(Reader& in, const AttributeDefinition& definition) {
 AttributeValue read_number(Reader& in, const AttributeDefinition& definition) {
   const Position at = in.peek().at;
   const bool whole = definition.type != AttributeType::real;
-  const AttributeValue value =
-      whole ? AttributeValue(in.integer("a value")) : AttributeValue(in.real("a value"));
+  AttributeValue value = whole ? AttributeValue(in.integer("a value")) : AttributeValue(in.real("a value"));
   const double number = whole ? static_cast<double>(std::get<std::int64_t>(value)) : std::get<double>(value);
   const bool limited = definition.minimum != 0 || definition.maximum != 0;
   if (limited && !(number >= definition.minimum && number <= definition.maximum)) {

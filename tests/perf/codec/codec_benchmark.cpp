@@ -17,7 +17,7 @@ using perf_messages::FourSignalsBig;
 template <class Message>
 void unpack(benchmark::State& state) {
   std::array<std::uint8_t, Message::size> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(bytes);
     Message message = Message::unpack(bytes);
     benchmark::DoNotOptimize(message);
@@ -31,7 +31,7 @@ template <class Message>
 void pack(benchmark::State& state) {
   std::array<std::uint8_t, Message::size> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};
   Message message = Message::unpack(bytes);
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(message);
     message.pack(bytes);
     benchmark::DoNotOptimize(bytes);
@@ -44,7 +44,7 @@ BENCHMARK(pack<FourSignalsBig>);
 void protect(benchmark::State& state) {
   std::array<std::uint8_t, 8> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};
   std::uint8_t counter = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     e2e::protect(bytes, SlaveImuDeltaTheta::info.e2e_data_id, counter);
     counter = e2e::next(counter);
     benchmark::DoNotOptimize(bytes);
@@ -56,7 +56,7 @@ void pack_and_protect_a_frame(benchmark::State& state) {
   SlaveImuDeltaTheta message{
       .delta_theta_x_rad = 0.01, .delta_theta_y_rad = -0.02, .delta_theta_z_rad = 0.003};
   std::uint8_t counter = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(message);
     Frame frame = to_frame(message, counter);
     counter = e2e::next(counter);
@@ -70,7 +70,7 @@ void check_and_unpack_a_frame(benchmark::State& state) {
   for (std::uint8_t i = 0; i < e2e::counter_period; ++i) frames[i] = to_frame(SlaveImuDeltaTheta{}, i);
   e2e::Receiver receiver;
   std::uint8_t counter = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     const Frame& frame = frames[counter];
     auto check = receiver.check(frame.payload(), SlaveImuDeltaTheta::info.e2e_data_id);
     auto message = from_frame<SlaveImuDeltaTheta>(frame);
@@ -84,7 +84,7 @@ BENCHMARK(check_and_unpack_a_frame);
 void decode_at_run_time(benchmark::State& state) {
   const auto database = dbc::read_file(SOURCE_DIR "/tests/perf/codec/four_signals.dbc");
   const std::array<std::uint8_t, 8> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     auto signals = dbc::decode(database->messages[0], bytes);
     benchmark::DoNotOptimize(signals);
   }

@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "dbc/codegen/json.hpp"
 #include "dbc/codegen/load.hpp"
 #include "dbc/codegen/names.hpp"
 #include "dbc/codegen/placement.hpp"

@@ -12,6 +12,8 @@ struct Wrong {
   const char* message;  ///< after "t.dbc:"
 };
 
+void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
+
 // Six lines, so that what follows begins in line 7.
 constexpr const char* head =
     "BS_:\nBU_: A B\nBO_ 1 M: 8 A\n SG_ s : 0|8@1+ (1,0) [0|255] \"\" B\n SG_ t : 8|8@1- (1,0) [0|0] \"\" "

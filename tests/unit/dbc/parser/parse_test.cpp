@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 namespace canhil::dbc {
 namespace {
@@ -203,7 +204,8 @@ TEST(RawRange, IsInsideOfTheLimitsAndOfTheBits) {
   };
   constexpr auto u = RawType::unsigned_integer;
   constexpr auto s = RawType::signed_integer;
-  EXPECT_EQ(range(2e-5, 0, -1.31, 1.31, 17, s), std::pair(-65500L, 65500L));  // 1.31 / 2e-5 is 65499.99..
+  EXPECT_EQ(range(2e-5, 0, -1.31, 1.31, 17, s), std::pair(-65500L, 65500L));
+  EXPECT_EQ(range(0.1, 0, -0.3, 0.3, 17, s), std::pair(-3L, 3L));  // 0.3 / 0.1 is just below 3
   EXPECT_EQ(range(3, 0, 1, 11, 8, u), std::pair(1L, 3L));
   EXPECT_EQ(range(1, 0, 0, 0, 8, u), std::pair(0L, 255L));
   EXPECT_EQ(range(1, 0, 0, 0, 8, s), std::pair(-128L, 127L));
@@ -212,6 +214,18 @@ TEST(RawRange, IsInsideOfTheLimitsAndOfTheBits) {
   EXPECT_EQ(range(1, 0, 0, 0, 64, u), std::pair(0L, -1L));  // all 64 bits
   EXPECT_EQ(range(1, 0, 0, 0, 64, s), std::pair(INT64_MIN, INT64_MAX));
   EXPECT_EQ(range(1, 0, 0.2, 0.8, 8, u), std::pair(1L, 0L));  // none
+}
+
+TEST(RealRange, IsFiniteAndOfTheRightEndOnANegativeScale) {
+  Signal signal;
+  signal.type = RawType::float32;
+  EXPECT_EQ(real_range(signal).highest, std::numeric_limits<float>::max());
+  signal.scale = -2;
+  signal.offset = 1;
+  signal.minimum = -9;
+  signal.maximum = 3;
+  EXPECT_EQ(real_range(signal).lowest, -1);
+  EXPECT_EQ(real_range(signal).highest, 5);
 }
 
 }  // namespace

@@ -28,6 +28,11 @@ TEST(RoundHalfEven, BothWaysGiveTheSame) {
     EXPECT_EQ(table[static_cast<std::size_t>(i)], round_half_even((i - 2000) * 0.125)) << i;
 }
 
+TEST(Physical, IsRawTimesScalePlusOffset) {
+  EXPECT_EQ(physical(3, 0.5, 0), 1.5);
+  EXPECT_EQ(physical(3, 0.5, -2), -0.5);
+}
+
 TEST(Clamped, NanGoesToTheLowerBoundOrOnANegativeScaleToTheUpper) {
   EXPECT_EQ(clamped(nan, -2, 3), -2);
   EXPECT_EQ(clamped_nan_high(nan, -2, 3), 3);
@@ -35,6 +40,8 @@ TEST(Clamped, NanGoesToTheLowerBoundOrOnANegativeScaleToTheUpper) {
   EXPECT_EQ(clamped(-5, -2, 3), -2);
   EXPECT_EQ(clamped_nan_high(5, -2, 3), 3);
   EXPECT_EQ(clamped_nan_high(-5, -2, 3), -2);
+  EXPECT_EQ(unrounded(nan, 1, 0, -2, 3), -2);
+  EXPECT_EQ(unrounded(nan, -1, 0, -2, 3), 3);
 }
 
 TEST(Bound, NeverLeavesTheRange) {
