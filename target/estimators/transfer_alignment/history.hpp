@@ -50,7 +50,7 @@ class History {
                            static_cast<double>(epoch_us(epoch) - epoch_us(epoch - 1));
       velocity -= share * (velocity - at(epoch - 1).before.nav.v_eb_n);
     }
-    const UpdateResult result = update_with_difference(then, velocity - master_velocity, settings);
+    UpdateResult result = update_with_difference(then, velocity - master_velocity, settings);
     if (result.outcome != Outcome::ok) return result;
     last_update_us_ = epoch_us(epoch);
     for (std::size_t i = epoch; i < count_; ++i) {

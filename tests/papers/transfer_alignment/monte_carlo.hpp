@@ -48,6 +48,7 @@ inline std::vector<std::vector<RunResult>> monte_carlo(const std::vector<Setting
     const Eigen::Vector3d dV = draw(truth.velocity_sigma), phi = draw(truth.attitude_sigma);
     const Eigen::Vector3d accel_bias = draw(truth.accel_bias_sigma), gyro_bias = draw(truth.gyro_bias_sigma);
     std::vector<State> states;
+    states.reserve(filters.size());
     for (const Settings& settings : filters) states.push_back(initial(with_errors(nav, dV, phi), settings));
     for (auto& result : results) result.emplace_back();
     const double root_dt = std::sqrt(kImuInterval);

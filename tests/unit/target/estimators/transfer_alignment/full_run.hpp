@@ -19,6 +19,7 @@ inline std::vector<Sample> full_run_inputs() {
   const Csv csv(std::string(TEST_DATA_DIR) + "/transfer_alignment/full_run_inputs.csv");
   using Row = Eigen::Map<const Eigen::Vector3d>;
   std::vector<Sample> samples;
+  samples.reserve(csv.rows());
   for (std::size_t row = 0; row < csv.rows(); ++row) {
     const double dt = csv.at(row, "dt");
     Sample sample{{Row(csv.from(row, "wx")) * dt, Row(csv.from(row, "fx")) * dt, dt}, std::nullopt};
