@@ -121,22 +121,25 @@ class Judge {
   Finding operator()(const scenario::OutputPeriod& rule) const {
     const double nominal = nominal_period_s(evidence_.seen, rule.message);
     const std::string expected =
-        fmt::format("{} {:g} ms +- {:g} %", quantile_name(rule.quantile), nominal * 1e3, rule.within * 100);
-    if (!evidence_.timing_unfit.empty()) return {Outcome::not_measured, evidence_.timing_unfit, expected};
-    const Distribution periods = distribution(periods_s(evidence_.seen, rule.message, rule.window));
-    if (periods.count == 0) return {Outcome::fail, "fewer than two arrivals", expected};
-    const bool good =
-        periods.min >= nominal * (1 - rule.within) && periods.max <= nominal * (1 + rule.within);
-    return {pass_if(good),
-            fmt::format("{:.3f} to {:.3f} ms of {}", periods.min * 1e3, periods.max * 1e3, periods.count),
+        fmt::format("{:g} ms +- {:g} % ({})", nominal * 1e3, rule.within * 100, quantile_name(rule.quantile));
+    if (auto why = unfit(rule.quantile, nominal * rule.within); !why.empty()) {
+      return {Outcome::not_measured, std::move(why), expected};
+    }
+    std::vector<double> deviations = periods_s(evidence_.seen, rule.message, rule.window);
+    if (deviations.empty()) return {Outcome::fail, "fewer than two arrivals", expected};
+    for (double& period : deviations) period = std::abs(period - nominal);
+    const std::size_t count = deviations.size();
+    const double value = quantile(std::move(deviations), rule.quantile);
+    return {pass_if(value <= nominal * rule.within), fmt::format("{:.3f} ms off, of {}", value * 1e3, count),
             expected};
   }
 
   Finding operator()(const scenario::Latency& rule) const {
     const double bar_s = static_cast<double>(rule.below_us) * 1e-6;
     const std::string expected = fmt::format("{} < {:g} ms", quantile_name(rule.quantile), bar_s * 1e3);
-    if (auto why = unfit(rule.quantile, bar_s); !why.empty())
+    if (auto why = unfit(rule.quantile, bar_s); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
+    }
     auto sample = latencies_s(evidence_.seen, rule.message, rule.window);
     if (sample.empty()) return {Outcome::fail, "no answers", expected};
     const std::size_t count = sample.size();

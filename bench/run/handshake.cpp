@@ -212,9 +212,16 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
 }
 
 void stop(Link& link, nodes::Transmission& out) {
+  Mailbox box;
+  const Attached attached(link, box);
   out.clear();
   out.send(command(Command::stop, Estimator::none, Algorithm::kalman));
   for (const Frame& frame : out.frames()) static_cast<void>(link.send(frame, repeat_ns));
+  const std::int64_t deadline_ns = now_ns() + repeat_ns;
+  while (link.drain() == LinkState::up && !(box.heartbeat && box.heartbeat->state != TargetState::running)) {
+    if (now_ns() >= deadline_ns) return;
+    link.wait_until(deadline_ns);
+  }
 }
 
 }  // namespace canhil::run

@@ -20,7 +20,8 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
                        const world::NavigationSolution& initial,
                        const std::function<std::optional<std::string>()>& gone);
 
-/// Stops the estimator; does not wait for an answer.
+/// Stops the estimator, and waits a moment for the heartbeat that says so: it belongs to the session's
+/// record.
 void stop(Link& link, nodes::Transmission& out);
 
 }  // namespace canhil::run

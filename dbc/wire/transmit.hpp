@@ -15,7 +15,8 @@ namespace canhil {
 template <class Message>
 consteval std::size_t message_index() {
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
-    if (messages::all_messages[i].id == Message::info.id && messages::all_messages[i].extended == Message::info.extended) {
+    if (messages::all_messages[i].id == Message::info.id &&
+        messages::all_messages[i].extended == Message::info.extended) {
       return i;
     }
   }

@@ -249,7 +249,8 @@ class SlowWire : public ::testing::Test {
 TEST_F(SlowWire, FillsTheSocketFirst) {
   slow_down(100'000);
   const auto port = open("vcan1");
-  while (port->send(frame_of(1)) == SendOutcome::sent) ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";
+  while (port->send(frame_of(1)) == SendOutcome::sent)
+    ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";
   EXPECT_EQ(port->room_wait().events, POLLOUT);
   // The burst lets 6 frames of 16 bytes pass at once.
   EXPECT_LE(port->counters().sent, 6U + 10U) << "more than an interface's queue holds";
@@ -259,7 +260,8 @@ TEST_F(SlowWire, FillsTheSocketFirst) {
 TEST_F(SlowWire, PausesWhenTheInterfacesQueueIsFull) {
   slow_down(40);
   const auto port = open("vcan1");
-  while (port->send(frame_of(1)) == SendOutcome::sent) ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";
+  while (port->send(frame_of(1)) == SendOutcome::sent)
+    ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";
   EXPECT_GT(port->room_wait().pause_ns, 0) << "ENOBUFS: poll() would say writable at once";
   send_and_receive(100);
 }
@@ -268,8 +270,9 @@ TEST_F(SlowWire, PausesWhenTheInterfacesQueueIsFull) {
 class Candump {
  public:
   Candump(int frames, const std::string& arguments) : path_("/tmp/candump-test.log") {
-    started_ = std::thread(
-        [=, path = path_] { run(fmt::format("timeout 20 candump -L -r 4000000 -n {} {} > {}", frames, arguments, path)); });
+    started_ = std::thread([=, path = path_] {
+      run(fmt::format("timeout 20 candump -L -r 4000000 -n {} {} > {}", frames, arguments, path));
+    });
     const std::int64_t deadline = in_seconds(10);
     while (!listening() && clock_ns(CLOCK_MONOTONIC) < deadline) std::this_thread::yield();
     EXPECT_TRUE(listening());
@@ -376,7 +379,8 @@ TEST(CanUtils, CanplayerPlaysOurLog) {
 }
 
 TEST(CanUtils, Log2ascConvertsOurLogWithDirections) {
-  write_log("/tmp/ours.log", mixed_frames(30));  // 15 transmitted, one of them an error frame, which has no direction there
+  write_log("/tmp/ours.log",
+            mixed_frames(30));  // 15 transmitted, one of them an error frame, which has no direction there
   run("log2asc -I /tmp/ours.log -O /tmp/ours.asc vcan1 && [ $(grep -c Tx /tmp/ours.asc) = 14 ]");
 }
 

@@ -72,7 +72,8 @@ TEST(Run, ATargetThatExitsAtOnceIsNamedWithItsExitCode) {
 TEST(Run, ACheckThatCannotHoldFailsTheRun) {
   std::string text = read(scenario("transfer_alignment_quick"));
   text +=
-      "\n[[check]]\nkind = \"attitude_error\"\naxis = \"heading\"\nfrom_s = 1.0\nbelow_mrad = "
+      "\n[[check]]\nname = \"impossible\"\nkind = \"attitude_error\"\naxis = \"heading\"\nfrom_s = "
+      "1.0\nbelow_mrad = "
       "1e-6\nrequirement = \"R<1>\"\n";
   std::ofstream(scratch("impossible.toml")) << text;
   const std::string junit = scratch("report.xml");
