@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/world/units.hpp"
-#include "dbc/wire/time_base.hpp"
-
 namespace canhil::run {
 namespace {
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
 using namespace messages;
-using world::units::deg;
 
 constexpr std::int64_t repeat_ns = 300'000'000;        // longer than a heartbeat period
 constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
@@ -140,29 +136,10 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
   return {};
 }
 
-void send_initial_state(nodes::Transmission& out, const world::NavigationSolution& initial,
-                        const scenario::InitialSigma& sigma) {
-  const world::Euler angles = world::euler_from(initial.C_bn);
-  out.send(TargetInitLatitude{.latitude_deg = initial.position.latitude / deg,
-                              .height_m = initial.position.height});
-  out.send(TargetInitLongitude{.longitude_deg = initial.position.longitude / deg,
-                               .position_sigma_m = sigma.position});
-  out.send(TargetInitVelocityNE{.velocity_north_mps = initial.v_eb_n.x(),
-                                .velocity_east_mps = initial.v_eb_n.y()});
-  out.send(TargetInitAttitude{
-      .roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg});
-  out.send(TargetInitSigma{.velocity_sigma_mps = sigma.velocity,
-                           .tilt_sigma_deg = sigma.tilt / deg,
-                           .heading_sigma_deg = sigma.heading / deg});
-  out.send(TargetInitVelocityD{.velocity_down_mps = initial.v_eb_n.z(),
-                               .time_of_validity_us = wrap_us(initial.t_us)});
-}
-
 }  // namespace
 
 Result<void> configure(Link& link, nodes::Transmission& out, const scenario::TargetSetup& setup,
-                       const world::NavigationSolution& initial,
-                       const std::function<std::optional<std::string>()>& gone) {
+                       const InitialState& initial, const std::function<std::optional<std::string>()>& gone) {
   const auto estimator = from_name<Estimator>(setup.estimator);
   const auto algorithm = from_name<Algorithm>(setup.algorithm);
   if (!estimator || !algorithm) {
@@ -202,7 +179,9 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
   }
   auto ready = dialogue.until(
       "taking its initial state", answer_limit_ns,
-      [&](nodes::Transmission& o) { send_initial_state(o, initial, setup.initial_sigma); },
+      [&](nodes::Transmission& o) {
+        std::apply([&](const auto&... message) { (o.send(message), ...); }, initial);
+      },
       [](const Mailbox& mailbox) { return mailbox.heartbeat->state == TargetState::ready; });
   if (!ready) return ready;
   return dialogue.until(

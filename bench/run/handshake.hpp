@@ -6,9 +6,9 @@
 #include <string>
 
 #include "bench/nodes/node.hpp"
+#include "bench/run/initial_state.hpp"
 #include "bench/run/link.hpp"
 #include "bench/scenario/target_setup.hpp"
-#include "bench/world/navigation_errors.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::run {
@@ -17,8 +17,7 @@ namespace canhil::run {
 /// sends the initial state with its sigmas, starts it. Each step is repeated until it is acknowledged. `gone`
 /// says why the target cannot answer any more, if that is known. Error: one line.
 Result<void> configure(Link& link, nodes::Transmission& out, const scenario::TargetSetup& setup,
-                       const world::NavigationSolution& initial,
-                       const std::function<std::optional<std::string>()>& gone);
+                       const InitialState& initial, const std::function<std::optional<std::string>()>& gone);
 
 /// Stops the estimator, and waits a moment for the heartbeat that says so: it belongs to the session's
 /// record.

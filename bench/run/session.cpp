@@ -14,6 +14,7 @@
 #include "bench/run/recorder.hpp"
 #include "bench/run/schedule.hpp"
 #include "bench/run/target_process.hpp"
+#include "bench/run/wire_limits.hpp"
 #include "dbc/ports/local_bus.hpp"
 
 namespace canhil::run {
@@ -58,7 +59,13 @@ std::int64_t imu_period_us(const scenario::Scenario& scenario) {
 Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                 const std::atomic<bool>& stop_requested, const Progress& progress) {
   const bool lockstep = options.clock == ClockKind::lockstep;
+  if (auto fits = check_fits_imu_interval(imu_period_us(scenario)); !fits)
+    return tl::unexpected(fits.error());
   world::FlightRecord truth(scenario.truth, scenario.duration_us, imu_period_us(scenario));
+  world::Stream initial_stream(scenario.seed, options.run_index, "initial_error");
+  const InitialState initial = initial_state(
+      measure(truth.epochs().front(), scenario.initial_error, initial_stream), scenario.target.initial_sigma);
+  if (auto fits = check_fits(initial); !fits) return tl::unexpected(fits.error());
 
   auto port = open(options.bus);
   if (!port) return tl::unexpected(port.error());
@@ -79,9 +86,6 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   const auto gone = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
 
   Schedule schedule = make_schedule(scenario, truth, options.run_index, lockstep);
-  world::Stream initial_stream(scenario.seed, options.run_index, "initial_error");
-  const world::NavigationSolution initial =
-      measure(truth.epochs().front(), scenario.initial_error, initial_stream);
   if (auto configured = configure(link, schedule.outbox(), scenario.target, initial, gone); !configured) {
     return tl::unexpected(configured.error());
   }

@@ -87,13 +87,21 @@ Database parse_or_throw(std::string_view text) {
   return std::move(draft.database);
 }
 
+// Quoted text may hold line ends; a message may not.
+std::string on_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  return text;
+}
+
 }  // namespace
 
 Result<Database> parse(std::string_view text, std::string_view file_name) {
   try {
     return parse_or_throw(text);
   } catch (const ParseFailure& error) {
-    return failure(fmt::format("{}:{}:{}: {}", file_name, error.at.line, error.at.column, error.what));
+    return failure(
+        fmt::format("{}:{}:{}: {}", file_name, error.at.line, error.at.column, on_one_line(error.what)));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <limits>
 
 #include "dbc/ports/frame_rules.hpp"
 
@@ -66,10 +67,14 @@ std::int64_t decimal(std::string_view digits) {
   return value;
 }
 
+constexpr std::int64_t last_second = std::numeric_limits<std::int64_t>::max() / ns_per_s - 1;
+
 std::int64_t parse_time(Cursor& cursor) {
   cursor.require('(', "'(' and the time in seconds");
   const std::string_view seconds = cursor.run(is_digit);
-  cursor.expect(!seconds.empty() && seconds.size() <= 10, "the time, 1 to 10 digits of seconds");
+  const bool readable = !seconds.empty() && seconds.size() <= 10 && decimal(seconds) <= last_second;
+  if (!readable) cursor.back(seconds.size());
+  cursor.expect(readable, "the time, seconds up to 9223372035");
   cursor.require('.', "'.' and 6 or 9 digits of the second");
   const std::string_view fraction = cursor.run(is_digit);
   cursor.expect(fraction.size() == 6 || fraction.size() == 9, "6 or 9 digits of the second");

@@ -289,34 +289,34 @@ class TransferAlignmentAdapter final : public Adapter {
   void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Answers& answers) const {
     const ta::StateVector sigma = state_.P.diagonal().cwiseMax(0).cwiseSqrt();
     const auto correlation = [&](int i, int j) {
-      const double product = sigma(ta::kAttitude + i) * sigma(ta::kAttitude + j);
-      return product > 0 ? state_.P(ta::kAttitude + i, ta::kAttitude + j) / product : 0.0;
+      const double product = sigma(ta::attitude_state + i) * sigma(ta::attitude_state + j);
+      return product > 0 ? state_.P(ta::attitude_state + i, ta::attitude_state + j) / product : 0.0;
     };
     const ta::Ins ins = ta::estimate(state_);
     answers.send(AlignInnovation{.innovation_north_mps = result.innovation.x(),
                                  .innovation_east_mps = result.innovation.y(),
                                  .innovation_down_mps = result.innovation.z()});
-    answers.send(AlignAttitudeSigma{.attitude_sigma_north_rad = sigma(ta::kAttitude),
-                                    .attitude_sigma_east_rad = sigma(ta::kAttitude + 1),
-                                    .attitude_sigma_down_rad = sigma(ta::kAttitude + 2)});
+    answers.send(AlignAttitudeSigma{.attitude_sigma_north_rad = sigma(ta::attitude_state),
+                                    .attitude_sigma_east_rad = sigma(ta::attitude_state + 1),
+                                    .attitude_sigma_down_rad = sigma(ta::attitude_state + 2)});
     answers.send(AlignAttitudeCorrelation{.attitude_correlation_ne = correlation(0, 1),
                                           .attitude_correlation_nd = correlation(0, 2),
                                           .attitude_correlation_ed = correlation(1, 2)});
-    answers.send(AlignVelocitySigma{.velocity_sigma_north_mps = sigma(ta::kVelocity),
-                                    .velocity_sigma_east_mps = sigma(ta::kVelocity + 1),
-                                    .velocity_sigma_down_mps = sigma(ta::kVelocity + 2)});
+    answers.send(AlignVelocitySigma{.velocity_sigma_north_mps = sigma(ta::velocity_state),
+                                    .velocity_sigma_east_mps = sigma(ta::velocity_state + 1),
+                                    .velocity_sigma_down_mps = sigma(ta::velocity_state + 2)});
     answers.send(AlignGyroBias{.gyro_bias_x_degph = ins.gyro_bias.x() / degph,
                                .gyro_bias_y_degph = ins.gyro_bias.y() / degph,
                                .gyro_bias_z_degph = ins.gyro_bias.z() / degph});
-    answers.send(AlignGyroBiasSigma{.gyro_bias_sigma_x_degph = sigma(ta::kGyroBias) / degph,
-                                    .gyro_bias_sigma_y_degph = sigma(ta::kGyroBias + 1) / degph,
-                                    .gyro_bias_sigma_z_degph = sigma(ta::kGyroBias + 2) / degph});
+    answers.send(AlignGyroBiasSigma{.gyro_bias_sigma_x_degph = sigma(ta::gyro_bias_state) / degph,
+                                    .gyro_bias_sigma_y_degph = sigma(ta::gyro_bias_state + 1) / degph,
+                                    .gyro_bias_sigma_z_degph = sigma(ta::gyro_bias_state + 2) / degph});
     answers.send(AlignAccelBias{.accel_bias_x_ug = ins.accel_bias.x() / ug,
                                 .accel_bias_y_ug = ins.accel_bias.y() / ug,
                                 .accel_bias_z_ug = ins.accel_bias.z() / ug});
-    answers.send(AlignAccelBiasSigma{.accel_bias_sigma_x_ug = sigma(ta::kAccelBias) / ug,
-                                     .accel_bias_sigma_y_ug = sigma(ta::kAccelBias + 1) / ug,
-                                     .accel_bias_sigma_z_ug = sigma(ta::kAccelBias + 2) / ug});
+    answers.send(AlignAccelBiasSigma{.accel_bias_sigma_x_ug = sigma(ta::accel_bias_state) / ug,
+                                     .accel_bias_sigma_y_ug = sigma(ta::accel_bias_state + 1) / ug,
+                                     .accel_bias_sigma_z_ug = sigma(ta::accel_bias_state + 2) / ug});
     answers.send(
         AlignUpdate{.cause_time_us = wrap_us(fix.t_us), .cause_counter = fix.counter, .nis = result.nis});
   }

@@ -52,6 +52,6 @@ while read -r program; do
   esac
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
 as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
-as_text estimators_instructions sh tests/perf/estimators/count_instructions "$build"
+as_text estimators_instructions sh tests/perf/estimators/count_instructions.sh "$build"
 printf '\nrecorded in %s\n' "$records"
 exit "$code"

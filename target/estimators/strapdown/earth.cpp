@@ -9,13 +9,13 @@ LocalEarth local_earth(double latitude, double height) {
   earth.sin_latitude = std::sin(latitude);
   earth.cos_latitude = std::cos(latitude);
   const double s2 = earth.sin_latitude * earth.sin_latitude;
-  const double w2 = 1 - kEccentricitySquared * s2;
+  const double w2 = 1 - eccentricity_squared * s2;
   const double w = std::sqrt(w2);
-  earth.transverse_radius = kSemiMajorAxis / w;
-  earth.meridian_radius = earth.transverse_radius * (1 - kEccentricitySquared) / w2;
+  earth.transverse_radius = semi_major_axis / w;
+  earth.meridian_radius = earth.transverse_radius * (1 - eccentricity_squared) / w2;
   earth.ellipsoid_gravity = 9.7803253359 * (1 + 0.00193185265241 * s2) / w;
-  earth.gravity = earth.ellipsoid_gravity - kFreeAirGradient * height;
-  earth.omega_ie_n << kEarthRate * earth.cos_latitude, 0, -kEarthRate * earth.sin_latitude;
+  earth.gravity = earth.ellipsoid_gravity - free_air_gradient * height;
+  earth.omega_ie_n << earth_rate * earth.cos_latitude, 0, -earth_rate * earth.sin_latitude;
   return earth;
 }
 

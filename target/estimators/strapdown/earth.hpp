@@ -5,10 +5,10 @@
 
 namespace canhil::strapdown {
 
-inline constexpr double kEarthRate = 7.292115e-5;    // [rad/s]
-inline constexpr double kSemiMajorAxis = 6378137.0;  // [m]
-inline constexpr double kEccentricitySquared = 6.69437999014e-3;
-inline constexpr double kFreeAirGradient = 3.086e-6;  // [1/s^2]
+inline constexpr double earth_rate = 7.292115e-5;     // [rad/s]
+inline constexpr double semi_major_axis = 6378137.0;  // [m]
+inline constexpr double eccentricity_squared = 6.69437999014e-3;
+inline constexpr double free_air_gradient = 3.086e-6;  // [1/s^2]
 
 struct LocalEarth {
   double sin_latitude, cos_latitude;

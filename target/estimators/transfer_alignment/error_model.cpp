@@ -17,11 +17,11 @@ void extend(Interval& interval, const strapdown::MechanizationStep& step, double
 Covariance transition_increment(const Interval& interval) {
   const double dt = interval.duration;
   Covariance G = Covariance::Zero();
-  G.block<3, 3>(kVelocity, kVelocity) = skew(-dt * (2 * interval.omega_ie_n + interval.omega_en_n));
-  G.block<3, 3>(kVelocity, kAttitude) = skew(interval.delta_v_n);
-  G.block<3, 3>(kVelocity, kAccelBias) = interval.C_bn_integral;
-  G.block<3, 3>(kAttitude, kAttitude) = skew(-dt * (interval.omega_ie_n + interval.omega_en_n));
-  G.block<3, 3>(kAttitude, kGyroBias) = -interval.C_bn_integral;
+  G.block<3, 3>(velocity_state, velocity_state) = skew(-dt * (2 * interval.omega_ie_n + interval.omega_en_n));
+  G.block<3, 3>(velocity_state, attitude_state) = skew(interval.delta_v_n);
+  G.block<3, 3>(velocity_state, accel_bias_state) = interval.C_bn_integral;
+  G.block<3, 3>(attitude_state, attitude_state) = skew(-dt * (interval.omega_ie_n + interval.omega_en_n));
+  G.block<3, 3>(attitude_state, gyro_bias_state) = -interval.C_bn_integral;
   return G;
 }
 
@@ -29,8 +29,8 @@ StateVector process_noise(const Settings& settings, double duration) {
   const double accel = settings.accel_noise_density * settings.accel_noise_density * duration;
   const double gyro = settings.gyro_noise_density * settings.gyro_noise_density * duration;
   StateVector q = StateVector::Zero();
-  q.segment<3>(kVelocity).setConstant(accel);
-  q.segment<3>(kAttitude).setConstant(gyro);
+  q.segment<3>(velocity_state).setConstant(accel);
+  q.segment<3>(attitude_state).setConstant(gyro);
   return q;
 }
 

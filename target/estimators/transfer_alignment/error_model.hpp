@@ -14,11 +14,11 @@
 
 namespace canhil::transfer_alignment {
 
-inline constexpr int kStates = 12;
-using StateVector = Eigen::Matrix<double, kStates, 1>;
-using Covariance = Eigen::Matrix<double, kStates, kStates>;
+inline constexpr int state_count = 12;
+using StateVector = Eigen::Matrix<double, state_count, 1>;
+using Covariance = Eigen::Matrix<double, state_count, state_count>;
 
-enum Index : int { kVelocity = 0, kAttitude = 3, kAccelBias = 6, kGyroBias = 9 };
+enum Index : int { velocity_state = 0, attitude_state = 3, accel_bias_state = 6, gyro_bias_state = 9 };
 
 /// What the error model needs of the mechanisation since the last update: integrals, so that a step of the
 /// specific force need not fall on an update.
@@ -34,8 +34,8 @@ struct Interval {
 void extend(Interval& interval, const strapdown::MechanizationStep& step, double dt);
 
 /// The non-zero blocks of G = A dt; the H2 term adds P N'N/beta, which fills the attitude column.
-inline constexpr std::array<filtering::Block, 5> kKalmanBlocks{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}}};
-inline constexpr std::array<filtering::Block, 7> kH2Blocks{
+inline constexpr std::array<filtering::Block, 5> kalman_blocks{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}}};
+inline constexpr std::array<filtering::Block, 7> h2_blocks{
     {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}, {2, 1}, {3, 1}}};
 
 /// G = A dt [12 x 12] of the interval: Phi = I + G.

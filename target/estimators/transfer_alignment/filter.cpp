@@ -28,10 +28,10 @@ Prediction predict(const State& state, const Settings& settings) {
         add_h2_terms(uncertainty(settings.h2_case, next.alpha), state.P, interval.duration, G, Q_velocity);
   }
   if (next.beta > 0) {
-    next.P = filtering::propagate_covariance_blocks<kH2Blocks, kStates>(state.P, G);
+    next.P = filtering::propagate_covariance_blocks<h2_blocks, state_count>(state.P, G);
     next.P.topLeftCorner<3, 3>() += Q_velocity;
   } else {
-    next.P = filtering::propagate_covariance_blocks<kKalmanBlocks, kStates>(state.P, G);
+    next.P = filtering::propagate_covariance_blocks<kalman_blocks, state_count>(state.P, G);
     if (settings.fading_per_s > 0 && settings.algorithm == Algorithm::kalman)
       next.P *= std::exp(2 * settings.fading_per_s * interval.duration);
   }
@@ -44,11 +44,11 @@ Prediction predict(const State& state, const Settings& settings) {
 // V -= dV, C <- exp(+[phi x]) C (n axes, from the left), biases += their errors.
 Ins corrected(const Ins& ins, const StateVector& x) {
   Ins better = ins;
-  better.nav.v_eb_n -= x.segment<3>(kVelocity);
+  better.nav.v_eb_n -= x.segment<3>(velocity_state);
   better.nav.C_bn =
-      strapdown::reorthonormalised(strapdown::exp_rotation(x.segment<3>(kAttitude)) * ins.nav.C_bn);
-  better.accel_bias += x.segment<3>(kAccelBias);
-  better.gyro_bias += x.segment<3>(kGyroBias);
+      strapdown::reorthonormalised(strapdown::exp_rotation(x.segment<3>(attitude_state)) * ins.nav.C_bn);
+  better.accel_bias += x.segment<3>(accel_bias_state);
+  better.gyro_bias += x.segment<3>(gyro_bias_state);
   return better;
 }
 
@@ -89,11 +89,12 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   const Prediction prior = predict(state, settings);
   result.alpha = prior.alpha;
   result.beta = prior.beta;
-  result.innovation = difference - prior.x.segment<3>(kVelocity);
+  result.innovation = difference - prior.x.segment<3>(velocity_state);
   // The master's noise is a density: its variance over an interval is R/dt, so the result does not depend on
   // the rate.
   const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() * (settings.velocity_noise_density / duration);
-  const auto correction = filtering::update_states<kVelocity, kStates, 3>(prior.P, R, result.innovation);
+  const auto correction =
+      filtering::update_states<velocity_state, state_count, 3>(prior.P, R, result.innovation);
   result.innovation_covariance = correction.S;
   if (!correction.S.allFinite()) return result;
   result.outcome = Outcome::not_positive_definite;

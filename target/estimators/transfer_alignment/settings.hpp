@@ -10,8 +10,8 @@
 
 namespace canhil::transfer_alignment {
 
-inline constexpr double kStandardGravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
-inline constexpr double kRadPerDeg = std::numbers::pi / 180;
+inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
 enum class Algorithm : std::uint8_t { kalman, robust_h2 };
 
@@ -34,13 +34,13 @@ struct Settings {
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
 
   double velocity_noise_density = 0.01;                   // of the master, R_k = this/dt [(m/s)^2 s]
-  double accel_noise_density = 50e-6 * kStandardGravity;  // [m/s^2/sqrt(Hz)]
-  double gyro_noise_density = 0.125 * kRadPerDeg / 60;    // [rad/s/sqrt(Hz)]
+  double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]
+  double gyro_noise_density = 0.125 * rad_per_deg / 60;   // [rad/s/sqrt(Hz)]
 
   Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(1.0);                          // NED [m/s]
-  Eigen::Vector3d attitude_sigma_0 = Eigen::Vector3d::Constant(kRadPerDeg);                   // NED [rad]
-  Eigen::Vector3d accel_bias_sigma_0 = Eigen::Vector3d::Constant(300e-6 * kStandardGravity);  // body [m/s^2]
-  Eigen::Vector3d gyro_bias_sigma_0 = Eigen::Vector3d::Constant(3 * kRadPerDeg / 3600);       // body [rad/s]
+  Eigen::Vector3d attitude_sigma_0 = Eigen::Vector3d::Constant(rad_per_deg);                  // NED [rad]
+  Eigen::Vector3d accel_bias_sigma_0 = Eigen::Vector3d::Constant(300e-6 * standard_gravity);  // body [m/s^2]
+  Eigen::Vector3d gyro_bias_sigma_0 = Eigen::Vector3d::Constant(3 * rad_per_deg / 3600);      // body [rad/s]
 };
 
 }  // namespace canhil::transfer_alignment

@@ -14,7 +14,7 @@ double uncertainty_size(const Settings& settings, const Covariance& P, const Eig
   // Not as tr(P) |f|^2 - f' P f, which cancels for a heading error in level flight, the very case to tell
   // apart.
   const Eigen::Matrix3d F = strapdown::skew(f_n);
-  const double variance = (F * P.block<3, 3>(kAttitude, kAttitude)).cwiseProduct(F).sum();
+  const double variance = (F * P.block<3, 3>(attitude_state, attitude_state)).cwiseProduct(F).sum();
   const double largest_angle = std::min(3 * settings.attitude_sigma_0.norm(), std::numbers::pi);
   const double cap = 2 * std::sin(largest_angle / 2) * f_n.norm();
   return std::min(std::sqrt(std::max(variance, 0.0)), cap);
@@ -39,12 +39,12 @@ Uncertainty uncertainty(H2Case h2_case, double alpha) {
 double add_h2_terms(const Uncertainty& uncertain, const Covariance& P, double duration, Covariance& G,
                     Eigen::Matrix3d& Q_velocity) {
   // P N'N P has the eigenvalues of N P P N': 3 x 3, but from all 12 rows of P's attitude columns.
-  const Eigen::Matrix<double, kStates, 3> PNt =
-      P.middleCols<3>(kAttitude).lazyProduct(uncertain.N.transpose());
+  const Eigen::Matrix<double, state_count, 3> PNt =
+      P.middleCols<3>(attitude_state).lazyProduct(uncertain.N.transpose());
   const Eigen::Matrix3d NPPNt = PNt.transpose().lazyProduct(PNt);
   const double beta = filtering::h2_beta(filtering::largest_eigenvalue<3>(NPPNt), uncertain.lambda_LL);
   if (!(beta > 0)) return 0;
-  G.middleCols<3>(kAttitude).noalias() += PNt.lazyProduct(uncertain.N * (duration / beta));
+  G.middleCols<3>(attitude_state).noalias() += PNt.lazyProduct(uncertain.N * (duration / beta));
   Q_velocity += uncertain.L * uncertain.L.transpose() * (beta * duration);
   return beta;
 }

@@ -16,20 +16,20 @@ namespace canhil::transfer_alignment {
 
 struct Truth {
   double velocity_sigma = 1;                              // [m/s]
-  double attitude_sigma = 5 * kRadPerDeg;                 // [rad]
-  double accel_bias_sigma = 300e-6 * kStandardGravity;    // [m/s^2]
-  double gyro_bias_sigma = 3 * kRadPerDeg / 3600;         // [rad/s]
-  double accel_noise_density = 50e-6 * kStandardGravity;  // [m/s^2/sqrt(Hz)]
-  double gyro_noise_density = 0.125 * kRadPerDeg / 60;    // [rad/s/sqrt(Hz)]
+  double attitude_sigma = 5 * rad_per_deg;                // [rad]
+  double accel_bias_sigma = 300e-6 * standard_gravity;    // [m/s^2]
+  double gyro_bias_sigma = 3 * rad_per_deg / 3600;        // [rad/s]
+  double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]
+  double gyro_noise_density = 0.125 * rad_per_deg / 60;   // [rad/s/sqrt(Hz)]
   double master_noise_sigma = 0;                          // each velocity [m/s]
 };
 
-inline constexpr int kUpdates = 200;
-inline constexpr double kUpdateInterval = 0.1, kImuInterval = 0.01;
+inline constexpr int update_count = 200;
+inline constexpr double update_interval = 0.1, imu_interval = 0.01;
 
 /// Of one filter in one run: heading error after each update [rad], mean NIS.
 struct RunResult {
-  std::array<double, kUpdates> heading_error;
+  std::array<double, update_count> heading_error;
   double mean_nis = 0;
 };
 
@@ -51,20 +51,20 @@ inline std::vector<std::vector<RunResult>> monte_carlo(const std::vector<Setting
     states.reserve(filters.size());
     for (const Settings& settings : filters) states.push_back(initial(with_errors(nav, dV, phi), settings));
     for (auto& result : results) result.emplace_back();
-    const double root_dt = std::sqrt(kImuInterval);
-    for (int k = 0; k < kUpdates; ++k) {
+    const double root_dt = std::sqrt(imu_interval);
+    for (int k = 0; k < update_count; ++k) {
       for (int i = 0; i < 10; ++i) {
-        const double t = (10 * k + i) * kImuInterval;
-        strapdown::ImuIncrement imu = flight_increment(nav, t, kImuInterval);
-        imu.delta_theta += gyro_bias * kImuInterval + draw(truth.gyro_noise_density * root_dt);
-        imu.delta_v += accel_bias * kImuInterval + draw(truth.accel_noise_density * root_dt);
-        nav = flight_next(nav, t, kImuInterval);
+        const double t = (10 * k + i) * imu_interval;
+        strapdown::ImuIncrement imu = flight_increment(nav, t, imu_interval);
+        imu.delta_theta += gyro_bias * imu_interval + draw(truth.gyro_noise_density * root_dt);
+        imu.delta_v += accel_bias * imu_interval + draw(truth.accel_noise_density * root_dt);
+        nav = flight_next(nav, t, imu_interval);
         for (std::size_t f = 0; f < filters.size(); ++f) propagate(states[f], imu, filters[f]);
       }
       const Eigen::Vector3d master = nav.v_eb_n + draw(truth.master_noise_sigma);
       for (std::size_t f = 0; f < filters.size(); ++f) {
         RunResult& run = results[f].back();
-        run.mean_nis += update(states[f], master, filters[f]).nis / kUpdates;
+        run.mean_nis += update(states[f], master, filters[f]).nis / update_count;
         run.heading_error[static_cast<std::size_t>(k)] =
             strapdown::misalignment(estimate(states[f]).nav.C_bn, nav.C_bn).z();
       }
@@ -83,14 +83,14 @@ inline double heading_rms(const std::vector<RunResult>& runs, int k) {
 /// Time [s] of the first update after which the heading RMS stays below `threshold` [rad] to the end;
 /// infinity: never.
 inline double convergence_time(const std::vector<RunResult>& runs, double threshold) {
-  int k = kUpdates;
+  int k = update_count;
   while (k > 0 && heading_rms(runs, k - 1) < threshold) --k;
-  return k == kUpdates ? std::numeric_limits<double>::infinity() : (k + 1) * kUpdateInterval;
+  return k == update_count ? std::numeric_limits<double>::infinity() : (k + 1) * update_interval;
 }
 
 /// The share of runs in which `a` has the smaller heading error at t [s].
 inline double share_ahead(const std::vector<RunResult>& a, const std::vector<RunResult>& b, double t) {
-  const auto k = static_cast<std::size_t>(std::lround(t / kUpdateInterval)) - 1;
+  const auto k = static_cast<std::size_t>(std::lround(t / update_interval)) - 1;
   int ahead = 0;
   for (std::size_t r = 0; r < a.size(); ++r)
     ahead += std::abs(a[r].heading_error[k]) < std::abs(b[r].heading_error[k]);

@@ -9,22 +9,22 @@
 namespace canhil::transfer_alignment {
 namespace {
 
-constexpr int kRuns = 300;
-constexpr std::uint64_t kSeed = 20010101;
+constexpr int run_count = 300;
+constexpr std::uint64_t first_seed = 20010101;
 constexpr double k3mrad = 3e-3, k2mrad = 2e-3, k1mrad = 1e-3;
 
 Settings filter(Algorithm algorithm, double sigma_0_deg) {
   Settings settings;
   settings.algorithm = algorithm;
-  settings.attitude_sigma_0.setConstant(sigma_0_deg * kRadPerDeg);
+  settings.attitude_sigma_0.setConstant(sigma_0_deg * rad_per_deg);
   return settings;
 }
-const Settings kKalman1 = filter(Algorithm::kalman, 1), kKalman5 = filter(Algorithm::kalman, 5),
-               kH2 = filter(Algorithm::robust_h2, 1);
+const Settings kalman_1 = filter(Algorithm::kalman, 1), kalman_5 = filter(Algorithm::kalman, 5),
+               h2_filter = filter(Algorithm::robust_h2, 1);
 
 // Paper: 14.4 / 15.6 / never; reference 14.7 / 16.2 / never.
 TEST(TransferAlignmentPaper, KalmanFilterToldOneDegreeIsSlow) {
-  const auto runs = monte_carlo({kKalman1}, {}, kRuns, kSeed).front();
+  const auto runs = monte_carlo({kalman_1}, {}, run_count, first_seed).front();
   EXPECT_GT(convergence_time(runs, k3mrad), 13.8);
   EXPECT_LT(convergence_time(runs, k3mrad), 16.0);
   EXPECT_GT(convergence_time(runs, k1mrad), 18.0);
@@ -32,19 +32,19 @@ TEST(TransferAlignmentPaper, KalmanFilterToldOneDegreeIsSlow) {
 
 // Paper: 11.4 / 11.7 / 12.9; reference with this, the implementable, alpha 12.3 / 12.9 / 15.5.
 TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
-  const auto results = monte_carlo({kH2, kKalman1}, {}, kRuns, kSeed);
+  const auto results = monte_carlo({h2_filter, kalman_1}, {}, run_count, first_seed);
   const auto &h2 = results[0], &kalman = results[1];
   EXPECT_LE(convergence_time(h2, k3mrad), 12.8);
   EXPECT_LE(convergence_time(h2, k2mrad), 13.6);
   EXPECT_LE(convergence_time(h2, k1mrad), 18.0);
-  EXPECT_LE(heading_rms(h2, kUpdates - 1), k1mrad);
+  EXPECT_LE(heading_rms(h2, update_count - 1), k1mrad);
   EXPECT_LE(convergence_time(h2, k3mrad) + 1.5, convergence_time(kalman, k3mrad));
   EXPECT_GE(share_ahead(h2, kalman, 12), 0.90);
 }
 
 // Keeps the H2 result from being sold as better than a correctly initialised Kalman filter.
 TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
-  const auto results = monte_carlo({kKalman5, kH2}, {}, kRuns, kSeed);
+  const auto results = monte_carlo({kalman_5, h2_filter}, {}, run_count, first_seed);
   const auto &kalman = results[0], &h2 = results[1];
   EXPECT_LE(convergence_time(kalman, k3mrad), 11.6);
   EXPECT_LE(convergence_time(kalman, k2mrad), 11.9);
@@ -55,9 +55,9 @@ TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
 // P0 1 deg with fading memory is as good as H2; reference 12.0 / 12.4 / 13.6 for P scaled by exp(2 a dt), a =
 // 0.1 /s. Scaled by exp(a dt) it gives 13.1 / 13.9 / 16.5.
 TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
-  Settings fading = kKalman1;
+  Settings fading = kalman_1;
   fading.fading_per_s = 0.1;
-  const auto runs = monte_carlo({fading}, {}, kRuns, kSeed).front();
+  const auto runs = monte_carlo({fading}, {}, run_count, first_seed).front();
   EXPECT_NEAR(convergence_time(runs, k3mrad), 12.0, 0.4);
   EXPECT_NEAR(convergence_time(runs, k2mrad), 12.4, 0.4);
   EXPECT_NEAR(convergence_time(runs, k1mrad), 13.6, 0.8);
@@ -67,21 +67,22 @@ TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
 TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
   Truth truth;
   truth.master_noise_sigma = 0.05;
-  const auto results = monte_carlo({kKalman5, filter(Algorithm::robust_h2, 5)}, truth, kRuns, kSeed);
+  const auto results = monte_carlo({kalman_5, filter(Algorithm::robust_h2, 5)}, truth, run_count, first_seed);
   EXPECT_LE(convergence_time(results[0], k3mrad), 11.8);
   EXPECT_LE(convergence_time(results[0], k2mrad), 12.2);
   EXPECT_LE(convergence_time(results[0], k1mrad), 13.4);
-  RecordProperty("h2_p0_5deg_heading_rms_mrad", std::to_string(1e3 * heading_rms(results[1], kUpdates - 1)));
+  RecordProperty("h2_p0_5deg_heading_rms_mrad",
+                 std::to_string(1e3 * heading_rms(results[1], update_count - 1)));
 }
 
 // P0, Q and R all true: the innovations are consistent, NIS 3. 300 runs x 200 updates of chi-square 3:
 // standard error 0.01; 5 deg squared (linearisation) is seen by the first updates only.
 TEST(TransferAlignmentPaper, HonestKalmanFilterIsConsistent) {
   Truth truth;
-  truth.master_noise_sigma = std::sqrt(kKalman5.velocity_noise_density / kUpdateInterval);
-  const auto runs = monte_carlo({kKalman5}, truth, kRuns, kSeed).front();
+  truth.master_noise_sigma = std::sqrt(kalman_5.velocity_noise_density / update_interval);
+  const auto runs = monte_carlo({kalman_5}, truth, run_count, first_seed).front();
   double nis = 0;
-  for (const RunResult& run : runs) nis += run.mean_nis / kRuns;
+  for (const RunResult& run : runs) nis += run.mean_nis / run_count;
   EXPECT_NEAR(nis, 3, 0.06);
 }
 

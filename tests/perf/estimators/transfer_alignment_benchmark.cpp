@@ -51,7 +51,7 @@ void predict_covariance(benchmark::State& bench) {
   const WarmFilter warm = warm_filter(Algorithm::kalman, Mechanization::two_sample);
   const Covariance G = transition_increment(warm.state.ins.interval);
   for (auto _ : bench) {
-    benchmark::DoNotOptimize(filtering::propagate_covariance_blocks<kH2Blocks, kStates>(warm.state.P, G));
+    benchmark::DoNotOptimize(filtering::propagate_covariance_blocks<h2_blocks, state_count>(warm.state.P, G));
   }
 }
 

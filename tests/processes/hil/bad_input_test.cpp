@@ -51,6 +51,24 @@ TEST(BadInput, ParameterOutOfRangeIsRefusedByTheTarget) {
                   "parameter 'h2_case' = 7: refused by the target: out_of_range");
 }
 
+std::string edited(const std::string& file, std::string_view from, std::string_view to) {
+  std::string text = read(scenario("transfer_alignment_quick"));
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos);
+  text.replace(at, from.size(), to);
+  std::ofstream(scratch(file)) << text;
+  return scratch(file);
+}
+
+TEST(BadInput, ValueThatTheBusCannotCarry) {
+  expect_one_line(hil_bench("run " + edited("fine.toml", "heading_deg = 5.0", "heading_deg = 0.001")),
+                  "initial value 0.001 deg does not fit into TargetInitSigma.heading_sigma_deg");
+  expect_one_line(hil_bench("run " + edited("fast.toml", "speed_kmph = 500.0", "speed_kmph = 9000.0")),
+                  "TargetInitVelocityNE.velocity_north_mps, expected -1677 to 1677");
+  expect_one_line(hil_bench("run " + edited("slow.toml", "[slave_imu]", "[slave_imu]\nperiod_ms = 50")),
+                  "IMU interval 50000 us does not fit into SlaveImuStatus.interval_us");
+}
+
 TEST(BadInput, UnknownOption) {
   expect_one_line(hil_bench("run --colour x.toml"), "--colour");
   expect_one_line(hil_target("--bus x --speed 3"), "--speed");

@@ -36,6 +36,8 @@ std::string signal_line(const std::string& text) { return "BO_ 2 N: 8 A\n SG_ " 
 
 const Wrong wrong[] = {
     // text
+    {"string_of_two_lines", "\"a\nb\"",
+     "7:1: unexpected \"a b\", expected a section such as BO_, CM_ or BA_"},
     {"character", "BO_ 2 N: 8 A %",
      "7:14: unexpected character '%', expected a keyword, a name, a number, a string or punctuation"},
     {"string_end", "CM_ \"x", "7:5: string without end, expected '\"' before the end of the file"},

@@ -84,7 +84,9 @@ TEST(LogLine, OfEveryKindOfFrameIsRead) {
 
 TEST(LogLine, ThatIsWrongIsExplainedWithItsColumn) {
   EXPECT_EQ(complaint(""), "a.log:7:1: expected '(' and the time in seconds");
-  EXPECT_EQ(complaint("(x"), "a.log:7:2: expected the time, 1 to 10 digits of seconds");
+  EXPECT_EQ(complaint("(x"), "a.log:7:2: expected the time, seconds up to 9223372035");
+  EXPECT_EQ(complaint("(9436509052.249713) c 001#"),
+            "a.log:7:2: expected the time, seconds up to 9223372035");
   EXPECT_EQ(complaint("(1)"), "a.log:7:3: expected '.' and 6 or 9 digits of the second");
   EXPECT_EQ(complaint("(1.12345) c 001#"), "a.log:7:9: expected 6 or 9 digits of the second");
   EXPECT_EQ(complaint("(1.123456 c 001#"), "a.log:7:10: expected ')' after the time");

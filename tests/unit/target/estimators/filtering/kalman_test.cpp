@@ -69,13 +69,13 @@ TEST(Kalman, PositiveDefinitenessNeedsMoreThanAPositiveDiagonal) {
 }
 
 TEST(Kalman, BlockPredictionIsTheDenseOne) {
-  static constexpr std::array<Block, 4> kPattern{{{0, 1}, {1, 1}, {2, 0}, {0, 2}}};
+  static constexpr std::array<Block, 4> pattern{{{0, 1}, {1, 1}, {2, 0}, {0, 2}}};
   std::mt19937_64 engine(4);
   const Matrix<9, 9> P = random_covariance<9>(engine);
   Matrix<9, 9> G = Matrix<9, 9>::Zero();
-  for (const Block b : kPattern) G.block<3, 3>(3 * b.row, 3 * b.column) = random_matrix<3, 3>(engine);
+  for (const Block b : pattern) G.block<3, 3>(3 * b.row, 3 * b.column) = random_matrix<3, 3>(engine);
   const Matrix<9, 9> dense = propagate_covariance<9>(P, Matrix<9, 9>::Identity() + G, Matrix<9, 9>::Zero());
-  const Matrix<9, 9> blocks = propagate_covariance_blocks<kPattern, 9>(P, G);
+  const Matrix<9, 9> blocks = propagate_covariance_blocks<pattern, 9>(P, G);
   EXPECT_LT((dense - blocks).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_EQ(blocks, blocks.transpose());
   const Matrix<9, 9> Phi = Matrix<9, 9>::Identity() + G;

@@ -29,8 +29,8 @@ TEST(Earth, GravityFallsWithHeight) {
 TEST(Earth, TransportRateCancelsEarthRateForWestwardFlightAtEarthSpeed) {
   const double latitude = 0.65, height = 5000;
   const LocalEarth earth = local_earth(latitude, height);
-  EXPECT_NEAR(earth.omega_ie_n.norm(), kEarthRate, 1e-19);
-  const double speed = kEarthRate * (earth.transverse_radius + height) * std::cos(latitude);
+  EXPECT_NEAR(earth.omega_ie_n.norm(), earth_rate, 1e-19);
+  const double speed = earth_rate * (earth.transverse_radius + height) * std::cos(latitude);
   const Eigen::Vector3d omega_in = earth.omega_ie_n + transport_rate(earth, height, {0, -speed, 0});
   EXPECT_LT(omega_in.norm(), 1e-18);
 }

@@ -23,17 +23,17 @@ struct Motion {
   std::function<Vector3d(double)> acceleration_n;
 };
 
-constexpr double kLatitude = 0.65, kHeight = 1000;
+constexpr double flight_latitude = 0.65, flight_height = 1000;
 
 ImuIncrement increment(const Motion& motion, double t, double dt) {
-  const LocalEarth earth = local_earth(kLatitude, kHeight);
-  constexpr int kIntervals = 16;
+  const LocalEarth earth = local_earth(flight_latitude, flight_height);
+  constexpr int interval_count = 16;
   ImuIncrement imu{Vector3d::Zero(), Vector3d::Zero(), dt};
-  for (int i = 0; i <= kIntervals; ++i) {
-    const double weight = (i == 0 || i == kIntervals ? 1 : i % 2 == 1 ? 4 : 2) * dt / kIntervals / 3;
-    const double now = t + dt * i / kIntervals;
+  for (int i = 0; i <= interval_count; ++i) {
+    const double weight = (i == 0 || i == interval_count ? 1 : i % 2 == 1 ? 4 : 2) * dt / interval_count / 3;
+    const double now = t + dt * i / interval_count;
     const Vector3d v = motion.v_eb_n(now);
-    const Vector3d omega_en = transport_rate(earth, kHeight, v);
+    const Vector3d omega_en = transport_rate(earth, flight_height, v);
     const Matrix3d C_nb = motion.C_bn(now).transpose();
     const Vector3d coriolis = (2 * earth.omega_ie_n + omega_en).cross(v);
     imu.delta_theta += weight * (motion.omega_nb_b(now) + C_nb * (earth.omega_ie_n + omega_en));
@@ -50,8 +50,8 @@ Errors fly(
     const Motion& motion, Mechanization kind, double duration, double dt,
     const std::function<double(int)>& stretch = [](int) { return 1.0; }) {
   NavState nav;
-  nav.latitude = kLatitude;
-  nav.height = kHeight;
+  nav.latitude = flight_latitude;
+  nav.height = flight_height;
   nav.C_bn = motion.C_bn(0);
   nav.v_eb_n = motion.v_eb_n(0);
   ImuIncrement previous;
@@ -111,13 +111,13 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
 TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   NavState nav;
   nav.C_bn = dcm_from_euler({0.1, 0.2, 0.3});
-  nav.latitude = kLatitude;
+  nav.latitude = flight_latitude;
   nav.v_eb_n << 100, 50, -5;
   const double dt = 0.01;
   const ImuIncrement imu{{0.001, 0.002, -0.003}, {0.02, 0.01, -0.1}, dt};
   const MechanizationStep step = GetParam() == Mechanization::reference ? mechanize_reference(nav, imu)
                                                                         : mechanize_two_sample(nav, imu, imu);
-  const LocalEarth earth = local_earth(kLatitude, 0);
+  const LocalEarth earth = local_earth(flight_latitude, 0);
   const Vector3d coriolis = (2 * step.omega_ie_n + step.omega_en_n).cross(nav.v_eb_n);
   const Vector3d force = step.nav.v_eb_n - nav.v_eb_n - (Vector3d(0, 0, earth.gravity) - coriolis) * dt;
   EXPECT_LT((step.delta_v_n - force).norm(), 1e-7);

@@ -70,7 +70,7 @@ TEST(TransferAlignment, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
     run(settings, [&](const State& state, const UpdateResult& result) {
       ASSERT_EQ(result.outcome, Outcome::ok);
       ASSERT_EQ(state.P, state.P.transpose());
-      ASSERT_TRUE(filtering::is_positive_definite<kStates>(state.P));
+      ASSERT_TRUE(filtering::is_positive_definite<state_count>(state.P));
       const Eigen::SelfAdjointEigenSolver<Covariance> solver(state.P, Eigen::EigenvaluesOnly);
       smallest = std::min(smallest, solver.eigenvalues()(0));
     });
@@ -134,7 +134,7 @@ TEST(TransferAlignment, OpenLoopEstimatesWhatTheClosedLoopDoesForSmallErrors) {
     ASSERT_EQ(update(b, truth.v_eb_n, open).outcome, Outcome::ok);
   }
   EXPECT_TRUE(a.x.isZero(0));
-  EXPECT_GT(b.x.segment<3>(kAttitude).norm(), 1e-4) << "the open loop leaves the INS alone";
+  EXPECT_GT(b.x.segment<3>(attitude_state).norm(), 1e-4) << "the open loop leaves the INS alone";
   const Ins from_a = estimate(a), from_b = estimate(b);
   // Second order: |phi| 2e-4 squared, and 20 s of g times that.
   EXPECT_LT(strapdown::misalignment(from_a.nav.C_bn, from_b.nav.C_bn).norm(), 2e-7);

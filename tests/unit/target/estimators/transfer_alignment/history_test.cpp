@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kCapacity = 32;
+constexpr std::size_t capacity = 32;
 
 std::int64_t epoch_us(std::size_t sample) { return static_cast<std::int64_t>(sample + 1) * 10'000; }
 
@@ -33,7 +33,7 @@ void expect_same_bits(const State& a, const State& b) {
 State run_late(std::size_t late) {
   const Settings settings;
   State state = initial(published_start(), settings);
-  History<kCapacity> history(0);
+  History<capacity> history(0);
   std::deque<std::pair<std::size_t, Vector3d>> under_way;
   const std::vector<Sample> samples = full_run_inputs();
   for (std::size_t i = 0; i + 1 < samples.size();
@@ -73,13 +73,13 @@ class HistoryOfOneSecond : public testing::Test {
   }
   Settings settings;
   State state;
-  History<kCapacity> history;
+  History<capacity> history;
   const Vector3d velocity = flight_start().v_eb_n;
 };
 
 TEST_F(HistoryOfOneSecond, RefusesWhatIsOlderThanItself) {
   const State before = state;
-  const std::int64_t oldest_us = 1'000'000 - 10'000 * static_cast<std::int64_t>(kCapacity);
+  const std::int64_t oldest_us = 1'000'000 - 10'000 * static_cast<std::int64_t>(capacity);
   EXPECT_EQ(history.update(state, velocity, oldest_us - 1, settings).outcome, Outcome::older_than_history);
   expect_same_bits(state, before);
   EXPECT_EQ(history.update(state, velocity, oldest_us, settings).outcome, Outcome::ok);
@@ -102,7 +102,7 @@ TEST_F(HistoryOfOneSecond, RefusesWhatIsOlderThanTheLastUpdate) {
 // Between epochs: the innovation is of the velocity interpolated to the time of validity.
 TEST_F(HistoryOfOneSecond, InterpolatesBetweenEpochs) {
   State at_epoch = state, earlier = state, between = state;
-  History<kCapacity> copy_1 = history, copy_2 = history;
+  History<capacity> copy_1 = history, copy_2 = history;
   const UpdateResult a = copy_1.update(earlier, velocity, 900'000, settings);
   const UpdateResult b = copy_2.update(at_epoch, velocity, 910'000, settings);
   const UpdateResult m = history.update(between, velocity, 907'500, settings);

@@ -35,19 +35,19 @@ TEST(Traps, CorrectionRemovesTheEstimatedError) {
   const Settings settings;
   std::mt19937_64 engine(5);
   strapdown::NavState start = flight_start();
-  start.C_bn = strapdown::dcm_from_euler({0.2, 0.1, 100 * kRadPerDeg});
+  start.C_bn = strapdown::dcm_from_euler({0.2, 0.1, 100 * rad_per_deg});
   State state = flown(settings, 10, start);
-  state.P = random_covariance<kStates>(engine) * 1e-4;
+  state.P = random_covariance<state_count>(engine) * 1e-4;
   const Ins before = state.ins;
   const UpdateResult result = update(state, before.nav.v_eb_n - Vector3d(0.3, -0.4, 0.5), settings);
   ASSERT_EQ(result.outcome, Outcome::ok);
-  const Vector3d phi = result.dx.segment<3>(kAttitude);
+  const Vector3d phi = result.dx.segment<3>(attitude_state);
   ASSERT_GT(phi.norm(), 1e-4);
   // Of the INS before the correction, relative to the corrected one: exactly the estimated errors.
   EXPECT_LT((strapdown::misalignment(before.nav.C_bn, state.ins.nav.C_bn) - phi).norm(), 1e-14);
-  EXPECT_LT((before.nav.v_eb_n - state.ins.nav.v_eb_n - result.dx.segment<3>(kVelocity)).norm(), 1e-13);
-  EXPECT_EQ(state.ins.accel_bias, before.accel_bias + result.dx.segment<3>(kAccelBias));
-  EXPECT_EQ(state.ins.gyro_bias, before.gyro_bias + result.dx.segment<3>(kGyroBias));
+  EXPECT_LT((before.nav.v_eb_n - state.ins.nav.v_eb_n - result.dx.segment<3>(velocity_state)).norm(), 1e-13);
+  EXPECT_EQ(state.ins.accel_bias, before.accel_bias + result.dx.segment<3>(accel_bias_state));
+  EXPECT_EQ(state.ins.gyro_bias, before.gyro_bias + result.dx.segment<3>(gyro_bias_state));
 }
 
 // The model's own signs: from each error alone the filter moves towards the truth.
@@ -107,15 +107,15 @@ TEST(Traps, BetaUsesAllRowsOfThePosterior) {
     Settings settings;
     settings.h2_case = h2_case;
     State state = flown(settings, 10);
-    state.P = random_covariance<kStates>(engine) * 1e-4;
+    state.P = random_covariance<state_count>(engine) * 1e-4;
     const Vector3d f = state.ins.interval.delta_v_n / state.ins.interval.duration;
-    const Matrix3d F = strapdown::skew(f), P_phi = state.P.block<3, 3>(kAttitude, kAttitude);
+    const Matrix3d F = strapdown::skew(f), P_phi = state.P.block<3, 3>(attitude_state, attitude_state);
     const double alpha = std::sqrt((F * P_phi * F.transpose()).trace());
     const Uncertainty u = uncertainty(h2_case, alpha);
     Covariance NtN = Covariance::Zero();
-    NtN.block<3, 3>(kAttitude, kAttitude) = u.N.transpose() * u.N;
+    NtN.block<3, 3>(attitude_state, attitude_state) = u.N.transpose() * u.N;
     const Covariance PNNP = state.P * NtN * state.P;
-    const double beta = std::sqrt(2 * filtering::largest_eigenvalue<kStates>(PNNP) /
+    const double beta = std::sqrt(2 * filtering::largest_eigenvalue<state_count>(PNNP) /
                                   filtering::largest_eigenvalue<3>(u.L * u.L.transpose()));
     const UpdateResult result = update(state, state.ins.nav.v_eb_n, settings);
     EXPECT_NEAR(result.alpha / alpha, 1, 1e-12);
@@ -128,21 +128,21 @@ TEST(Traps, CovarianceStepIsTheDenseH2Recursion) {
   std::mt19937_64 engine(7);
   const Settings settings;
   State state = flown(settings, 10);
-  state.P = random_covariance<kStates>(engine) * 1e-4;
+  state.P = random_covariance<state_count>(engine) * 1e-4;
   const State before = state;
   const double dt = before.ins.interval.duration;
   const UpdateResult result = update(state, state.ins.nav.v_eb_n, settings);
   const Uncertainty u = uncertainty(settings.h2_case, result.alpha);
-  Eigen::Matrix<double, kStates, 3> L = Eigen::Matrix<double, kStates, 3>::Zero();
-  Eigen::Matrix<double, 3, kStates> N = Eigen::Matrix<double, 3, kStates>::Zero(), H = N;
+  Eigen::Matrix<double, state_count, 3> L = Eigen::Matrix<double, state_count, 3>::Zero();
+  Eigen::Matrix<double, 3, state_count> N = Eigen::Matrix<double, 3, state_count>::Zero(), H = N;
   L.topRows<3>() = u.L;
-  N.middleCols<3>(kAttitude) = u.N;
+  N.middleCols<3>(attitude_state) = u.N;
   H.leftCols<3>().setIdentity();
   const Covariance A = transition_increment(before.ins.interval) / dt;
   const Covariance Q = process_noise(settings, 1).asDiagonal();
-  const Covariance prior = filtering::propagate_h2<kStates, 3, 3>(before.P, A, Q, L, N, result.beta, dt);
+  const Covariance prior = filtering::propagate_h2<state_count, 3, 3>(before.P, A, Q, L, N, result.beta, dt);
   const Matrix3d R = Matrix3d::Identity() * (settings.velocity_noise_density / dt);
-  const auto expected = filtering::update<kStates, 3>(prior, H, R, Vector3d::Zero());
+  const auto expected = filtering::update<state_count, 3>(prior, H, R, Vector3d::Zero());
   EXPECT_LT((state.P - expected.P).cwiseAbs().maxCoeff(), 1e-14);
 }
 
@@ -150,16 +150,16 @@ TEST(Traps, CovarianceStepIsTheDenseH2Recursion) {
 TEST(Traps, AlphaIsCapped) {
   Settings settings;
   State state = flown(settings, 10);
-  state.P.diagonal().segment<3>(kAttitude).setConstant(10);
+  state.P.diagonal().segment<3>(attitude_state).setConstant(10);
   const double f = (state.ins.interval.delta_v_n / state.ins.interval.duration).norm();
   const UpdateResult result = update(state, state.ins.nav.v_eb_n, settings);
-  EXPECT_NEAR(result.alpha, 2 * std::sin(3 * std::sqrt(3.0) * kRadPerDeg / 2) * f, 1e-12);
+  EXPECT_NEAR(result.alpha, 2 * std::sin(3 * std::sqrt(3.0) * rad_per_deg / 2) * f, 1e-12);
 }
 
 TEST(Traps, AlphaOfAHeadingErrorVanishesInLevelFlight) {
   Settings settings;
   Covariance P = Covariance::Zero();
-  P(kAttitude + 2, kAttitude + 2) = 0.01;
+  P(attitude_state + 2, attitude_state + 2) = 0.01;
   EXPECT_NEAR(uncertainty_size(settings, P, Vector3d(0, 0, -9.8)), 0, 1e-12);
   EXPECT_NEAR(uncertainty_size(settings, P, Vector3d(5, 0, -9.8)), 0.5, 1e-12);
 }
@@ -177,12 +177,12 @@ TEST(Traps, SpecificForceIsAveragedOverTheInterval) {
     propagate(step_early, k < 5 ? accelerated : calm, settings);
   }
   const Vector3d mean = step_late.ins.interval.delta_v_n / step_late.ins.interval.duration;
-  EXPECT_NEAR(mean.x(), kFlightAcceleration / 2, 1e-4);
+  EXPECT_NEAR(mean.x(), flight_acceleration / 2, 1e-4);
   update(step_late, flight_start().v_eb_n, settings);
   update(step_early, flight_start().v_eb_n, settings);
-  const double cross = step_early.P(kVelocity + 1, kAttitude + 2);  // dV_E of heading: g/2 dt P_phi
+  const double cross = step_early.P(velocity_state + 1, attitude_state + 2);  // dV_E of heading: g/2 dt P_phi
   ASSERT_GT(std::abs(cross), 1e-7);
-  EXPECT_NEAR(step_late.P(kVelocity + 1, kAttitude + 2) / cross, 1, 1e-5);
+  EXPECT_NEAR(step_late.P(velocity_state + 1, attitude_state + 2) / cross, 1, 1e-5);
 }
 
 }  // namespace

@@ -18,20 +18,20 @@ using Eigen::Vector3d;
 using strapdown::NavState;
 using RowMajor3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-const std::string kData = std::string(TEST_DATA_DIR) + "/transfer_alignment/";
+const std::string data_folder = std::string(TEST_DATA_DIR) + "/transfer_alignment/";
 
 double relative(double value, double expected) { return std::abs(value / expected - 1); }
 
 double largest_relative(const StateVector& value, const double* expected) {
   double largest = 0;
-  for (int i = 0; i < kStates; ++i) largest = std::max(largest, relative(value(i), expected[i]));
+  for (int i = 0; i < state_count; ++i) largest = std::max(largest, relative(value(i), expected[i]));
   return largest;
 }
 
 class FullRun : public testing::TestWithParam<Algorithm> {};
 
 TEST_P(FullRun, ReplaysThePublishedRun) {
-  const Csv outputs(kData + "full_run_outputs.csv");
+  const Csv outputs(data_folder + "full_run_outputs.csv");
   Settings settings;
   settings.algorithm = GetParam();
   settings.mechanization = strapdown::Mechanization::reference;
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Filters, FullRun, testing::Values(Algorithm::kalman, Al
 class FourCases : public testing::TestWithParam<int> {};
 
 TEST_P(FourCases, ReplayThePublishedErrors) {
-  const Csv outputs(kData + "h2_four_cases.csv");
+  const Csv outputs(data_folder + "h2_four_cases.csv");
   Settings settings;
   settings.h2_case = static_cast<H2Case>(GetParam());
   settings.mechanization = strapdown::Mechanization::reference;

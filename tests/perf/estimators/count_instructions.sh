@@ -1,5 +1,5 @@
 #!/bin/sh
-# Instructions of one IMU step and one update: tests/perf/estimators/count_instructions BUILD_DIR
+# Instructions of one IMU step and one update: tests/perf/estimators/count_instructions.sh BUILD_DIR
 set -eu
 program=$1/tests/perf/estimators/estimators_instructions
 out=$(mktemp)

@@ -1,0 +1,22 @@
+#include "bench/run/initial_state.hpp"
+
+#include "bench/world/units.hpp"
+#include "dbc/wire/time_base.hpp"
+
+namespace canhil::run {
+
+InitialState initial_state(const world::NavigationSolution& initial, const scenario::InitialSigma& sigma) {
+  using world::units::deg;
+  const world::Euler angles = world::euler_from(initial.C_bn);
+  return {
+      {.latitude_deg = initial.position.latitude / deg, .height_m = initial.position.height},
+      {.longitude_deg = initial.position.longitude / deg, .position_sigma_m = sigma.position},
+      {.velocity_north_mps = initial.v_eb_n.x(), .velocity_east_mps = initial.v_eb_n.y()},
+      {.roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg},
+      {.velocity_sigma_mps = sigma.velocity,
+       .tilt_sigma_deg = sigma.tilt / deg,
+       .heading_sigma_deg = sigma.heading / deg},
+      {.velocity_down_mps = initial.v_eb_n.z(), .time_of_validity_us = wrap_us(initial.t_us)}};
+}
+
+}  // namespace canhil::run
