@@ -4,17 +4,13 @@
 
 #include <memory>
 
-#include "bench/nodes/master_ins.hpp"
-#include "bench/nodes/slave_imu.hpp"
-#include "bench/nodes/time_keeper.hpp"
+#include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/in_process_port.hpp"
 #include "bench/run/lockstep.hpp"
 #include "bench/run/monitor.hpp"
 #include "bench/run/recorder.hpp"
-#include "bench/run/schedule.hpp"
 #include "bench/run/target_process.hpp"
-#include "bench/run/wire_limits.hpp"
 #include "dbc/ports/local_bus.hpp"
 
 namespace canhil::run {
@@ -36,36 +32,15 @@ Result<std::unique_ptr<Port>> open(const std::string& bus) {
   return host_local_bus(bus, options).map([](auto hub) -> std::unique_ptr<Port> { return hub; });
 }
 
-Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       std::uint64_t run_index, bool lockstep) {
-  std::vector<std::unique_ptr<nodes::Node>> sensors;
-  const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
-  if (scenario.slave_imu) {
-    sensors.push_back(std::make_unique<nodes::SlaveImu>(truth, *scenario.slave_imu, stream("slave_imu")));
-  }
-  if (scenario.master_ins) {
-    sensors.push_back(std::make_unique<nodes::MasterIns>(truth, *scenario.master_ins, stream("master_ins")));
-  }
-  return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep)};
-}
-
-std::int64_t imu_period_us(const scenario::Scenario& scenario) {
-  const std::int64_t cycle_us = messages::SlaveImuStatus::info.cycle_time_us;
-  return scenario.slave_imu ? scenario.slave_imu->schedule.period_us.value_or(cycle_us) : cycle_us;
-}
-
 }  // namespace
 
 Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                 const std::atomic<bool>& stop_requested, const Progress& progress) {
   const bool lockstep = options.clock == ClockKind::lockstep;
-  if (auto fits = check_fits_imu_interval(imu_period_us(scenario)); !fits)
-    return tl::unexpected(fits.error());
-  world::FlightRecord truth(scenario.truth, scenario.duration_us, imu_period_us(scenario));
-  world::Stream initial_stream(scenario.seed, options.run_index, "initial_error");
-  const InitialState initial = initial_state(
-      measure(truth.epochs().front(), scenario.initial_error, initial_stream), scenario.target.initial_sigma);
-  if (auto fits = check_fits(initial); !fits) return tl::unexpected(fits.error());
+  auto truth = make_truth(scenario);
+  if (!truth) return tl::unexpected(truth.error());
+  const auto initial = make_initial_state(scenario, *truth, options.run_index);
+  if (!initial) return tl::unexpected(initial.error());
 
   auto port = open(options.bus);
   if (!port) return tl::unexpected(port.error());
@@ -85,8 +60,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   }
   const auto gone = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
 
-  Schedule schedule = make_schedule(scenario, truth, options.run_index, lockstep);
-  if (auto configured = configure(link, schedule.outbox(), scenario.target, initial, gone); !configured) {
+  Schedule schedule = make_schedule(scenario, *truth, options.run_index, lockstep);
+  if (auto configured = configure(link, schedule.outbox(), scenario.target, *initial, gone); !configured) {
     return tl::unexpected(configured.error());
   }
 
@@ -109,7 +84,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   checks::Observations seen = std::move(monitor.observations());
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   const checks::Evidence evidence{.seen = seen,
-                                  .truth = truth,
+                                  .truth = *truth,
                                   .duration_us = scenario.duration_us,
                                   .ended_early = ending.detail,
                                   .timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen)};
@@ -118,7 +93,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   return Run{.verdict = std::move(verdict),
              .ending = std::move(ending),
              .seen = std::move(seen),
-             .truth = std::move(truth),
+             .truth = std::move(*truth),
              .options = options,
              .wall_s = wall_s};
 }

@@ -1,0 +1,40 @@
+#include "bench/run/flight.hpp"
+
+#include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/time_keeper.hpp"
+#include "bench/run/wire_limits.hpp"
+
+namespace canhil::run {
+
+Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
+  const std::int64_t cycle_us = messages::SlaveImuStatus::info.cycle_time_us;
+  const std::int64_t period_us =
+      scenario.slave_imu ? scenario.slave_imu->schedule.period_us.value_or(cycle_us) : cycle_us;
+  if (auto fits = check_fits_imu_interval(period_us); !fits) return tl::unexpected(fits.error());
+  return world::FlightRecord(scenario.truth, scenario.duration_us, period_us);
+}
+
+Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                        std::uint64_t run_index) {
+  world::Stream stream(scenario.seed, run_index, "initial_error");
+  InitialState state = initial_state(measure(truth.epochs().front(), scenario.initial_error, stream),
+                                     scenario.target.initial_sigma);
+  if (auto fits = check_fits(state); !fits) return tl::unexpected(fits.error());
+  return state;
+}
+
+Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                       std::uint64_t run_index, bool lockstep) {
+  std::vector<std::unique_ptr<nodes::Node>> sensors;
+  const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
+  if (scenario.slave_imu) {
+    sensors.push_back(std::make_unique<nodes::SlaveImu>(truth, *scenario.slave_imu, stream("slave_imu")));
+  }
+  if (scenario.master_ins) {
+    sensors.push_back(std::make_unique<nodes::MasterIns>(truth, *scenario.master_ins, stream("master_ins")));
+  }
+  return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep)};
+}
+
+}  // namespace canhil::run

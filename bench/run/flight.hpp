@@ -1,0 +1,27 @@
+// A scenario made ready to run: its truth, its nodes, and what the target is told at the start.
+#pragma once
+
+#include <cstdint>
+
+#include "bench/run/initial_state.hpp"
+#include "bench/run/schedule.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/world/flight_record.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::run {
+
+/// The truth of a scenario on the grid of its IMU. The same for every run: compute it once. Error: one line.
+Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
+
+/// What the target is told in run `run_index`: the truth with the errors that this run draws. Error: one
+/// line, if the bus cannot carry it.
+Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                        std::uint64_t run_index);
+
+/// The nodes of run `run_index`, in the order of precedence. `scenario` and `truth` must outlive the
+/// schedule.
+Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                       std::uint64_t run_index, bool lockstep);
+
+}  // namespace canhil::run

@@ -1,0 +1,33 @@
+#include "bench/run/in_process.hpp"
+
+#include <atomic>
+
+#include "bench/run/flight.hpp"
+#include "bench/run/handshake.hpp"
+#include "bench/run/in_process_port.hpp"
+#include "bench/run/lockstep.hpp"
+#include "bench/run/monitor.hpp"
+
+namespace canhil::run {
+
+Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                    std::uint64_t run_index) {
+  constexpr std::int64_t step_limit_ns = 1'000'000'000;  // an answer is there when send() returns
+  static const std::atomic<bool> never = false;
+  const auto initial = make_initial_state(scenario, truth, run_index);
+  if (!initial) return tl::unexpected(initial.error());
+
+  InProcessPort port;
+  Link link(port);
+  Schedule schedule = make_schedule(scenario, truth, run_index, true);
+  const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
+  if (auto ready = configure(link, schedule.outbox(), scenario.target, *initial, gone); !ready) {
+    return tl::unexpected(ready.error());
+  }
+  Monitor monitor;
+  const Attached attached(link, monitor);
+  Ending ending = run_lockstep(link, schedule, step_limit_ns, never, [](std::int64_t) {});
+  return InProcessRun{.ending = std::move(ending), .seen = std::move(monitor.observations())};
+}
+
+}  // namespace canhil::run
