@@ -80,13 +80,13 @@ Result<std::string> gnuplot(std::string_view script) {
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (const std::string said = complaints.content(); status != 0 || !said.empty())
-    return failure(fmt::format("gnuplot: ended with status {}: {}", status, first_line(said)));
+  if (status != 0)
+    return failure(fmt::format("gnuplot: ended with status {}: {}", status, first_line(complaints.content())));
   return out.content();
 }
 
 Result<void> check_gnuplot() {
-  const auto drawn = gnuplot("set terminal svg\nplot 0\n");
+  const auto drawn = gnuplot("set terminal svg\nplot x\n");
   if (!drawn) return tl::unexpected(drawn.error());
   return {};
 }

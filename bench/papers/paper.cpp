@@ -17,7 +17,8 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   std::filesystem::create_directories(request.folder, error);
   if (error)
     return failure(fmt::format("folder '{}': cannot be made: {}", request.folder.string(), error.message()));
-  Reproduced reproduced{.page = request.folder / "transfer.html"};
+  Reproduced reproduced;
+  reproduced.page = request.folder / "transfer.html";
   if (auto writable = report::check_writable(reproduced.page.string()); !writable)
     return tl::unexpected(writable.error());
   if (auto there = check_gnuplot(); !there) return tl::unexpected(there.error());
