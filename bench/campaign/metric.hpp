@@ -95,8 +95,11 @@ struct Metric {
 };
 
 std::string_view kind(const Metric& metric);
+/// The variant that a metric compares with, as named in the file; empty: none.
+std::string other_of(const Metric& metric);
 
-/// `variants`: the names that the metric may use.
-Metric read_metric(scenario::Section& section, const std::vector<std::string>& variants);
+/// `variants`: the names that the metric may use; `duration_us`: the shortest of theirs.
+Metric read_metric(scenario::Section& section, const std::vector<std::string>& variants,
+                   std::int64_t duration_us);
 
 }  // namespace canhil::campaign

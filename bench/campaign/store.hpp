@@ -47,8 +47,9 @@ class Store {
   /// A new file. Error: it exists, or cannot be written.
   static Result<Store> create(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// For more runs. Error: another campaign's, in use, or not writable.
-  static Result<Store> resume(const std::filesystem::path& path, const Identity& identity);
+  /// For more runs; a new file if there is none. Error: another campaign's, in use, or not writable.
+  static Result<Store> resume(const std::filesystem::path& path, const Identity& identity,
+                              const Sources& sources);
   /// For reading only.
   static Result<Store> open(const std::filesystem::path& path);
 
@@ -67,6 +68,9 @@ class Store {
 
  private:
   explicit Store(Database database) : database_(std::move(database)) {}
+  static Result<Store> open_to_write(const std::filesystem::path& path);
+  Result<void> initialise(const Identity& identity, const Sources& sources);
+  [[nodiscard]] Result<bool> blank() const;
   Result<void> read_identity();
 
   Database database_;
