@@ -81,7 +81,8 @@ Result<std::string> gnuplot(std::string_view script) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (status != 0)
-    return failure(fmt::format("gnuplot: ended with status {}: {}", status, first_line(complaints.content())));
+    return failure(
+        fmt::format("gnuplot: ended with status {}: {}", status, first_line(complaints.content())));
   return out.content();
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view style = R"(
 :root{color-scheme:light}
 *{box-sizing:border-box}
-body{margin:0 auto;padding:1.2rem 1rem 4rem;max-width:54rem;background:#fff;color:#1a1a1a;
+body{margin:0 auto;padding:1.2rem 1rem 4rem;max-width:58rem;background:#fff;color:#1a1a1a;
  font:1rem/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"DejaVu Sans",sans-serif}
 h1{font-size:1.7rem;line-height:1.2;margin:.4rem 0}
 h2{font-size:1.25rem;margin:2.6rem 0 .6rem;padding-top:.7rem;border-top:1px solid #ccc}
@@ -64,6 +64,13 @@ std::string escaped(std::string_view plain) {
   return safe;
 }
 
+// Times "14.7 / 16.2 / never" stay on one line.
+std::string unbroken(std::string cell) {
+  for (auto at = cell.find(" / "); at != std::string::npos; at = cell.find(" / ", at))
+    cell.replace(at, 3, "&nbsp;/&nbsp;");
+  return cell;
+}
+
 std::string_view css_class(Mark mark) {
   switch (mark) {
     case Mark::yes:
@@ -85,7 +92,8 @@ std::string html(const Table& table) {
   for (const Row& row : table.rows) {
     out += "<tr>";
     for (std::size_t i = 0; i < row.cells.size(); ++i)
-      out += fmt::format("<td data-label=\"{}\">{}</td>", escaped(table.head[i]), escaped(row.cells[i]));
+      out += fmt::format("<td data-label=\"{}\">{}</td>", escaped(table.head[i]),
+                         unbroken(escaped(row.cells[i])));
     out += fmt::format("<td class=\"{}\" data-label=\"{}\">{}</td></tr>\n", css_class(row.mark),
                        escaped(table.head.back()), escaped(row.verdict));
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/papers/transfer_alignment/sections.hpp"
@@ -22,6 +23,10 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   if (auto writable = report::check_writable(reproduced.page.string()); !writable)
     return tl::unexpected(writable.error());
   if (auto there = check_gnuplot(); !there) return tl::unexpected(there.error());
+
+  if (!request.exact.empty()) {
+    if (auto there = campaign::Store::open(request.exact); !there) return tl::unexpected(there.error());
+  }
 
   const auto results = transfer_alignment::fly(
       {.folder = request.folder, .runs = request.runs, .exact = request.exact, .progress = request.progress},

@@ -144,7 +144,7 @@ Table bar_table(const Results& results) {
                           .mark = holds(guard) ? Mark::yes : Mark::no,
                           .verdict = holds(guard) ? "pass" : "FAIL"});
   add("bar 9");
-  table.rows.push_back({.cells = {"bar 9: h2_case2_p5_noise", "recorded only",
+  table.rows.push_back({.cells = {"bar 9: H2 case 2 told 5 deg, noise", "recorded only",
                                   words(times_of(table2.curve("h2_case2_p5_noise")))},
                         .mark = Mark::none,
                         .verdict = "recorded"});

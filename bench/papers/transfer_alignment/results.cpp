@@ -119,6 +119,7 @@ Times times_of(std::span<const CurvePoint> curve) {
 bool diverged(const Times& times) { return !(times.end_mrad < diverged_mrad); }
 
 std::string words(const Times& times) {
+  if (std::isnan(times.end_mrad)) return "diverges";
   if (diverged(times)) return fmt::format("diverges ({:.0f} mrad at the end)", times.end_mrad);
   return fmt::format("{} / {} / {}", in_words(times.within_3_mrad), in_words(times.within_2_mrad),
                      in_words(times.within_1_mrad));
