@@ -56,7 +56,6 @@ class Dialogue {
         if (auto sent = send(request); !sent) return sent;
         repeat_at_ns = now_ns() + repeat_ns;
       }
-      link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
       if (link_.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
       if (condition(mailbox_)) return {};
@@ -65,6 +64,7 @@ class Dialogue {
         return failure(fmt::format("target on '{}': no answer within {:g} s while {}", link_.port().name(),
                                    static_cast<double>(limit_ns) * 1e-9, what));
       }
+      link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
     }
   }
 

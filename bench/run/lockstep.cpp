@@ -61,14 +61,16 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
       }
     }
     if (!closes_step) continue;
-    const std::int64_t deadline_ns = now_ns() + step_limit_ns;
+    std::int64_t deadline_ns = 0;  // from the first wait on: a target in this process has answered already
     while (!watch.done()) {
       if (link.drain() == LinkState::down) {
         return {Ending::Kind::bus_down, t_us, "the bus is gone"};
       }
       if (watch.done()) break;
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
-      if (now_ns() > deadline_ns) {
+      const std::int64_t now = now_ns();
+      if (deadline_ns == 0) deadline_ns = now + step_limit_ns;
+      if (now > deadline_ns) {
         return {Ending::Kind::target_silent, t_us,
                 fmt::format("target silent since t={:.3f} s: step {} was not answered",
                             static_cast<double>(t_us) * 1e-6, watch.awaited())};

@@ -273,8 +273,16 @@ class TransferAlignmentAdapter final : public Adapter {
     return Health::fault;
   }
 
+  // In a closed loop the INS itself; in an open one it is corrected for each answer.
+  const ta::Ins& best_estimate() {
+    if (tuning_.filter.closed_loop) return state_.ins;
+    corrected_ = ta::estimate(state_);
+    return corrected_;
+  }
+
   void answer_navigation(std::int64_t t_us, std::uint8_t counter, Answers& answers) {
-    const strapdown::NavState nav = ta::estimate(state_).nav;
+    const ta::Ins& ins = best_estimate();
+    const strapdown::NavState& nav = ins.nav;
     const strapdown::Euler angles = strapdown::euler_from_dcm(nav.C_bn);
     answers.send(AlignAttitude{.roll_deg = angles.roll / deg,
                                .pitch_deg = angles.pitch / deg,
@@ -286,13 +294,13 @@ class TransferAlignmentAdapter final : public Adapter {
     coasting_ = false;
   }
 
-  void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Answers& answers) const {
+  void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Answers& answers) {
     const ta::StateVector sigma = state_.P.diagonal().cwiseMax(0).cwiseSqrt();
     const auto correlation = [&](int i, int j) {
       const double product = sigma(ta::attitude_state + i) * sigma(ta::attitude_state + j);
       return product > 0 ? state_.P(ta::attitude_state + i, ta::attitude_state + j) / product : 0.0;
     };
-    const ta::Ins ins = ta::estimate(state_);
+    const ta::Ins& ins = best_estimate();
     answers.send(AlignInnovation{.innovation_north_mps = result.innovation.x(),
                                  .innovation_east_mps = result.innovation.y(),
                                  .innovation_down_mps = result.innovation.z()});
@@ -326,6 +334,7 @@ class TransferAlignmentAdapter final : public Adapter {
   ImuGroup imu_group_;
   MasterGroup master_group_;
   ta::State state_;
+  ta::Ins corrected_;
   ta::History<history_length> history_{0};
   std::int64_t ins_us_ = 0;       // epoch of the INS
   std::int64_t answered_us_ = 0;  // epoch of the last navigation answer
