@@ -30,6 +30,8 @@ void restamp(std::vector<checks::Stimulus>& stimuli, std::int64_t valid_us, std:
 }  // namespace
 
 void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
+  if (seen_.lateness_ns.empty()) seen_.first_ns = t_ns;
+  seen_.last_ns = t_ns;
   seen_.lateness_ns.push_back(late_ns);
   if (frame.id == Sync::info.id) {
     now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
@@ -167,6 +169,7 @@ void Monitor::on_filter() {
   const std::int64_t cause_us = unwrap_us(update.cause_time_us, now_us_);
   seen_.filter.push_back(
       {.cause_us = cause_us,
+       .navigation_us = seen_.navigation.empty() ? -1 : seen_.navigation.back().cause_us,
        .nis = update.nis,
        .innovation = {innovation.innovation_north_mps, innovation.innovation_east_mps,
                       innovation.innovation_down_mps},

@@ -32,6 +32,7 @@ std::span<const Frame> Device::receive(const Frame& frame) {
   const MessageInfo& info = all_messages[route];
   if (frame.size != info.size || frame.fd != info.fd) {
     ++losses_.bad_crc;
+    errors_.input_lost = true;
     return {};
   }
   e2e::Receiver& receiver = receivers_[route];
@@ -79,11 +80,14 @@ void Device::dispatch(const Frame& frame, std::uint8_t counter) {
     case TargetInitSigma::info.id:
       return on_initial<TargetInitSigma>(frame, counter);
     default:
-      if (state_ == TargetState::running) apply(adapter_->receive(frame, counter, context()));
+      if (state_ != TargetState::running) return;
+      untouched_ = false;
+      apply(adapter_->receive(frame, counter, context()));
   }
 }
 
 void Device::on_sync(const Sync& sync) {
+  untouched_ = false;
   now_us_ = static_cast<std::int64_t>(sync.time_us);
   lockstep_ = sync.lockstep != 0;
   if (state_ == TargetState::running) apply(adapter_->tick(context()));
@@ -132,7 +136,10 @@ void Device::reset(Estimator estimator, Algorithm algorithm) {
 }
 
 void Device::start() {
-  if (state_ == TargetState::ready) {
+  // A bench that did not hear the answer in time commands it again.
+  const bool again = state_ == TargetState::running && untouched_;
+  if (state_ == TargetState::ready || again) {
+    untouched_ = true;
     adapter_->start(initial_);
     answers_.reset_counters();  // what follows depends on this run's frames alone, not on how often a command
                                 // was repeated
