@@ -42,9 +42,10 @@ constexpr std::uint8_t crc(std::span<const std::uint8_t> data, std::uint16_t dat
   std::uint8_t c = static_cast<std::uint8_t>(advance[1][data_id & 0xFFU] ^ advance[0][data_id >> 8U]);
   std::size_t i = 1;
   for (; i + detail::stride <= data.size(); i += detail::stride) {
-    std::uint8_t next = advance[detail::stride - 1][c ^ data[i]];
-    for (std::size_t k = 1; k < detail::stride; ++k) next ^= advance[detail::stride - 1 - k][data[i + k]];
-    c = next;
+    c = static_cast<std::uint8_t>(advance[6][c ^ data[i]] ^ advance[5][data[i + 1]] ^
+                                  advance[4][data[i + 2]] ^ advance[3][data[i + 3]] ^
+                                  advance[2][data[i + 4]] ^ advance[1][data[i + 5]] ^
+                                  advance[0][data[i + 6]]);
   }
   for (; i < data.size(); ++i) c = advance[0][c ^ data[i]];
   return c;

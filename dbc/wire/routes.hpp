@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "dbc/wire/frame.hpp"
+#include "dbc/wire/message.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil {
