@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bench/commands/bus.hpp"
+#include "bench/commands/campaign.hpp"
 #include "bench/commands/diverge.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/run.hpp"
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   int code = 0;
   canhil::commands::add_run(app, code);
   canhil::commands::add_bus(app, code);
+  canhil::commands::add_campaign(app, code);
   canhil::commands::add_diverge(app, code);
   try {
     app.parse(argc, argv);

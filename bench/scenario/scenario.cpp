@@ -39,13 +39,20 @@ std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Co
   return checks;
 }
 
+std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) {
+  std::string all(text);
+  for (const Setting& setting : settings) all += fmt::format("{} = {}\n", setting.key, setting.value);
+  return world::fnv1a_64(all);
+}
+
 }  // namespace
 
-Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract) {
-  Section root = Section::parse(text, name);
+Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
+                       std::span<const Setting> settings) {
+  Section root = Section::parse(text, name, settings);
   Scenario scenario;
   scenario.file = name;
-  scenario.hash = world::fnv1a_64(text);
+  scenario.hash = hash_of(text, settings);
   scenario.title = root.text("title");
   scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
@@ -65,10 +72,10 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   return scenario;
 }
 
-Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract) {
-  const auto unreadable = [&path](int reason) {
-    return failure(fmt::format("{}: cannot be read ({}), expected a scenario file", path.string(),
-                               std::generic_category().message(reason)));
+Result<std::string> read_text(const std::filesystem::path& path, std::string_view kind) {
+  const auto unreadable = [&](int reason) {
+    return failure(fmt::format("{}: cannot be read ({}), expected {}", path.string(),
+                               std::generic_category().message(reason), kind));
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) return unreadable(EISDIR);
@@ -77,8 +84,13 @@ Result<Scenario> read_file(const std::filesystem::path& path, const Contract& co
   std::ostringstream content;
   content << file.rdbuf();
   if (file.bad()) return unreadable(EIO);
-  const std::string text = content.str();
-  return parse(text, path.string(), contract);
+  return std::move(content).str();
+}
+
+Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract) {
+  const auto text = read_text(path, "a scenario file");
+  if (!text) return tl::unexpected(text.error());
+  return parse(*text, path.string(), contract);
 }
 
 }  // namespace canhil::scenario

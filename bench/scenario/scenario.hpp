@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/master_ins.hpp"
+#include "bench/scenario/setting.hpp"
 #include "bench/scenario/slave_imu.hpp"
 #include "bench/scenario/target_setup.hpp"
 #include "bench/world/motion.hpp"
@@ -27,7 +29,7 @@ namespace canhil::scenario {
 
 struct Scenario {
   std::string file;        ///< as it was named
-  std::uint64_t hash = 0;  ///< FNV-1a of the file's text: provenance in reports and campaigns
+  std::uint64_t hash = 0;  ///< FNV-1a of the file's text and settings: provenance in reports and campaigns
   std::string title;
   std::int64_t duration_us = 0;
   std::uint64_t seed = 0;
@@ -44,7 +46,12 @@ struct Scenario {
 /// Reads a scenario file. The error is one line.
 Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract);
 
-/// Reads a scenario's text; `name` stands for the file in messages.
-Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract);
+/// Reads a scenario's text; `name` stands for the file in messages. Settings replace what the text says, and
+/// are read as strictly.
+Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
+                       std::span<const Setting> settings = {});
+
+/// A file's whole text. The error says that it cannot be read, why, and that `kind` was expected.
+Result<std::string> read_text(const std::filesystem::path& path, std::string_view kind);
 
 }  // namespace canhil::scenario

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "bench/scenario/nearest.hpp"
@@ -42,6 +43,29 @@ std::string type_of(const toml::node& node) {
 
 std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
+std::string toml_text(const toml::node& node) {
+  if (const auto* real = node.as_floating_point()) return fmt::format("{}", real->get());  // shortest exact
+  std::ostringstream text;
+  node.visit([&text](const auto& value) { text << value; });
+  return std::move(text).str();
+}
+
+void add_settings(const toml::table& table, const std::string& path, std::vector<Setting>& settings) {
+  for (const auto& [key, node] : table) {
+    const std::string name = path.empty() ? std::string(key.str()) : fmt::format("{}.{}", path, key.str());
+    if (const toml::table* inner = node.as_table()) {
+      add_settings(*inner, name, settings);
+      continue;
+    }
+    Setting setting{
+        .key = name, .value = toml_text(node), .elements = {}, .line = static_cast<int>(line_of(node))};
+    if (const toml::array* array = node.as_array()) {
+      for (const toml::node& element : *array) setting.elements.push_back(toml_text(element));
+    }
+    settings.push_back(std::move(setting));
+  }
+}
+
 }  // namespace
 
 struct Section::File {
@@ -51,11 +75,31 @@ struct Section::File {
 
   void fail(std::size_t line, std::string_view what) {
     if (error) return;
-    std::string message = fmt::format("{}:{}: {}", name, line, what);
+    // What a setting put there is on no line of the file.
+    std::string message =
+        line == 0 ? fmt::format("{}: {}", name, what) : fmt::format("{}:{}: {}", name, line, what);
     for (char& c : message) {
       if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';  // a quoted key may hold anything
     }
     error = Error{std::move(message)};
+  }
+
+  /// Puts a value where its key says, with the tables on the way.
+  void set(const Setting& setting) {
+    toml::table* table = &root;
+    std::string_view rest = setting.key;
+    for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
+      toml::node& next = table->insert(rest.substr(0, dot), toml::table{}).first->second;
+      table = next.as_table();
+      if (table == nullptr) {
+        fail(0, fmt::format("key '{}': '{}' {}, expected a table", setting.key, rest.substr(0, dot),
+                            type_of(next)));
+        return;
+      }
+      rest.remove_prefix(dot + 1);
+    }
+    const toml::table value = toml::parse(fmt::format("value = {}", setting.value));
+    table->insert_or_assign(rest, *value.get("value"));
   }
 };
 
@@ -106,13 +150,14 @@ struct Section::State {
   }
 };
 
-Section Section::parse(std::string_view text, std::string_view file_name) {
+Section Section::parse(std::string_view text, std::string_view file_name, std::span<const Setting> settings) {
   auto state = std::make_shared<State>();
   state->file = std::make_shared<File>();
   state->file->name = file_name;
   try {
     state->file->root = toml::parse(text);
     state->table = &state->file->root;
+    for (const Setting& setting : settings) state->file->set(setting);
   } catch (const toml::parse_error& error) {
     state->file->fail(error.source().begin.line, fmt::format("not TOML: {}", error.description()));
   }
@@ -235,6 +280,34 @@ std::string Section::one_of(std::string_view key, std::span<const std::string> n
   if (std::ranges::find(names, value->get()) != names.end()) return value->get();
   reject(key, fmt::format("'{}' is unknown", value->get()), expected_instead(value->get(), names));
   return {};
+}
+
+std::vector<std::string> Section::some_of(std::string_view key, std::span<const std::string> names) {
+  const toml::node* node = state_->ask(key);
+  std::vector<std::string> chosen;
+  if (node == nullptr) return chosen;
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->empty()) {
+    reject(key, array == nullptr ? type_of(*node) : "is empty", "an array of names");
+    return chosen;
+  }
+  for (const toml::node& element : *array) {
+    const auto* name = element.as_string();
+    if (name == nullptr) {
+      reject(key, "holds what is no name", "an array of names");
+    } else if (std::ranges::find(names, name->get()) == names.end()) {
+      reject(key, fmt::format("'{}' is unknown", name->get()), expected_instead(name->get(), names));
+    } else {
+      chosen.push_back(name->get());
+    }
+  }
+  return chosen;
+}
+
+std::vector<Setting> Section::settings() {
+  std::vector<Setting> all;
+  if (state_->table != nullptr) add_settings(*state_->table, "", all);
+  return all;
 }
 
 Section Section::inside(std::string_view key, const Node& node, std::string path) {

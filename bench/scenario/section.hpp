@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "bench/scenario/quantity.hpp"
+#include "bench/scenario/setting.hpp"
 #include "bench/world/attitude.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -22,8 +23,10 @@ namespace canhil::scenario {
 
 class Section {
  public:
-  /// The file as a whole. A text that is not TOML is the file's first error.
-  static Section parse(std::string_view text, std::string_view file_name);
+  /// The file as a whole, with settings put into it before it is read. A text that is not TOML is the file's
+  /// first error. Errors about a setting have no line.
+  static Section parse(std::string_view text, std::string_view file_name,
+                       std::span<const Setting> settings = {});
 
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] int line() const;
@@ -52,6 +55,11 @@ class Section {
   std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
   std::string one_of(std::string_view key, std::span<const std::string> names,
                      const std::optional<std::string>& fallback = {});
+
+  /// An array of some of these names; absent: none.
+  std::vector<std::string> some_of(std::string_view key, std::span<const std::string> names);
+  /// Everything in this table, whatever its keys: those of another file. Tables in it are keys with dots.
+  std::vector<Setting> settings();
 
   /// A table; if it is missing, one whose keys are all silently absent.
   Section table(std::string_view key);

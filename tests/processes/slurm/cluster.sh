@@ -18,11 +18,11 @@ cluster_fail() {
   exit 1
 }
 
-# cluster_daemon NAME COMMAND...: in the background; ends with this shell even where its trap has no chance to run.
+# cluster_daemon NAME COMMAND...: in the background, on its own log.
 cluster_daemon() {
   local name=$1
   shift
-  SLURM_CONF=$cluster/slurm.conf setpriv --pdeathsig KILL "$@" >"$cluster/$name.log" 2>&1 </dev/null &
+  SLURM_CONF=$cluster/slurm.conf "$@" >"$cluster/$name.log" 2>&1 </dev/null &
 }
 
 # cluster_wait WHAT COMMAND...: until the command succeeds.
@@ -41,6 +41,10 @@ cluster_start() {
   trap 'exit 129' HUP
   trap 'exit 130' INT
   trap 'exit 143' TERM
+  # Where the shell is killed and has no chance to tidy up, this does; it ends when the folder is gone.
+  setsid --fork bash -c 'source "$1"; cluster=$2
+    while kill -0 "$3" && [[ -d "$cluster" ]]; do sleep 0.2; done; cluster_stop' \
+    - "${BASH_SOURCE[0]}" "$cluster" $$ >/dev/null 2>&1 </dev/null
   mkdir "$cluster/state" "$cluster/spool"
   local user host ports
   user=$(id -un) host=$(uname -n | cut -d. -f1)
@@ -92,7 +96,7 @@ cluster_run() {
 
 cluster_stop() {
   trap - EXIT
-  [[ -n "${cluster:-}" ]] || return 0
+  [[ -d "${cluster:-}" ]] || return 0
   local signal left
   for signal in TERM KILL; do
     for _ in {1..50}; do

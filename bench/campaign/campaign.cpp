@@ -1,0 +1,232 @@
+#include "bench/campaign/campaign.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/run/contract.hpp"
+#include "bench/scenario/section.hpp"
+#include "bench/world/hash.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+using scenario::Section;
+using scenario::Setting;
+
+/// A variant as the file has it.
+struct Given {
+  std::string name;
+  std::string scenario;
+  std::vector<Setting> settings;
+  int line = 0;
+};
+
+/// One value for every key of the sweep.
+struct Point {
+  std::string name;
+  std::vector<Setting> settings;
+};
+
+void refuse_seed(Section& section, const std::vector<Setting>& settings) {
+  if (std::ranges::find(settings, "seed", &Setting::key) == settings.end()) return;
+  section.reject("seed", "is the same for all variants", "seed at the top of the campaign");
+}
+
+Given read_given(Section& section) {
+  Given given{.name = section.text("name"),
+              .scenario = section.text("scenario"),
+              .settings = {},
+              .line = section.line()};
+  if (auto set = section.optional_table("set")) {
+    given.settings = set->settings();
+    refuse_seed(*set, given.settings);
+  }
+  section.finish();
+  return given;
+}
+
+std::string without_quotes(std::string_view value) {
+  const bool quoted = value.size() >= 2 && (value.front() == '"' || value.front() == '\'');
+  return std::string(quoted ? value.substr(1, value.size() - 2) : value);
+}
+
+/// The cartesian product: the last key runs fastest.
+std::vector<Point> expand(const std::vector<Setting>& sweep) {
+  std::vector<Point> points{{}};
+  for (const Setting& key : sweep) {
+    std::vector<Point> longer;
+    for (const Point& point : points) {
+      for (const std::string& value : key.elements) {
+        Point next = point;
+        next.name += fmt::format("{}{}={}", point.name.empty() ? "" : " ", key.key, without_quotes(value));
+        next.settings.push_back({.key = key.key, .value = value, .elements = {}, .line = key.line});
+        longer.push_back(std::move(next));
+      }
+    }
+    points = std::move(longer);
+  }
+  return points;
+}
+
+std::vector<Setting> read_sweep(Section& root, const std::vector<Given>& given) {
+  auto section = root.optional_table("sweep");
+  if (!section) return {};
+  std::vector<Setting> sweep = section->settings();
+  if (sweep.empty()) root.reject("sweep", "is empty", "keys of the scenario, each with an array of values");
+  refuse_seed(*section, sweep);
+  for (const Setting& key : sweep) {
+    if (key.elements.empty()) {
+      section->reject(key.key, key.value.starts_with('[') ? "is empty" : "is no array",
+                      "an array of at least one value");
+    }
+    const auto has_key = [&](const Given& one) {
+      return std::ranges::find(one.settings, key.key, &Setting::key) != one.settings.end();
+    };
+    if (const auto one = std::ranges::find_if(given, has_key); one != given.end()) {
+      section->reject(key.key, fmt::format("is set by variant '{}' too", one->name), "one of the two");
+    }
+  }
+  return sweep;
+}
+
+std::uint64_t hash_of(const Sources& sources) {
+  std::string all = fmt::format("{}\n{}", sources.text.size(), sources.text);
+  for (const auto& [name, text] : sources.scenarios) {
+    all += fmt::format("{}\n{}{}\n{}", name.size(), name, text.size(), text);
+  }
+  return world::fnv1a_64(all);
+}
+
+/// Reads the scenario of each variant at each point of the sweep.
+Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, const std::vector<Point>& points,
+                                           const Sources& sources, std::uint64_t seed) {
+  std::vector<Variant> variants;
+  for (const Given& one : given) {
+    for (const Point& point : points) {
+      Variant variant{.name = point.name.empty() ? one.name : fmt::format("{} {}", one.name, point.name),
+                      .given = one.name,
+                      .point = point.name,
+                      .scenario = {}};
+      std::vector<Setting> settings = one.settings;
+      settings.insert(settings.end(), point.settings.begin(), point.settings.end());
+      auto read =
+          scenario::parse(sources.scenarios.at(one.scenario), one.scenario, run::contract(), settings);
+      const auto refused = [&](std::string_view why) {
+        return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
+      };
+      if (!read) return refused(read.error().message);
+      if (std::ranges::find(variants, variant.name, &Variant::name) != variants.end()) {
+        return refused("is there twice, expected different values in the sweep");
+      }
+      variant.scenario = std::move(*read);
+      variant.scenario.seed = seed;
+      variants.push_back(std::move(variant));
+    }
+  }
+  return variants;
+}
+
+std::vector<Given> read_variants(Section& root) {
+  std::vector<Given> given;
+  for (Section& section : root.tables("variant")) {
+    Given one = read_given(section);
+    if (std::ranges::find(given, one.name, &Given::name) != given.end()) {
+      section.reject("name", fmt::format("'{}' is the name of another variant", one.name), "another name");
+    }
+    given.push_back(std::move(one));
+  }
+  return given;
+}
+
+std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given, std::int64_t duration_us) {
+  std::vector<std::string> names;
+  for (const Given& one : given) names.push_back(one.name);
+  std::vector<Metric> metrics;
+  for (Section& section : root.tables("metric")) {
+    Metric metric = read_metric(section, names, duration_us);
+    if (std::ranges::find(metrics, metric.name, &Metric::name) != metrics.end()) {
+      section.reject("name", fmt::format("'{}' is the name of another metric", metric.name), "another name");
+    }
+    metrics.push_back(std::move(metric));
+  }
+  return metrics;
+}
+
+}  // namespace
+
+Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
+                                const ScenarioText& scenario_text) {
+  Section root = Section::parse(text, file);
+  Campaign campaign;
+  campaign.sources = {.file = std::string(file), .text = std::string(text), .scenarios = {}};
+  campaign.title = root.text("title");
+  campaign.runs = static_cast<std::uint64_t>(root.integer("runs", 1));
+  campaign.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
+  const std::vector<Given> given = read_variants(root);
+  const std::vector<Setting> sweep = read_sweep(root, given);
+  if (const auto error = root.error()) return tl::unexpected(*error);
+
+  for (const Given& one : given) {
+    if (campaign.sources.scenarios.contains(one.scenario)) continue;
+    auto scenario = scenario_text(one.scenario);
+    if (!scenario) {
+      return failure(
+          fmt::format("{}:{}: variant '{}': {}", file, one.line, one.name, scenario.error().message));
+    }
+    campaign.sources.scenarios.emplace(one.scenario, std::move(*scenario));
+  }
+  campaign.hash = hash_of(campaign.sources);
+  auto variants = make_variants(given, expand(sweep), campaign.sources, campaign.seed);
+  if (!variants) return tl::unexpected(variants.error());
+  campaign.variants = std::move(*variants);
+
+  std::int64_t shortest_us = std::numeric_limits<std::int64_t>::max();
+  for (const Variant& variant : campaign.variants) {
+    shortest_us = std::min(shortest_us, variant.scenario.duration_us);
+  }
+  if (root.has("metric")) campaign.metrics = read_metrics(root, given, shortest_us);
+  root.optional("metric");
+  root.finish();
+  if (const auto error = root.error()) return tl::unexpected(*error);
+  return campaign;
+}
+
+Result<Campaign> parse_campaign(const Sources& sources) {
+  return parse_campaign(sources.text, sources.file, [&](const std::string& name) -> Result<std::string> {
+    const auto found = sources.scenarios.find(name);
+    if (found == sources.scenarios.end()) return failure(fmt::format("scenario '{}' is missing", name));
+    return found->second;
+  });
+}
+
+Result<Campaign> read_campaign(const std::filesystem::path& path) {
+  const auto text = scenario::read_text(path, "a campaign file");
+  if (!text) return tl::unexpected(text.error());
+  return parse_campaign(*text, path.string(), [&](const std::string& name) {
+    return scenario::read_text(path.parent_path() / name, "a scenario file");
+  });
+}
+
+std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& metric) {
+  std::vector<std::size_t> chosen;
+  const std::string other = other_of(metric);
+  for (std::size_t i = 0; i < campaign.variants.size(); ++i) {
+    const std::string& name = campaign.variants[i].given;
+    const bool wanted = metric.variants.empty()
+                            ? name != other  // nobody is compared with himself unasked
+                            : std::ranges::find(metric.variants, name) != metric.variants.end();
+    if (wanted) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+std::size_t counterpart(const Campaign& campaign, std::size_t variant, const std::string& other) {
+  const auto found = std::ranges::find_if(campaign.variants, [&](const Variant& candidate) {
+    return candidate.given == other && candidate.point == campaign.variants[variant].point;
+  });
+  return static_cast<std::size_t>(found - campaign.variants.begin());
+}
+
+}  // namespace canhil::campaign

@@ -1,0 +1,102 @@
+#include "bench/campaign/database.hpp"
+
+#include <fmt/format.h>
+
+namespace canhil::campaign {
+namespace {
+
+auto complaint(const std::string& file, int code, const char* message) {
+  if (code == SQLITE_BUSY) return failure(fmt::format("{}: is in use by another program", file));
+  if (code == SQLITE_NOTADB) {
+    return failure(fmt::format("{}: is no SQLite file, expected results of a campaign", file));
+  }
+  return failure(fmt::format("{}: {}", file, message));
+}
+
+}  // namespace
+
+Statement& Statement::bind(int place, std::int64_t value) {
+  sqlite3_bind_int64(statement_.get(), place, value);
+  return *this;
+}
+
+Statement& Statement::bind(int place, std::string_view text) {
+  sqlite3_bind_text64(statement_.get(), place, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+  return *this;
+}
+
+Statement& Statement::bind(int place, std::span<const std::uint8_t> bytes) {
+  // A null pointer would bind NULL.
+  static constexpr std::uint8_t none = 0;
+  sqlite3_bind_blob64(statement_.get(), place, bytes.empty() ? &none : bytes.data(), bytes.size(),
+                      SQLITE_TRANSIENT);
+  return *this;
+}
+
+Result<bool> Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  return complaint(file_, code, sqlite3_errmsg(sqlite3_db_handle(statement_.get())));
+}
+
+void Statement::reset() {
+  sqlite3_reset(statement_.get());
+  sqlite3_clear_bindings(statement_.get());
+}
+
+std::int64_t Statement::integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
+
+std::string Statement::text(int column) const {
+  const std::span<const std::uint8_t> content = bytes(column);
+  return {content.begin(), content.end()};
+}
+
+std::span<const std::uint8_t> Statement::bytes(int column) const {
+  const auto* data = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
+  return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+Result<Database> Database::open(const std::filesystem::path& path, Access access) {
+  int flags = SQLITE_OPEN_NOMUTEX;  // one thread at a time
+  switch (access) {
+    case Access::read:
+      flags |= SQLITE_OPEN_READONLY;
+      break;
+    case Access::write:
+      flags |= SQLITE_OPEN_READWRITE;
+      break;
+    case Access::create:
+      flags |= SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+      break;
+  }
+  sqlite3* handle = nullptr;
+  const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
+  Database database(handle, path.string());
+  if (code != SQLITE_OK) return complaint(database.file_, code, sqlite3_errmsg(handle));
+  sqlite3_extended_result_codes(handle, 0);
+  return database;
+}
+
+Result<void> Database::run(const std::string& sql) {
+  const int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) return complaint(file_, code, sqlite3_errmsg(handle_.get()));
+  return {};
+}
+
+Result<Statement> Database::prepare(std::string_view sql) const {
+  sqlite3_stmt* statement = nullptr;
+  const int code =
+      sqlite3_prepare_v2(handle_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+  if (code != SQLITE_OK) return complaint(file_, code, sqlite3_errmsg(handle_.get()));
+  return Statement(statement, file_);
+}
+
+Result<void> Database::close() {
+  const int code = sqlite3_close(handle_.get());
+  if (code != SQLITE_OK) return complaint(file_, code, sqlite3_errmsg(handle_.get()));
+  static_cast<void>(handle_.release());
+  return {};
+}
+
+}  // namespace canhil::campaign

@@ -1,0 +1,245 @@
+#include "bench/campaign/evaluate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace canhil::campaign {
+namespace {
+
+using Runs = std::vector<RunSeries>;
+
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+
+double in_unit(double value, Quantity quantity) { return value / unit_of(quantity).factor; }
+
+std::string with_unit(double value, Quantity quantity) {
+  return fmt::format("{:.4g} {}", in_unit(value, quantity), unit_of(quantity).name);
+}
+
+std::string figure(std::string_view stem, Quantity quantity) {
+  return fmt::format("{}{}", stem, unit_of(quantity).ending);
+}
+
+std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
+
+/// " (3 missing)", as no bar is met then.
+std::string missing_note(std::size_t missing) {
+  return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
+}
+
+/// The bars of an answer: each adds what it expects and whether it holds.
+class Bars {
+ public:
+  Bars(Answer& answer, bool complete) : answer_(answer), complete_(complete) {}
+  void expect(bool holds, const std::string& words) {
+    answer_.expected += (answer_.expected.empty() ? "" : ", ") + words;
+    answer_.passed = answer_.passed.value_or(true) && complete_ && holds;
+  }
+
+ private:
+  Answer& answer_;
+  bool complete_;  // with a run missing no bar is met
+};
+
+std::size_t missing_in(std::span<const CurvePoint> curve) {
+  std::size_t most = 0;
+  for (const CurvePoint& point : curve) most = std::max(most, point.missing);
+  return most;
+}
+
+void answer(const RmsCurve& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  out.curve = rms_curve(runs, rule.quantity);
+  if (out.curve.empty()) {
+    out.measured = "no updates";
+    return;
+  }
+  const CurvePoint& last = out.curve.back();
+  out.measured = fmt::format("{} updates, {} at the last{}", out.curve.size(),
+                             with_unit(last.rms, rule.quantity), missing_note(last.missing));
+}
+
+void answer(const TimeWithin& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const auto curve = rms_curve(runs, rule.quantity);
+  const auto t_s = time_within(curve, rule.within);
+  const std::size_t missing = missing_in(curve);
+  out.measured = time_or_never(t_s) + missing_note(missing);
+  out.figures = {{"time_s", t_s}};
+  Bars bars(out, missing == 0);
+  if (rule.at_most_us) {
+    const double bar = seconds(*rule.at_most_us);
+    bars.expect(t_s && *t_s <= bar, fmt::format("at most {:g} s", bar));
+  }
+  if (rule.never_before_us) {
+    const double bar = seconds(*rule.never_before_us);
+    bars.expect(!t_s || *t_s >= bar, fmt::format("never before {:g} s", bar));
+  }
+}
+
+void answer(const Lead& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const auto own_curve = rms_curve(runs, rule.quantity), other_curve = rms_curve(other, rule.quantity);
+  const auto own_s = time_within(own_curve, rule.within), other_s = time_within(other_curve, rule.within);
+  const std::size_t missing = missing_in(own_curve) + missing_in(other_curve);
+  out.figures = {{"time_s", own_s}, {"other_time_s", other_s}};
+  if (own_s && other_s) out.figures.emplace_back("lead_s", *other_s - *own_s);
+  out.measured =
+      fmt::format("{} against {}{}", time_or_never(own_s), time_or_never(other_s), missing_note(missing));
+  if (!rule.at_least_us) return;
+  const double bar = seconds(*rule.at_least_us);
+  constexpr double rounding_s = 1e-9;  // times are multiples of 1 us, their difference only nearly
+  const bool holds = own_s && (!other_s || *other_s - *own_s >= bar - rounding_s);
+  Bars(out, missing == 0).expect(holds, fmt::format("at least {:g} s before", bar));
+}
+
+void answer(const ValueAt& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const auto point = value_at(rms_curve(runs, rule.quantity), rule.at_us);
+  const double rms = point ? point->rms : std::nan("");
+  const std::size_t missing = point ? point->missing : runs.size();
+  out.measured = with_unit(rms, rule.quantity) + missing_note(missing);
+  out.figures = {{figure("rms", rule.quantity), in_unit(rms, rule.quantity)}};
+  Bars bars(out, missing == 0);
+  if (rule.at_most) bars.expect(rms <= *rule.at_most, "at most " + with_unit(*rule.at_most, rule.quantity));
+  if (rule.at_least)
+    bars.expect(rms >= *rule.at_least, "at least " + with_unit(*rule.at_least, rule.quantity));
+}
+
+void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const auto [mean, deviation, count, missing] =
+      window_statistics(runs, rule.quantity, rule.from_us, rule.to_us);
+  out.measured = fmt::format("mean {}, standard deviation {}{}", with_unit(mean, rule.quantity),
+                             with_unit(deviation, rule.quantity), missing_note(missing));
+  out.figures = {{figure("mean", rule.quantity), in_unit(mean, rule.quantity)},
+                 {figure("standard_deviation", rule.quantity), in_unit(deviation, rule.quantity)},
+                 {"values", static_cast<double>(count)}};
+  Bars bars(out, missing == 0);
+  if (rule.mean_at_most) {
+    bars.expect(std::abs(mean) <= *rule.mean_at_most,
+                "|mean| at most " + with_unit(*rule.mean_at_most, rule.quantity));
+  }
+  if (rule.standard_deviation_at_most) {
+    bars.expect(deviation <= *rule.standard_deviation_at_most,
+                "standard deviation at most " + with_unit(*rule.standard_deviation_at_most, rule.quantity));
+  }
+}
+
+// A run without a value counts as worse than any, so nothing is missing here.
+void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const PairedFraction paired = paired_fraction(runs, other, rule.quantity, rule.at_us, rule.confidence);
+  out.measured =
+      fmt::format("better in {} of {}: {:.1f} % ({:g} %: {:.1f} to {:.1f} %)", paired.better, paired.pairs,
+                  100 * paired.fraction, 100 * rule.confidence, 100 * paired.low, 100 * paired.high);
+  out.figures = {{"fraction", paired.fraction},
+                 {"low", paired.low},
+                 {"high", paired.high},
+                 {"pairs", static_cast<double>(paired.pairs)}};
+  Bars bars(out, true);
+  if (rule.at_least)
+    bars.expect(paired.fraction >= *rule.at_least, fmt::format("at least {:g} %", 100 * *rule.at_least));
+  if (rule.at_most)
+    bars.expect(paired.fraction <= *rule.at_most, fmt::format("at most {:g} %", 100 * *rule.at_most));
+}
+
+void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const ConsistencyStatistics found =
+      consistency(runs, rule.quantity, rule.from_us, rule.to_us, rule.probability);
+  out.measured =
+      fmt::format("mean {:.4g}, inside [{:.4g}, {:.4g}] in {:.1f} % of {} updates{}", found.mean, found.low,
+                  found.high, 100 * found.inside, found.updates, missing_note(found.missing));
+  out.figures = {{"mean", found.mean}, {"low", found.low}, {"high", found.high}, {"inside", found.inside}};
+  Bars bars(out, found.missing == 0);
+  if (rule.mean_between) {
+    const auto [low, high] = *rule.mean_between;
+    bars.expect(found.mean >= low && found.mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
+  }
+  if (rule.inside_at_least) {
+    bars.expect(found.inside >= *rule.inside_at_least,
+                fmt::format("inside in at least {:g} %", 100 * *rule.inside_at_least));
+  }
+}
+
+void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const Divergence found = divergence(runs, rule.quantity, rule.beyond);
+  const std::size_t astray = found.faulted + found.beyond;
+  out.measured = fmt::format("{} of {} runs ({} ended early)", astray, found.runs, found.faulted);
+  out.figures = {{"diverged", static_cast<double>(astray)}, {"faulted", static_cast<double>(found.faulted)}};
+  Bars bars(out, true);
+  const auto count = static_cast<std::int64_t>(astray);
+  if (rule.at_most) bars.expect(count <= *rule.at_most, fmt::format("at most {}", *rule.at_most));
+  if (rule.at_least) bars.expect(count >= *rule.at_least, fmt::format("at least {}", *rule.at_least));
+}
+
+bool finite(const Sample& sample) {
+  for (std::size_t i = 0; i < quantity_names.size(); ++i) {
+    if (!std::isfinite(value_of(sample, static_cast<Quantity>(i)))) return false;
+  }
+  return true;
+}
+
+Endings endings_of(const Variant& variant, const Runs& runs) {
+  Endings endings;
+  endings.variant = variant.name;
+  endings.runs = runs.size();
+  for (const RunSeries& run : runs) {
+    if (run.ending.kind == run::Ending::Kind::completed) {
+      ++endings.completed;
+      if (!std::ranges::all_of(run.samples, finite)) ++endings.not_finite;
+    } else if (endings.first_fault.empty()) {
+      endings.first_fault = fmt::format("run {}: {}", run.run, run.ending.detail);
+    }
+  }
+  return endings;
+}
+
+Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t variant,
+                 const std::vector<Runs>& runs) {
+  Answer out{.metric = metric.name,
+             .kind = std::string(kind(metric)),
+             .requirement = metric.requirement,
+             .variant = campaign.variants[variant].name,
+             .measured = {},
+             .expected = {},
+             .passed = {},
+             .figures = {},
+             .curve = {}};
+  const std::string other = other_of(metric);
+  const Runs& others = other.empty() ? runs[variant] : runs[counterpart(campaign, variant, other)];
+  std::visit(
+      [&](const auto& rule) {
+        out.quantity = rule.quantity;
+        answer(rule, runs[variant], others, out);
+      },
+      metric.rule);
+  return out;
+}
+
+}  // namespace
+
+Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
+  Evaluation evaluation;
+  std::vector<Runs> runs;
+  for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
+    auto loaded = load(variant);
+    if (!loaded) return tl::unexpected(loaded.error());
+    if (loaded->size() != campaign.runs) {
+      return failure(fmt::format("variant '{}' has {} of {} runs, expected all: resume, or merge the shards",
+                                 campaign.variants[variant].name, loaded->size(), campaign.runs));
+    }
+    evaluation.endings.push_back(endings_of(campaign.variants[variant], *loaded));
+    runs.push_back(std::move(*loaded));
+  }
+  for (const Metric& metric : campaign.metrics) {
+    for (const std::size_t variant : variants_of(campaign, metric)) {
+      evaluation.answers.push_back(answer_of(campaign, metric, variant, runs));
+      evaluation.passed = evaluation.passed && evaluation.answers.back().passed.value_or(true);
+    }
+  }
+  return evaluation;
+}
+
+Result<Evaluation> evaluate(const Campaign& campaign, const Store& store) {
+  return evaluate(campaign, [&](std::size_t variant) { return store.load(variant); });
+}
+
+}  // namespace canhil::campaign

@@ -1,0 +1,52 @@
+// The answers to a campaign's questions, with the verdict of their bars.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/campaign/campaign.hpp"
+#include "bench/campaign/statistics.hpp"
+#include "bench/campaign/store.hpp"
+#include "bench/checks/verdict.hpp"
+
+namespace canhil::campaign {
+
+/// Of one metric for one variant.
+struct Answer {
+  std::string metric;
+  std::string kind;
+  std::string requirement;
+  std::string variant;
+  std::string measured;                                                ///< with its unit
+  std::string expected;                                                ///< the bars in words; empty: none
+  std::optional<bool> passed;                                          ///< none: without a bar
+  std::vector<std::pair<std::string, std::optional<double>>> figures;  ///< by name with unit; none: never
+  std::vector<CurvePoint> curve;                                       ///< of rms_curve, else empty
+  Quantity quantity = Quantity::heading;
+};
+
+/// How the runs of a variant ended.
+struct Endings {
+  std::string variant;
+  std::size_t runs = 0;
+  std::size_t completed = 0;
+  std::size_t not_finite = 0;  ///< completed, but with values that are no numbers
+  std::string first_fault;     ///< "run 17: ..."; empty: none
+};
+
+struct Evaluation {
+  std::vector<Endings> endings;
+  std::vector<Answer> answers;
+  bool passed = true;  ///< no bar failed
+};
+
+/// Gives the runs of a variant.
+using Load = std::function<Result<std::vector<RunSeries>>(std::size_t)>;
+/// Error: results cannot be read, or runs are missing.
+Result<Evaluation> evaluate(const Campaign& campaign, const Load& load);
+Result<Evaluation> evaluate(const Campaign& campaign, const Store& store);
+
+}  // namespace canhil::campaign

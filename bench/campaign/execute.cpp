@@ -1,0 +1,202 @@
+#include "bench/campaign/execute.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "bench/run/flight.hpp"
+#include "bench/run/in_process.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+constexpr auto commit_interval = std::chrono::milliseconds(200);
+
+/// From the workers to the one thread that writes.
+class Finishing {
+ public:
+  explicit Finishing(std::size_t workers) : workers_(workers) {}
+
+  void add(Finished run) {
+    const std::scoped_lock lock(mutex_);
+    runs_.push_back(std::move(run));
+  }
+  void fail(Error error) {
+    const std::scoped_lock lock(mutex_);
+    if (!error_) error_ = std::move(error);
+  }
+  void worker_ends() {
+    const std::scoped_lock lock(mutex_);
+    if (--workers_ == 0) ended_.notify_one();
+  }
+  /// What has come until the workers end, or for a commit interval; none: all has been taken.
+  std::optional<std::vector<Finished>> take() {
+    std::unique_lock lock(mutex_);
+    const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });
+    if (ended && runs_.empty()) return std::nullopt;
+    return std::exchange(runs_, {});
+  }
+  [[nodiscard]] std::optional<Error> error() const {
+    const std::scoped_lock lock(mutex_);
+    return error_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable ended_;
+  std::size_t workers_;
+  std::vector<Finished> runs_;
+  std::optional<Error> error_;
+};
+
+/// What the workers share: read only, but for the place of the next task.
+struct Work {
+  const Campaign& campaign;
+  std::vector<std::optional<world::FlightRecord>> truths;  ///< of the variants that fly
+  std::vector<Key> tasks;
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> halt = false;
+};
+
+Error in_variant(const Campaign& campaign, std::size_t variant, const Error& error) {
+  return {fmt::format("{}: variant '{}': {}", campaign.sources.file, campaign.variants[variant].name,
+                      error.message)};
+}
+
+void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
+  while (!stop && !work.halt) {
+    const std::size_t place = work.next++;
+    if (place >= work.tasks.size()) break;
+    const auto [variant, run] = work.tasks[place];
+    const world::FlightRecord& truth = *work.truths[variant];
+    const auto flown = run::run_in_process(work.campaign.variants[variant].scenario, truth, run);
+    if (!flown) {
+      finishing.fail(in_variant(work.campaign, variant, flown.error()));
+      work.halt = true;
+      break;
+    }
+    finishing.add({.variant = variant, .series = series_of(run, *flown, truth)});
+  }
+  finishing.worker_ends();
+}
+
+/// All runs of the shard that are not stored yet: run by run, so that pairs are complete early.
+std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::vector<Key> stored) {
+  std::ranges::sort(stored);
+  std::vector<Key> tasks;
+  for (std::uint64_t run = shard.index; run < campaign.runs; run += shard.count) {
+    for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
+      const Key key{.variant = variant, .run = run};
+      if (!std::ranges::binary_search(stored, key)) tasks.push_back(key);
+    }
+  }
+  return tasks;
+}
+
+Result<void> compute_truths(Work& work) {
+  work.truths.resize(work.campaign.variants.size());
+  for (const Key& task : work.tasks) {
+    if (work.truths[task.variant]) continue;
+    auto truth = run::make_truth(work.campaign.variants[task.variant].scenario);
+    if (!truth) return tl::unexpected(in_variant(work.campaign, task.variant, truth.error()));
+    work.truths[task.variant] = std::move(*truth);
+  }
+  return {};
+}
+
+/// Commits what the workers finish, until they end.
+Result<void> write_all(Store& store, Finishing& finishing, Progress progress, const Options& options) {
+  while (const auto runs = finishing.take()) {
+    if (!runs->empty()) {
+      if (auto added = store.add(*runs); !added) return added;
+    }
+    progress.done += runs->size();
+    options.progress(progress);
+  }
+  return {};
+}
+
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+Result<std::uint64_t> number_of_environment(const char* name, std::optional<std::uint64_t> fallback) {
+  const char* text = std::getenv(name);
+  if (text == nullptr && fallback) return *fallback;
+  const auto value = whole_number(text == nullptr ? "" : text);
+  if (!value) {
+    return failure(fmt::format("environment {}='{}': expected a whole number, as SLURM_ARRAY_TASK_ID is set",
+                               name, text == nullptr ? "" : text));
+  }
+  return *value;
+}
+
+}  // namespace
+
+Result<Shard> parse_shard(const std::string& text) {
+  const std::string_view all = text;
+  if (const auto slash = all.find('/'); slash != std::string_view::npos) {
+    const auto index = whole_number(all.substr(0, slash));
+    const auto count = whole_number(all.substr(slash + 1));
+    if (index && count && *index < *count) return Shard{.index = *index, .count = *count};
+  }
+  return failure(fmt::format("shard '{}': expected i/N with 0 <= i < N", text));
+}
+
+Result<Shard> shard_of_environment() {
+  if (std::getenv("SLURM_ARRAY_TASK_ID") == nullptr) return Shard{};
+  const auto id = number_of_environment("SLURM_ARRAY_TASK_ID", {});
+  const auto count = number_of_environment("SLURM_ARRAY_TASK_COUNT", {});
+  const auto first = number_of_environment("SLURM_ARRAY_TASK_MIN", 0);
+  const auto step = number_of_environment("SLURM_ARRAY_TASK_STEP", 1);
+  for (const auto* value : {&id, &count, &first, &step}) {
+    if (!*value) return tl::unexpected(value->error());
+  }
+  const bool regular = *step > 0 && *id >= *first && (*id - *first) % *step == 0;
+  const Shard shard{.index = regular ? (*id - *first) / *step : 0, .count = *count};
+  if (!regular || shard.index >= shard.count) {
+    return failure(fmt::format(
+        "task {} of a Slurm array of {} from {} by {}: expected an array without gaps, or --shard", *id,
+        *count, *first, *step));
+  }
+  return shard;
+}
+
+Result<Execution> execute(const Campaign& campaign, const Options& options, const std::atomic<bool>& stop) {
+  const Identity identity = identity_of(campaign);
+  auto store = options.resume ? Store::resume(options.file, identity, campaign.sources)
+                              : Store::create(options.file, identity, campaign.sources);
+  if (!store) return tl::unexpected(store.error());
+  const auto stored = store->keys();
+  if (!stored) return tl::unexpected(stored.error());
+
+  Work work{.campaign = campaign, .truths = {}, .tasks = open_tasks(campaign, options.shard, *stored)};
+  if (auto computed = compute_truths(work); !computed) return tl::unexpected(computed.error());
+
+  const std::size_t cores = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();
+  const std::size_t workers = std::clamp<std::size_t>(cores, 1, std::max<std::size_t>(1, work.tasks.size()));
+  Finishing finishing(workers);
+  Result<void> written;
+  {
+    std::vector<std::jthread> threads;
+    for (std::size_t i = 0; i < workers; ++i) threads.emplace_back([&] { fly(work, finishing, stop); });
+    written = write_all(*store, finishing, {.stored = stored->size(), .total = work.tasks.size()}, options);
+    work.halt = true;
+  }
+  if (!written) return tl::unexpected(written.error());
+  if (auto closed = store->close(); !closed) return tl::unexpected(closed.error());
+  if (const auto error = finishing.error()) return tl::unexpected(*error);
+  return work.next < work.tasks.size() ? Execution::interrupted : Execution::complete;
+}
+
+}  // namespace canhil::campaign

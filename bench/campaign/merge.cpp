@@ -1,0 +1,134 @@
+#include "bench/campaign/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "bench/campaign/store.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+struct Shards {
+  std::vector<Store> stores;
+  std::vector<std::string> names;
+  std::map<Key, std::vector<std::size_t>> holders;  ///< of a run: places in `stores`
+};
+
+Result<Shards> open_all(std::span<const std::filesystem::path> files) {
+  Shards shards;
+  for (const std::filesystem::path& file : files) {
+    auto store = Store::open(file);
+    if (!store) return tl::unexpected(store.error());
+    if (!shards.stores.empty()) {
+      if (const auto what = difference(store->identity(), shards.stores[0].identity()); !what.empty()) {
+        return failure(fmt::format("{}: {} as {}", file.string(), what, shards.names[0]));
+      }
+    }
+    const auto keys = store->keys();
+    if (!keys) return tl::unexpected(keys.error());
+    for (const Key& key : *keys) shards.holders[key].push_back(shards.stores.size());
+    shards.stores.push_back(std::move(*store));
+    shards.names.push_back(file.string());
+  }
+  return shards;
+}
+
+/// Error: some runs are nowhere.
+Result<void> check_complete(const Shards& shards, const Campaign& campaign) {
+  const std::uint64_t runs = shards.stores[0].identity().runs;
+  const std::size_t total = campaign.variants.size() * runs;
+  if (shards.holders.size() == total) return {};
+  for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
+    for (std::uint64_t run = 0; run < runs; ++run) {
+      if (shards.holders.contains({variant, run})) continue;
+      return failure(
+          fmt::format("{} of {} runs are in no shard (first: run {} of variant '{}'), expected all",
+                      total - shards.holders.size(), total, run, campaign.variants[variant].name));
+    }
+  }
+  return failure("shards hold runs that are not of the campaign");
+}
+
+bool same(const RunSeries& a, const RunSeries& b) {
+  return a.ending.kind == b.ending.kind && a.ending.t_us == b.ending.t_us &&
+         a.ending.detail == b.ending.detail && encode(a.samples) == encode(b.samples);
+}
+
+Result<Finished> take(const Shards& shards, const Key& key) {
+  std::optional<RunSeries> first;
+  const std::vector<std::size_t>& holders = shards.holders.at(key);
+  for (const std::size_t holder : holders) {
+    auto series = shards.stores[holder].load(key);
+    if (!series) return tl::unexpected(series.error());
+    if (!first) {
+      first = std::move(*series);
+    } else if (!same(*first, *series)) {
+      return failure(fmt::format("{}: run {} of variant {} differs from that in {}, expected the same",
+                                 shards.names[holder], key.run, key.variant, shards.names[holders[0]]));
+    }
+  }
+  return Finished{.variant = key.variant, .series = std::move(*first)};
+}
+
+/// One transaction a variant: the bytes of the file depend on it.
+Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign,
+                   const Sources& sources) {
+  const Identity& identity = shards.stores[0].identity();
+  auto merged = Store::create(file, identity, sources);
+  if (!merged) return tl::unexpected(merged.error());
+  for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
+    std::vector<Finished> runs;
+    for (std::uint64_t run = 0; run < identity.runs; ++run) {
+      auto finished = take(shards, {variant, run});
+      if (!finished) return tl::unexpected(finished.error());
+      runs.push_back(std::move(*finished));
+    }
+    if (auto added = merged->add(runs); !added) return added;
+  }
+  return merged->close();
+}
+
+/// Error: something else than results of this campaign would be lost.
+Result<void> check_replaceable(const std::filesystem::path& out, const Identity& identity) {
+  if (!std::filesystem::exists(out)) return {};
+  const auto old = Store::open(out);
+  if (!old) return tl::unexpected(old.error());
+  if (old->identity().campaign_hash == identity.campaign_hash) return {};
+  return failure(fmt::format("{}: {}", out.string(), difference(old->identity(), identity)));
+}
+
+}  // namespace
+
+Result<void> merge(const std::filesystem::path& out, std::span<const std::filesystem::path> files) {
+  const auto shards = open_all(files);
+  if (!shards) return tl::unexpected(shards.error());
+  if (shards->stores.empty()) return failure("no shard to merge, expected at least one");
+  if (auto free = check_replaceable(out, shards->stores[0].identity()); !free) return free;
+  const auto sources = shards->stores[0].sources();
+  if (!sources) return tl::unexpected(sources.error());
+  const auto campaign = parse_campaign(*sources);
+  if (!campaign) return tl::unexpected(campaign.error());
+  if (auto complete = check_complete(*shards, *campaign); !complete) return complete;
+
+  const std::filesystem::path unfinished = out.string() + ".part";
+  std::error_code error;
+  const auto remove_unfinished = [&] {
+    std::error_code ignored;
+    std::filesystem::remove(unfinished, ignored);
+    std::filesystem::remove(unfinished.string() + "-journal", ignored);
+  };
+  remove_unfinished();
+  if (auto written = write(unfinished, *shards, *campaign, *sources); !written) {
+    remove_unfinished();
+    return written;
+  }
+  std::filesystem::rename(unfinished, out, error);
+  if (!error) return {};
+  remove_unfinished();
+  return failure(fmt::format("{}: cannot be written: {}", out.string(), error.message()));
+}
+
+}  // namespace canhil::campaign

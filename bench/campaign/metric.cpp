@@ -1,0 +1,206 @@
+#include "bench/campaign/metric.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <span>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+using scenario::Limits;
+using scenario::Section;
+
+constexpr std::size_t error_count = 9;  // of the quantities: the errors come first
+
+/// What the readers of all kinds need to know of the campaign.
+struct Context {
+  const std::vector<std::string>& variants;
+  std::int64_t duration_us;
+};
+
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+
+Quantity read_quantity(Section& section, std::string_view key, std::span<const std::string_view> names) {
+  const std::vector<std::string> words(names.begin(), names.end());
+  const std::string word = section.one_of(key, words);
+  const auto found = std::ranges::find(quantity_names, word);
+  return found == quantity_names.end() ? Quantity::heading
+                                       : static_cast<Quantity>(found - quantity_names.begin());
+}
+
+Quantity read_error(Section& section) {
+  return read_quantity(section, "quantity", std::span(quantity_names).first(error_count));
+}
+
+std::string key_of(std::string_view stem, Quantity quantity) {
+  return fmt::format("{}{}", stem, unit_of(quantity).ending);
+}
+
+std::optional<double> optional_number(Section& section, std::string_view key, Limits limits) {
+  if (section.has(key)) return section.number(key, limits);
+  section.optional(key);
+  return std::nullopt;
+}
+
+std::int64_t read_time(Section& section, std::string_view key, const Context& context) {
+  const std::int64_t t_us = section.time_us(key, Limits::at_least(0));
+  if (t_us > context.duration_us) {
+    section.reject(key, "is after the end of the run",
+                   fmt::format("at most duration_s = {:g}", seconds(context.duration_us)));
+  }
+  return t_us;
+}
+
+std::pair<std::int64_t, std::int64_t> read_window(Section& section, const Context& context) {
+  const std::int64_t from_us = section.has("from_s") ? read_time(section, "from_s", context) : 0;
+  const std::int64_t to_us = section.has("to_s") ? read_time(section, "to_s", context) : context.duration_us;
+  section.optional("from_s");
+  section.optional("to_s");
+  if (from_us >= to_us) {
+    section.reject("from_s", "is not before the end of the window",
+                   fmt::format("less than {:g}", seconds(to_us)));
+  }
+  return {from_us, to_us};
+}
+
+RmsCurve read(Section& section, const Context& /*context*/, RmsCurve rule) {
+  rule.quantity = read_error(section);
+  return rule;
+}
+
+TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
+  rule.quantity = read_error(section);
+  rule.within = section.number(key_of("within", rule.quantity), Limits::above(0));
+  rule.at_most_us = section.optional_time_us("at_most_s", Limits::at_least(0));
+  rule.never_before_us = section.optional_time_us("never_before_s", Limits::at_least(0));
+  return rule;
+}
+
+Lead read(Section& section, const Context& context, Lead rule) {
+  rule.quantity = read_error(section);
+  rule.within = section.number(key_of("within", rule.quantity), Limits::above(0));
+  rule.other = section.one_of("other", context.variants);
+  rule.at_least_us = section.optional_time_us("at_least_s", Limits{});
+  return rule;
+}
+
+ValueAt read(Section& section, const Context& context, ValueAt rule) {
+  rule.quantity = read_error(section);
+  rule.at_us = read_time(section, "at_s", context);
+  rule.at_most = optional_number(section, key_of("at_most", rule.quantity), Limits::at_least(0));
+  rule.at_least = optional_number(section, key_of("at_least", rule.quantity), Limits::at_least(0));
+  return rule;
+}
+
+WindowMoments read(Section& section, const Context& context, WindowMoments rule) {
+  rule.quantity = read_error(section);
+  std::tie(rule.from_us, rule.to_us) = read_window(section, context);
+  rule.mean_at_most = optional_number(section, key_of("mean_at_most", rule.quantity), Limits::at_least(0));
+  rule.standard_deviation_at_most =
+      optional_number(section, key_of("standard_deviation_at_most", rule.quantity), Limits::at_least(0));
+  return rule;
+}
+
+Paired read(Section& section, const Context& context, Paired rule) {
+  rule.quantity = read_error(section);
+  rule.other = section.one_of("other", context.variants);
+  rule.at_us = read_time(section, "at_s", context);
+  rule.confidence = section.number("confidence", Limits::between(0.5, 0.999999), rule.confidence);
+  rule.at_most = optional_number(section, "at_most", Limits::between(0, 1));
+  rule.at_least = optional_number(section, "at_least", Limits::between(0, 1));
+  return rule;
+}
+
+Consistency read(Section& section, const Context& context, Consistency rule) {
+  rule.quantity = read_quantity(section, "statistic", std::span(quantity_names).subspan(error_count));
+  std::tie(rule.from_us, rule.to_us) = read_window(section, context);
+  rule.probability = section.number("probability", Limits::between(0.5, 0.999999), rule.probability);
+  if (section.has("mean_between")) rule.mean_between = section.interval("mean_between", Limits::at_least(0));
+  section.optional("mean_between");
+  rule.inside_at_least = optional_number(section, "inside_at_least", Limits::between(0, 1));
+  return rule;
+}
+
+Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
+  rule.quantity = read_error(section);
+  rule.beyond = section.number(key_of("beyond", rule.quantity), Limits::above(0));
+  rule.at_most = section.optional_integer("at_most", 0);
+  rule.at_least = section.optional_integer("at_least", 0);
+  return rule;
+}
+
+using Rule = decltype(Metric::rule);
+
+/// Names of all kinds, in the order of the variant.
+template <std::size_t... I>
+std::vector<std::string> kinds(std::index_sequence<I...> /*all*/) {
+  return {std::string(std::variant_alternative_t<I, Rule>::kind)...};
+}
+
+/// Reads the rule whose kind has this name.
+template <std::size_t... I>
+Rule read_kind(std::string_view name, Section& section, const Context& context,
+               std::index_sequence<I...> /*all*/) {
+  Rule rule;
+  (void)((std::variant_alternative_t<I, Rule>::kind == name &&
+          (rule = read(section, context, std::variant_alternative_t<I, Rule>{}), true)) ||
+         ...);
+  return rule;
+}
+
+std::string in_unit(double value, Quantity quantity) {
+  return fmt::format("{:g} {}", value / unit_of(quantity).factor, unit_of(quantity).name);
+}
+
+/// What tells a metric from others of its kind and quantity.
+std::string subject(const RmsCurve& /*rule*/) { return {}; }
+std::string subject(const TimeWithin& rule) { return " " + in_unit(rule.within, rule.quantity); }
+std::string subject(const Lead& rule) {
+  return fmt::format(" {} before {}", in_unit(rule.within, rule.quantity), rule.other);
+}
+std::string subject(const ValueAt& rule) { return fmt::format(" at {:g} s", seconds(rule.at_us)); }
+std::string subject(const WindowMoments& rule) {
+  return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
+}
+std::string subject(const Paired& rule) {
+  return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
+}
+std::string subject(const Consistency& rule) {
+  return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
+}
+std::string subject(const Diverged& rule) { return " beyond " + in_unit(rule.beyond, rule.quantity); }
+
+}  // namespace
+
+std::string_view kind(const Metric& metric) {
+  return std::visit([](const auto& rule) { return rule.kind; }, metric.rule);
+}
+
+std::string other_of(const Metric& metric) {
+  if (const auto* paired = std::get_if<Paired>(&metric.rule)) return paired->other;
+  if (const auto* lead = std::get_if<Lead>(&metric.rule)) return lead->other;
+  return {};
+}
+
+Metric read_metric(Section& section, const std::vector<std::string>& variants, std::int64_t duration_us) {
+  constexpr auto all = std::make_index_sequence<std::variant_size_v<Rule>>{};
+  Metric metric;
+  const std::string wanted = section.one_of("kind", kinds(all));
+  metric.requirement = section.text("requirement", "");
+  metric.variants = section.some_of("variants", variants);
+  metric.rule = read_kind(wanted, section, {.variants = variants, .duration_us = duration_us}, all);
+  const std::string by_default = std::visit(
+      [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, name(rule.quantity), subject(rule)); },
+      metric.rule);
+  metric.name = section.text(
+      "name", metric.variants.empty() ? by_default
+                                      : fmt::format("{}: {}", by_default, fmt::join(metric.variants, ", ")));
+  section.finish();
+  return metric;
+}
+
+}  // namespace canhil::campaign

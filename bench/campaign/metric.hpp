@@ -1,0 +1,105 @@
+// [[metric]]: what a campaign is asked, and the bars that make a verdict of the answer. A new kind is a
+// struct here, its reader in metric.cpp, and its answer in evaluate.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bench/campaign/series.hpp"
+
+namespace canhil::scenario {
+class Section;
+}
+
+namespace canhil::campaign {
+
+/// RMS over runs against time: for reports, without a bar.
+struct RmsCurve {
+  static constexpr std::string_view kind = "rms_curve";
+  Quantity quantity = Quantity::heading;
+};
+
+/// When the RMS over runs is within for good.
+struct TimeWithin {
+  static constexpr std::string_view kind = "time_within";
+  Quantity quantity = Quantity::heading;
+  double within = 0;                            ///< [SI]
+  std::optional<std::int64_t> at_most_us;       ///< 'never' fails
+  std::optional<std::int64_t> never_before_us;  ///< 'never' passes
+};
+
+/// How much earlier than `other` a variant's RMS is within for good.
+struct Lead {
+  static constexpr std::string_view kind = "lead";
+  Quantity quantity = Quantity::heading;
+  double within = 0;  ///< [SI]
+  std::string other;
+  std::optional<std::int64_t> at_least_us;
+};
+
+/// RMS over runs at the last update at or before a time.
+struct ValueAt {
+  static constexpr std::string_view kind = "value_at";
+  Quantity quantity = Quantity::heading;
+  std::int64_t at_us = 0;
+  std::optional<double> at_most, at_least;  ///< [SI]
+};
+
+/// Mean and standard deviation over runs and a time window.
+struct WindowMoments {
+  static constexpr std::string_view kind = "window";
+  Quantity quantity = Quantity::heading;
+  std::int64_t from_us = 0, to_us = 0;
+  std::optional<double> mean_at_most;  ///< of |mean| [SI]
+  std::optional<double> standard_deviation_at_most;
+};
+
+/// Fraction of runs in which |quantity| is smaller than that of `other` with the same random numbers.
+struct Paired {
+  static constexpr std::string_view kind = "paired";
+  Quantity quantity = Quantity::heading;
+  std::string other;
+  std::int64_t at_us = 0;
+  double confidence = 0.95;
+  std::optional<double> at_least, at_most;  ///< of the fraction
+};
+
+/// Mean NEES or NIS with chi-square bounds.
+struct Consistency {
+  static constexpr std::string_view kind = "consistency";
+  Quantity quantity = Quantity::attitude_nees;
+  std::int64_t from_us = 0, to_us = 0;
+  double probability = 0.95;
+  std::optional<std::pair<double, double>> mean_between;
+  std::optional<double> inside_at_least;  ///< fraction of the updates whose mean lies within the bounds
+};
+
+/// Runs that went astray.
+struct Diverged {
+  static constexpr std::string_view kind = "divergence";
+  Quantity quantity = Quantity::heading;
+  double beyond = 0;                              ///< [SI]
+  std::optional<std::int64_t> at_most, at_least;  ///< runs
+};
+
+struct Metric {
+  std::string name;                   ///< unique; by default kind and subject
+  std::string requirement;            ///< id carried to the reports; may be empty
+  std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
+  std::variant<RmsCurve, TimeWithin, Lead, ValueAt, WindowMoments, Paired, Consistency, Diverged> rule;
+};
+
+std::string_view kind(const Metric& metric);
+/// The variant that a metric compares with, as named in the file; empty: none.
+std::string other_of(const Metric& metric);
+
+/// `variants`: the names that the metric may use; `duration_us`: the shortest of theirs.
+Metric read_metric(scenario::Section& section, const std::vector<std::string>& variants,
+                   std::int64_t duration_us);
+
+}  // namespace canhil::campaign

@@ -1,0 +1,103 @@
+#include "bench/campaign/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace canhil::campaign {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string_view label(const Answer& answer) {
+  if (!answer.passed) return "-";
+  return *answer.passed ? "PASS" : "FAIL";
+}
+
+std::string_view verdict(const Evaluation& evaluation) { return evaluation.passed ? "pass" : "fail"; }
+
+// JSON has no NaN.
+ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
+
+ordered_json json_of(const Endings& endings) {
+  ordered_json json{{"name", endings.variant},
+                    {"runs", endings.runs},
+                    {"completed", endings.completed},
+                    {"ended_early", endings.runs - endings.completed},
+                    {"not_finite", endings.not_finite}};
+  if (!endings.first_fault.empty()) json["first_fault"] = endings.first_fault;
+  return json;
+}
+
+ordered_json json_of(const Answer& answer) {
+  ordered_json json{{"metric", answer.metric},
+                    {"kind", answer.kind},
+                    {"quantity", name(answer.quantity)},
+                    {"variant", answer.variant},
+                    {"measured", answer.measured}};
+  if (!answer.requirement.empty()) json["requirement"] = answer.requirement;
+  if (answer.passed) {
+    json["expected"] = answer.expected;
+    json["outcome"] = *answer.passed ? "pass" : "fail";
+  }
+  for (const auto& [figure, value] : answer.figures) json[figure] = value ? number(*value) : ordered_json();
+  if (answer.curve.empty()) return json;
+  const Unit unit = unit_of(answer.quantity);
+  ordered_json times = ordered_json::array(), values = ordered_json::array(), missing = ordered_json::array();
+  for (const CurvePoint& point : answer.curve) {
+    times.push_back(static_cast<double>(point.t_us) * 1e-6);
+    values.push_back(number(point.rms / unit.factor));
+    missing.push_back(point.missing);
+  }
+  json["curve"] = {{"t_s", times}, {fmt::format("rms{}", unit.ending), values}, {"missing", missing}};
+  return json;
+}
+
+}  // namespace
+
+std::string text(const Campaign& campaign, const Evaluation& evaluation) {
+  std::string page;
+  auto out = std::back_inserter(page);
+  fmt::format_to(out, "{}\n  campaign {} · {} runs · seed {} · {}\n\n", campaign.title, campaign.sources.file,
+                 campaign.runs, campaign.seed, verdict(evaluation));
+
+  std::size_t width = 7;
+  for (const Variant& variant : campaign.variants) width = std::max(width, variant.name.size());
+  for (const Endings& endings : evaluation.endings) {
+    fmt::format_to(out, "  {:<{}}  {} of {} runs completed", endings.variant, width, endings.completed,
+                   endings.runs);
+    if (endings.not_finite > 0)
+      fmt::format_to(out, ", {} with values that are not finite", endings.not_finite);
+    if (!endings.first_fault.empty()) fmt::format_to(out, "; {}", endings.first_fault);
+    page += '\n';
+  }
+
+  std::string_view metric;
+  for (const Answer& answer : evaluation.answers) {
+    if (answer.metric != metric) fmt::format_to(out, "\n  {}\n", answer.metric);
+    metric = answer.metric;
+    fmt::format_to(out, "    {:<4}  {:<{}}  {}", label(answer), answer.variant, width, answer.measured);
+    if (answer.passed) fmt::format_to(out, "  (expected {})", answer.expected);
+    page += '\n';
+  }
+  return page;
+}
+
+std::string json(const Campaign& campaign, const Evaluation& evaluation) {
+  ordered_json json{{"title", campaign.title},
+                    {"campaign", campaign.sources.file},
+                    {"campaign_hash", fmt::format("{:016x}", campaign.hash)},
+                    {"runs", campaign.runs},
+                    {"seed", campaign.seed},
+                    {"outcome", verdict(evaluation)},
+                    {"variants", ordered_json::array()},
+                    {"answers", ordered_json::array()}};
+  for (const Endings& endings : evaluation.endings) json["variants"].push_back(json_of(endings));
+  for (const Answer& answer : evaluation.answers) json["answers"].push_back(json_of(answer));
+  return json.dump(2) + "\n";
+}
+
+}  // namespace canhil::campaign

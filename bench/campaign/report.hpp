@@ -1,0 +1,16 @@
+// A campaign's results for people and for programs.
+#pragma once
+
+#include <string>
+
+#include "bench/campaign/evaluate.hpp"
+
+namespace canhil::campaign {
+
+/// A page of text: how runs ended, then every answer with its bar.
+std::string text(const Campaign& campaign, const Evaluation& evaluation);
+
+/// One JSON object, with the curves. Unit in every key.
+std::string json(const Campaign& campaign, const Evaluation& evaluation);
+
+}  // namespace canhil::campaign

@@ -1,0 +1,179 @@
+#include "bench/campaign/statistics.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+
+namespace canhil::campaign {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double degrees_of_freedom = 3;
+
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+
+// Update times that any run has, ascending.
+std::vector<std::int64_t> update_times(std::span<const RunSeries> runs) {
+  std::vector<std::int64_t> times;
+  for (const RunSeries& run : runs) {
+    std::vector<std::int64_t> own;
+    own.reserve(run.samples.size());
+    for (const Sample& sample : run.samples) own.push_back(sample.t_us);
+    std::vector<std::int64_t> both;
+    std::ranges::set_union(times, own, std::back_inserter(both));
+    times = std::move(both);
+  }
+  return times;
+}
+
+std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int64_t from_us,
+                                       std::int64_t to_us) {
+  std::vector<std::int64_t> times = update_times(runs);
+  std::erase_if(times, [&](std::int64_t t_us) { return t_us < from_us || t_us > to_us; });
+  return times;
+}
+
+// NaN: the run has no update at that time, or no finite value.
+double value_at(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+  const auto at = std::ranges::lower_bound(run.samples, t_us, {}, &Sample::t_us);
+  if (at == run.samples.end() || at->t_us != t_us) return nan;
+  const double value = value_of(*at, quantity);
+  return std::isfinite(value) ? value : nan;
+}
+
+// |value| of a run at the last update of its variant at or before a time; infinite: none.
+double magnitude_at(const RunSeries& run, Quantity quantity, std::span<const std::int64_t> times,
+                    std::int64_t t_us) {
+  const auto after = std::ranges::upper_bound(times, t_us);
+  const double value = after == times.begin() ? nan : value_at(run, quantity, *std::prev(after));
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
+}
+
+}  // namespace
+
+std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity) {
+  std::vector<CurvePoint> curve;
+  for (const std::int64_t t_us : update_times(runs)) {
+    CurvePoint point{.t_us = t_us};
+    double sum = 0;
+    for (const RunSeries& run : runs) {
+      const double value = value_at(run, quantity, t_us);
+      if (std::isnan(value)) continue;
+      sum += value * value;
+      ++point.runs;
+    }
+    point.missing = runs.size() - point.runs;
+    point.rms = point.runs == 0 ? nan : std::sqrt(sum / static_cast<double>(point.runs));
+    curve.push_back(point);
+  }
+  return curve;
+}
+
+std::optional<CurvePoint> value_at(std::span<const CurvePoint> curve, std::int64_t t_us) {
+  const auto after = std::ranges::upper_bound(curve, t_us, {}, &CurvePoint::t_us);
+  if (after == curve.begin()) return std::nullopt;
+  return *std::prev(after);
+}
+
+std::optional<double> time_within(std::span<const CurvePoint> curve, double threshold) {
+  const auto outside = std::find_if(curve.rbegin(), curve.rend(), [&](const CurvePoint& point) {
+    return point.missing > 0 || !(point.rms <= threshold);  // NaN is outside
+  });
+  if (outside == curve.rbegin()) return std::nullopt;  // at the end, or there is no end
+  return seconds(outside.base()->t_us);
+}
+
+WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+                                   std::int64_t to_us) {
+  std::vector<double> values;
+  WindowStatistics statistics;
+  for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
+    for (const RunSeries& run : runs) {
+      const double value = value_at(run, quantity, t_us);
+      if (std::isnan(value)) {
+        ++statistics.missing;
+      } else {
+        values.push_back(value);
+      }
+    }
+  }
+  statistics.count = values.size();
+  const auto n = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  statistics.mean = values.empty() ? nan : sum / n;
+  for (const double value : values) squares += (value - statistics.mean) * (value - statistics.mean);
+  statistics.standard_deviation = values.size() < 2 ? nan : std::sqrt(squares / (n - 1));
+  return statistics;
+}
+
+PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b, Quantity quantity,
+                               std::int64_t t_us, double confidence) {
+  const std::vector<std::int64_t> a_times = update_times(a), b_times = update_times(b);
+  PairedFraction paired;
+  for (const RunSeries& run : a) {
+    const auto other = std::ranges::lower_bound(b, run.run, {}, &RunSeries::run);
+    if (other == b.end() || other->run != run.run) continue;
+    ++paired.pairs;
+    if (magnitude_at(run, quantity, a_times, t_us) < magnitude_at(*other, quantity, b_times, t_us)) {
+      ++paired.better;
+    }
+  }
+  if (paired.pairs == 0) return {.fraction = nan, .low = 0, .high = 1};
+  using Binomial = boost::math::binomial_distribution<double>;
+  const auto pairs = static_cast<double>(paired.pairs), better = static_cast<double>(paired.better);
+  const double tail = (1 - confidence) / 2;
+  paired.fraction = better / pairs;
+  paired.low = Binomial::find_lower_bound_on_p(pairs, better, tail);
+  paired.high = Binomial::find_upper_bound_on_p(pairs, better, tail);
+  return paired;
+}
+
+ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+                                  std::int64_t to_us, double probability) {
+  ConsistencyStatistics statistics;
+  if (runs.empty()) return {.mean = nan};
+  const auto n = static_cast<double>(runs.size());
+  const boost::math::chi_squared_distribution<double> chi_squared(degrees_of_freedom * n);
+  const double tail = (1 - probability) / 2;
+  statistics.low = quantile(chi_squared, tail) / n;
+  statistics.high = quantile(complement(chi_squared, tail)) / n;
+  double sum = 0;
+  std::size_t count = 0, inside = 0;
+  for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
+    double sum_here = 0;
+    std::size_t here = 0;
+    for (const RunSeries& run : runs) {
+      const double value = value_at(run, quantity, t_us);
+      if (std::isnan(value)) continue;
+      sum_here += value;
+      ++here;
+    }
+    ++statistics.updates;
+    statistics.missing += runs.size() - here;
+    const double mean = sum_here / n;
+    if (here == runs.size() && mean >= statistics.low && mean <= statistics.high) ++inside;
+    sum += sum_here;
+    count += here;
+  }
+  statistics.mean = count == 0 ? nan : sum / static_cast<double>(count);
+  statistics.inside =
+      statistics.updates == 0 ? nan : static_cast<double>(inside) / static_cast<double>(statistics.updates);
+  return statistics;
+}
+
+Divergence divergence(std::span<const RunSeries> runs, Quantity quantity, double bound) {
+  Divergence result{.runs = runs.size()};
+  for (const RunSeries& run : runs) {
+    if (run.ending.kind != run::Ending::Kind::completed) {
+      ++result.faulted;
+    } else if (run.samples.empty() || !(std::abs(value_of(run.samples.back(), quantity)) <= bound)) {
+      ++result.beyond;
+    }
+  }
+  return result;
+}
+
+}  // namespace canhil::campaign

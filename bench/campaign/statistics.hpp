@@ -1,0 +1,76 @@
+// Statistics over the runs of a variant. A run that is missing at a time (it ended early) or has no finite
+// value there is counted, never ignored: where one is missing, no bar is met.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bench/campaign/series.hpp"
+
+namespace canhil::campaign {
+
+/// Over all runs at one update.
+struct CurvePoint {
+  std::int64_t t_us = 0;
+  double rms = 0;           ///< of the finite values [SI]; NaN if there is none
+  std::size_t runs = 0;     ///< finite values
+  std::size_t missing = 0;  ///< runs without one
+};
+
+/// Root mean square over the runs of a quantity, at every update time that any run has, ascending.
+std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity);
+
+/// The last point at or before a time; none: the curve begins later.
+std::optional<CurvePoint> value_at(std::span<const CurvePoint> curve, std::int64_t t_us);
+
+/// First update time [s] from which the RMS stays at or below a threshold (SI) to the end, with no run
+/// missing; none: never.
+std::optional<double> time_within(std::span<const CurvePoint> curve, double threshold);
+
+/// Mean and standard deviation of the signed quantity over all runs and updates of a window, ends included.
+struct WindowStatistics {
+  double mean = 0;
+  double standard_deviation = 0;  ///< about the mean, with n - 1
+  std::size_t count = 0;          ///< finite values
+  std::size_t missing = 0;        ///< not finite, or of runs that had ended
+};
+WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+                                   std::int64_t to_us);
+
+/// In how many pairs of runs with the same random numbers one variant is better.
+struct PairedFraction {
+  std::size_t better = 0;  ///< runs with |quantity| of `a` < that of `b`; no value is worse than any
+  std::size_t pairs = 0;
+  double fraction = 0;
+  double low = 0, high = 0;  ///< Clopper-Pearson interval of the probability
+};
+/// Compares at the last update at or before a time. `a` and `b`: in order of runs. Runs that only one of
+/// them has are no pair. Confidence in (0, 1).
+PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b, Quantity quantity,
+                               std::int64_t t_us, double confidence);
+
+/// Normalised errors squared against chi-square, over a window. Errors of one run are correlated in time, so
+/// the bounds are for the mean over runs at one update (Bar-Shalom, Li, Kirubarajan (2001), section 5.4.2).
+struct ConsistencyStatistics {
+  double mean = 0;           ///< over all runs and updates
+  double low = 0, high = 0;  ///< central interval of chi2(3 n) / n, n: runs
+  double inside = 0;         ///< fraction of the updates whose mean over runs lies within
+  std::size_t updates = 0;
+  std::size_t missing = 0;
+};
+/// `quantity` is attitude_nees or nis, both of 3 degrees of freedom. Probability in (0, 1).
+ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+                                  std::int64_t to_us, double probability);
+
+/// Runs that ended early, or whose |quantity| at their last update is above a bound (SI) or not finite.
+struct Divergence {
+  std::size_t faulted = 0;
+  std::size_t beyond = 0;  ///< of those that came to their end
+  std::size_t runs = 0;
+};
+Divergence divergence(std::span<const RunSeries> runs, Quantity quantity, double bound);
+
+}  // namespace canhil::campaign

@@ -1,0 +1,271 @@
+#include "bench/campaign/store.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "bench/world/hash.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+constexpr int application_id = 0x43484331;  // "CHC1": canhil campaign, format 1
+
+// id is variant * runs + run: one order of rows, whoever wrote them. ending: "completed" or why not.
+constexpr std::string_view schema = R"(
+create table identity (campaign_hash text, dbc_hash text, program text, runs integer);
+create table source (kind text, name text, content text);
+create table run (id integer primary key, variant integer, run integer, ending integer, end_us integer,
+                  detail text, samples blob);
+)";
+constexpr std::string_view run_columns = "run, ending, end_us, detail, samples";
+
+std::string hash_of_this_program() {
+  const auto text = scenario::read_text("/proc/self/exe", "this program");
+  return fmt::format("{}+{:016x}", CANHIL_VERSION, text ? world::fnv1a_64(*text) : 0);
+}
+
+RunSeries series_in(const Statement& row) {
+  return {.run = static_cast<std::uint64_t>(row.integer(0)),
+          .ending = {.kind = static_cast<run::Ending::Kind>(row.integer(1)),
+                     .t_us = row.integer(2),
+                     .detail = row.text(3)},
+          .samples = decode(row.bytes(4))};
+}
+
+auto not_results(const std::string& file) {
+  return failure(fmt::format("{}: is another kind of file, expected results of a campaign", file));
+}
+
+// Everything since BEGIN, or nothing.
+class Transaction {
+ public:
+  explicit Transaction(Database& database) : database_(database) {}
+  ~Transaction() {
+    if (open_) static_cast<void>(database_.run("rollback"));
+  }
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  Result<void> begin() {
+    return database_.run("begin immediate").map([&] { open_ = true; });
+  }
+  Result<void> commit() {
+    return database_.run("commit").map([&] { open_ = false; });
+  }
+
+ private:
+  Database& database_;
+  bool open_ = false;
+};
+
+}  // namespace
+
+Identity identity_of(const Campaign& campaign) {
+  static const std::string program = hash_of_this_program();
+  return {.campaign_hash = campaign.hash,
+          .dbc_hash = messages::dbc_hash,
+          .program = program,
+          .runs = campaign.runs};
+}
+
+std::string difference(const Identity& found, const Identity& expected) {
+  if (found.campaign_hash != expected.campaign_hash) {
+    return fmt::format("is of another campaign ({:016x}), expected {:016x}", found.campaign_hash,
+                       expected.campaign_hash);
+  }
+  if (found.dbc_hash != expected.dbc_hash) {
+    return fmt::format("is of another DBC ({:016x}), expected {:016x}", found.dbc_hash, expected.dbc_hash);
+  }
+  if (found.program != expected.program) {
+    return fmt::format("is of another program ({}), expected {}", found.program, expected.program);
+  }
+  if (found.runs != expected.runs) {
+    return fmt::format("is of a campaign of {} runs, expected {}", found.runs, expected.runs);
+  }
+  return {};
+}
+
+Result<Store> Store::open_to_write(const std::filesystem::path& path) {
+  auto database = Database::open(path, Database::Access::create);
+  if (!database) return tl::unexpected(database.error());
+  // A transaction is on the disk when it is committed. The lock is held until close(): one writer a file.
+  if (auto set =
+          database->run("pragma page_size = 4096; pragma auto_vacuum = none; pragma synchronous = normal;"
+                        "pragma locking_mode = exclusive; begin immediate; commit");
+      !set) {
+    return tl::unexpected(set.error());
+  }
+  return Store(std::move(*database));
+}
+
+Result<bool> Store::blank() const {
+  auto tables = database_.prepare("select 1 from sqlite_master");
+  if (!tables) return tl::unexpected(tables.error());
+  return tables->step().map([](bool found) { return !found; });
+}
+
+Result<void> Store::initialise(const Identity& identity, const Sources& sources) {
+  Transaction transaction(database_);
+  if (auto begun = transaction.begin(); !begun) return begun;
+  if (auto made = database_.run(fmt::format("pragma application_id = {};{}", application_id, schema));
+      !made) {
+    return made;
+  }
+  auto insert = database_.prepare("insert into identity values (?, ?, ?, ?)");
+  if (!insert) return tl::unexpected(insert.error());
+  insert->bind(1, fmt::format("{:016x}", identity.campaign_hash))
+      .bind(2, fmt::format("{:016x}", identity.dbc_hash))
+      .bind(3, identity.program)
+      .bind(4, static_cast<std::int64_t>(identity.runs));
+  if (auto done = insert->step(); !done) return tl::unexpected(done.error());
+  auto source = database_.prepare("insert into source values (?, ?, ?)");
+  if (!source) return tl::unexpected(source.error());
+  source->bind(1, "campaign")
+      .bind(2, std::filesystem::path(sources.file).filename().string())
+      .bind(3, sources.text);
+  if (auto done = source->step(); !done) return tl::unexpected(done.error());
+  for (const auto& [name, text] : sources.scenarios) {
+    source->reset();
+    source->bind(1, "scenario").bind(2, name).bind(3, text);
+    if (auto done = source->step(); !done) return tl::unexpected(done.error());
+  }
+  source->reset();
+  insert->reset();
+  identity_ = identity;
+  return transaction.commit();
+}
+
+Result<void> Store::read_identity() {
+  auto id = database_.prepare("pragma application_id");
+  if (!id) return tl::unexpected(id.error());
+  const auto known = id->step();
+  if (!known) return tl::unexpected(known.error());
+  if (!*known || id->integer(0) != application_id) return not_results(database_.file());
+  auto row = database_.prepare("select campaign_hash, dbc_hash, program, runs from identity");
+  if (!row) return tl::unexpected(row.error());
+  const auto there = row->step();
+  if (!there) return tl::unexpected(there.error());
+  if (!*there) return not_results(database_.file());
+  const auto hash = [&](int column) {
+    std::uint64_t value = 0;
+    const std::string digits = row->text(column);
+    std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    return value;
+  };
+  identity_ = {.campaign_hash = hash(0),
+               .dbc_hash = hash(1),
+               .program = row->text(2),
+               .runs = static_cast<std::uint64_t>(row->integer(3))};
+  return {};
+}
+
+Result<Store> Store::create(const std::filesystem::path& path, const Identity& identity,
+                            const Sources& sources) {
+  if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
+    return failure(fmt::format("{}: exists already, expected a new file (or --resume)", path.string()));
+  }
+  return resume(path, identity, sources);
+}
+
+Result<Store> Store::resume(const std::filesystem::path& path, const Identity& identity,
+                            const Sources& sources) {
+  auto store = open_to_write(path);
+  if (!store) return store;
+  const auto blank = store->blank();
+  if (!blank) return tl::unexpected(blank.error());
+  if (*blank) {
+    if (auto made = store->initialise(identity, sources); !made) return tl::unexpected(made.error());
+    return store;
+  }
+  if (auto read = store->read_identity(); !read) return tl::unexpected(read.error());
+  if (const std::string what = difference(store->identity_, identity); !what.empty()) {
+    return failure(fmt::format("{}: {}", path.string(), what));
+  }
+  return store;
+}
+
+Result<Store> Store::open(const std::filesystem::path& path) {
+  auto database = Database::open(path, Database::Access::read);
+  if (!database) return tl::unexpected(database.error());
+  Store store(std::move(*database));
+  if (auto read = store.read_identity(); !read) return tl::unexpected(read.error());
+  return store;
+}
+
+Result<Sources> Store::sources() const {
+  auto row = database_.prepare("select kind, name, content from source");
+  if (!row) return tl::unexpected(row.error());
+  Sources sources;
+  while (true) {
+    const auto there = row->step();
+    if (!there) return tl::unexpected(there.error());
+    if (!*there) return sources;
+    if (row->text(0) == "campaign") {
+      sources.file = row->text(1);
+      sources.text = row->text(2);
+    } else {
+      sources.scenarios.emplace(row->text(1), row->text(2));
+    }
+  }
+}
+
+Result<std::vector<Key>> Store::keys() const {
+  auto row = database_.prepare("select variant, run from run order by id");
+  if (!row) return tl::unexpected(row.error());
+  std::vector<Key> keys;
+  while (true) {
+    const auto there = row->step();
+    if (!there) return tl::unexpected(there.error());
+    if (!*there) return keys;
+    keys.push_back({static_cast<std::size_t>(row->integer(0)), static_cast<std::uint64_t>(row->integer(1))});
+  }
+}
+
+Result<std::vector<RunSeries>> Store::load(std::size_t variant) const {
+  auto row =
+      database_.prepare(fmt::format("select {} from run where id >= ? and id < ? order by id", run_columns));
+  if (!row) return tl::unexpected(row.error());
+  row->bind(1, static_cast<std::int64_t>(variant * identity_.runs))
+      .bind(2, static_cast<std::int64_t>((variant + 1) * identity_.runs));
+  std::vector<RunSeries> runs;
+  while (true) {
+    const auto there = row->step();
+    if (!there) return tl::unexpected(there.error());
+    if (!*there) return runs;
+    runs.push_back(series_in(*row));
+  }
+}
+
+Result<RunSeries> Store::load(const Key& key) const {
+  auto row = database_.prepare(fmt::format("select {} from run where id = ?", run_columns));
+  if (!row) return tl::unexpected(row.error());
+  row->bind(1, static_cast<std::int64_t>(key.variant * identity_.runs + key.run));
+  const auto there = row->step();
+  if (!there) return tl::unexpected(there.error());
+  if (!*there) return failure(fmt::format("{}: holds no run {}", database_.file(), key.run));
+  return series_in(*row);
+}
+
+Result<void> Store::add(std::span<const Finished> runs) {
+  Transaction transaction(database_);
+  if (auto begun = transaction.begin(); !begun) return begun;
+  auto insert = database_.prepare("insert into run values (?, ?, ?, ?, ?, ?, ?)");
+  if (!insert) return tl::unexpected(insert.error());
+  for (const auto& [variant, series] : runs) {
+    insert->bind(1, static_cast<std::int64_t>(variant * identity_.runs + series.run))
+        .bind(2, static_cast<std::int64_t>(variant))
+        .bind(3, static_cast<std::int64_t>(series.run))
+        .bind(4, static_cast<std::int64_t>(series.ending.kind))
+        .bind(5, series.ending.t_us)
+        .bind(6, series.ending.detail)
+        .bind(7, encode(series.samples));
+    if (auto done = insert->step(); !done) return tl::unexpected(done.error());
+    insert->reset();
+  }
+  return transaction.commit();
+}
+
+Result<void> Store::close() { return database_.close(); }
+
+}  // namespace canhil::campaign

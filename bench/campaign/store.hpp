@@ -1,0 +1,80 @@
+// Results of a campaign in one SQLite file: a row a run and variant, committed as runs finish. Shards, and
+// what they are merged into, have the same form; the texts of the campaign are inside.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/campaign/campaign.hpp"
+#include "bench/campaign/database.hpp"
+#include "bench/campaign/series.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::campaign {
+
+/// What results must have in common to be put together.
+struct Identity {
+  std::uint64_t campaign_hash = 0;
+  std::uint64_t dbc_hash = 0;
+  std::string program;  ///< version and hash of the program that ran it
+  std::uint64_t runs = 0;
+  friend bool operator==(const Identity&, const Identity&) = default;
+};
+/// Of results that this program makes of a campaign.
+Identity identity_of(const Campaign& campaign);
+
+/// One line that says in what a store's identity differs from what is expected; empty: in nothing.
+std::string difference(const Identity& found, const Identity& expected);
+
+/// A run of a variant, by place in Campaign::variants.
+struct Key {
+  std::size_t variant = 0;
+  std::uint64_t run = 0;
+  friend auto operator<=>(const Key&, const Key&) = default;
+};
+struct Finished {
+  std::size_t variant = 0;
+  RunSeries series;
+};
+
+class Store {
+ public:
+  /// A new file. Error: it exists, or cannot be written.
+  static Result<Store> create(const std::filesystem::path& path, const Identity& identity,
+                              const Sources& sources);
+  /// For more runs; a new file if there is none. Error: another campaign's, in use, or not writable.
+  static Result<Store> resume(const std::filesystem::path& path, const Identity& identity,
+                              const Sources& sources);
+  /// For reading only.
+  static Result<Store> open(const std::filesystem::path& path);
+
+  [[nodiscard]] const Identity& identity() const { return identity_; }
+  [[nodiscard]] Result<Sources> sources() const;
+  /// What is there, ascending.
+  [[nodiscard]] Result<std::vector<Key>> keys() const;
+  /// All series of a variant, in order of runs.
+  [[nodiscard]] Result<std::vector<RunSeries>> load(std::size_t variant) const;
+  [[nodiscard]] Result<RunSeries> load(const Key& key) const;
+
+  /// Commits runs, all or none.
+  Result<void> add(std::span<const Finished> runs);
+  /// Writes everything to the disk and lets go of the file.
+  Result<void> close();
+
+ private:
+  explicit Store(Database database) : database_(std::move(database)) {}
+  static Result<Store> open_to_write(const std::filesystem::path& path);
+  Result<void> initialise(const Identity& identity, const Sources& sources);
+  [[nodiscard]] Result<bool> blank() const;
+  Result<void> read_identity();
+
+  Database database_;
+  Identity identity_;
+};
+
+}  // namespace canhil::campaign

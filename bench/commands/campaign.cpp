@@ -1,0 +1,250 @@
+#include "bench/commands/campaign.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/campaign/evaluate.hpp"
+#include "bench/campaign/execute.hpp"
+#include "bench/campaign/merge.hpp"
+#include "bench/campaign/report.hpp"
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/interrupt.hpp"
+#include "bench/report/file.hpp"
+#include "bench/report/text.hpp"
+#include "bench/run/session.hpp"
+
+namespace canhil::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As typed.
+struct Arguments {
+  std::string file;
+  std::string out;
+  unsigned threads = 0;
+  std::string shard;
+  std::optional<std::uint64_t> runs;
+  bool resume = false;
+  std::string json;
+};
+struct MergeArguments {
+  std::string out;
+  std::vector<std::string> shards;
+};
+struct ReportArguments {
+  std::string merged;
+  bool json = false;
+};
+struct ReplayArguments {
+  std::string file;
+  std::uint64_t run = 0;
+  std::string variant;
+  std::string log;
+};
+
+// A line that renews itself, on a terminal only.
+class ProgressLine {
+ public:
+  ProgressLine() : shown_(isatty(STDERR_FILENO) != 0) {}
+  ~ProgressLine() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void operator()(const campaign::Progress& progress) const {
+    if (!shown_ || progress.total == 0) return;
+    constexpr std::size_t width = 30;
+    const std::size_t bar = progress.done * width / progress.total;
+    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const double rate = static_cast<double>(progress.done) / s;
+    fmt::print(stderr, "\r\033[K  [{:=<{}}{:{}}] {} / {} runs", "", bar, "", width - bar, progress.done,
+               progress.total);
+    if (progress.done > 0) {
+      fmt::print(stderr, " · {:.1f}/s · {:.0f} s left", rate,
+                 static_cast<double>(progress.total - progress.done) / rate);
+    }
+  }
+
+ private:
+  bool shown_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// --out names the file, or the folder of a file named after the campaign and the shard.
+Result<fs::path> results_file(const Arguments& arguments, const campaign::Shard& shard) {
+  const fs::path out = arguments.out;
+  if (out.extension() == ".sqlite") return out;
+  std::error_code error;
+  if (!out.empty()) fs::create_directories(out, error);
+  if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
+  const std::string stem = fs::path(arguments.file).stem().string();
+  return out / (shard.count == 1 ? stem + ".sqlite"
+                                 : fmt::format("{}-{}-of-{}.sqlite", stem, shard.index, shard.count));
+}
+
+ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, const std::string& json) {
+  const auto store = campaign::Store::open(file);
+  if (!store) return complain(store.error());
+  const auto evaluation = campaign::evaluate(campaign, *store);
+  if (!evaluation) return complain(evaluation.error());
+  if (json == "-") {
+    fmt::print("{}", campaign::json(campaign, *evaluation));
+  } else {
+    fmt::print("{}", campaign::text(campaign, *evaluation));
+    if (!json.empty()) {
+      if (auto written = report::write_file(json, campaign::json(campaign, *evaluation)); !written) {
+        return complain(written.error());
+      }
+    }
+  }
+  return evaluation->passed ? ExitCode::pass : ExitCode::fail;
+}
+
+ExitCode execute(const Arguments& arguments) {
+  auto campaign = campaign::read_campaign(arguments.file);
+  if (!campaign) return complain(campaign.error());
+  if (arguments.runs) campaign->runs = *arguments.runs;
+  const auto shard =
+      arguments.shard.empty() ? campaign::shard_of_environment() : campaign::parse_shard(arguments.shard);
+  if (!shard) return complain(shard.error());
+  if (!arguments.json.empty()) {
+    if (shard->count > 1)
+      return complain({"--json: a shard has no report, expected all runs: merge them first"});
+    if (arguments.json != "-") {
+      if (auto writable = report::check_writable(arguments.json); !writable)
+        return complain(writable.error());
+    }
+  }
+  const auto file = results_file(arguments, *shard);
+  if (!file) return complain(file.error());
+
+  catch_interrupts();
+  const auto execution = [&] {
+    const ProgressLine progress;
+    return campaign::execute(*campaign,
+                             {.file = *file,
+                              .shard = *shard,
+                              .threads = arguments.threads,
+                              .resume = arguments.resume,
+                              .progress = std::cref(progress)},
+                             interrupted);
+  }();
+  if (!execution) return complain(execution.error());
+  if (*execution == campaign::Execution::interrupted) {
+    fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file->string());
+    return ExitCode::not_measured;
+  }
+  if (shard->count > 1) return ExitCode::pass;
+  return print_report(*campaign, *file, arguments.json);
+}
+
+ExitCode merge(const MergeArguments& arguments) {
+  const std::vector<fs::path> shards(arguments.shards.begin(), arguments.shards.end());
+  const auto merged = campaign::merge(arguments.out, shards);
+  return merged ? ExitCode::pass : complain(merged.error());
+}
+
+ExitCode report_on(const ReportArguments& arguments) {
+  const auto store = campaign::Store::open(arguments.merged);
+  if (!store) return complain(store.error());
+  const auto sources = store->sources();
+  if (!sources) return complain(sources.error());
+  auto campaign = campaign::parse_campaign(*sources);
+  if (!campaign) return complain(campaign.error());
+  campaign->runs = store->identity().runs;
+  return print_report(*campaign, arguments.merged, arguments.json ? "-" : "");
+}
+
+ExitCode replay(const ReplayArguments& arguments) {
+  const auto campaign = campaign::read_campaign(arguments.file);
+  if (!campaign) return complain(campaign.error());
+  const auto* variant = campaign->variants.data();
+  if (!arguments.variant.empty()) {
+    const auto found = std::ranges::find(campaign->variants, arguments.variant, &campaign::Variant::name);
+    if (found == campaign->variants.end()) {
+      std::string names;
+      for (const auto& known : campaign->variants) names += (names.empty() ? "'" : ", '") + known.name + "'";
+      return complain({fmt::format("{}: variant '{}' is unknown, expected one of {}", arguments.file,
+                                   arguments.variant, names)});
+    }
+    variant = &*found;
+  }
+  run::Options options;
+  options.bus = "in-process";
+  options.clock = run::ClockKind::lockstep;
+  options.run_index = arguments.run;
+  if (!arguments.log.empty()) {
+    if (auto writable = report::check_writable(arguments.log); !writable) return complain(writable.error());
+    options.log_path = arguments.log;
+  }
+  catch_interrupts();
+  const auto finished = run::run(variant->scenario, options, interrupted, [](std::int64_t) {});
+  if (!finished) return complain(finished.error());
+  fmt::print("variant {} · run {}\n{}", variant->name, arguments.run,
+             report::text(variant->scenario, *finished));
+  return exit_code(finished->verdict.outcome);
+}
+
+void add_merge(CLI::App& campaign, int& code) {
+  auto arguments = std::make_shared<MergeArguments>();
+  CLI::App* command =
+      campaign.add_subcommand("merge", "put shards together: the same bytes for any division");
+  command->add_option("OUT", arguments->out, "file to write (SQLite)")->required();
+  command->add_option("SHARD", arguments->shards, "results of the shards")->required();
+  command->callback([&code, arguments] { code = static_cast<int>(merge(*arguments)); });
+}
+
+void add_report(CLI::App& campaign, int& code) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* command = campaign.add_subcommand("report", "answer the campaign's questions from its results");
+  command->add_option("RESULTS", arguments->merged, "merged results, or those of an undivided campaign")
+      ->required();
+  command->add_flag("--json", arguments->json, "as JSON, with the curves");
+  command->callback([&code, arguments] { code = static_cast<int>(report_on(*arguments)); });
+}
+
+void add_replay(CLI::App& campaign, int& code) {
+  auto arguments = std::make_shared<ReplayArguments>();
+  CLI::App* command = campaign.add_subcommand("replay", "one run again, with its checks and its frames");
+  command->add_option("FILE", arguments->file, "campaign file (TOML)")->required();
+  command->add_option("RUN", arguments->run, "index of the run, from 0")->required();
+  command->add_option("--variant", arguments->variant, "by name (default: the first)");
+  command->add_option("--log", arguments->log, "record every frame in candump's log format");
+  command->callback([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
+}
+
+}  // namespace
+
+void add_campaign(CLI::App& app, int& code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("campaign", "fly variants of scenarios many times, and compare them");
+  CLI::Option* file = command->add_option("FILE", arguments->file, "campaign file (TOML)");
+  command->add_option("--out", arguments->out, "folder, or file.sqlite, of the results (default: here)");
+  command->add_option("--threads", arguments->threads, "default: one a core")->check(CLI::PositiveNumber);
+  command->add_option("--shard", arguments->shard,
+                      "i/N: only runs with run % N == i (default: the task of a Slurm array, or all)");
+  command->add_option("--runs", arguments->runs, "another number of runs than the campaign's")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--resume", arguments->resume, "go on with results that are there");
+  command->add_option("--json", arguments->json,
+                      "write the report as JSON to a file; -: to stdout, in place of the text");
+  command->require_subcommand(0, 1);
+  add_merge(*command, code);
+  add_report(*command, code);
+  add_replay(*command, code);
+  command->callback([&code, arguments, command, file] {
+    if (!command->get_subcommands().empty()) return;
+    if (file->empty()) throw CLI::RequiredError("FILE, or merge, report or replay");
+    code = static_cast<int>(execute(*arguments));
+  });
+}
+
+}  // namespace canhil::commands

@@ -1,0 +1,16 @@
+// A value that replaces one of a scenario file, or is put beside those that are there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace canhil::scenario {
+
+struct Setting {
+  std::string key;                    ///< with the tables around it: "master_ins.period_ms"
+  std::string value;                  ///< as TOML text
+  std::vector<std::string> elements;  ///< of an array, each as TOML text
+  int line = 0;                       ///< where it is written
+};
+
+}  // namespace canhil::scenario
