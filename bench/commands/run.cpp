@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -84,6 +85,8 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
         return written;
     }
   }
+  if (std::fflush(stdout) != 0)
+    return failure(fmt::format("stdout: cannot be written: {}", std::strerror(errno)));
   if (!arguments.junit.empty()) return report::write_file(arguments.junit, report::junit(scenario, run));
   return {};
 }

@@ -58,7 +58,12 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (!started) return tl::unexpected(started.error());
     target.emplace(std::move(*started));
   }
-  const auto gone = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
+  const auto ended = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
+  const auto gone = [&]() -> std::optional<std::string> {
+    if (stop_requested) return "interrupted";
+    const auto why = ended();
+    return why ? std::optional("target: " + *why) : std::nullopt;
+  };
 
   Schedule schedule = make_schedule(scenario, *truth, options.run_index, lockstep);
   if (auto configured = configure(link, schedule.outbox(), scenario.target, *initial, gone); !configured) {
@@ -72,7 +77,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                            : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
   link.detach(monitor);
-  if (const auto why = gone(); why && ending.kind == Ending::Kind::target_silent) {
+  if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
     ending.detail += fmt::format(" (its process {})", *why);
   }
   stop(link, schedule.outbox());

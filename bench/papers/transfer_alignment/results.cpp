@@ -71,10 +71,14 @@ Result<Flown> read_exact(const std::filesystem::path& path, const campaign::Camp
   auto store = campaign::Store::open(path);
   if (!store) return tl::unexpected(store.error());
   const campaign::Identity& found = store->identity();
-  if (found.campaign_hash != ours.hash || found.runs != ours.runs) {
-    return failure(fmt::format("{}: {} runs of another campaign, expected {} runs of {}", path.string(),
-                               found.runs, ours.runs, ours.sources.file));
-  }
+  const auto refused = [&](std::string_view what) {
+    return failure(fmt::format("{}: {}, expected {} runs of {} by hil-bench-exact", path.string(), what,
+                               ours.runs, ours.sources.file));
+  };
+  if (found.campaign_hash != ours.hash) return refused("is of another campaign");
+  if (found.runs != ours.runs) return refused(fmt::format("has {} runs", found.runs));
+  if (found.dbc_hash == campaign::identity_of(ours).dbc_hash)
+    return refused("was flown with the bus's rounding");
   return evaluated("exact", ours, *store);
 }
 

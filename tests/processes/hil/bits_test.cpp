@@ -47,5 +47,29 @@ TEST(Bits, AReplayedRunGivesTheSameFrames) {
   EXPECT_TRUE(before == after);
 }
 
+TEST(Bits, DivergeNamesTheFirstFrameThatDiffers) {
+  const std::string log = record("original.log", "--bus in-process");
+  EXPECT_EQ(hil_bench(fmt::format("diverge {} {}", log, log)).code, 0);
+
+  // One bit of the 100th AlignAttitude is turned over.
+  ASSERT_EQ(
+      shell(fmt::format(
+                "awk '/ 0C0#/ && ++n == 100 {{ c = substr($3, length($3)); sub(/.$/, c == \"0\" ? \"1\" : "
+                "\"0\", $3) }} {{ print }}' {} > {}",
+                log, scratch("changed.log")))
+          .code,
+      0);
+  const Ended differ = hil_bench(fmt::format("diverge {} {}", log, scratch("changed.log")));
+  EXPECT_EQ(differ.code, 1);
+  EXPECT_THAT(differ.out, testing::HasSubstr("differ at t=1.000 s"));
+  EXPECT_THAT(differ.out, testing::HasSubstr("AlignAttitude roll_deg="));
+
+  ASSERT_EQ(shell(fmt::format("head -n 2000 {} > {}", log, scratch("short.log"))).code, 0);
+  const Ended shorter = hil_bench(fmt::format("diverge {} {}", scratch("short.log"), log));
+  EXPECT_EQ(shorter.code, 1);
+  EXPECT_THAT(shorter.out, testing::HasSubstr("has no more frames of the target"));
+  EXPECT_EQ(hil_bench(fmt::format("diverge {} no_such.log", log)).code, 2);
+}
+
 }  // namespace
 }  // namespace canhil::test
