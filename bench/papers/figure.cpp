@@ -19,9 +19,18 @@ struct Layout {
   double x_step;                 // of the grid [s]
 };
 constexpr Layout desktop{
-    .width = 800, .height = 430, .left = 68, .right = 168, .top = 14, .bottom = 50, .font = 15, .x_step = 2};
+    .width = 800, .height = 440, .left = 76, .right = 0, .top = 14, .bottom = 58, .font = 15, .x_step = 2};
 constexpr Layout phone{
-    .width = 390, .height = 400, .left = 50, .right = 96, .top = 12, .bottom = 46, .font = 13, .x_step = 5};
+    .width = 390, .height = 410, .left = 62, .right = 0, .top = 12, .bottom = 54, .font = 13, .x_step = 5};
+
+// The margin on the right holds the names of the curves and the markers before them.
+Layout with_room_for_labels(Layout layout, const Figure& figure) {
+  std::size_t longest = 0;
+  for (const Curve& curve : figure.curves) longest = std::max(longest, curve.label.size());
+  constexpr double character_width = 0.56;  // of a sans-serif, in parts of its size
+  layout.right = 34 + static_cast<int>(character_width * layout.font * static_cast<double>(longest));
+  return layout;
+}
 
 // Okabe and Ito's colours, dark enough on white; dashes and markers say the same without them.
 constexpr std::array colours{"#000000", "#0072B2", "#B5460F", "#007A5A",
@@ -99,7 +108,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += fmt::format("set terminal svg size {},{} dynamic enhanced font 'sans-serif,{}' linewidth 1.2\n",
                         layout.width, layout.height, layout.font);
   script += "set encoding utf8\nunset key\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\n";
-  script += "set grid lw 0.5 lc rgb '#dddddd' dt solid\nset logscale y\nset format y '%g'\n";
+  script += "set grid lw 0.8 lc rgb '#dcdcdc' dt solid\nset logscale y\nset format y '%g'\n";
   const auto screen = [](int px, int of) { return static_cast<double>(px) / of; };
   script += fmt::format(
       "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n"
@@ -110,7 +119,13 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n", figure.x_range.first,
                         figure.x_range.second, figure.y_range.first, figure.y_range.second,
                         length <= 10 ? layout.x_step / 2 : layout.x_step);
-  script += fmt::format("set xlabel 'time [s]' offset 0,0.3\nset ylabel '{}' offset 1,0\n", figure.y_label);
+  // gnuplot would put the names of the axes where tick labels leave room: outside, on a narrow figure.
+  script += fmt::format(
+      "set label 'time [s]' at screen {:.4f},{:.4f} center\n"
+      "set label '{}' at screen {:.4f},{:.4f} center rotate by 90\n",
+      screen(layout.left + (layout.width - layout.left - layout.right) / 2, layout.width),
+      screen(layout.font * 3 / 5, layout.height), figure.y_label, screen(layout.font * 3 / 4, layout.width),
+      screen(layout.bottom + (layout.height - layout.top - layout.bottom) / 2, layout.height));
   script += labels(figure, layout) + "plot ";
   const std::size_t count = figure.curves.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -142,7 +157,7 @@ std::string with_own_names(std::string svg, const std::string& prefix) {
 
 Result<std::string> draw(const Figure& figure, Width width) {
   const bool narrow = width == Width::phone;
-  auto drawn = gnuplot(script_of(figure, narrow ? phone : desktop));
+  auto drawn = gnuplot(script_of(figure, with_room_for_labels(narrow ? phone : desktop, figure)));
   if (!drawn) return drawn;
   const auto begin = drawn->find("<svg");  // without the XML declaration
   if (begin == std::string::npos) return failure("gnuplot: drew nothing, expected an SVG");

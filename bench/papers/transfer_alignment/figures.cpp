@@ -65,7 +65,7 @@ std::vector<Figure> cruise_figures(const Results& results) {
            .y_label = "heading error, 1σ [mrad]",
            .x_range = {0, 10},
            .y_range = {10, 1000},
-           .thresholds = {87.3},
+           .thresholds = {},
            .curves = {curve("KF, random", cruise.curve("kf_random")),
                       curve("H2, random", cruise.curve("h2_random")),
                       curve("H2, +5° fixed", cruise.curve("h2_ppp")), curve("H2, ±5°", signs)}}};
@@ -76,10 +76,9 @@ std::vector<Figure> size_figures(const Results& results) {
   const auto figure = [&](std::string id, std::string filter, const char* stem) {
     Figure drawn{.id = std::move(id),
                  .title = fmt::format("Fig 6: initial errors of 20, 10, 5 and 1 deg, {}", filter),
-                 .caption = fmt::format(
-                     "RMS over runs of the heading error. P0 a fifth of the true errors, R = 0.01 (m/s)² s, "
-                     "no master noise, update 10 Hz. {}.",
-                     runs_of(results)),
+                 .caption = fmt::format("RMS over runs of the heading error. P0 1 deg, R = 0.01 (m/s)² s, "
+                                        "no master noise, update 10 Hz. {}.",
+                                        runs_of(results)),
                  .y_label = "heading error, 1σ [mrad]",
                  .y_range = {0.1, 1000},
                  .thresholds = {3},
@@ -88,12 +87,13 @@ std::vector<Figure> size_figures(const Results& results) {
       drawn.curves.push_back(curve(fmt::format("{}°", size), sizes.curve(fmt::format("{}_e{}", stem, size))));
     return drawn;
   };
-  return {figure("fig6-kf", "Kalman filter", "kf_fifth"), figure("fig6-h2", "H2 filter, case 2", "h2_fifth")};
+  return {figure("fig6-kf", "Kalman filter", "kf"), figure("fig6-h2", "H2 filter, case 2", "h2")};
 }
 
 std::vector<Figure> axis_figures(const Results& results) {
   const Flown& table = results.of("table2");
   std::vector<Figure> figures;
+  figures.reserve(4);
   const std::array axes{std::pair{Quantity::heading, "heading"}, std::pair{Quantity::roll, "roll"},
                         std::pair{Quantity::pitch, "pitch"}};
   for (const auto& [quantity, axis] : axes) {
@@ -141,6 +141,7 @@ std::vector<Figure> artefact_figures(const Results& results) {
            "master noise, update every 0.3 s. {}.",
            runs_of(results)),
        .y_label = "heading error, 1σ [mrad]",
+       .y_range = {0.1, 300},
        .thresholds = {1, 2, 3},
        .curves = {curve("KF", artefact.curve("kf")), curve("H2 case 2", artefact.curve("h2")),
                   curve("KF fading", artefact.curve("kf_fading_0.1")),
@@ -159,6 +160,7 @@ std::vector<Figure> noise_figures(const Results& results) {
            "noise of the master's velocity [m/s]. Update 10 Hz. {}.",
            runs_of(results)),
        .y_label = "heading error, 1σ [mrad]",
+       .y_range = {0.1, 1000},
        .thresholds = {1, 3},
        .curves = {curve("KF (0)", noise.curve("kf", point("0"))),
                   curve("KF (0.05)", noise.curve("kf", point("0.05"))),

@@ -82,20 +82,32 @@ Result<Flown> read_exact(const std::filesystem::path& path, const campaign::Camp
   return evaluated("exact", ours, *store);
 }
 
+template <class Wanted>
+const campaign::Answer& answer_of(const Flown& flown, std::string_view variant, std::string_view point,
+                                  Wanted&& wanted) {
+  const std::string name = point.empty() ? std::string(variant) : fmt::format("{} {}", variant, point);
+  for (const campaign::Answer& answer : flown.evaluation.answers) {
+    if (answer.variant == name && wanted(answer)) return answer;
+  }
+  // The campaigns are built into the program, and their names with them: a test asks for every one.
+  throw std::logic_error(fmt::format("campaign '{}': no such answer for '{}'", flown.name, name));
+}
+
 }  // namespace
 
 std::span<const CurvePoint> Flown::curve(std::string_view variant, std::string_view point,
                                          Quantity quantity) const {
-  const auto place = std::ranges::find_if(campaign.variants, [&](const campaign::Variant& candidate) {
-    return candidate.given == variant && candidate.point == point;
-  });
-  const std::string wanted = place == campaign.variants.end() ? std::string{} : place->name;
-  for (const campaign::Answer& answer : evaluation.answers) {
-    if (answer.variant == wanted && answer.kind == campaign::RmsCurve::kind && answer.quantity == quantity)
-      return answer.curve;
-  }
-  // The campaigns are built into the program, and their names with them: a test reads every one.
-  throw std::logic_error(fmt::format("campaign '{}': no curve of '{}' at '{}'", name, variant, point));
+  return answer_of(*this, variant, point,
+                   [&](const campaign::Answer& answer) {
+                     return answer.kind == campaign::RmsCurve::kind && answer.quantity == quantity;
+                   })
+      .curve;
+}
+
+std::string Flown::diverged_runs(std::string_view variant, std::string_view point) const {
+  return answer_of(*this, variant, point,
+                   [](const campaign::Answer& answer) { return answer.kind == campaign::Diverged::kind; })
+      .measured;
 }
 
 std::vector<const campaign::Answer*> Flown::answers(std::string_view requirement) const {

@@ -29,6 +29,8 @@ struct Flown {
   /// RMS over runs of a variant, by its name in the file and its point of the sweep; they must exist.
   [[nodiscard]] std::span<const CurvePoint> curve(std::string_view variant, std::string_view point = {},
                                                   Quantity quantity = Quantity::heading) const;
+  /// "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, where the campaign counts them.
+  [[nodiscard]] std::string diverged_runs(std::string_view variant, std::string_view point = {}) const;
   /// Answers that carry a requirement.
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
 };

@@ -66,7 +66,9 @@ TEST(PaperPage, NamesWhatIsWrongWithTheRequest) {
 }
 
 TEST(PaperPage, SaysThatGnuplotIsMissing) {
-  const std::string path = std::getenv("PATH");
+  const char* found = std::getenv("PATH");
+  ASSERT_NE(found, nullptr);
+  const std::string path = found;
   setenv("PATH", "/nowhere", 1);
   const auto there = check_gnuplot();
   setenv("PATH", path.c_str(), 1);
