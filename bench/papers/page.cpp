@@ -115,8 +115,9 @@ Result<std::string> html(const Figure& figure) {
 }
 
 std::size_t width_of(std::string_view text) {  // in characters, not bytes, of UTF-8
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  constexpr int first_of_a_character = -64;  // as signed bytes, 10xxxxxx (the rest of a character) are below
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return static_cast<signed char>(c) >= first_of_a_character; }));
 }
 
 std::string text(const Table& table) {
