@@ -9,6 +9,7 @@ build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev
+  gnuplot-nox # draws the figures of hil-bench campaign --paper
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # CMake configures the tests too
 )
 test_packages=(
