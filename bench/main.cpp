@@ -5,6 +5,7 @@
 
 #include "bench/commands/bus.hpp"
 #include "bench/commands/campaign.hpp"
+#include "bench/commands/diverge.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/run.hpp"
 
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   canhil::commands::add_run(app, code);
   canhil::commands::add_bus(app, code);
   canhil::commands::add_campaign(app, code);
+  canhil::commands::add_diverge(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -45,8 +45,9 @@ std::vector<NavigationError> navigation_errors(const Observations& seen, const w
 std::vector<Normalised> attitude_nees(const Observations& seen, const std::vector<NavigationError>& errors) {
   std::vector<Normalised> series;
   for (const FilterAnswer& answer : seen.filter) {
-    const auto after = std::ranges::upper_bound(errors, answer.cause_us, {}, &NavigationError::t_us);
-    if (after == errors.end()) break;
+    const auto after = std::ranges::upper_bound(errors, std::max(answer.cause_us, answer.navigation_us), {},
+                                                &NavigationError::t_us);
+    if (after == errors.end()) continue;
     const Eigen::LDLT<Matrix3> factor(covariance(answer));
     const bool positive = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
     // A covariance that is not positive definite after rounding explains no error at all.

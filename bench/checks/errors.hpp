@@ -28,7 +28,8 @@ struct Normalised {
 };
 
 /// Attitude NEES (3 degrees of freedom) after each velocity update: phi' P^-1 phi, with P from the sigmas and
-/// correlations on the bus and phi from the first navigation answer after the update.
+/// correlations on the bus and phi from the first navigation answer after the update: of a late fix not the
+/// answers between its time of validity and its arrival, which knew nothing of it.
 std::vector<Normalised> attitude_nees(const Observations& seen, const std::vector<NavigationError>& errors);
 
 /// When |error| of an angle enters the band for good [us]; none: it is outside at the end.

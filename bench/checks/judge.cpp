@@ -12,6 +12,8 @@
 namespace canhil::checks {
 namespace {
 
+using messages::AlignUpdate;
+using messages::AlignVelocityD;
 using world::units::mrad;
 
 constexpr double degrees_of_freedom = 3;
@@ -19,6 +21,10 @@ constexpr double degrees_of_freedom = 3;
 // The bench must keep its own deadlines to judge those of the target: a host that keeps the bench waiting for
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
 constexpr double lateness_share = 0.5;
+
+// Judged is what was answered; a target that falls silent for longer than this, or than two of its periods,
+// leaves a part of the window unjudged.
+constexpr double longest_stretch_s = 1;
 
 struct Finding {
   Outcome outcome = Outcome::not_measured;
@@ -78,7 +84,8 @@ class Judge {
     const auto part = inside(errors_, rule.window);
     const std::string expected =
         fmt::format("|error| < {:g} mrad {}", rule.below / mrad, seconds(rule.window));
-    if (part.empty()) return {Outcome::fail, "no answers", expected};
+    if (auto gap = unanswered(part, rule.window, AlignVelocityD::info.name); !gap.empty())
+      return {Outcome::fail, std::move(gap), expected};
     double worst = 0;
     for (const auto& error : part) worst = std::max(worst, std::abs(error.angles.*member(rule.axis)));
     return {pass_if(worst < rule.below), fmt::format("max {:.3f} mrad of {}", worst / mrad, part.size()),
@@ -89,7 +96,12 @@ class Judge {
     const auto t_us = convergence_us(errors_, member(rule.axis), rule.within);
     const std::string expected = fmt::format("within {:g} mrad for good before {:g} s", rule.within / mrad,
                                              static_cast<double>(rule.before_us) * 1e-6);
-    if (!t_us) return {Outcome::fail, errors_.empty() ? "no answers" : "not within at the end", expected};
+    const scenario::Window to_the_end{rule.before_us, evidence_.duration_us};
+    if (auto gap = unanswered(inside(errors_, to_the_end), to_the_end, AlignVelocityD::info.name);
+        !gap.empty()) {
+      return {Outcome::fail, std::move(gap), expected};
+    }
+    if (!t_us) return {Outcome::fail, "not within at the end", expected};
     return {pass_if(*t_us < rule.before_us), fmt::format("{:.2f} s", static_cast<double>(*t_us) * 1e-6),
             expected};
   }
@@ -97,7 +109,8 @@ class Judge {
   Finding operator()(const scenario::VelocityError& rule) const {
     const auto part = inside(errors_, rule.window);
     const std::string expected = fmt::format("|error| < {:g} m/s {}", rule.below, seconds(rule.window));
-    if (part.empty()) return {Outcome::fail, "no answers", expected};
+    if (auto gap = unanswered(part, rule.window, AlignVelocityD::info.name); !gap.empty())
+      return {Outcome::fail, std::move(gap), expected};
     double worst = 0;
     for (const auto& error : part) worst = std::max(worst, std::abs(component(error.v_eb_n, rule.axis)));
     return {pass_if(worst < rule.below), fmt::format("max {:.4f} m/s of {}", worst, part.size()), expected};
@@ -110,7 +123,8 @@ class Judge {
     const auto [low, high] = interval(rule, part.size());
     const std::string expected =
         fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(rule.window));
-    if (part.empty()) return {Outcome::fail, "no answers", expected};
+    if (auto gap = unanswered(part, rule.window, AlignUpdate::info.name); !gap.empty())
+      return {Outcome::fail, std::move(gap), expected};
     const double sum = std::accumulate(part.begin(), part.end(), 0.0,
                                        [](double s, const Normalised& n) { return s + n.value; });
     const double mean = sum / static_cast<double>(part.size());
@@ -122,12 +136,20 @@ class Judge {
     const double nominal = nominal_period_s(evidence_.seen, rule.message);
     const std::string expected =
         fmt::format("{:g} ms +- {:g} % ({})", nominal * 1e3, rule.within * 100, quantile_name(rule.quantile));
+    if (nominal <= 0) return {Outcome::not_measured, "the message has no period", expected};
     if (auto why = unfit(rule.quantile, nominal * rule.within); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
     }
-    std::vector<double> deviations = periods_s(evidence_.seen, rule.message, rule.window);
-    if (deviations.empty()) return {Outcome::fail, "fewer than two arrivals", expected};
-    for (double& period : deviations) period = std::abs(period - nominal);
+    std::vector<double> periods = periods_s(evidence_.seen, rule.message, rule.window);
+    if (periods.empty()) return {Outcome::fail, "fewer than two arrivals", expected};
+    if (const double end_s = ended_before_s(evidence_.seen, rule.message, rule.window); end_s > nominal)
+      periods.push_back(end_s);
+    // A gap in which n messages were missing counts n times, or a quantile would pass over a long one.
+    std::vector<double> deviations;
+    for (const double period : periods) {
+      const auto times = static_cast<std::size_t>(std::max(1.0, std::round(period / nominal)));
+      deviations.insert(deviations.end(), times, std::abs(period - nominal));
+    }
     const std::size_t count = deviations.size();
     const double value = quantile(std::move(deviations), rule.quantile);
     return {pass_if(value <= nominal * rule.within), fmt::format("{:.3f} ms off, of {}", value * 1e3, count),
@@ -172,16 +194,33 @@ class Judge {
     if (auto why = unfit(1, static_cast<double>(rule.silent_at_most_us) * 1e-6); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
     }
-    const Distribution gaps = distribution(
-        periods_s(evidence_.seen, messages::TargetHeartbeat::info.name, {0, evidence_.duration_us}));
-    if (gaps.count == 0) return {Outcome::fail, "fewer than two heartbeats", expected};
-    return {pass_if(gaps.max * 1e6 <= static_cast<double>(rule.silent_at_most_us)),
-            fmt::format("longest gap {:.3f} s of {}", gaps.max, gaps.count), expected};
+    const double gap_s = longest_silence_s(evidence_.seen, messages::TargetHeartbeat::info.name);
+    return {pass_if(gap_s * 1e6 <= static_cast<double>(rule.silent_at_most_us)),
+            fmt::format("longest gap {:.3f} s", gap_s), expected};
   }
 
  private:
   static std::string quantile_name(double q) {
     return q >= 1 ? "max" : fmt::format("{:g} % quantile", q * 100);
+  }
+
+  // Where in the window answers are missing; empty: nowhere.
+  template <class Series>
+  [[nodiscard]] std::string unanswered(const Series& part, const scenario::Window& window,
+                                       std::string_view message) const {
+    if (part.empty()) return "no answers";
+    const double longest_us =
+        1e6 * std::max(longest_stretch_s, 2 * nominal_period_s(evidence_.seen, message));
+    std::int64_t from_us = window.from_us;
+    const auto gap_to = [&](std::int64_t t_us) {
+      return static_cast<double>(t_us - from_us) > longest_us ? seconds({from_us, t_us}) : std::string();
+    };
+    for (const auto& item : part) {
+      if (auto gap = gap_to(item.t_us); !gap.empty()) return "no answers " + gap;
+      from_us = item.t_us;
+    }
+    auto gap = gap_to(std::min(window.to_us, evidence_.duration_us));
+    return gap.empty() ? gap : "no answers " + gap;
   }
 
   // Why timing with this bar cannot be judged; empty: it can.
@@ -231,6 +270,10 @@ Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
   const Judge judge(evidence);
   for (const scenario::Check& check : scenario.checks) {
     Finding finding = std::visit(judge, check.rule);
+    if (!evidence.ended_early.empty()) {  // what was seen until then proves nothing either way
+      finding.outcome = Outcome::not_measured;
+      finding.measured = "the run ended early";
+    }
     verdict.checks.push_back({.name = check.name,
                               .kind = std::string(scenario::kind(check)),
                               .requirement = check.requirement,

@@ -22,8 +22,8 @@ struct Evidence {
 /// Judges every check of the scenario. A run that ended early fails, whatever its checks say.
 Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence);
 
-/// Why the bench's own timing forbids to judge the target's: drops, overflow, late transmissions. Empty: it
-/// does not.
+/// Why no timing of this run can be judged: frames of the target were lost on the way. Empty: it can, as far
+/// as the bench kept its own deadlines, which each check asks by its bar.
 std::string unfit_for_timing(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -22,6 +22,7 @@ struct NavigationAnswer {
 /// Group AlignFilter: the filter after the velocity update at the time of a master INS sample. SI, rad.
 struct FilterAnswer {
   std::int64_t cause_us = 0;
+  std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
   double nis = 0;
   world::Vector3 innovation = world::Vector3::Zero();
   world::Vector3 attitude_sigma = world::Vector3::Zero();        ///< of the misalignment, NED
@@ -51,6 +52,8 @@ struct Observations {
   std::array<std::vector<Arrival>, messages::all_messages.size()> arrivals;  ///< by place in all_messages
   std::vector<Stimulus> slave_imu;
   std::vector<Stimulus> master_ins;
+  std::int64_t first_ns = 0;              ///< stamp of the bench's first transmission
+  std::int64_t last_ns = 0;               ///< and of its last one
   std::vector<std::int64_t> lateness_ns;  ///< of every transmission of the bench against its deadline
   bool transmit_stamps_echoed = false;    ///< stamps of stimuli are the bus's, not the bench's
 

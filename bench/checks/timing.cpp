@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace canhil::checks {
 namespace {
@@ -46,12 +48,6 @@ Distribution distribution(std::vector<double> sample) {
       .count = sample.size(), .min = sample.front(), .p50 = at(0.5), .p99 = at(0.99), .max = sample.back()};
 }
 
-bool answers_a_stimulus(std::string_view message) {
-  const MessageInfo* info = info_of(message);
-  static const Observations nothing;
-  return info != nullptr && stimuli_of(nothing, *info) != nullptr;
-}
-
 std::vector<double> latencies_s(const Observations& seen, std::string_view message,
                                 const scenario::Window& window) {
   std::vector<double> sample;
@@ -72,13 +68,44 @@ std::vector<double> periods_s(const Observations& seen, std::string_view message
   std::vector<double> sample;
   const MessageInfo* info = info_of(message);
   if (info == nullptr) return sample;
+  const bool answers = stimuli_of(seen, *info) != nullptr;
   const Arrival* before = nullptr;
   for (const Arrival& arrival : arrivals_of(seen, *info)) {
-    if (arrival.cause_us >= 0 && !within(window, arrival.cause_us)) continue;
+    if (answers && !within(window, arrival.cause_us)) continue;
     if (before != nullptr) sample.push_back(static_cast<double>(arrival.t_ns - before->t_ns) * 1e-9);
     before = &arrival;
   }
   return sample;
+}
+
+double longest_silence_s(const Observations& seen, std::string_view message) {
+  const MessageInfo* info = info_of(message);
+  std::int64_t longest_ns = 0;
+  std::int64_t before_ns = seen.first_ns;
+  if (info != nullptr) {
+    for (const Arrival& arrival : arrivals_of(seen, *info)) {
+      longest_ns = std::max(longest_ns, arrival.t_ns - before_ns);
+      before_ns = arrival.t_ns;
+    }
+  }
+  return static_cast<double>(std::max(longest_ns, seen.last_ns - before_ns)) * 1e-9;
+}
+
+double ended_before_s(const Observations& seen, std::string_view message, const scenario::Window& window) {
+  const MessageInfo* info = info_of(message);
+  const std::vector<Stimulus>* stimuli = info == nullptr ? nullptr : stimuli_of(seen, *info);
+  std::int64_t end_ns = seen.last_ns;
+  if (stimuli != nullptr) {
+    const auto after = std::ranges::upper_bound(*stimuli, window.to_us, {}, &Stimulus::valid_us);
+    if (after != stimuli->begin()) end_ns = std::prev(after)->t_ns;
+  }
+  double ended_s = std::numeric_limits<double>::infinity();
+  if (info == nullptr) return ended_s;
+  for (const Arrival& arrival : arrivals_of(seen, *info)) {
+    if (stimuli == nullptr || within(window, arrival.cause_us))
+      ended_s = static_cast<double>(end_ns - arrival.t_ns) * 1e-9;
+  }
+  return ended_s;
 }
 
 double nominal_period_s(const Observations& seen, std::string_view message) {

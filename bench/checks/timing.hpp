@@ -28,14 +28,18 @@ double quantile(std::vector<double> sample, double q);
 std::vector<double> latencies_s(const Observations& seen, std::string_view message,
                                 const scenario::Window& window);
 
-/// Time [s] between successive arrivals of a message. With a window: of answers to causes within it.
+/// Time [s] between successive arrivals of a message: of answers, to causes within the window.
 std::vector<double> periods_s(const Observations& seen, std::string_view message,
                               const scenario::Window& window);
+
+/// The longest time [s] without a message, the beginning and the end of the run included.
+double longest_silence_s(const Observations& seen, std::string_view message);
 
 /// The period [s] a message should have: that of its stimulus as it was sent, or its cycle time in the DBC.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
-/// Whether a message answers a stimulus at all, and so has a latency.
-bool answers_a_stimulus(std::string_view message);
+/// How much later [s] than its stimuli within the window a message ended: from its last arrival to the last
+/// stimulus; infinite without any arrival, 0 or less for a message that went on to the end.
+double ended_before_s(const Observations& seen, std::string_view message, const scenario::Window& window);
 
 }  // namespace canhil::checks

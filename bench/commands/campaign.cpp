@@ -15,6 +15,7 @@
 #include "bench/campaign/report.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/paper.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/text.hpp"
 #include "bench/run/session.hpp"
@@ -236,12 +237,24 @@ void add_campaign(CLI::App& app, int& code) {
   command->add_flag("--resume", arguments->resume, "go on with results that are there");
   command->add_option("--json", arguments->json,
                       "write the report as JSON to a file; -: to stdout, in place of the text");
+  auto paper = std::make_shared<PaperArguments>();
+  CLI::Option* name = command->add_option(
+      "--paper", paper->paper, "in place of FILE: what a paper claims, with a page of figures: transfer");
+  command->add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
+      ->needs(name);
+  name->excludes(file);
   command->require_subcommand(0, 1);
   add_merge(*command, code);
   add_report(*command, code);
   add_replay(*command, code);
-  command->callback([&code, arguments, command, file] {
+  command->callback([&code, arguments, paper, command, file, name] {
     if (!command->get_subcommands().empty()) return;
+    if (!name->empty()) {
+      paper->folder = arguments->out;
+      paper->runs = arguments->runs;
+      code = static_cast<int>(reproduce_paper(*paper));
+      return;
+    }
     if (file->empty()) throw CLI::RequiredError("FILE, or merge, report or replay");
     code = static_cast<int>(execute(*arguments));
   });

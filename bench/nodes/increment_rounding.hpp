@@ -10,22 +10,25 @@
 
 namespace canhil::nodes {
 
-/// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders.
+/// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders. A float
+/// rounds nothing: only what its range cuts off remains.
 class IncrementRounding {
  public:
   explicit IncrementRounding(const SignalInfo& signal)
-      : lsb_(signal.scale), minimum_(signal.minimum), maximum_(signal.maximum) {}
+      : lsb_(wire::lsb(signal)), minimum_(signal.minimum), maximum_(signal.maximum) {}
 
   /// sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the signal.
   world::Vector3 round(const world::Vector3& increment) {
     const world::Vector3 wanted = increment + remainder_;
-    const world::Vector3 sent = wanted.unaryExpr(
-        [this](double x) { return std::clamp(std::nearbyint(x / lsb_) * lsb_, minimum_, maximum_); });
+    const world::Vector3 sent =
+        wanted.unaryExpr([this](double x) { return std::clamp(nearest(x), minimum_, maximum_); });
     remainder_ = wanted - sent;
     return sent;
   }
 
  private:
+  [[nodiscard]] double nearest(double x) const { return lsb_ == 0 ? x : std::nearbyint(x / lsb_) * lsb_; }
+
   double lsb_;
   double minimum_;
   double maximum_;

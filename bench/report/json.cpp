@@ -29,7 +29,8 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                         {"run", run.options.run_index},
                         {"bus", run.options.bus},
                         {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
-                        {"latency_stamps", summary.stamp_source}};
+                        {"latency_stamps", summary.stamp_source},
+                        {"period_overrides", period_overrides(scenario)}};
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
   page["ending"] = {{"completed", run.ending.kind == run::Ending::Kind::completed},
@@ -73,7 +74,8 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                          {"frames_lost", run.seen.target_frames_lost},
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};
-  return page.dump(2) + "\n";
+  // File and bus names need not be UTF-8.
+  return page.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace canhil::report

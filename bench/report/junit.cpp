@@ -39,10 +39,13 @@ std::string junit(const scenario::Scenario& scenario, const run::Run& run) {
   // The run as a whole is a case of its own: a run that ended early fails even if no check does.
   std::vector<CheckResult> cases = run.verdict.checks;
   const bool early = run.ending.kind != run::Ending::Kind::completed;
+  const bool interrupted = run.ending.kind == run::Ending::Kind::interrupted;
   cases.insert(cases.begin(), CheckResult{.name = "run completes",
                                           .kind = "run",
                                           .requirement = "",
-                                          .outcome = early ? Outcome::fail : Outcome::pass,
+                                          .outcome = interrupted ? Outcome::not_measured
+                                                     : early     ? Outcome::fail
+                                                                 : Outcome::pass,
                                           .measured = early ? run.ending.detail : "completed",
                                           .expected = "completed"});
   const auto count = [&](Outcome outcome) {

@@ -1,5 +1,7 @@
 #include "bench/report/summary.hpp"
 
+#include <fmt/format.h>
+
 #include "bench/checks/errors.hpp"
 #include "bench/world/units.hpp"
 
@@ -43,6 +45,19 @@ Summary summarise(const run::Run& run) {
                              ? "bus stamps of stimulus and answer"
                              : "bench's stamp of the stimulus, bus stamp of the answer";
   return summary;
+}
+
+std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
+  std::vector<std::string> lines;
+  const auto add = [&](const auto& node, const MessageInfo& info) {
+    if (!node || !node->schedule.period_us || *node->schedule.period_us == info.cycle_time_us) return;
+    lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", info.sample_group,
+                                static_cast<double>(*node->schedule.period_us) * 1e-3,
+                                static_cast<double>(info.cycle_time_us) * 1e-3));
+  };
+  add(scenario.slave_imu, messages::SlaveImuStatus::info);
+  add(scenario.master_ins, messages::MasterInsVelocityD::info);
+  return lines;
 }
 
 }  // namespace canhil::report

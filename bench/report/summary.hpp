@@ -36,4 +36,7 @@ struct Summary {
 
 Summary summarise(const run::Run& run);
 
+/// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
+std::vector<std::string> period_overrides(const scenario::Scenario& scenario);
+
 }  // namespace canhil::report

@@ -32,9 +32,12 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   auto out = std::back_inserter(page);
 
   fmt::format_to(out, "{}\n", scenario.title);
-  fmt::format_to(out, "  scenario {} · bus {} · {} · {:g} s in {:.2f} s\n\n", scenario.file, run.options.bus,
+  fmt::format_to(out, "  scenario {} · bus {} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
                  run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time",
                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
+
+  for (const std::string& line : period_overrides(scenario)) fmt::format_to(out, "  {}\n", line);
+  page += '\n';
 
   std::size_t width = 5;
   for (const checks::CheckResult& check : run.verdict.checks) width = std::max(width, check.name.size());

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/run/heard.hpp"
+
 namespace canhil::run {
 namespace {
 
@@ -14,30 +16,35 @@ using namespace messages;
 constexpr std::int64_t repeat_ns = 300'000'000;        // longer than a heartbeat period
 constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
 constexpr std::int64_t answer_limit_ns = 2'000'000'000;
+constexpr std::int64_t several_syncs_ns = 8 * Sync::info.cycle_time_us * 1000;
 constexpr std::int64_t poll_ns = 20'000'000;
 
 // The latest answers of the target to commands.
 class Mailbox final : public Observer {
  public:
   void received(const Received& received) override {
-    const Frame& frame = received.frame;
-    if (received.own || frame.error) return;
-    if (frame.id == TargetHeartbeat::info.id && intact<TargetHeartbeat>(frame)) {
-      heartbeat = from_frame<TargetHeartbeat>(frame);
-    } else if (frame.id == ParamAck::info.id && intact<ParamAck>(frame)) {
-      acknowledgement = from_frame<ParamAck>(frame);
-    }
+    if (const auto beat = heard<TargetHeartbeat>(received)) heartbeat = beat;
+    if (const auto ack = heard<ParamAck>(received)) acknowledgement = ack;
+    if (heard<Sync>(received)) other_bench = true;
   }
   std::optional<TargetHeartbeat> heartbeat;
   std::optional<ParamAck> acknowledgement;
-
- private:
-  template <class Message>
-  static bool intact(const Frame& frame) {
-    return frame.size == Message::size &&
-           frame.data[0] == e2e::crc(frame.payload(), Message::info.e2e_data_id);
-  }
+  bool other_bench = false;  // somebody else keeps the time base
 };
+
+std::string errors_of(const TargetHeartbeat& heartbeat) {
+  std::string text;
+  const auto add = [&](bool set, std::string_view name) {
+    if (set) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+  };
+  add(heartbeat.error_dbc_mismatch != 0, "dbc_mismatch");
+  add(heartbeat.error_not_initialised != 0, "not_initialised");
+  add(heartbeat.error_input_lost != 0, "input_lost");
+  add(heartbeat.error_input_silent != 0, "input_silent");
+  add(heartbeat.error_numeric != 0, "numeric");
+  add(heartbeat.error_command != 0, "command");
+  return text.empty() ? "none" : text;
+}
 
 // Sends commands and waits for what they should bring about.
 class Dialogue {
@@ -56,21 +63,36 @@ class Dialogue {
         if (auto sent = send(request); !sent) return sent;
         repeat_at_ns = now_ns() + repeat_ns;
       }
-      link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
       if (link_.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
       if (condition(mailbox_)) return {};
-      if (const auto why = gone_()) return failure(fmt::format("target: {} while {}", *why, what));
-      if (now_ns() >= deadline_ns) {
-        return failure(fmt::format("target on '{}': no answer within {:g} s while {}", link_.port().name(),
-                                   static_cast<double>(limit_ns) * 1e-9, what));
-      }
+      if (const auto why = gone_()) return failure(fmt::format("{} while {}", *why, what));
+      if (now_ns() >= deadline_ns) return failure(complaint(what, limit_ns));
+      link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
     }
+  }
+
+  // Hears whatever comes for a while.
+  void listen(std::int64_t duration_ns) {
+    const std::int64_t deadline_ns = now_ns() + duration_ns;
+    while (now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
   }
 
   Mailbox& mailbox() { return mailbox_; }
 
  private:
+  // A target that beats and does not do as it was told has a reason.
+  [[nodiscard]] std::string complaint(std::string_view what, std::int64_t limit_ns) const {
+    const double limit_s = static_cast<double>(limit_ns) * 1e-9;
+    if (!mailbox_.heartbeat) {
+      return fmt::format("target on '{}': no answer within {:g} s while {}", link_.port().name(), limit_s,
+                         what);
+    }
+    return fmt::format("target on '{}': no answer within {:g} s while {}; its state is {}, its errors: {}",
+                       link_.port().name(), limit_s, what, name_of(mailbox_.heartbeat->state),
+                       errors_of(*mailbox_.heartbeat));
+  }
+
   template <class Request>
   Result<void> send(Request& request) {
     out_.clear();
@@ -94,20 +116,6 @@ class Dialogue {
 
 TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
   return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
-}
-
-std::string errors_of(const TargetHeartbeat& heartbeat) {
-  std::string text;
-  const auto add = [&](bool set, std::string_view name) {
-    if (set) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
-  };
-  add(heartbeat.error_dbc_mismatch != 0, "dbc_mismatch");
-  add(heartbeat.error_not_initialised != 0, "not_initialised");
-  add(heartbeat.error_input_lost != 0, "input_lost");
-  add(heartbeat.error_input_silent != 0, "input_silent");
-  add(heartbeat.error_numeric != 0, "numeric");
-  add(heartbeat.error_command != 0, "command");
-  return text.empty() ? "none" : text;
 }
 
 Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted) {
@@ -153,6 +161,11 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
       "waiting for its heartbeat", find_limit_ns, [](nodes::Transmission&) {},
       [](const Mailbox& mailbox) { return mailbox.heartbeat.has_value(); });
   if (!found) return found;
+  if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
+  if (box.other_bench) {
+    return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one",
+                               link.port().name()));
+  }
   if (box.heartbeat->dbc_hash != dbc_hash24) {
     return failure(
         fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
@@ -166,7 +179,8 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
       [&](nodes::Transmission& o) { o.send(command(Command::reset, *estimator, *algorithm)); },
       [&](const Mailbox& mailbox) {
         return mailbox.heartbeat && mailbox.heartbeat->state == TargetState::idle &&
-               (mailbox.heartbeat->estimator == *estimator || mailbox.heartbeat->error_command != 0);
+               ((mailbox.heartbeat->estimator == *estimator && mailbox.heartbeat->algorithm == *algorithm) ||
+                mailbox.heartbeat->error_command != 0);
       });
   if (!reset) return reset;
   if (box.heartbeat->error_command != 0) {

@@ -15,7 +15,7 @@ namespace canhil::run {
 
 /// Waits for the target's heartbeat and checks its DBC hash, resets it, sets and reads back every parameter,
 /// sends the initial state with its sigmas, starts it. Each step is repeated until it is acknowledged. `gone`
-/// says why the target cannot answer any more, if that is known. Error: one line.
+/// says why there is no point in waiting any more, if so ("target: exited with 1"). Error: one line.
 Result<void> configure(Link& link, nodes::Transmission& out, const scenario::TargetSetup& setup,
                        const InitialState& initial, const std::function<std::optional<std::string>()>& gone);
 

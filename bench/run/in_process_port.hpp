@@ -1,8 +1,8 @@
 // A Device held directly: the bus without a bus.
 #pragma once
 
-#include <deque>
 #include <string>
+#include <vector>
 
 #include "dbc/ports/port.hpp"
 #include "target/device/device.hpp"
@@ -10,6 +10,7 @@
 namespace canhil::run {
 
 /// A port whose other end is a Device in this process: send() runs the device, receive() gives its answers.
+/// The host's clock plays no part: every stamp is 0.
 class InProcessPort final : public Port {
  public:
   InProcessPort() { append(device_.idle_heartbeat()); }
@@ -20,18 +21,20 @@ class InProcessPort final : public Port {
     return SendOutcome::sent;
   }
   std::optional<Received> receive() override {
-    if (answers_.empty()) return std::nullopt;
-    Received received{
-        .frame = answers_.front(), .t_ns = 0, .source = StampSource::virtual_time, .own = false};
-    answers_.pop_front();
+    if (next_ == answers_.size()) {
+      answers_.clear();
+      next_ = 0;
+      return std::nullopt;
+    }
     ++counters_.received;
-    return received;
+    return Received{.frame = answers_[next_++], .t_ns = 0, .source = StampSource::virtual_time};
   }
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] RoomWait room_wait() const override { return {}; }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
+  [[nodiscard]] std::int64_t now_ns() const override { return 0; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
@@ -40,7 +43,8 @@ class InProcessPort final : public Port {
   }
 
   target::Device device_;
-  std::deque<Frame> answers_;
+  std::vector<Frame> answers_;
+  std::size_t next_ = 0;  // the first of answers_ that was not received yet
   PortCounters counters_;
   std::string name_ = "in-process";
 };

@@ -2,11 +2,12 @@
 
 namespace canhil::run {
 
-LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::int64_t late_ns) {
-  const std::int64_t deadline_ns = clock_ns(CLOCK_MONOTONIC) + patience_ns;
+LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns) {
+  std::int64_t deadline_ns = 0;  // looked up when it matters: most frames are taken at once
   for (;;) {
     // The stamp is taken before: the answer of a fast target must not precede it.
-    const std::int64_t t_ns = clock_ns(port_.stamp_clock());
+    const std::int64_t t_ns = port_.now_ns();
+    const std::int64_t late_ns = due_ns ? clock_ns(CLOCK_MONOTONIC) - *due_ns : 0;
     switch (port_.send(frame)) {
       case SendOutcome::sent:
         for (Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
@@ -17,7 +18,9 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::int64_t 
       case SendOutcome::queue_full:
         break;
     }
-    if (clock_ns(CLOCK_MONOTONIC) >= deadline_ns) return LinkState::congested;
+    const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
+    if (deadline_ns == 0) deadline_ns = now_ns + patience_ns;
+    if (now_ns >= deadline_ns) return LinkState::congested;
     // What fills the queue may be a target that waits for us to read its answers.
     if (drain() == LinkState::down) return LinkState::down;
     wait(port_, WaitFor::room, deadline_ns);

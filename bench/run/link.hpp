@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "dbc/ports/port.hpp"
@@ -33,8 +34,9 @@ class Link {
   void detach(Observer& observer) { std::erase(observers_, &observer); }
 
   /// Hands a frame to the bus. While the bus has no room it receives, until `patience_ns` from now; then
-  /// `congested`.
-  LinkState send(const Frame& frame, std::int64_t patience_ns, std::int64_t late_ns = 0);
+  /// `congested`. `due_ns`: its deadline on CLOCK_MONOTONIC, if it has one; waiting for room makes it late.
+  LinkState send(const Frame& frame, std::int64_t patience_ns,
+                 std::optional<std::int64_t> due_ns = std::nullopt);
 
   /// Shows every waiting frame to the observers, without blocking; `down` once the bus is gone.
   LinkState drain();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/heard.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::run {
@@ -17,12 +18,9 @@ class StepWatch final : public Observer {
     done_ = false;
   }
   void received(const Received& received) override {
-    const Frame& frame = received.frame;
-    if (frame.id == messages::StepDone::info.id) {
-      done_ = done_ || from_frame<messages::StepDone>(frame).step == awaited_;
-    } else if (frame.id == messages::TargetHeartbeat::info.id) {
-      fault_ = from_frame<messages::TargetHeartbeat>(frame).state == messages::TargetState::fault;
-    }
+    if (const auto done = heard<messages::StepDone>(received)) done_ = done_ || done->step == awaited_;
+    if (const auto beat = heard<messages::TargetHeartbeat>(received))
+      fault_ = beat->state == messages::TargetState::fault;
   }
   [[nodiscard]] std::uint16_t awaited() const { return awaited_; }
   [[nodiscard]] bool done() const { return done_; }
@@ -41,10 +39,11 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
   StepWatch watch;
   const Attached attached(link, watch);
   std::int64_t progress_due_us = 0;
+  std::int64_t t_us = 0;
   constexpr std::int64_t progress_period_us = 1'000'000;
 
   while (schedule.due_us() != nodes::never_us) {
-    const std::int64_t t_us = schedule.due_us();
+    t_us = schedule.due_us();
     if (t_us >= progress_due_us) {
       progress(t_us);
       progress_due_us = t_us + progress_period_us;
@@ -61,14 +60,16 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
       }
     }
     if (!closes_step) continue;
-    const std::int64_t deadline_ns = now_ns() + step_limit_ns;
+    std::int64_t deadline_ns = 0;  // from the first wait on: a target in this process has answered already
     while (!watch.done()) {
       if (link.drain() == LinkState::down) {
         return {Ending::Kind::bus_down, t_us, "the bus is gone"};
       }
       if (watch.done()) break;
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
-      if (now_ns() > deadline_ns) {
+      const std::int64_t now = now_ns();
+      if (deadline_ns == 0) deadline_ns = now + step_limit_ns;
+      if (now > deadline_ns) {
         return {Ending::Kind::target_silent, t_us,
                 fmt::format("target silent since t={:.3f} s: step {} was not answered",
                             static_cast<double>(t_us) * 1e-6, watch.awaited())};
@@ -77,7 +78,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
     }
     if (watch.fault()) return {Ending::Kind::target_fault, t_us, "the target reported a fault"};
   }
-  return {Ending::Kind::completed, 0, ""};
+  return {Ending::Kind::completed, t_us, ""};
 }
 
 }  // namespace canhil::run

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/world/units.hpp"
+#include "dbc/wire/routes.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::run {
@@ -13,6 +14,10 @@ using world::Vector3;
 using world::units::deg;
 using world::units::degph;
 using world::units::ug;
+
+constexpr Routes target_messages([](const MessageInfo& info) {
+  return info.sender == TargetHeartbeat::info.sender;
+});
 
 // The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
 void restamp(std::vector<checks::Stimulus>& stimuli, std::int64_t valid_us, std::int64_t t_ns) {
@@ -25,6 +30,8 @@ void restamp(std::vector<checks::Stimulus>& stimuli, std::int64_t valid_us, std:
 }  // namespace
 
 void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
+  if (seen_.lateness_ns.empty()) seen_.first_ns = t_ns;
+  seen_.last_ns = t_ns;
   seen_.lateness_ns.push_back(late_ns);
   if (frame.id == Sync::info.id) {
     now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
@@ -52,13 +59,13 @@ void Monitor::echoed(const Received& received) {
 void Monitor::received(const Received& received) {
   if (received.own) return echoed(received);
   const Frame& frame = received.frame;
-  const MessageInfo* info = frame.error ? nullptr : find_message(frame.id, frame.extended);
-  if (info == nullptr || info->sender != TargetHeartbeat::info.sender) return;
+  const std::size_t index = target_messages(frame);
+  if (index == Routes::nowhere) return;
+  const MessageInfo* info = &all_messages[index];
   if (frame.size != info->size || frame.fd != info->fd) {
     ++seen_.target_bad_crc;
     return;
   }
-  const auto index = static_cast<std::size_t>(info - all_messages.data());
   switch (receivers_[index].check(frame.payload(), info->e2e_data_id)) {
     case e2e::Check::wrong_crc:
       ++seen_.target_bad_crc;
@@ -131,6 +138,12 @@ void Monitor::put_filter(const Frame& frame, std::uint8_t counter) {
   if (filter_.put(from_frame<Message>(frame), counter) == Group::Outcome::complete) on_filter();
 }
 
+// Gives the newest arrival of every message of a whole group its cause.
+template <class... Messages>
+void Monitor::attribute(std::int64_t cause_us) {
+  ((seen_.arrivals[message_index<Messages>()].back().cause_us = cause_us), ...);
+}
+
 void Monitor::on_navigation() {
   const auto& attitude = navigation_.get<AlignAttitude>();
   const auto& horizontal = navigation_.get<AlignVelocityNE>();
@@ -142,7 +155,7 @@ void Monitor::on_navigation() {
        .v_eb_n =
            Vector3(horizontal.velocity_north_mps, horizontal.velocity_east_mps, vertical.velocity_down_mps),
        .coasting = attitude.coasting != 0});
-  attribute(AlignVelocityD::info.sample_group, cause_us);
+  attribute<AlignAttitude, AlignVelocityNE, AlignVelocityD>(cause_us);
 }
 
 void Monitor::on_filter() {
@@ -156,6 +169,7 @@ void Monitor::on_filter() {
   const std::int64_t cause_us = unwrap_us(update.cause_time_us, now_us_);
   seen_.filter.push_back(
       {.cause_us = cause_us,
+       .navigation_us = seen_.navigation.empty() ? -1 : seen_.navigation.back().cause_us,
        .nis = update.nis,
        .innovation = {innovation.innovation_north_mps, innovation.innovation_east_mps,
                       innovation.innovation_down_mps},
@@ -167,15 +181,8 @@ void Monitor::on_filter() {
                           velocity.velocity_sigma_down_mps},
        .gyro_bias = Vector3(gyro.gyro_bias_x_degph, gyro.gyro_bias_y_degph, gyro.gyro_bias_z_degph) * degph,
        .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug});
-  attribute(AlignUpdate::info.sample_group, cause_us);
-}
-
-// Gives the newest arrival of every message of a whole group its cause.
-void Monitor::attribute(std::string_view group, std::int64_t cause_us) {
-  for (std::size_t i = 0; i < all_messages.size(); ++i) {
-    if (all_messages[i].sample_group == group && !seen_.arrivals[i].empty())
-      seen_.arrivals[i].back().cause_us = cause_us;
-  }
+  attribute<AlignInnovation, AlignAttitudeSigma, AlignAttitudeCorrelation, AlignVelocitySigma, AlignGyroBias,
+            AlignGyroBiasSigma, AlignAccelBias, AlignAccelBiasSigma, AlignUpdate>(cause_us);
 }
 
 }  // namespace canhil::run

@@ -7,6 +7,7 @@
 #include "bench/run/link.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/sample_group.hpp"
+#include "dbc/wire/transmit.hpp"
 
 namespace canhil::run {
 
@@ -24,7 +25,8 @@ class Monitor final : public Observer {
   void decode(const Frame& frame, std::uint8_t counter);
   void on_navigation();
   void on_filter();
-  void attribute(std::string_view group, std::int64_t cause_us);
+  template <class... Messages>
+  void attribute(std::int64_t cause_us);
   template <class Message>
   void put_navigation(const Frame& frame, std::uint8_t counter);
   template <class Message>

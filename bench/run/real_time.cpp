@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "bench/run/heard.hpp"
+#include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::run {
@@ -16,21 +18,19 @@ constexpr std::int64_t lead_ns = 20'000'000;           // from here to the first
 constexpr std::int64_t last_answers_ns = 150'000'000;  // longer than a heartbeat period
 constexpr std::int64_t progress_period_us = 100'000;
 
-bool from_target(const Frame& frame) {
-  const MessageInfo* info = messages::find_message(frame.id, frame.extended);
-  return info != nullptr && info->sender == messages::TargetHeartbeat::info.sender;
-}
+constexpr Routes target_messages([](const MessageInfo& info) {
+  return info.sender == messages::TargetHeartbeat::info.sender;
+});
 
 // When the target was last heard and whether it gave up.
 class TargetWatch final : public Observer {
  public:
   explicit TargetWatch(std::int64_t heard_ns) : heard_ns_(heard_ns) {}
   void received(const Received& received) override {
-    const Frame& frame = received.frame;
-    if (received.own || !from_target(frame)) return;
+    if (received.own || target_messages(received.frame) == Routes::nowhere) return;
     heard_ns_ = now_ns();
-    if (frame.id != messages::TargetHeartbeat::info.id) return;
-    fault_ = from_frame<messages::TargetHeartbeat>(frame).state == messages::TargetState::fault;
+    if (const auto beat = heard<messages::TargetHeartbeat>(received))
+      fault_ = beat->state == messages::TargetState::fault;
   }
   [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
   [[nodiscard]] bool fault() const { return fault_; }
@@ -74,7 +74,7 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
     const std::int64_t due_ns = start_ns + due_us * ns_per_us;
     if (auto ending = receive_until(due_ns)) return *ending;
     for (const Frame& frame : schedule.take()) {
-      switch (link.send(frame, silence_limit_ns, now_ns() - due_ns)) {
+      switch (link.send(frame, silence_limit_ns, due_ns)) {
         case LinkState::up:
           break;
         case LinkState::congested:

@@ -22,7 +22,7 @@ Recorder::Recorder(LogWriter writer, std::string path, const Port& port)
     : writer_(std::move(writer)),
       path_(std::move(path)),
       interface_(port.name()),
-      to_realtime_ns_(clock_ns(CLOCK_REALTIME) - clock_ns(port.stamp_clock())) {}
+      to_realtime_ns_(clock_ns(CLOCK_REALTIME) - port.now_ns()) {}
 
 Recorder::~Recorder() {
   if (!closed_) std::remove(unfinished(path_).c_str());

@@ -1,6 +1,7 @@
 // Which node transmits next: the one order of transmissions, for real time and for lockstep.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,15 +17,19 @@ class Schedule {
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper)
       : nodes_(std::move(sensors)) {
     nodes_.push_back(std::move(keeper));
+    for (const auto& node : nodes_) due_us_.push_back(node->due_us());
+    find_next();
   }
 
   /// When the next transmission is due; nodes::never_us after the last one.
-  [[nodiscard]] std::int64_t due_us() const { return next().due_us(); }
+  [[nodiscard]] std::int64_t due_us() const { return due_us_[next_]; }
 
   /// Takes the next transmission; the frames are valid until the next call.
   std::span<const Frame> take() {
     out_.clear();
-    next().transmit(out_);
+    nodes_[next_]->transmit(out_);
+    due_us_[next_] = nodes_[next_]->due_us();
+    find_next();
     return out_.frames();
   }
 
@@ -32,14 +37,14 @@ class Schedule {
   nodes::Transmission& outbox() { return out_; }
 
  private:
-  [[nodiscard]] nodes::Node& next() const {
-    nodes::Node* first = nodes_.front().get();
-    for (const auto& node : nodes_) {
-      if (node->due_us() < first->due_us()) first = node.get();
-    }
-    return *first;
+  void find_next() {
+    next_ =
+        static_cast<std::size_t>(std::ranges::min_element(due_us_) - due_us_.begin());  // the first of equals
   }
+
   std::vector<std::unique_ptr<nodes::Node>> nodes_;
+  std::vector<std::int64_t> due_us_;  // of each node
+  std::size_t next_ = 0;
   nodes::Transmission out_;
 };
 

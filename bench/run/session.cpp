@@ -37,10 +37,13 @@ Result<std::unique_ptr<Port>> open(const std::string& bus) {
 Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                 const std::atomic<bool>& stop_requested, const Progress& progress) {
   const bool lockstep = options.clock == ClockKind::lockstep;
+  const auto in_file = [&](const Error& error) {
+    return failure(fmt::format("{}: {}", scenario.file, error.message));
+  };
   auto truth = make_truth(scenario);
-  if (!truth) return tl::unexpected(truth.error());
+  if (!truth) return in_file(truth.error());
   const auto initial = make_initial_state(scenario, *truth, options.run_index);
-  if (!initial) return tl::unexpected(initial.error());
+  if (!initial) return in_file(initial.error());
 
   auto port = open(options.bus);
   if (!port) return tl::unexpected(port.error());
@@ -58,7 +61,12 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (!started) return tl::unexpected(started.error());
     target.emplace(std::move(*started));
   }
-  const auto gone = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
+  const auto ended = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
+  const auto gone = [&]() -> std::optional<std::string> {
+    if (stop_requested) return "interrupted";
+    const auto why = ended();
+    return why ? std::optional("target: " + *why) : std::nullopt;
+  };
 
   Schedule schedule = make_schedule(scenario, *truth, options.run_index, lockstep);
   if (auto configured = configure(link, schedule.outbox(), scenario.target, *initial, gone); !configured) {
@@ -72,7 +80,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                            : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
   link.detach(monitor);
-  if (const auto why = gone(); why && ending.kind == Ending::Kind::target_silent) {
+  if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
     ending.detail += fmt::format(" (its process {})", *why);
   }
   stop(link, schedule.outbox());

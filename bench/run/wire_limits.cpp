@@ -10,9 +10,9 @@ namespace {
 
 std::string complaint(std::string_view what, double value, const MessageInfo& message,
                       const SignalInfo& signal) {
-  return fmt::format("scenario: {} {:g} {} does not fit into {}.{}, expected {:g} to {:g} in steps of {:g}",
-                     what, value, signal.unit, message.name, signal.name, signal.minimum, signal.maximum,
-                     signal.scale);
+  return fmt::format("{} {:g} {} does not fit into {}.{}, expected {:g} to {:g} in steps of {:g}", what,
+                     value, signal.unit, message.name, signal.name, signal.minimum, signal.maximum,
+                     wire::lsb(signal));
 }
 
 template <class Message>
@@ -20,7 +20,8 @@ void check(const Message& message, std::string& wrong) {
   Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
     if constexpr (std::same_as<std::remove_cvref_t<decltype(member)>, double>) {
       const bool inside = member >= signal.minimum && member <= signal.maximum;
-      const bool vanishes = signal.minimum >= 0 && signal.offset == 0 && member != 0 && member < signal.scale;
+      const bool vanishes =
+          signal.minimum >= 0 && signal.offset == 0 && member != 0 && member < wire::lsb(signal);
       if (wrong.empty() && (!inside || vanishes))
         wrong = complaint("initial value", member, Message::info, signal);
     }
@@ -43,8 +44,9 @@ Result<void> check_fits_imu_interval(std::int64_t interval_us) {
   std::string wrong;
   SlaveImuStatus::visit(status, [&](const SignalInfo& signal, const auto& member) {
     if constexpr (std::same_as<std::remove_cvref_t<decltype(member)>, double>) {
-      const double steps = member / signal.scale;
-      if (member > signal.maximum || steps != std::nearbyint(steps)) {
+      const double lsb = wire::lsb(signal);
+      const bool between_steps = lsb != 0 && member / lsb != std::nearbyint(member / lsb);
+      if (member > signal.maximum || between_steps) {
         wrong = complaint("IMU interval", member, SlaveImuStatus::info, signal);
       }
     }

@@ -60,7 +60,7 @@ Result<std::string> generate_header(const Database& database, std::string_view n
       "namespace {1} {{\n\nnamespace wire = ::canhil::wire;\nnamespace types = ::{1};  // for members named "
       "as their type\nusing ::canhil::MessageInfo;\nusing "
       "::canhil::SignalInfo;\n\n"
-      "/// FNV-1a of the DBC's text, and the same folded into 24 bits.\n"
+      "/// FNV-1a of the DBC's text (another one of its exact twin), and the same folded into 24 bits.\n"
       "inline constexpr std::uint64_t dbc_hash = 0x{2:016X}U;\ninline constexpr std::uint32_t dbc_hash24 = "
       "0x{3:06X}U;\n\n"
       "/// Every named value of an enumeration, ascending.\ntemplate <class E>\n"

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "dbc/codegen/exact.hpp"
 #include "dbc/codegen/generate.hpp"
 #include "dbc/codegen/json.hpp"
 #include "dbc/codegen/load.hpp"
@@ -19,6 +20,7 @@ struct Options {
   std::string dbc;
   std::string output;
   std::string name_space = "messages";
+  bool exact = false;
   bool quantisation = false;
   bool load = false;
   bool json = false;
@@ -52,13 +54,16 @@ int run(int argc, char** argv) {
   app.add_option("dbc", options.dbc, "the DBC file")->required();
   app.add_option("-o,--output", options.output, "the header to write; standard output if not given");
   app.add_option("-n,--namespace", options.name_space, "namespace of the header");
+  app.add_flag("--exact", options.exact,
+               "carry every scaled signal as a 64-bit float in CAN FD frames: nothing is rounded");
   app.add_flag("--quantisation", options.quantisation,
                "print the resolution of every measurement against its sensor");
   app.add_flag("--load", options.load, "print the worst-case bus load of every sender");
   app.add_flag("--json", options.json, "print the database as JSON");
   CLI11_PARSE(app, argc, argv);
 
-  const auto database = canhil::dbc::read_file(options.dbc);
+  auto database = canhil::dbc::read_file(options.dbc);
+  if (database && options.exact) database = canhil::dbc::exact(*database, options.dbc);
   if (!database) return complain(database.error().message);
   if (options.quantisation) return print(canhil::dbc::quantisation_table(*database));
   if (options.load) return print(canhil::dbc::load_table(*database));

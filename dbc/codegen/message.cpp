@@ -221,10 +221,10 @@ std::string info_text(const Message& message, const std::vector<const Signal*>& 
     text += fmt::format(
         "    {{.name = {}, .unit = {}, .scale = {}, .offset = {}, .minimum = {}, .maximum = {},\n"
         "     .sensor_sigma = {}, .carries_remainder = {}, .start_bit = {}, .length = {}, .big_endian = {},\n"
-        "     .multiplexed = {}}},\n",
+        "     .is_float = {}, .multiplexed = {}}},\n",
         quoted(s->name), quoted(s->unit), literal(s->scale), literal(s->offset), literal(s->minimum),
         literal(s->maximum), literal(s->sensor_sigma), s->carries_remainder, s->start_bit, s->length,
-        s->byte_order == ByteOrder::big_endian, !s->multiplexed_by.empty());
+        s->byte_order == ByteOrder::big_endian, s->is_float(), !s->multiplexed_by.empty());
   }
   return text + "}};\n}  // namespace detail\n\n";
 }

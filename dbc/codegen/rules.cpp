@@ -9,8 +9,10 @@ namespace {
 
 using wire::Resolution;
 
+double lsb_of(const Signal& signal) { return wire::lsb(signal.scale, signal.is_float()); }
+
 Resolution resolution_of(const Signal& signal) {
-  return wire::resolution_of(signal.name, signal.scale, signal.sensor_sigma, signal.carries_remainder);
+  return wire::resolution_of(signal.name, lsb_of(signal), signal.sensor_sigma, signal.carries_remainder);
 }
 
 bool is_at(const Message& message, std::string_view name, unsigned start_bit, unsigned length) {
@@ -74,8 +76,8 @@ std::string quantisation_table(const Database& database) {
       const Resolution resolution = resolution_of(signal);
       if (signal.sensor_sigma <= 0 && resolution == Resolution::enough) continue;
       text += fmt::format(
-          "{:<44} {:>10.4g} {:>12.4g} {:>8.3f} {:>10}  {}\n", message.name + "." + signal.name, signal.scale,
-          signal.sensor_sigma, wire::quantisation_ratio(signal.scale, signal.sensor_sigma),
+          "{:<44} {:>10.4g} {:>12.4g} {:>8.3f} {:>10}  {}\n", message.name + "." + signal.name,
+          lsb_of(signal), signal.sensor_sigma, wire::quantisation_ratio(lsb_of(signal), signal.sensor_sigma),
           signal.carries_remainder ? "carried" : "-", resolution == Resolution::enough ? "ok" : "NOT ENOUGH");
     }
   }

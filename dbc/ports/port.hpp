@@ -55,6 +55,9 @@ struct PortOptions {
   int receive_buffer_bytes = 0;           ///< SocketCAN: size of the receive queue; 0: as the kernel has it
 };
 
+/// Now on a clock of clock_gettime() [ns].
+std::int64_t clock_ns(int clock);
+
 class Port {
  public:
   virtual ~Port() = default;
@@ -71,6 +74,8 @@ class Port {
   [[nodiscard]] virtual PortCounters counters() const = 0;
   /// The clock of Received::t_ns: CLOCK_REALTIME or CLOCK_MONOTONIC.
   [[nodiscard]] virtual int stamp_clock() const = 0;
+  /// Now on that clock [ns].
+  [[nodiscard]] virtual std::int64_t now_ns() const { return clock_ns(stamp_clock()); }
   /// As given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
 };
@@ -86,8 +91,5 @@ constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 /// Waits until the port is worth another receive() or send(): true; or until deadline_ns on CLOCK_MONOTONIC,
 /// or a signal came: false. A frame may turn out not to be there: receive() decides.
 bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns);
-
-/// Now on a clock of clock_gettime() [ns].
-std::int64_t clock_ns(int clock);
 
 }  // namespace canhil

@@ -33,10 +33,10 @@ constexpr bool is_sound(const MessageInfo& message) {
 /// contract).
 inline constexpr double largest_quantisation_ratio = 0.25;
 
-/// Standard deviation of rounding to multiples of `scale`, over the sensor's per-sample sigma.
-constexpr double quantisation_ratio(double scale, double sensor_sigma) {
+/// Standard deviation of rounding to multiples of `lsb`, over the sensor's per-sample sigma.
+constexpr double quantisation_ratio(double lsb, double sensor_sigma) {
   constexpr double sqrt_12 = 3.4641016151377544;
-  return (scale < 0 ? -scale : scale) / sqrt_12 / sensor_sigma;
+  return lsb / sqrt_12 / sensor_sigma;
 }
 
 /// What is wrong with a measurement's resolution.
@@ -48,18 +48,18 @@ enum class Resolution : std::uint8_t {
   unknown_sigma     ///< carries a remainder, so it is a measurement, but has no SensorSigma to judge it by
 };
 
-constexpr Resolution resolution_of(std::string_view name, double scale, double sensor_sigma,
+constexpr Resolution resolution_of(std::string_view name, double lsb, double sensor_sigma,
                                    bool carries_remainder) {
   if (name.starts_with("delta_") && !carries_remainder) return Resolution::loses_remainder;
   if (sensor_sigma <= 0) return carries_remainder ? Resolution::unknown_sigma : Resolution::enough;
-  return quantisation_ratio(scale, sensor_sigma) <= largest_quantisation_ratio ? Resolution::enough
-                                                                               : Resolution::too_coarse;
+  return quantisation_ratio(lsb, sensor_sigma) <= largest_quantisation_ratio ? Resolution::enough
+                                                                             : Resolution::too_coarse;
 }
 
 /// True if every measurement of the message is fine enough for its sensor.
 constexpr bool is_fine_enough(const MessageInfo& message) {
   return std::ranges::all_of(message.signals, [](const SignalInfo& s) {
-    return resolution_of(s.name, s.scale, s.sensor_sigma, s.carries_remainder) == Resolution::enough;
+    return resolution_of(s.name, lsb(s), s.sensor_sigma, s.carries_remainder) == Resolution::enough;
   });
 }
 

@@ -21,8 +21,17 @@ struct SignalInfo {
   unsigned start_bit = 0;          ///< as the DBC counts
   unsigned length = 0;             ///< bits
   bool big_endian = false;
+  bool is_float = false;     ///< the raw value is a float: not rounded to steps
   bool multiplexed = false;  ///< not in every frame of the message
 };
+
+namespace wire {
+
+/// The step between neighbouring values of a signal, in its unit; 0: a float, nothing is rounded to steps.
+constexpr double lsb(double scale, bool is_float) { return is_float ? 0 : scale < 0 ? -scale : scale; }
+constexpr double lsb(const SignalInfo& signal) { return lsb(signal.scale, signal.is_float); }
+
+}  // namespace wire
 
 /// One message.
 struct MessageInfo {

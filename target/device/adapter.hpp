@@ -9,8 +9,9 @@
 
 namespace canhil::target {
 
-/// Answers to one frame: the largest is a navigation group, a filter group, heartbeat, counters and StepDone.
-using Answers = Outbox<32>;
+/// Answers to one frame: at the most a navigation group and the filter groups of as many fixes as may wait
+/// for the IMU.
+using Answers = Outbox<96>;
 
 /// What was lost, by cause, since reset.
 struct Losses {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "dbc/wire/routes.hpp"
 #include "target/device/adapters.hpp"
 #include "target/device/version.hpp"
 
@@ -13,20 +14,8 @@ using namespace messages;
 
 constexpr std::int64_t heartbeat_period_us = TargetHeartbeat::info.cycle_time_us;
 constexpr double radians = std::numbers::pi / 180.0;
-constexpr std::uint8_t not_for_us = 0xFF;
-
-// From an 11-bit id to its place in all_messages; not_for_us for unknown ids and for the target's own
-// messages.
-constexpr auto routes = [] {
-  std::array<std::uint8_t, 2048> table{};
-  table.fill(not_for_us);
-  for (std::size_t i = 0; i < all_messages.size(); ++i) {
-    const MessageInfo& info = all_messages[i];
-    if (!info.extended && info.sender != TargetHeartbeat::info.sender)
-      table[info.id] = static_cast<std::uint8_t>(i);
-  }
-  return table;
-}();
+// The bench's messages; the target's own are not for it.
+constexpr Routes routes([](const MessageInfo& info) { return info.sender != TargetHeartbeat::info.sender; });
 
 constexpr std::uint16_t saturated(std::uint32_t count) {
   return static_cast<std::uint16_t>(std::min(count, 8191U));
@@ -38,12 +27,12 @@ Device::Device() : adapters_(make_adapters()) {}
 
 std::span<const Frame> Device::receive(const Frame& frame) {
   answers_.clear();
-  if (frame.error || frame.extended || frame.id >= routes.size()) return {};
-  const std::uint8_t route = routes[frame.id];
-  if (route == not_for_us) return {};
+  const std::size_t route = routes(frame);
+  if (route == Routes::nowhere) return {};
   const MessageInfo& info = all_messages[route];
   if (frame.size != info.size || frame.fd != info.fd) {
     ++losses_.bad_crc;
+    errors_.input_lost = true;
     return {};
   }
   e2e::Receiver& receiver = receivers_[route];
@@ -91,11 +80,14 @@ void Device::dispatch(const Frame& frame, std::uint8_t counter) {
     case TargetInitSigma::info.id:
       return on_initial<TargetInitSigma>(frame, counter);
     default:
-      if (state_ == TargetState::running) apply(adapter_->receive(frame, counter, context()));
+      if (state_ != TargetState::running) return;
+      untouched_ = false;
+      apply(adapter_->receive(frame, counter, context()));
   }
 }
 
 void Device::on_sync(const Sync& sync) {
+  untouched_ = false;
   now_us_ = static_cast<std::int64_t>(sync.time_us);
   lockstep_ = sync.lockstep != 0;
   if (state_ == TargetState::running) apply(adapter_->tick(context()));
@@ -144,7 +136,10 @@ void Device::reset(Estimator estimator, Algorithm algorithm) {
 }
 
 void Device::start() {
-  if (state_ == TargetState::ready) {
+  // A bench that did not hear the answer in time commands it again.
+  const bool again = state_ == TargetState::running && untouched_;
+  if (state_ == TargetState::ready || again) {
+    untouched_ = true;
     adapter_->start(initial_);
     answers_.reset_counters();  // what follows depends on this run's frames alone, not on how often a command
                                 // was repeated

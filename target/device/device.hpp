@@ -67,6 +67,7 @@ class Device {
   std::int64_t now_us_ = 0;
   std::int64_t heartbeat_due_us_ = 0;
   bool lockstep_ = false;
+  bool untouched_ = false;  // nothing has happened since start
 };
 
 }  // namespace canhil::target

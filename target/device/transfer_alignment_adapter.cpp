@@ -29,6 +29,7 @@ constexpr std::size_t history_length = 64;           // 320 ms at 5 ms
 constexpr std::int64_t bridge_limit_us = 200'000;    // a longer gap of the IMU ends the alignment
 constexpr std::int64_t silence_limit_us = 500'000;   // an IMU that stays away this long is named
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
+constexpr std::size_t pending_limit = 8;             // fixes ahead of the INS that are kept
 
 // Parameters in the unit of their name; defaults are the settings of the paper's reproduction.
 struct Tuning {
@@ -36,33 +37,36 @@ struct Tuning {
   std::int64_t output_interval_us = 0;
 };
 using Row = ParameterTable<Tuning>::Row;
+constexpr bool whole = true;
+constexpr bool real = false;
 constexpr bool any_time = true;
 constexpr bool stopped_only = false;
 constexpr std::array rows{
-    Row{Parameter::accel_bias_sigma_ug, 300, 0, 1e6, stopped_only,
+    Row{Parameter::accel_bias_sigma_ug, 300, 0, 1e6, real, stopped_only,
         [](Tuning& t, double v) { t.filter.accel_bias_sigma_0.setConstant(v * ug); }},
-    Row{Parameter::gyro_bias_sigma_degph, 3, 0, 1e6, stopped_only,
+    Row{Parameter::gyro_bias_sigma_degph, 3, 0, 1e6, real, stopped_only,
         [](Tuning& t, double v) { t.filter.gyro_bias_sigma_0.setConstant(v * degph); }},
-    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, any_time,
+    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
         [](Tuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
-    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, any_time,
+    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, real, any_time,
         [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
-    Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, any_time,
+    Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, real, any_time,
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
-    Row{Parameter::h2_case, 2, 1, 4, stopped_only,
+    Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.h2_case = static_cast<ta::H2Case>(std::lround(v)); }},
-    Row{Parameter::h2_alpha_rule, 0, 0, 1, stopped_only,
+    Row{Parameter::h2_alpha_rule, 0, 0, 1, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.alpha_rule = static_cast<ta::AlphaRule>(std::lround(v)); }},
-    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, any_time,
+    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, real, any_time,
         [](Tuning& t, double v) { t.filter.alpha_constant = v; }},
-    Row{Parameter::fading_per_s, 0, 0, 10, any_time, [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
-    Row{Parameter::mechanization, 1, 0, 1, stopped_only,
+    Row{Parameter::fading_per_s, 0, 0, 10, real, any_time,
+        [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
+    Row{Parameter::mechanization, 1, 0, 1, whole, stopped_only,
         [](Tuning& t, double v) {
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
-    Row{Parameter::closed_loop, 1, 0, 1, stopped_only,
+    Row{Parameter::closed_loop, 1, 0, 1, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
-    Row{Parameter::output_interval_ms, 10, 1, 1000, any_time,
+    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
         [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
 };
 
@@ -109,7 +113,7 @@ class TransferAlignmentAdapter final : public Adapter {
     ins_us_ = initial.t_us;
     answered_us_ = initial.t_us - tuning_.output_interval_us;
     previous_ = {};
-    pending_.reset();
+    pending_count_ = 0;
     coasting_ = false;
   }
 
@@ -193,12 +197,7 @@ class TransferAlignmentAdapter final : public Adapter {
     if (gap_us >= interval_us / 2) bridge(imu, gap_us, interval_us, context);
     step(imu, t_us);
     if (!state_.ins.nav.v_eb_n.allFinite() || !state_.ins.nav.C_bn.allFinite()) return numeric_fault(context);
-    Health health = Health::good;
-    if (pending_ && pending_->t_us <= ins_us_) {
-      const At<Eigen::Vector3d> fix = *pending_;
-      pending_.reset();
-      health = update(fix, context);
-    }
+    const Health health = update_pending(context);
     // An interval of IMU samples need not divide the output interval: half a sample early is in time.
     if (t_us - answered_us_ >= tuning_.output_interval_us - interval_us / 2) {
       answered_us_ = t_us;
@@ -242,11 +241,27 @@ class TransferAlignmentAdapter final : public Adapter {
       return Health::good;
     }
     if (fix.t_us > ins_us_) {  // ahead of the INS: kept until the IMU gets there
-      if (pending_) ++context.losses.late;
-      pending_ = fix;
+      if (pending_count_ < pending_limit) {
+        pending_[pending_count_++] = fix;
+      } else {
+        drop_group(context);
+      }
       return Health::good;
     }
     return update(fix, context);
+  }
+
+  // The fixes that waited and that the INS has reached now, in their order.
+  Health update_pending(Context& context) {
+    std::size_t reached = 0;
+    Health health = Health::good;
+    while (reached < pending_count_ && pending_[reached].t_us <= ins_us_ && health == Health::good)
+      health = update(pending_[reached++], context);
+    if (reached == 0) return health;
+    std::move(pending_.begin() + static_cast<std::ptrdiff_t>(reached),
+              pending_.begin() + static_cast<std::ptrdiff_t>(pending_count_), pending_.begin());
+    pending_count_ -= reached;
+    return health;
   }
 
   Health update(const At<Eigen::Vector3d>& fix, Context& context) {
@@ -273,8 +288,16 @@ class TransferAlignmentAdapter final : public Adapter {
     return Health::fault;
   }
 
+  // In a closed loop the INS itself; in an open one it is corrected for each answer.
+  const ta::Ins& best_estimate() {
+    if (tuning_.filter.closed_loop) return state_.ins;
+    corrected_ = ta::estimate(state_);
+    return corrected_;
+  }
+
   void answer_navigation(std::int64_t t_us, std::uint8_t counter, Answers& answers) {
-    const strapdown::NavState nav = ta::estimate(state_).nav;
+    const ta::Ins& ins = best_estimate();
+    const strapdown::NavState& nav = ins.nav;
     const strapdown::Euler angles = strapdown::euler_from_dcm(nav.C_bn);
     answers.send(AlignAttitude{.roll_deg = angles.roll / deg,
                                .pitch_deg = angles.pitch / deg,
@@ -286,13 +309,13 @@ class TransferAlignmentAdapter final : public Adapter {
     coasting_ = false;
   }
 
-  void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Answers& answers) const {
+  void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Answers& answers) {
     const ta::StateVector sigma = state_.P.diagonal().cwiseMax(0).cwiseSqrt();
     const auto correlation = [&](int i, int j) {
       const double product = sigma(ta::attitude_state + i) * sigma(ta::attitude_state + j);
       return product > 0 ? state_.P(ta::attitude_state + i, ta::attitude_state + j) / product : 0.0;
     };
-    const ta::Ins ins = ta::estimate(state_);
+    const ta::Ins& ins = best_estimate();
     answers.send(AlignInnovation{.innovation_north_mps = result.innovation.x(),
                                  .innovation_east_mps = result.innovation.y(),
                                  .innovation_down_mps = result.innovation.z()});
@@ -326,11 +349,13 @@ class TransferAlignmentAdapter final : public Adapter {
   ImuGroup imu_group_;
   MasterGroup master_group_;
   ta::State state_;
+  ta::Ins corrected_;
   ta::History<history_length> history_{0};
   std::int64_t ins_us_ = 0;       // epoch of the INS
   std::int64_t answered_us_ = 0;  // epoch of the last navigation answer
   strapdown::ImuIncrement previous_;
-  std::optional<At<Eigen::Vector3d>> pending_;
+  std::array<At<Eigen::Vector3d>, pending_limit> pending_;  // fixes ahead of the INS, as they came
+  std::size_t pending_count_ = 0;
   bool coasting_ = false;
 };
 

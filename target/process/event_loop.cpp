@@ -1,5 +1,7 @@
 #include "target/process/event_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dbc/ports/port.hpp"
@@ -15,6 +17,13 @@ constexpr std::int64_t bench_gone_ns = 2'000'000'000;
 constexpr std::int64_t send_patience_ns = 50'000'000;
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
+
+// A start counts too: a heartbeat of the process between it and the first Sync would be one that no replay
+// has.
+bool from_bench(const Frame& frame) {
+  return !frame.error && !frame.extended &&
+         (frame.id == messages::Sync::info.id || frame.id == messages::TargetCommand::info.id);
+}
 
 // Sends frames in order; a bus that stays full loses them, which the receiver sees by the E2E counters.
 void send(Port& port, std::span<const Frame> frames) {
@@ -37,27 +46,38 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
   Device device;
   TimingWindow window;
   Outbox<1> reports;
-  std::int64_t sync_ns = now_ns() - bench_silent_ns;  // when the bench last kept the time base
-  std::int64_t report_due_ns = now_ns();
+  std::int64_t bench_ns = now_ns() - bench_silent_ns;  // when the bench last kept the time base or commanded
+  // Before its first word a target listens for longer than a heartbeat: two on one bus would spoil each
+  // other's groups.
+  std::int64_t report_due_ns = now_ns() + period_ns + period_ns / 4;
+  bool established = false;
 
   while (!stop && !port.closed()) {
-    while (const auto received = port.receive()) {
+    while (!stop) {
+      const auto received = port.receive();
+      if (!received) break;
+      if (!established && received->frame.id == messages::TargetHeartbeat::info.id &&
+          !received->frame.error) {
+        return failure(
+            fmt::format("bus '{}': a target answers here already, expected to be the only one", bus));
+      }
       const std::int64_t start_ns = clock_ns(port.stamp_clock());
       const std::span<const Frame> answers = device.receive(received->frame);
       const std::int64_t end_ns = clock_ns(port.stamp_clock());
       send(port, answers);
       window.add(start_ns - received->t_ns, end_ns - start_ns, !answers.empty());
-      if (received->frame.id == messages::Sync::info.id) sync_ns = now_ns();
+      if (from_bench(received->frame)) bench_ns = now_ns();
     }
     const std::int64_t now = now_ns();
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
+      established = true;
       // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the
       // device's frames are to be those of a replay. A target that a bench has left behind speaks up again
       // for the next one.
       const std::int64_t patience_ns =
           device.state() == messages::TargetState::running ? bench_gone_ns : bench_silent_ns;
-      if (now - sync_ns >= patience_ns) {
+      if (now - bench_ns >= patience_ns) {
         send(port, device.idle_heartbeat());
       } else if (!device.lockstep()) {
         reports.clear();

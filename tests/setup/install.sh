@@ -9,11 +9,13 @@ build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev
+  gnuplot-nox # draws the figures of hil-bench campaign --paper
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # CMake configures the tests too
 )
 test_packages=(
   python3 python3-can python3-canmatrix # an independent DBC reader and CAN node
   can-utils iproute2 kmod busybox user-mode-linux rt-tests # vcan where the kernel has none
+  slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
   clang clang-format clang-tidy libclang-rt-14-dev valgrind
 )
 

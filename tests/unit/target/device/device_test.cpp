@@ -136,6 +136,36 @@ TEST(Device, KeepsAFixThatIsAheadOfTheImu) {
   EXPECT_EQ(bench.last<AlignUpdate>()->cause_time_us, 20'000U);
 }
 
+TEST(Device, EveryFixThatIsAheadOfASlowImuWaits) {
+  // Fixes at 20 ms, an IMU that is 50 ms behind them: each is applied when the IMU gets there.
+  BenchSide bench;
+  bench.start();
+  for (int k = 1; k <= 30; ++k) {
+    if (k % 2 == 0) bench.master(k * 10'000);
+    if (k > 5) bench.imu((k - 5) * 10'000);
+    bench.sync(k * 10'000);
+  }
+  std::vector<std::uint32_t> applied;
+  for (const auto& update : bench.all<AlignUpdate>()) applied.push_back(update.cause_time_us);
+  EXPECT_THAT(applied, testing::ElementsAre(20'000U, 40'000U, 60'000U, 80'000U, 100'000U, 120'000U, 140'000U,
+                                            160'000U, 180'000U, 200'000U, 220'000U, 240'000U));
+  EXPECT_EQ(bench.last<TargetCounters>()->late, 0);
+}
+
+TEST(Device, FixesThatWaitedForOneImuSampleAreAllAnswered) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  for (int k = 2; k <= 10; ++k) bench.master(k * 10'000);  // one more than may wait
+  EXPECT_FALSE(bench.last<AlignUpdate>());
+  bench.imu(150'000);  // the gap is bridged
+  bench.sync(150'000);
+  EXPECT_EQ(bench.all<AlignUpdate>().size(), 8U);
+  EXPECT_EQ(bench.all<AlignInnovation>().size(), 8U);
+  EXPECT_EQ(bench.last<AlignVelocityD>()->cause_time_us, 150'000U);
+  EXPECT_EQ(bench.last<TargetCounters>()->bad_group, 1);
+}
+
 TEST(Device, CountsAFixOlderThanItsHistoryAsLate) {
   BenchSide bench;
   bench.start();
@@ -203,6 +233,53 @@ TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
   }
   EXPECT_EQ(fresh, answers);
   EXPECT_GT(answers.size(), 100U);
+}
+
+// What the device answers to a flight.
+std::vector<Frame> flight_after(BenchSide& bench) {
+  bench.forget();
+  for (int k = 1; k <= 30; ++k) {
+    bench.imu(k * 10'000);
+    if (k % 10 == 0) bench.master(k * 10'000);
+    bench.sync(k * 10'000);
+  }
+  return bench.answers();
+}
+
+TEST(Device, RepeatedCommandsOfTheHandshakeLeaveNoTraceInTheRun) {
+  BenchSide once;
+  once.start();
+  BenchSide twice;
+  twice.command(Command::reset);
+  twice.command(Command::reset);
+  twice.initialise();
+  twice.initialise();
+  twice.command(Command::start);
+  twice.command(Command::start);
+  EXPECT_EQ(twice.last<TargetHeartbeat>()->error_command, 0);
+  EXPECT_EQ(flight_after(once), flight_after(twice));
+}
+
+TEST(Device, HeartbeatsBeforeTheStartLeaveNoTraceInTheRun) {
+  BenchSide plain;
+  plain.start();
+  BenchSide watched;
+  watched.command(Command::reset);
+  for (int k = 0; k < 4; ++k) static_cast<void>(watched.device().idle_heartbeat());
+  watched.initialise();
+  watched.command(Command::start);
+  EXPECT_EQ(flight_after(plain), flight_after(watched));
+}
+
+TEST(Device, AStartInMidRunIsAnErrorAndChangesNothing) {
+  BenchSide bench;
+  bench.start();
+  for (int k = 1; k <= 10; ++k) bench.imu(k * 10'000);
+  bench.command(Command::start);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_command, 1);
+  bench.imu(110'000);
+  EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 0);
+  EXPECT_EQ(bench.last<AlignVelocityD>()->cause_time_us, 110'000U);
 }
 
 TEST(Device, HearsACommandThatRepeatsTheCounterOfTheLast) {

@@ -31,6 +31,7 @@ TEST(SensorLoss, AFrameOfTheWrongSizeIsDroppedAndCounted) {
   bench.feed(frame);
   bench.sync(0);
   EXPECT_EQ(bench.last<TargetCounters>()->bad_crc, 1);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_lost, 1);
 }
 
 TEST(SensorLoss, AGroupThatMissesAFrameIsNotUsed) {
@@ -61,6 +62,38 @@ TEST(SensorLoss, ALostGroupIsBridgedAndFlaggedOnce) {
   bench.imu(40'000);
   EXPECT_EQ(bench.last<AlignAttitude>()->coasting, 0);
   EXPECT_EQ(bench.last<TargetHeartbeat>()->state, TargetState::running);
+}
+
+TEST(SensorLoss, ABridgeIsTheMeanOfItsNeighboursAtTheirRates) {
+  const auto accelerated = [](BenchSide& bench, std::int64_t t_us, double delta_v_x_mps) {
+    auto velocity = BenchSide::velocity();
+    velocity.delta_v_x_mps = delta_v_x_mps;
+    bench.send(BenchSide::theta(Validity::valid));
+    bench.send(velocity);
+    bench.send(BenchSide::status(t_us, 10'000));
+  };
+  // Two samples are missing between 0.1 and 0.3 m/s a sample: they count 0.2 m/s each.
+  BenchSide bench;
+  bench.start();
+  accelerated(bench, 10'000, 0.1);
+  bench.lose_imu(20'000);
+  bench.lose_imu(30'000);
+  accelerated(bench, 40'000, 0.3);
+  EXPECT_NEAR(bench.last<AlignVelocityNE>()->velocity_north_mps, BenchSide::speed + 0.1 + 2 * 0.2 + 0.3,
+              2e-3);
+}
+
+TEST(SensorLoss, AFrameThatRepeatsItsCounterIsLateNotUsed) {
+  BenchSide bench;
+  bench.start();
+  bench.imu(10'000);
+  const std::vector<Frame> fed = bench.fed();
+  for (auto frame = fed.end() - 3; frame != fed.end(); ++frame) bench.feed(*frame);
+  bench.sync(10'000);
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 1U);
+  EXPECT_EQ(bench.last<TargetCounters>()->late, 3);
+  EXPECT_EQ(bench.last<TargetCounters>()->bad_group, 0);
+  EXPECT_EQ(bench.device().state(), TargetState::running);
 }
 
 TEST(SensorLoss, AnInvalidGroupIsBridgedAndCounted) {

@@ -1,0 +1,45 @@
+#include "bench/commands/diverge.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "bench/commands/exit_code.hpp"
+#include "bench/run/divergence.hpp"
+
+namespace canhil::commands {
+namespace {
+
+void show(const std::string& log, const std::optional<LogEntry>& entry) {
+  if (!entry) return fmt::print("  {}: has no more frames of the target\n", log);
+  fmt::print("  {}: {}\n    {}\n", log, format_log_line(*entry), run::describe(entry->frame));
+}
+
+ExitCode execute(const std::string& log_a, const std::string& log_b) {
+  const auto comparison = run::compare(log_a, log_b);
+  if (!comparison) return complain(comparison.error());
+  if (!comparison->first) {
+    if (comparison->compared == 0)
+      return complain({fmt::format("{}, {}: no frames of the target after a Sync in either", log_a, log_b)});
+    fmt::print("same: {} frames of the target\n", comparison->compared);
+    return ExitCode::pass;
+  }
+  fmt::print("differ at t={:.3f} s, frame {} of the target ({} agree)\n", comparison->first->t_s,
+             comparison->first->index + 1, comparison->compared);
+  show(log_a, comparison->first->a);
+  show(log_b, comparison->first->b);
+  return ExitCode::fail;
+}
+
+}  // namespace
+
+void add_diverge(CLI::App& app, int& code) {
+  auto logs = std::make_shared<std::pair<std::string, std::string>>();
+  CLI::App* command =
+      app.add_subcommand("diverge", "compare two recorded runs: the first frame of the target that differs");
+  command->add_option("A", logs->first, "log of a run (hil-bench run --log)")->required();
+  command->add_option("B", logs->second, "log of another")->required();
+  command->callback([&code, logs] { code = static_cast<int>(execute(logs->first, logs->second)); });
+}
+
+}  // namespace canhil::commands

@@ -1,0 +1,38 @@
+#include "bench/commands/paper.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+
+#include "bench/commands/interrupt.hpp"
+#include "bench/papers/paper.hpp"
+
+namespace canhil::commands {
+
+ExitCode reproduce_paper(const PaperArguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  catch_interrupts();
+  const auto reproduced = papers::reproduce(
+      {.paper = arguments.paper,
+       .folder = arguments.folder.empty() ? fmt::format("paper-{}", arguments.paper) : arguments.folder,
+       .runs = arguments.runs,
+       .exact = arguments.exact,
+       .progress =
+           [&](std::string_view campaign, std::size_t done, std::size_t total) {
+             if (terminal) fmt::print(stderr, "\r\033[K  {}: {} / {} runs", campaign, done, total);
+           }},
+      interrupted);
+  if (terminal) fmt::print(stderr, "\r\033[K");
+  if (!reproduced) return complain(reproduced.error());
+  if (reproduced->outcome == papers::Outcome::interrupted) {
+    fmt::print(stderr, "hil-bench: interrupted; the same command goes on\n");
+    return ExitCode::not_measured;
+  }
+  const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  fmt::print("{}\n{:.0f} s; page: {}\n", reproduced->text, s, reproduced->page.string());
+  return reproduced->outcome == papers::Outcome::bars_met ? ExitCode::pass : ExitCode::fail;
+}
+
+}  // namespace canhil::commands

@@ -1,0 +1,35 @@
+// A figure as data, and its drawing. Curves can be told apart without colour: each has its own dashes, its
+// own markers, and its name beside its end.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dbc/wire/result.hpp"
+
+namespace canhil::papers {
+
+struct Curve {
+  std::string label;  ///< short: it stands beside the curve's end
+  std::vector<std::pair<double, double>> points;
+};
+
+/// Curves over time, values on a logarithmic axis.
+struct Figure {
+  std::string id;  ///< of the HTML element
+  std::string title;
+  std::string caption;  ///< axes' meaning, settings, run count
+  std::string y_label;
+  std::pair<double, double> x_range{0, 20}, y_range{0.3, 300};
+  std::vector<double> thresholds;  ///< horizontal lines, labelled by their value
+  std::vector<Curve> curves;
+};
+
+enum class Width { desktop, phone };
+
+/// One SVG element that scales to the width of its container. Error: gnuplot's.
+Result<std::string> draw(const Figure& figure, Width width);
+
+}  // namespace canhil::papers

@@ -1,0 +1,18 @@
+// Debian's gnuplot as a child process: a script in, one SVG out.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "dbc/wire/result.hpp"
+
+namespace canhil::papers {
+
+/// Whether gnuplot can be started: to be asked before a long run. Error: one line.
+Result<void> check_gnuplot();
+
+/// What gnuplot writes to its standard output for a script on its standard input; data come inside the
+/// script, as here-documents. Error, one line: it cannot be started, or complains.
+Result<std::string> gnuplot(std::string_view script);
+
+}  // namespace canhil::papers

@@ -1,0 +1,47 @@
+// What a reproduction has to say, as data; as one self-contained HTML page, and as text.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/papers/figure.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::papers {
+
+enum class Mark : std::uint8_t { yes, no, partly, none };
+
+struct Row {
+  std::vector<std::string> cells;  ///< one less than the head: the last column is the verdict
+  Mark mark = Mark::none;
+  std::string verdict;
+};
+
+struct Table {
+  std::vector<std::string> head;
+  std::vector<Row> rows;
+  std::string note;
+};
+
+struct Section {
+  std::string id;  ///< of the HTML element
+  std::string title;
+  std::vector<std::string> paragraphs;
+  std::vector<Table> tables;
+  std::vector<Figure> figures;
+};
+
+struct Page {
+  std::string title;
+  std::string subtitle;
+  std::vector<Section> sections;
+};
+
+/// One HTML file without anything outside it, for phone and desktop. Error: a figure cannot be drawn.
+Result<std::string> html(const Page& page);
+
+/// Titles, paragraphs and tables for a terminal.
+std::string text(const Page& page);
+
+}  // namespace canhil::papers

@@ -1,0 +1,12 @@
+# cmake -DFOLDER=... -DNAMES=a,b -DOUT=... -P embed.cmake: TOML files as string literals.
+string(REPLACE "," ";" names "${NAMES}")
+set(code "#include \"bench/papers/transfer_alignment/campaign_texts.hpp\"\n\nnamespace canhil::papers::transfer_alignment {\n\n")
+file(READ ${FOLDER}/flight.toml text)
+string(APPEND code "const std::string_view flight_text = R\"toml(${text})toml\";\n\n")
+string(APPEND code "const std::array<CampaignText, campaign_count> campaign_texts{{\n")
+foreach(name IN LISTS names)
+  file(READ ${FOLDER}/${name}.toml text)
+  string(APPEND code "{\"${name}\", R\"toml(${text})toml\"},\n")
+endforeach()
+string(APPEND code "}};\n\n}  // namespace canhil::papers::transfer_alignment\n")
+file(WRITE ${OUT} "${code}")

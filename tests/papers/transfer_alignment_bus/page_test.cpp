@@ -1,0 +1,85 @@
+// The whole reproduction with two runs a variant: every campaign is read and flown, every figure drawn.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bench/papers/gnuplot.hpp"
+#include "bench/papers/paper.hpp"
+
+namespace canhil::papers {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::atomic<bool> go_on = false;
+
+Request request(const char* folder) {
+  Request request;
+  request.paper = "transfer";
+  request.folder = std::filesystem::path(testing::TempDir()) / folder;
+  request.runs = 2;
+  request.progress = [](std::string_view, std::size_t, std::size_t) {};
+  return request;
+}
+
+TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
+  const Request asked = request("paper_page");
+  std::filesystem::remove_all(asked.folder);
+  const auto reproduced = reproduce(asked, go_on);
+  ASSERT_TRUE(reproduced) << reproduced.error().message;
+  EXPECT_NE(reproduced->outcome, Outcome::interrupted);
+  std::ostringstream content;
+  content << std::ifstream(reproduced->page).rdbuf();
+  const std::string html = content.str();
+  for (const char* figure : {"fig3", "fig4", "fig5", "fig6-kf", "fig6-h2", "fig7-heading", "fig7-roll",
+                             "fig7-pitch", "velocity", "artefact", "noise"})
+    EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
+  for (const char* bar : {"bar 4", "bar 5", "bar 6", "bar 7", "bar 8", "bar 9"})
+    EXPECT_THAT(html, HasSubstr(bar));
+  EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
+  EXPECT_THAT(html, Not(HasSubstr("url(")));
+  EXPECT_THAT(reproduced->text, HasSubstr("Table 2"));
+  EXPECT_THAT(reproduced->text, Not(HasSubstr("nan")));
+}
+
+std::string complaint(const Request& asked) {
+  const auto reproduced = reproduce(asked, go_on);
+  return reproduced ? "no error" : reproduced.error().message;
+}
+
+TEST(PaperPage, NamesWhatIsWrongWithTheRequest) {
+  Request unknown = request("paper_errors");
+  unknown.paper = "transfr";
+  EXPECT_EQ(complaint(unknown), "paper 'transfr' is unknown, expected transfer");
+  Request no_folder = request("paper_errors");
+  no_folder.folder = "/dev/null/page";
+  EXPECT_EQ(complaint(no_folder), "folder '/dev/null/page': cannot be made: Not a directory");
+  Request no_exact = request("paper_errors");
+  no_exact.exact = "/nowhere.sqlite";
+  EXPECT_THAT(complaint(no_exact), HasSubstr("/nowhere.sqlite"));
+}
+
+TEST(PaperPage, SaysThatGnuplotIsMissing) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  const auto there = check_gnuplot();
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_FALSE(there);
+  EXPECT_EQ(there.error().message,
+            "gnuplot: cannot be started (No such file or directory), expected Debian's package gnuplot-nox");
+}
+
+TEST(PaperPage, TellsWhatGnuplotSaysOfABadScript) {
+  const auto drawn = gnuplot("plot nonsense(\n");
+  ASSERT_FALSE(drawn);
+  EXPECT_THAT(drawn.error().message, HasSubstr("gnuplot: ended with status"));
+}
+
+}  // namespace
+}  // namespace canhil::papers

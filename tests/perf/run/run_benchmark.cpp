@@ -1,0 +1,29 @@
+// One run of 20 s at 100 Hz in process, bus path included: the unit of work of a campaign.
+#include <benchmark/benchmark.h>
+
+#include "bench/run/contract.hpp"
+#include "bench/run/flight.hpp"
+#include "bench/run/in_process.hpp"
+
+namespace canhil {
+namespace {
+
+void run_20_s(benchmark::State& state, const char* file) {
+  const auto scenario =
+      scenario::read_file(std::string(SOURCE_DIR "/bench/scenarios/") + file, run::contract());
+  if (!scenario) return state.SkipWithError(scenario.error().message.c_str());
+  const auto truth = run::make_truth(*scenario);
+  std::uint64_t index = 0;
+  for (auto _ : state) {
+    auto finished = run::run_in_process(*scenario, *truth, index++);
+    benchmark::DoNotOptimize(finished);
+  }
+  state.counters["x_real_time"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * 1e-6 * static_cast<double>(scenario->duration_us),
+      benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(run_20_s, kalman, "transfer_alignment.toml")->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(run_20_s, robust_h2, "transfer_alignment_h2.toml")->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace canhil

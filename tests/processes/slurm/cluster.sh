@@ -1,0 +1,114 @@
+# A Slurm cluster of this machine alone, for as long as the shell that sources this file: no service manager, only loopback,
+# free ports, everything in one temporary folder, run by and for the user who starts it.
+#   cluster_start       sets $cluster (the folder) and SLURM_CONF; from then on sbatch, squeue ... speak to it
+#   cluster_run         COMMAND...: as the command itself, but a signal to the shell does not wait for its end
+#   cluster_stop        ends every process of it and removes the folder; also called when the shell ends, however it does
+#   cluster_processes   the ids of all that belongs to it: daemons, steps, jobs. They carry its SLURM_CONF in their environment.
+
+cluster_processes() {
+  (
+    unset SLURM_CONF # or this search finds itself
+    grep -lzsxF "SLURM_CONF=$cluster/slurm.conf" /proc/[0-9]*/environ | cut -d/ -f3
+  ) || true
+}
+
+cluster_fail() {
+  echo "slurm cluster: $*" >&2
+  tail -n 20 "$cluster"/*.log >&2
+  exit 1
+}
+
+# cluster_daemon NAME COMMAND...: in the background, on its own log.
+cluster_daemon() {
+  local name=$1
+  shift
+  SLURM_CONF=$cluster/slurm.conf "$@" >"$cluster/$name.log" 2>&1 </dev/null &
+}
+
+# cluster_wait WHAT COMMAND...: until the command succeeds.
+cluster_wait() {
+  local what=$1 deadline=$((SECONDS + 60))
+  shift
+  until "$@" >/dev/null 2>&1; do
+    ((SECONDS < deadline)) || cluster_fail "no $what within 60 s"
+    sleep 0.1
+  done
+}
+
+cluster_start() {
+  cluster=$(mktemp -d)
+  trap cluster_stop EXIT
+  trap 'exit 129' HUP
+  trap 'exit 130' INT
+  trap 'exit 143' TERM
+  # Where the shell is killed and has no chance to tidy up, this does; it ends when the folder is gone.
+  setsid --fork bash -c 'source "$1"; cluster=$2
+    while kill -0 "$3" && [[ -d "$cluster" ]]; do sleep 0.2; done; cluster_stop' \
+    - "${BASH_SOURCE[0]}" "$cluster" $$ >/dev/null 2>&1 </dev/null
+  mkdir "$cluster/state" "$cluster/spool"
+  local user host ports
+  user=$(id -un) host=$(uname -n | cut -d. -f1)
+  ports=$(python3 -c 'import socket
+s = [socket.create_server(("127.0.0.1", 0)) for _ in range(2)]
+print(*(x.getsockname()[1] for x in s))')
+  cat >"$cluster/slurm.conf" <<EOF
+ClusterName=canhil
+SlurmctldHost=$host(127.0.0.1)
+SlurmctldPort=${ports% *}
+SlurmdPort=${ports#* }
+CommunicationParameters=NoInAddrAny,NoCtldInAddrAny
+SlurmUser=$user
+SlurmdUser=$user
+AuthType=auth/munge
+AuthInfo=socket=$cluster/munge.socket
+CredType=cred/munge
+StateSaveLocation=$cluster/state
+SlurmdSpoolDir=$cluster/spool
+SlurmctldPidFile=$cluster/slurmctld.pid
+SlurmdPidFile=$cluster/slurmd.pid
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+AccountingStorageType=accounting_storage/none
+JobAcctGatherType=jobacct_gather/none
+SlurmdParameters=config_overrides
+ReturnToService=2
+SchedulerParameters=sched_min_interval=0,sched_interval=1
+NodeName=$host NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
+PartitionName=main Nodes=$host Default=YES MaxTime=5 State=UP
+EOF
+  mungekey --create --keyfile "$cluster/munge.key" || cluster_fail "mungekey failed"
+  cluster_daemon munged munged --foreground --force --key-file "$cluster/munge.key" --socket "$cluster/munge.socket" \
+    --pid-file "$cluster/munged.pid" --seed-file "$cluster/munged.seed" --log-file "$cluster/munged.log"
+  cluster_wait "answer of munged" munge --socket "$cluster/munge.socket" --no-input
+  cluster_daemon slurmctld slurmctld -D -f "$cluster/slurm.conf" -i
+  cluster_daemon slurmd slurmd -D -f "$cluster/slurm.conf" -N "$host"
+  export SLURM_CONF=$cluster/slurm.conf
+  cluster_wait "idle node" eval '[[ $(sinfo --noheader --format %t) == idle ]]'
+}
+
+cluster_run() {
+  "$@" &
+  wait $!
+}
+
+cluster_stop() {
+  trap - EXIT
+  [[ -d "${cluster:-}" ]] || return 0
+  local signal left
+  for signal in TERM KILL; do
+    for _ in {1..50}; do
+      left=$(cluster_processes)
+      if [[ -z "$left" ]]; then
+        rm -rf "$cluster"
+        return 0
+      fi
+      kill -s $signal $left 2>/dev/null || true
+      sleep 0.1
+    done
+  done
+  echo "slurm cluster: processes are left: $left" >&2
+  return 1
+}

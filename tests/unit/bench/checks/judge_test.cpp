@@ -1,0 +1,243 @@
+// Every kind of check: what passes, what fails, what cannot be measured, and that silence never passes.
+#include "bench/checks/judge.hpp"
+
+#include <gmock/gmock.h>
+
+#include "bench/checks/timing.hpp"
+#include "bench/world/motion/rest.hpp"
+#include "dbc/wire/transmit.hpp"
+
+namespace canhil::checks {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::int64_t second_us = 1'000'000;
+constexpr std::int64_t duration_us = 4 * second_us;
+constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
+
+// A run of 4 s at rest with perfect answers; tests spoil it.
+class Judged : public testing::Test {
+ protected:
+  Judged() {
+    for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
+      seen_.slave_imu.push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.navigation.push_back({.cause_us = t_us, .angles = {}});
+      arrive<messages::AlignAttitude>(t_us * 1000 + 200'000, t_us);
+      seen_.lateness_ns.push_back(50'000);
+      if (t_us % 100'000 != 0) continue;
+      seen_.master_ins.push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
+      arrive<messages::TargetHeartbeat>(t_us * 1000);
+    }
+    seen_.last_ns = duration_us * 1000;
+    seen_.counters = messages::TargetCounters{};
+  }
+  template <class Message>
+  void arrive(std::int64_t t_ns, std::int64_t cause_us = -1) {
+    arrivals<Message>().push_back({.t_ns = t_ns, .cause_us = cause_us});
+  }
+  template <class Message>
+  std::vector<Arrival>& arrivals() {
+    return seen_.arrivals[message_index<Message>()];
+  }
+  void silence_from(std::int64_t t_us) {
+    std::erase_if(seen_.navigation, [&](const auto& answer) { return answer.cause_us >= t_us; });
+    std::erase_if(seen_.filter, [&](const auto& answer) { return answer.cause_us >= t_us; });
+    std::erase_if(arrivals<messages::AlignAttitude>(), [&](const Arrival& a) { return a.cause_us >= t_us; });
+  }
+
+  template <class Rule>
+  CheckResult judge(const Rule& rule, const std::string& unfit = "") {
+    scenario::Scenario scenario;
+    scenario.checks.push_back({.name = "it", .requirement = "R1", .rule = rule});
+    const Verdict verdict = checks::judge(scenario, {.seen = seen_,
+                                                     .truth = truth_,
+                                                     .duration_us = duration_us,
+                                                     .ended_early = ended_early_,
+                                                     .timing_unfit = unfit});
+    verdict_ = verdict;
+    return verdict.checks.at(0);
+  }
+
+  world::FlightRecord truth_{{.start = {}, .motion = world::Rest{}}, duration_us, 10'000};
+  Observations seen_;
+  std::string ended_early_;
+  Verdict verdict_;
+};
+
+constexpr scenario::AttitudeError attitude{.axis = scenario::AttitudeAxis::pitch,
+                                           .window = {.from_us = 2 * second_us, .to_us = duration_us},
+                                           .below = 0.01};
+
+TEST_F(Judged, AttitudeErrorByTheWorstInItsWindow) {
+  seen_.navigation[100].angles.pitch = 0.5;  // at 1.01 s: outside the window
+  seen_.navigation[300].angles.roll = 0.5;   // another axis
+  EXPECT_EQ(judge(attitude).outcome, Outcome::pass);
+  seen_.navigation[300].angles.pitch = -0.02;
+  EXPECT_EQ(judge(attitude).outcome, Outcome::fail);
+  EXPECT_THAT(judge(attitude).measured, HasSubstr("max 20.000 mrad of 201"));
+}
+
+TEST_F(Judged, VelocityErrorByAxisOrNorm) {
+  seen_.navigation[300].v_eb_n = {0.3, 0, -0.4};
+  scenario::VelocityError rule{.axis = scenario::VelocityAxis::norm, .window = whole, .below = 0.45};
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  rule.axis = scenario::VelocityAxis::down;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  rule.below = 0.4;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "the bar itself is not below it";
+}
+
+TEST_F(Judged, ConvergenceBeforeATime) {
+  for (int k = 0; k < 100; ++k) seen_.navigation[static_cast<std::size_t>(k)].angles.heading = 0.1;
+  scenario::Convergence rule{.axis = scenario::AttitudeAxis::heading, .within = 0.01, .before_us = 1'020'000};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  EXPECT_EQ(judge(rule).measured, "1.01 s");
+  rule.before_us = 1'010'000;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  seen_.navigation.back().angles.heading = 0.1;
+  EXPECT_EQ(judge(rule).measured, "not within at the end");
+}
+
+TEST_F(Judged, AnswersThatCeaseNeverPass) {
+  silence_from(2 * second_us + 500'000);
+  const scenario::AttitudeError angle{.axis = scenario::AttitudeAxis::roll, .window = whole, .below = 1};
+  EXPECT_EQ(judge(angle).outcome, Outcome::fail);
+  EXPECT_EQ(judge(angle).measured, "no answers from 2.49 to 4 s");
+  EXPECT_EQ(judge(scenario::VelocityError{.window = whole, .below = 1}).outcome, Outcome::fail);
+  EXPECT_EQ(judge(scenario::Convergence{.within = 1, .before_us = second_us}).outcome, Outcome::fail);
+  EXPECT_EQ(judge(scenario::Consistency{.window = whole, .bound = scenario::MeanBetween{0, 9}}).outcome,
+            Outcome::fail);
+}
+
+TEST_F(Judged, NoAnswersAtAllFail) {
+  silence_from(0);
+  EXPECT_EQ(judge(attitude).measured, "no answers");
+  EXPECT_EQ(judge(attitude).outcome, Outcome::fail);
+  EXPECT_EQ(judge(scenario::Convergence{.within = 1, .before_us = second_us}).outcome, Outcome::fail);
+  EXPECT_EQ(judge(scenario::Latency{.message = "AlignAttitude", .window = whole, .below_us = 5000}).outcome,
+            Outcome::fail);
+  EXPECT_EQ(judge(scenario::OutputPeriod{.message = "AlignAttitude", .window = whole, .within = 0.5}).outcome,
+            Outcome::fail);
+}
+
+TEST_F(Judged, ConsistencyByTheMeanInTheChiSquareInterval) {
+  scenario::Consistency rule{
+      .statistic = scenario::Statistic::nis, .window = whole, .bound = scenario::Probability{0.95}};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  // 40 values of 3 degrees of freedom: chi-square of 120, 95 %: 91.573 to 152.211.
+  EXPECT_THAT(judge(rule).expected, HasSubstr("between 2.29 and 3.81"));
+  for (auto& answer : seen_.filter) answer.nis = 3.9;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  for (auto& answer : seen_.filter) answer.nis = 2.2;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  rule.bound = scenario::MeanBetween{2, 2.5};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+}
+
+TEST_F(Judged, NeesFailsAnOverconfidentFilter) {
+  for (auto& answer : seen_.navigation) answer.angles.heading = 0.1;
+  scenario::Consistency rule{
+      .statistic = scenario::Statistic::attitude_nees, .window = whole, .bound = scenario::MeanBetween{0, 9}};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  for (auto& answer : seen_.filter) answer.attitude_sigma *= 0.01;  // 10 sigma
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, LatencyAtItsQuantile) {
+  scenario::Latency rule{.message = "AlignAttitude", .window = whole, .below_us = 1000, .quantile = 0.99};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  for (std::size_t k = 0; k < 4; ++k) arrivals<messages::AlignAttitude>()[k * 50].t_ns += 5'000'000;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "4 of 400 are 1 %";
+  arrivals<messages::AlignAttitude>()[222].t_ns += 5'000'000;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
+  scenario::OutputPeriod rule{.message = "AlignAttitude", .window = whole, .within = 0.2, .quantile = 0.99};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  auto& all = arrivals<messages::AlignAttitude>();
+  const auto kept = all;
+  all.erase(all.begin() + 100, all.begin() + 150);  // one gap of half a second
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  all = kept;
+  all.resize(350);  // and one at the end
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, OutputPeriodOfAMessageThatAnswersNothing) {
+  const scenario::OutputPeriod rule{.message = "TargetHeartbeat", .window = whole, .within = 0.2};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  arrivals<messages::TargetHeartbeat>().pop_back();
+  arrivals<messages::TargetHeartbeat>().pop_back();
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, HeartbeatUpToTheEndOfTheRun) {
+  const scenario::Heartbeat rule{.silent_at_most_us = 500'000};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  auto& beats = arrivals<messages::TargetHeartbeat>();
+  const auto kept = beats;
+  beats.resize(30);  // the last one at 3 s of 4
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  beats = kept;
+  beats.erase(beats.begin(), beats.begin() + 7);
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  beats.clear();
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, CountersByEachBar) {
+  scenario::Counters rule;
+  rule.frames_lost_at_most = 0;
+  rule.late_at_most = 2;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  seen_.counters->bad_crc = 5;  // not asked for
+  seen_.counters->late = 2;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  seen_.counters->late = 3;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  EXPECT_EQ(judge(rule).measured, "frames lost 0, late 3");
+  seen_.counters.reset();
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
+  const scenario::Latency latency{.message = "AlignAttitude", .window = whole, .below_us = 1000};
+  const scenario::Heartbeat heartbeat{.silent_at_most_us = 500'000};
+  seen_.lateness_ns[7] = 501'000;  // more than half of 1 ms
+  EXPECT_EQ(judge(latency).outcome, Outcome::not_measured);
+  EXPECT_EQ(verdict_.outcome, Outcome::not_measured);
+  EXPECT_EQ(judge(heartbeat).outcome, Outcome::pass) << "its bar is far above";
+  EXPECT_EQ(judge(heartbeat, "virtual time").outcome, Outcome::not_measured);
+  EXPECT_EQ(judge(heartbeat, "virtual time").measured, "virtual time");
+  EXPECT_EQ(judge(attitude, "virtual time").outcome, Outcome::pass) << "outputs are judged on any host";
+}
+
+TEST_F(Judged, TimingIsNotMeasuredWithLostFrames) {
+  EXPECT_EQ(unfit_for_timing(seen_), "");
+  seen_.target_frames_lost = 2;
+  EXPECT_THAT(unfit_for_timing(seen_), HasSubstr("2 frames of the target were lost"));
+  seen_.receive_overflows = 3;
+  EXPECT_THAT(unfit_for_timing(seen_), HasSubstr("port lost 3 frames"));
+}
+
+TEST_F(Judged, ARunThatEndedEarlyFailsWhateverItsChecksSay) {
+  ended_early_ = "target silent since t=1 s";
+  EXPECT_EQ(judge(attitude).outcome, Outcome::pass);
+  EXPECT_EQ(verdict_.outcome, Outcome::fail);
+  EXPECT_EQ(verdict_.reason, ended_early_);
+}
+
+TEST(Quantile, IsOfTheNearestRank) {
+  EXPECT_EQ(quantile({3, 1, 2, 4}, 0.5), 2);
+  EXPECT_EQ(quantile({3, 1, 2, 4}, 0.51), 3);
+  EXPECT_EQ(quantile({3, 1, 2, 4}, 1), 4);
+  EXPECT_EQ(quantile({7}, 0.001), 7);
+  EXPECT_EQ(distribution({}).count, 0U);
+  EXPECT_EQ(distribution({3, 1, 2}).p50, 2);
+}
+
+}  // namespace
+}  // namespace canhil::checks

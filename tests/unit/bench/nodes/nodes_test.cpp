@@ -1,0 +1,104 @@
+// What the emulated nodes send, and when.
+#include <gmock/gmock.h>
+
+#include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/time_keeper.hpp"
+#include "bench/world/motion/rest.hpp"
+
+namespace canhil::nodes {
+namespace {
+
+using messages::SlaveImuDeltaTheta;
+using testing::ElementsAre;
+
+world::FlightRecord at_rest(std::int64_t duration_us, std::int64_t interval_us = 10'000) {
+  return {{.start = {}, .motion = world::Rest{}}, duration_us, interval_us};
+}
+
+std::vector<std::int64_t> times(Node& node) {
+  std::vector<std::int64_t> due;
+  Transmission out;
+  for (; node.due_us() != never_us; out.clear()) {
+    due.push_back(node.due_us());
+    node.transmit(out);
+  }
+  return due;
+}
+
+TEST(IncrementRounding, TheRemainderNeverAccumulates) {
+  const SignalInfo& signal = SlaveImuDeltaTheta::info.signals[0];
+  IncrementRounding rounding(signal);
+  const world::Vector3 increment{0.3 * signal.scale, -0.49 * signal.scale, 123.4567 * signal.scale};
+  world::Vector3 sent = world::Vector3::Zero();
+  for (int k = 1; k <= 100'000; ++k) {
+    sent += rounding.round(increment);
+    ASSERT_LE((sent - k * increment).cwiseAbs().maxCoeff(), 0.501 * signal.scale) << k;
+  }
+}
+
+TEST(IncrementRounding, SendsWhatTheCodecCarriesExactly) {
+  const SignalInfo& signal = SlaveImuDeltaTheta::info.signals[0];
+  IncrementRounding rounding(signal);
+  for (int k = 0; k < 1000; ++k) {
+    const double sent = rounding.round({1.23456e-3, 0, 0}).x();
+    const auto frame = to_frame(SlaveImuDeltaTheta{.delta_theta_x_rad = sent}, 0);
+    ASSERT_EQ(from_frame<SlaveImuDeltaTheta>(frame).delta_theta_x_rad, sent);
+  }
+}
+
+TEST(Sampling, IsSentALatencyAfterItsTimeOfValidity) {
+  Sampling sampling(20'000, 7'000, 100'000);
+  EXPECT_EQ(sampling.valid_us(), 20'000);
+  EXPECT_EQ(sampling.due_us(), 27'000);
+  sampling.advance();
+  EXPECT_EQ(sampling.due_us(), 47'000);
+}
+
+TEST(Sampling, NothingIsSentAfterTheEndOfTheRun) {
+  const auto flight = at_rest(40'000);
+  SlaveImu in_time(flight, {}, world::Stream(1, 0, "imu"));
+  EXPECT_THAT(times(in_time), ElementsAre(10'000, 20'000, 30'000, 40'000));
+  SlaveImu delayed(flight, {.schedule = {.period_us = std::nullopt, .latency_us = 5'000}, .errors = {}},
+                   world::Stream(1, 0, "imu"));
+  EXPECT_THAT(times(delayed), ElementsAre(15'000, 25'000, 35'000));
+}
+
+TEST(TimeKeeper, KeepsTimeFromZeroToTheEnd) {
+  TimeKeeper keeper(30'000, false);
+  EXPECT_THAT(times(keeper), ElementsAre(0, 10'000, 20'000, 30'000));
+}
+
+TEST(TimeKeeper, ClosesARunThatEndsBetweenTwoSyncs) {
+  TimeKeeper keeper(25'000, true);  // or lockstep would not wait for the last sample's answer
+  EXPECT_THAT(times(keeper), ElementsAre(0, 10'000, 20'000, 30'000));
+}
+
+TEST(TimeKeeper, CountsStepsInElevenBits) {
+  TimeKeeper keeper(25'000'000, true);
+  Transmission out;
+  for (int step = 0; step < 2100; ++step, out.clear()) {
+    keeper.transmit(out);
+    const auto sync = from_frame<messages::Sync>(out.frames().front());
+    ASSERT_EQ(sync.step, step % 2048);
+    ASSERT_EQ(sync.time_us, static_cast<std::uint64_t>(step) * 10'000);
+    ASSERT_EQ(sync.lockstep, 1);
+  }
+}
+
+TEST(MasterIns, ClosesItsGroupWithTheTimeOfValidityNotOfTransmission) {
+  const auto flight = at_rest(1'000'000);
+  MasterIns node(flight, {.schedule = {.period_us = 50'000, .latency_us = 30'000}, .errors = {}},
+                 world::Stream(1, 0, "master"));
+  EXPECT_EQ(node.due_us(), 80'000);
+  Transmission out;
+  node.transmit(out);
+  ASSERT_EQ(out.frames().size(), 5U);
+  const auto closing = from_frame<messages::MasterInsVelocityD>(out.frames().back());
+  EXPECT_EQ(out.frames().back().id, messages::MasterInsVelocityD::info.id);
+  EXPECT_EQ(closing.time_of_validity_us, 50'000U);
+  for (const Frame& frame : out.frames()) EXPECT_EQ(e2e::counter(frame.payload()), 0);
+}
+
+}  // namespace
+}  // namespace canhil::nodes

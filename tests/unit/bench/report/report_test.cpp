@@ -1,0 +1,126 @@
+// Reports stay well-formed whatever the names in them are, and files are whole or not there.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "bench/report/file.hpp"
+#include "bench/report/json.hpp"
+#include "bench/report/junit.hpp"
+#include "bench/report/text.hpp"
+#include "bench/world/motion/rest.hpp"
+
+namespace canhil::report {
+namespace {
+
+using checks::Outcome;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string awkward = "a<b> & \"c\" 'd' \x01\n\xC2\xB5";
+
+scenario::Scenario scenario_of() {
+  scenario::Scenario scenario;
+  scenario.title = awkward;
+  scenario.duration_us = 1'000'000;
+  return scenario;
+}
+
+run::Run run_of() {
+  return {.verdict = {.outcome = Outcome::fail,
+                      .reason = "1 of 3 checks failed",
+                      .checks = {{awkward, "kind", awkward, Outcome::fail, "5 < 6", "> 7"},
+                                 {"two", "kind", "", Outcome::not_measured, "late", "x"},
+                                 {"three", "kind", "", Outcome::pass, "1", "1"}}},
+          .ending = {},
+          .seen = {},
+          .truth = {{.start = {}, .motion = world::Rest{}}, 1'000'000, 10'000},
+          .options = {},
+          .wall_s = 1.5};
+}
+
+boost::property_tree::ptree suite_of(const run::Run& run) {
+  std::istringstream text(junit(scenario_of(), run));
+  boost::property_tree::ptree xml;
+  read_xml(text, xml);
+  return xml.get_child("testsuites.testsuite");
+}
+
+TEST(Junit, EscapesWhatXmlForbids) {
+  const auto suite = suite_of(run_of());
+  const std::string readable = "a<b> & \"c\" 'd'   \xC2\xB5";
+  EXPECT_EQ(suite.get<std::string>("<xmlattr>.name"), readable);
+  auto second = std::next(suite.begin(), 2)->second;  // after the attributes and the run's own case
+  EXPECT_EQ(second.get<std::string>("<xmlattr>.name"), readable);
+  EXPECT_EQ(second.get<std::string>("properties.property.<xmlattr>.value"), readable);
+  EXPECT_EQ(second.get<std::string>("failure.<xmlattr>.message"), "5 < 6; expected > 7");
+}
+
+TEST(Junit, CountsWhatItLists) {
+  const auto suite = suite_of(run_of());
+  EXPECT_EQ(suite.get<std::size_t>("<xmlattr>.tests"), 4U);
+  EXPECT_EQ(suite.count("testcase"), 4U);
+  EXPECT_EQ(suite.get<int>("<xmlattr>.failures"), 1);
+  EXPECT_EQ(suite.get<int>("<xmlattr>.skipped"), 1);
+}
+
+TEST(Junit, ARunThatEndedEarlyIsAFailureAndAnInterruptedOneIsSkipped) {
+  run::Run run = run_of();
+  run.verdict.checks.clear();
+  run.ending = {.kind = run::Ending::Kind::target_silent, .t_us = 5, .detail = "silent"};
+  EXPECT_EQ(suite_of(run).get<int>("<xmlattr>.failures"), 1);
+  run.ending = {.kind = run::Ending::Kind::interrupted, .t_us = 5, .detail = "interrupted"};
+  EXPECT_EQ(suite_of(run).get<int>("<xmlattr>.failures"), 0);
+  EXPECT_EQ(suite_of(run).get<int>("<xmlattr>.skipped"), 1);
+}
+
+TEST(JsonReport, CarriesEveryStringAsItIs) {
+  const auto page = nlohmann::json::parse(json(scenario_of(), run_of()));
+  EXPECT_EQ(page["title"], awkward);
+  EXPECT_EQ(page["checks"][0]["name"], awkward);
+  EXPECT_EQ(page["verdict"], "fail");
+  EXPECT_EQ(page["checks"][1]["outcome"], "not measured");
+}
+
+TEST(JsonReport, AFileNameThatIsNoUtf8DoesNotEndIt) {
+  scenario::Scenario scenario = scenario_of();
+  scenario.file = "\xFF.toml";
+  const auto page = nlohmann::json::parse(json(scenario, run_of()));
+  EXPECT_EQ(page["provenance"]["scenario"], "\xEF\xBF\xBD.toml");
+}
+
+TEST(Reports, NameAPeriodThatIsNotTheDbcs) {
+  scenario::Scenario scenario = scenario_of();
+  EXPECT_THAT(text(scenario, run_of()), Not(HasSubstr("DBC:")));
+  scenario.slave_imu.emplace().schedule.period_us = 5'000;
+  scenario.master_ins.emplace();
+  EXPECT_THAT(text(scenario, run_of()), HasSubstr("SlaveImu every 5 ms (DBC: 10 ms)"));
+  const auto page = nlohmann::json::parse(json(scenario, run_of()));
+  EXPECT_THAT(page["provenance"]["period_overrides"], testing::SizeIs(1));
+}
+
+TEST(File, IsWholeOrNotThere) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("canhil-report-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string path = folder / "report.json";
+  ASSERT_TRUE(write_file(path, "first"));
+  ASSERT_TRUE(write_file(path, "second"));
+  std::ifstream file(path);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "second");
+  EXPECT_FALSE(write_file(folder / "no" / "such", "x"));
+  EXPECT_FALSE(write_file(folder, "x"));
+  EXPECT_FALSE(check_writable(folder));
+  EXPECT_FALSE(check_writable(folder / "no" / "such"));
+  EXPECT_TRUE(check_writable(path));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1) << "nothing unfinished stays";
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace canhil::report

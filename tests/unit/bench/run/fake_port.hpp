@@ -1,0 +1,56 @@
+// A bus with a target that a test writes.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "dbc/ports/port.hpp"
+#include "dbc/wire/transmit.hpp"
+
+namespace canhil::run {
+
+/// Every frame sent is shown to `on_send`, which may call give(). Stamps are 0; waiting is sleeping.
+class FakePort final : public Port {
+ public:
+  SendOutcome send(const Frame& frame) override {
+    if (outcome != SendOutcome::sent) return outcome;
+    sent.push_back(frame);
+    if (on_send) on_send(frame);
+    return SendOutcome::sent;
+  }
+  std::optional<Received> receive() override {
+    if (waiting_.empty()) return std::nullopt;
+    const Received first = waiting_.front();
+    waiting_.pop_front();
+    return first;
+  }
+  [[nodiscard]] int descriptor() const override { return -1; }
+  [[nodiscard]] RoomWait room_wait() const override { return {.events = 0, .pause_ns = 1'000'000}; }
+  [[nodiscard]] bool closed() const override { return gone; }
+  [[nodiscard]] PortCounters counters() const override { return {}; }
+  [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  /// Puts one message of the target on the bus.
+  template <class Message>
+  void give(const Message& message) {
+    target.clear();
+    target.send(message);
+    give(target.frames().front());
+  }
+  void give(const Frame& frame) { waiting_.push_back({.frame = frame}); }
+
+  std::function<void(const Frame&)> on_send;
+  SendOutcome outcome = SendOutcome::sent;
+  bool gone = false;
+  std::vector<Frame> sent;
+  Outbox<1> target;
+
+ private:
+  std::deque<Received> waiting_;
+  std::string name_ = "fake";
+};
+
+}  // namespace canhil::run

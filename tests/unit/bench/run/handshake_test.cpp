@@ -1,0 +1,173 @@
+// The handshake against targets that are slow, deaf, stubborn or of another make.
+#include "bench/run/handshake.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/bench/run/fake_port.hpp"
+
+namespace canhil::run {
+namespace {
+
+using namespace messages;
+using testing::HasSubstr;
+
+// A target that does as it is told; a test makes it misbehave.
+class Handshake : public testing::Test {
+ protected:
+  Handshake() {
+    port_.on_send = [this](const Frame& frame) { answer(frame); };
+    beat();
+  }
+
+  virtual void answer(const Frame& frame) {
+    if (frame.id == TargetCommand::info.id) {
+      const auto command = from_frame<TargetCommand>(frame);
+      if (deaf_to_commands_-- > 0) return;
+      if (command.command == Command::reset) {
+        heartbeat_.state = TargetState::idle;
+        heartbeat_.estimator = offers_ ? command.estimator : Estimator::none;
+        heartbeat_.algorithm = command.algorithm;
+        heartbeat_.error_command = offers_ ? 0 : 1;
+      } else if (command.command == Command::start && starts_) {
+        heartbeat_.state = TargetState::running;
+      }
+      beat();
+    } else if (frame.id == ParamSet::info.id) {
+      const auto request = from_frame<ParamSet>(frame);
+      port_.give(ParamAck{
+          .parameter = request.parameter, .value = request.value + misread_, .status = parameter_status_});
+    } else if (frame.id == TargetInitVelocityD::info.id) {
+      heartbeat_.state = TargetState::ready;
+      beat();
+    }
+  }
+  void beat() { port_.give(heartbeat_); }
+
+  Result<void> configure() {
+    nodes::Transmission out;
+    Link link(port_);
+    return run::configure(link, out, setup_, {}, [this] { return gone_; });
+  }
+  [[nodiscard]] auto sent(std::uint32_t id) const { return std::ranges::count(port_.sent, id, &Frame::id); }
+
+  FakePort port_;
+  TargetHeartbeat heartbeat_{.dbc_hash = dbc_hash24};
+  scenario::TargetSetup setup_{.estimator = "transfer_alignment",
+                               .algorithm = "robust_h2",
+                               .initial_sigma = {},
+                               .parameters = {{.name = "h2_case", .value = 2}}};
+  std::optional<std::string> gone_;
+  bool offers_ = true;
+  bool starts_ = true;
+  int deaf_to_commands_ = 0;
+  float misread_ = 0;
+  ParameterStatus parameter_status_ = ParameterStatus::accepted;
+};
+
+TEST_F(Handshake, ConfiguresAndStartsWithEachStepOnce) {
+  const auto done = configure();
+  ASSERT_TRUE(done) << done.error().message;
+  std::vector<std::uint32_t> ids;
+  for (const Frame& frame : port_.sent) ids.push_back(frame.id);
+  EXPECT_THAT(ids,
+              testing::ElementsAre(TargetCommand::info.id, ParamSet::info.id, TargetInitLatitude::info.id,
+                                   TargetInitLongitude::info.id, TargetInitVelocityNE::info.id,
+                                   TargetInitAttitude::info.id, TargetInitSigma::info.id,
+                                   TargetInitVelocityD::info.id, TargetCommand::info.id));
+}
+
+TEST_F(Handshake, RepeatsACommandThatWasNotHeard) {
+  deaf_to_commands_ = 2;
+  EXPECT_TRUE(configure());
+  EXPECT_EQ(sent(TargetCommand::info.id), 4);
+  EXPECT_EQ(sent(ParamSet::info.id), 1);
+}
+
+TEST_F(Handshake, AHeartbeatOfTheLastRunIsNotTheAnswerToAReset) {
+  deaf_to_commands_ = 1;
+  port_.on_send = [this](const Frame& frame) {
+    if (deaf_to_commands_ > 0) {
+      heartbeat_.estimator = Estimator::transfer_alignment;  // as left behind: idle, with the other algorithm
+      heartbeat_.algorithm = Algorithm::kalman;
+      beat();
+    }
+    answer(frame);
+  };
+  EXPECT_TRUE(configure());
+  EXPECT_EQ(sent(TargetCommand::info.id), 3);
+}
+
+TEST_F(Handshake, RefusesATargetOfAnotherDbcWithoutCommandingIt) {
+  heartbeat_.dbc_hash ^= 1U;
+  beat();
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("different DBC files"));
+  EXPECT_TRUE(port_.sent.empty());
+}
+
+TEST_F(Handshake, NamesAnEstimatorThatTheTargetDoesNotOffer) {
+  offers_ = false;
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("does not offer estimator 'transfer_alignment' with algorithm "
+                                              "'robust_h2' (errors: command)"));
+}
+
+TEST_F(Handshake, NamesAParameterThatTheTargetRefuses) {
+  parameter_status_ = ParameterStatus::out_of_range;
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message,
+              HasSubstr("parameter 'h2_case' = 2: refused by the target: out_of_range"));
+}
+
+TEST_F(Handshake, NamesAParameterThatReadsBackOtherwise) {
+  misread_ = 0.5F;
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("'h2_case' = 2: the target reads back 2.5"));
+}
+
+TEST_F(Handshake, SaysInWhichStateATargetIsThatDoesNotStart) {
+  starts_ = false;
+  heartbeat_.error_not_initialised = 1;
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message,
+              HasSubstr("while starting; its state is ready, its errors: not_initialised"));
+}
+
+TEST_F(Handshake, DoesNotWaitForATargetThatIsGone) {
+  deaf_to_commands_ = 1000;
+  gone_ = "target: exited with 1";
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message, "target: exited with 1 while being reset");
+}
+
+TEST_F(Handshake, NamesABusThatIsGone) {
+  port_.gone = true;
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("bus 'fake': gone while waiting for its heartbeat"));
+}
+
+TEST_F(Handshake, NamesABusThatIsDown) {
+  port_.outcome = SendOutcome::down;
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("bus 'fake': takes no frames"));
+}
+
+TEST_F(Handshake, AHeartbeatWithAWrongCrcIsNone) {
+  FakePort port;
+  port.target.send(TargetHeartbeat{.dbc_hash = dbc_hash24 ^ 1U});
+  Frame frame = port.target.frames().front();
+  frame.data[0] ^= 1U;
+  port_.give(frame);
+  EXPECT_TRUE(configure());
+}
+
+}  // namespace
+}  // namespace canhil::run

@@ -1,0 +1,174 @@
+#include "bench/run/monitor.hpp"
+
+#include <gmock/gmock.h>
+
+#include "bench/checks/timing.hpp"
+#include "bench/run/link.hpp"
+#include "dbc/wire/time_base.hpp"
+
+namespace canhil::run {
+namespace {
+
+using namespace messages;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr scenario::Window everything{.from_us = 0, .to_us = 1'000'000'000'000};
+
+// Both sides of the bus, as a monitor sees them.
+class Watched : public testing::Test {
+ protected:
+  void sync(std::int64_t t_us) { transmit(Sync{.time_us = static_cast<std::uint64_t>(t_us)}, 0); }
+  template <class Message>
+  Frame transmit(const Message& message, std::int64_t t_ns, std::int64_t late_ns = 0) {
+    const Frame frame = next(bench_, message);
+    monitor_.transmitted(frame, t_ns, late_ns);
+    return frame;
+  }
+  void echo(const Frame& frame, std::int64_t t_ns) {
+    monitor_.received({.frame = frame, .t_ns = t_ns, .own = true});
+  }
+  void imu(std::int64_t t_us, std::int64_t t_ns) {
+    transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(t_us)}, t_ns);
+  }
+  template <class Message>
+  void receive(const Message& message, std::int64_t t_ns = 0) {
+    monitor_.received({.frame = next(target_, message), .t_ns = t_ns});
+  }
+  void answer(std::int64_t cause_us, std::int64_t t_ns = 0) {
+    receive(AlignAttitude{.heading_deg = 30}, t_ns);
+    receive(AlignVelocityNE{.velocity_north_mps = 1, .velocity_east_mps = 2}, t_ns);
+    receive(AlignVelocityD{.velocity_down_mps = 3, .cause_time_us = wrap_us(cause_us)}, t_ns);
+  }
+  void answer_filter(std::int64_t cause_us) {
+    receive(AlignInnovation{.innovation_down_mps = 0.5});
+    receive(AlignAttitudeSigma{.attitude_sigma_east_rad = 0.01});
+    receive(AlignAttitudeCorrelation{.attitude_correlation_nd = 0.25});
+    receive(AlignVelocitySigma{});
+    receive(AlignGyroBias{.gyro_bias_x_degph = 3.6});
+    receive(AlignGyroBiasSigma{});
+    receive(AlignAccelBias{});
+    receive(AlignAccelBiasSigma{});
+    receive(AlignUpdate{.cause_time_us = wrap_us(cause_us), .nis = 2.5});
+  }
+  template <class Message>
+  static Frame next(Outbox<1>& side, const Message& message) {
+    side.clear();
+    side.send(message);
+    return side.frames().front();
+  }
+  [[nodiscard]] const checks::Observations& seen() const { return monitor_.observations(); }
+
+  Monitor monitor_;
+  Outbox<1> bench_;
+  Outbox<1> target_;
+};
+
+TEST_F(Watched, ANavigationGroupIsOneAnswerInSiUnits) {
+  answer(10'000);
+  ASSERT_EQ(seen().navigation.size(), 1U);
+  EXPECT_EQ(seen().navigation[0].cause_us, 10'000);
+  EXPECT_NEAR(seen().navigation[0].angles.heading, 0.5235988, 1e-6);
+  EXPECT_TRUE(seen().navigation[0].v_eb_n.isApprox(world::Vector3(1, 2, 3), 1e-12));
+}
+
+TEST_F(Watched, AFilterGroupIsOneAnswerThatKnowsTheNavigationBeforeIt) {
+  answer(90'000);
+  answer(100'000);
+  answer_filter(60'000);
+  answer(110'000);
+  ASSERT_EQ(seen().filter.size(), 1U);
+  EXPECT_EQ(seen().filter[0].cause_us, 60'000);
+  EXPECT_EQ(seen().filter[0].navigation_us, 100'000);
+  EXPECT_NEAR(seen().filter[0].nis, 2.5, 1e-12);
+  EXPECT_NEAR(seen().filter[0].attitude_sigma.y(), 0.01, 1e-12);
+  EXPECT_NEAR(seen().filter[0].attitude_correlation.y(), 0.25, 1e-12);
+  EXPECT_NEAR(seen().filter[0].gyro_bias.x(), 1.7453293e-5, 1e-12);
+}
+
+TEST_F(Watched, LatencyIsPairedByCauseNotByOrder) {
+  imu(10'000, 1'000);
+  imu(20'000, 2'000);
+  imu(30'000, 3'000);
+  answer(10'000, 4'000);
+  answer(30'000, 3'500);
+  EXPECT_THAT(checks::latencies_s(seen(), "AlignVelocityD", everything),
+              ElementsAre(testing::DoubleEq(3e-6), testing::DoubleEq(0.5e-6)));
+}
+
+TEST_F(Watched, TheStampOfTheEchoReplacesTheBenchsOwn) {
+  imu(10'000, 1'000);
+  const Frame frame = transmit(SlaveImuStatus{.time_of_validity_us = 20'000}, 2'000);
+  imu(30'000, 3'000);
+  EXPECT_FALSE(seen().transmit_stamps_echoed);
+  echo(frame, 2'700);
+  EXPECT_TRUE(seen().transmit_stamps_echoed);
+  answer(20'000, 3'700);
+  EXPECT_THAT(checks::latencies_s(seen(), "AlignVelocityD", everything),
+              ElementsAre(testing::DoubleEq(1e-6)));
+  EXPECT_EQ(seen().slave_imu[0].t_ns, 1'000);
+  EXPECT_EQ(seen().slave_imu[2].t_ns, 3'000);
+}
+
+TEST_F(Watched, AnEchoIsNoAnswer) {
+  echo(next(target_, AlignVelocityD{}), 0);
+  echo(next(target_, TargetHeartbeat{}), 0);
+  EXPECT_FALSE(seen().heartbeat);
+  EXPECT_THAT(seen().arrivals[message_index<AlignVelocityD>()], IsEmpty());
+}
+
+TEST_F(Watched, CausesUnwrapAroundTheTimeBase) {
+  const std::int64_t late_us = (std::int64_t{1} << 32) + 5'000;
+  sync(late_us - 10'000);
+  imu(late_us, 1'000);
+  answer(late_us, 2'000);
+  EXPECT_EQ(seen().navigation.back().cause_us, late_us);
+  EXPECT_EQ(checks::latencies_s(seen(), "AlignVelocityD", everything).size(), 1U);
+}
+
+TEST_F(Watched, AGapInTheCountersIsCountedAsLostFrames) {
+  receive(TargetHeartbeat{});
+  for (int k = 0; k < 3; ++k) static_cast<void>(next(target_, TargetHeartbeat{}));
+  receive(TargetHeartbeat{});
+  EXPECT_EQ(seen().target_frames_lost, 3U);
+}
+
+TEST_F(Watched, AGroupThatMissesAFrameIsNoAnswer) {
+  answer(10'000);
+  receive(AlignAttitude{});
+  static_cast<void>(next(target_, AlignVelocityNE{}));
+  receive(AlignVelocityD{.cause_time_us = 20'000});
+  EXPECT_EQ(seen().navigation.size(), 1U);
+  EXPECT_EQ(seen().arrivals[message_index<AlignVelocityD>()].back().cause_us, -1);
+  answer(30'000);
+  EXPECT_EQ(seen().navigation.size(), 2U);
+  EXPECT_EQ(seen().target_frames_lost, 1U);
+}
+
+TEST_F(Watched, ABrokenFrameIsCountedAndNotUsed) {
+  Frame frame = next(target_, TargetHeartbeat{});
+  frame.data[5] ^= 1U;
+  monitor_.received({.frame = frame});
+  frame.size = 3;
+  monitor_.received({.frame = frame});
+  EXPECT_EQ(seen().target_bad_crc, 2U);
+  EXPECT_FALSE(seen().heartbeat);
+}
+
+TEST_F(Watched, ARepeatedFrameIsNotUsed) {
+  const Frame frame = next(target_, TargetHeartbeat{});
+  monitor_.received({.frame = frame});
+  monitor_.received({.frame = frame});
+  EXPECT_EQ(seen().arrivals[message_index<TargetHeartbeat>()].size(), 1U);
+}
+
+TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
+  transmit(Sync{}, 100, 7);
+  transmit(Sync{}, 300, 9);
+  EXPECT_THAT(seen().lateness_ns, ElementsAre(7, 9));
+  EXPECT_EQ(seen().first_ns, 100);
+  EXPECT_EQ(seen().last_ns, 300);
+}
+
+}  // namespace
+}  // namespace canhil::run

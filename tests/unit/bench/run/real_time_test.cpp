@@ -1,0 +1,98 @@
+#include "bench/run/real_time.hpp"
+
+#include <gmock/gmock.h>
+
+#include "bench/nodes/time_keeper.hpp"
+#include "tests/unit/bench/run/fake_port.hpp"
+
+namespace canhil::run {
+namespace {
+
+using messages::TargetHeartbeat;
+using messages::TargetState;
+
+class RealTime : public testing::Test {
+ protected:
+  Ending run(std::int64_t silence_limit_ns) {
+    Link link(port_);
+    Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, false));
+    return run_real_time(link, schedule, silence_limit_ns, stop_, [](std::int64_t) {});
+  }
+  static constexpr std::int64_t patient_ns = 60'000'000'000;
+  static constexpr std::int64_t impatient_ns = 30'000'000;
+
+  FakePort port_;
+  std::atomic<bool> stop_ = false;
+};
+
+TEST_F(RealTime, SendsTheWholeSchedule) {
+  EXPECT_EQ(run(patient_ns).kind, Ending::Kind::completed);
+  EXPECT_EQ(port_.sent.size(), 6U);
+}
+
+TEST_F(RealTime, NamesASilentTarget) {
+  const Ending ending = run(impatient_ns);
+  EXPECT_EQ(ending.kind, Ending::Kind::target_silent);
+  EXPECT_THAT(ending.detail, testing::HasSubstr("target silent since t="));
+}
+
+TEST_F(RealTime, AnErrorFrameIsNoSignOfLife) {
+  // Error classes "bus error" and "bus off" together look like the id of AlignAttitude.
+  port_.on_send = [&](const Frame&) {
+    port_.give(Frame{.id = messages::AlignAttitude::info.id, .size = 8, .error = true});
+  };
+  EXPECT_EQ(run(impatient_ns).kind, Ending::Kind::target_silent);
+}
+
+TEST_F(RealTime, EndsWithAFaultOfTheTarget) {
+  port_.on_send = [&](const Frame&) { port_.give(TargetHeartbeat{.state = TargetState::fault}); };
+  EXPECT_EQ(run(patient_ns).kind, Ending::Kind::target_fault);
+  EXPECT_LE(port_.sent.size(), 2U);
+}
+
+TEST_F(RealTime, EndsWhenTheBusIsDownOrFullOrTheUserSaysSo) {
+  port_.outcome = SendOutcome::down;
+  EXPECT_EQ(run(patient_ns).kind, Ending::Kind::bus_down);
+  port_.outcome = SendOutcome::queue_full;
+  EXPECT_EQ(run(impatient_ns).kind, Ending::Kind::target_silent);
+  port_.outcome = SendOutcome::sent;
+  stop_ = true;
+  EXPECT_EQ(run(patient_ns).kind, Ending::Kind::interrupted);
+}
+
+// Sees how late the bench says that it was.
+class Lateness final : public Observer {
+ public:
+  void transmitted(const Frame&, std::int64_t, std::int64_t late_ns) override { late = late_ns; }
+  std::int64_t late = -1;
+};
+
+TEST_F(RealTime, AFrameThatWaitedForRoomIsAsLateAsItWasSent) {
+  Lateness lateness;
+  Link link(port_);
+  link.attach(lateness);
+  const std::int64_t due_ns = clock_ns(CLOCK_MONOTONIC);
+  port_.outcome = SendOutcome::queue_full;
+  std::int64_t room_ns = 0;
+  class OpenTheBus final : public Observer {
+   public:
+    OpenTheBus(FakePort& port, std::int64_t& room_ns) : port_(port), room_ns_(room_ns) {}
+    void received(const Received&) override {
+      port_.outcome = SendOutcome::sent;
+      room_ns_ = clock_ns(CLOCK_MONOTONIC);
+    }
+
+   private:
+    FakePort& port_;
+    std::int64_t& room_ns_;
+  } opener(port_, room_ns);
+  link.attach(opener);
+  port_.give(Frame{.id = 1});  // found while the link waits for room
+  ASSERT_EQ(link.send(Frame{.id = 2}, patient_ns, due_ns), LinkState::up);
+  EXPECT_GE(lateness.late, room_ns - due_ns);
+  ASSERT_EQ(link.send(Frame{.id = 2}, patient_ns), LinkState::up);
+  EXPECT_EQ(lateness.late, 0) << "no deadline, no lateness";
+}
+
+}  // namespace
+}  // namespace canhil::run
