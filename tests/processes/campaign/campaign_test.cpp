@@ -2,9 +2,9 @@
 // be.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <chrono>
 #include <filesystem>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 /// Two variants of the quick flight, with a sweep.
 std::string campaign_file(int runs = 30) {
-  const std::string file = scratch(fmt::format("campaign{}.toml", runs));
+  std::string file = scratch(fmt::format("campaign{}.toml", runs));
   std::ofstream(file) << fmt::format(R"(title = "Short"
 runs = {}
 seed = 11

@@ -81,7 +81,7 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   std::ofstream(text) << std::string(5000, 'x');
   expect_refused({text}, "text.sqlite: is no SQLite file");
   const auto empty = scratch("empty.sqlite");
-  std::ofstream{empty};
+  std::ofstream(empty).close();
   expect_refused({empty}, "empty.sqlite: is another kind of file");
 }
 
