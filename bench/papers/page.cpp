@@ -115,8 +115,8 @@ Result<std::string> html(const Figure& figure) {
 }
 
 std::size_t width_of(std::string_view text) {  // in characters, not bytes, of UTF-8
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0b1100'0000U) != 0b1000'0000U; }));
 }
 
 std::string text(const Table& table) {

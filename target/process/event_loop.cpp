@@ -56,8 +56,10 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     while (!stop) {
       const auto received = port.receive();
       if (!received) break;
-      if (!established && received->frame.id == messages::TargetHeartbeat::info.id &&
-          !received->frame.error) {
+      if (!established) {
+        const bool heartbeat =
+            received->frame.id == messages::TargetHeartbeat::info.id && !received->frame.error;
+        if (!heartbeat) continue;
         return failure(
             fmt::format("bus '{}': a target answers here already, expected to be the only one", bus));
       }

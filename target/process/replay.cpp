@@ -12,9 +12,21 @@ constexpr Routes from_target_route([](const MessageInfo& info) {
 });
 bool from_target(const Frame& frame) { return from_target_route(frame) != Routes::nowhere; }
 
+// Reads a log to its end.
+Result<void> check(const std::string& log_path) {
+  auto reader = LogReader::open(log_path);
+  if (!reader) return tl::unexpected(reader.error());
+  for (;;) {
+    const auto next = reader->next();
+    if (!next) return tl::unexpected(next.error());
+    if (!*next) return {};
+  }
+}
+
 }  // namespace
 
 Result<void> replay(const std::string& log_path, std::FILE* out) {
+  if (auto whole = check(log_path); !whole) return whole;  // before the first line is written
   auto reader = LogReader::open(log_path);
   if (!reader) return tl::unexpected(reader.error());
   Device device;
