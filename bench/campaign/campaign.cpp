@@ -142,6 +142,7 @@ std::vector<Given> read_variants(Section& root) {
 
 std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given, std::int64_t duration_us) {
   std::vector<std::string> names;
+  names.reserve(given.size());
   for (const Given& one : given) names.push_back(one.name);
   std::vector<Metric> metrics;
   for (Section& section : root.tables("metric")) {

@@ -10,7 +10,7 @@ auto complaint(const std::string& file, int code, const char* message) {
   if (code == SQLITE_NOTADB) {
     return failure(fmt::format("{}: is no SQLite file, expected results of a campaign", file));
   }
-  return failure(fmt::format("{}: {}", file, message));
+  return failure(fmt::format("{}: cannot be read or written: {}", file, message));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 using Runs = std::vector<RunSeries>;
 
-double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 double in_unit(double value, Quantity quantity) { return value / unit_of(quantity).factor; }
 

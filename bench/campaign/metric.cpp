@@ -22,7 +22,7 @@ struct Context {
   std::int64_t duration_us;
 };
 
-double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 Quantity read_quantity(Section& section, std::string_view key, std::span<const std::string_view> names) {
   const std::vector<std::string> words(names.begin(), names.end());

@@ -48,7 +48,7 @@ ordered_json json_of(const Answer& answer) {
   const Unit unit = unit_of(answer.quantity);
   ordered_json times = ordered_json::array(), values = ordered_json::array(), missing = ordered_json::array();
   for (const CurvePoint& point : answer.curve) {
-    times.push_back(static_cast<double>(point.t_us) * 1e-6);
+    times.push_back(static_cast<double>(point.t_us) / 1e6);
     values.push_back(number(point.rms / unit.factor));
     missing.push_back(point.missing);
   }

@@ -83,7 +83,7 @@ std::vector<std::uint8_t> encode(std::span<const Sample> samples) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(samples.size() * numbers_per_sample * sizeof(double));
   for (const Sample& sample : samples) {
-    append(bytes, static_cast<double>(sample.t_us) * 1e-6);
+    append(bytes, static_cast<double>(sample.t_us) / 1e6);
     for (const double phi : sample.misalignment) append(bytes, phi);
     for (const double angle : {sample.angles.roll, sample.angles.pitch, sample.angles.heading}) {
       append(bytes, angle);

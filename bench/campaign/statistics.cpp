@@ -12,7 +12,7 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double degrees_of_freedom = 3;
 
-double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 // Update times that any run has, ascending.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs) {

@@ -35,7 +35,7 @@ std::string difference(const Identity& found, const Identity& expected);
 struct Key {
   std::size_t variant = 0;
   std::uint64_t run = 0;
-  friend auto operator<=>(const Key&, const Key&) = default;
+  friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): false
 };
 struct Finished {
   std::size_t variant = 0;

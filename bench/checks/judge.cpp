@@ -270,6 +270,10 @@ Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
   const Judge judge(evidence);
   for (const scenario::Check& check : scenario.checks) {
     Finding finding = std::visit(judge, check.rule);
+    if (!evidence.ended_early.empty()) {  // what was seen until then proves nothing either way
+      finding.outcome = Outcome::not_measured;
+      finding.measured = "the run ended early";
+    }
     verdict.checks.push_back({.name = check.name,
                               .kind = std::string(scenario::kind(check)),
                               .requirement = check.requirement,

@@ -95,8 +95,14 @@ ExitCode execute(const Arguments& arguments) {
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
   if (!scenario) return complain(scenario.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
-  for (const std::string& path : {arguments.json, arguments.junit, arguments.log}) {
-    if (path.empty() || path == "-") continue;
+  const std::string json = arguments.json == "-" ? "" : arguments.json;
+  const std::vector<std::string> outputs{json, arguments.junit, arguments.log};
+  if (auto distinct = report::check_distinct({arguments.scenario, json, arguments.junit, arguments.log});
+      !distinct) {
+    return complain(distinct.error());
+  }
+  for (const std::string& path : outputs) {
+    if (path.empty()) continue;
     if (auto writable = report::check_writable(path); !writable) return complain(writable.error());
   }
   catch_interrupts();

@@ -103,9 +103,9 @@ std::string html(const Table& table) {
 }
 
 Result<std::string> html(const Figure& figure) {
-  auto wide = draw(figure, Width::desktop);
+  const auto wide = draw(figure, Width::desktop);
   if (!wide) return wide;
-  auto narrow = draw(figure, Width::phone);
+  const auto narrow = draw(figure, Width::phone);
   if (!narrow) return narrow;
   return fmt::format(
       "<figure id=\"{}\"><h3>{}</h3>\n<div class=\"wide\" role=\"img\" aria-label=\"{}\">{}</div>\n"
@@ -115,9 +115,8 @@ Result<std::string> html(const Figure& figure) {
 }
 
 std::size_t width_of(std::string_view text) {  // in characters, not bytes, of UTF-8
-  constexpr int first_of_a_character = -64;  // as signed bytes, 10xxxxxx (the rest of a character) are below
   return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return static_cast<signed char>(c) >= first_of_a_character; }));
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0b1100'0000U) != 0b1000'0000U; }));
 }
 
 std::string text(const Table& table) {
@@ -155,7 +154,7 @@ Result<std::string> html(const Page& page) {
       out += fmt::format("<p>{}</p>\n", escaped(paragraph));
     for (const Table& table : section.tables) out += html(table);
     for (const Figure& figure : section.figures) {
-      auto drawn = html(figure);
+      const auto drawn = html(figure);
       if (!drawn) return drawn;
       out += *drawn;
     }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -37,9 +38,27 @@ Result<void> write_file(const std::string& path, std::string_view content) {
 }
 
 Result<void> check_writable(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  if (std::filesystem::is_directory(path)) return complaint(path, EISDIR);
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(path).parent_path();
+  if (fs::is_directory(path)) return complaint(path, EISDIR);
+  // The finished file takes the name's place: a device, a pipe or a link would be gone.
+  if (fs::exists(fs::symlink_status(path)) && !fs::is_regular_file(fs::symlink_status(path))) {
+    return failure(fmt::format("file '{}': is no regular file, expected one or a new name", path));
+  }
   if (access(folder.c_str(), W_OK) != 0) return complaint(path, errno);
+  return {};
+}
+
+Result<void> check_distinct(const std::vector<std::string>& paths) {
+  std::vector<std::filesystem::path> seen;
+  for (const std::string& path : paths) {
+    if (path.empty()) continue;
+    const std::filesystem::path where = std::filesystem::weakly_canonical(path);
+    if (std::ranges::find(seen, where) != seen.end()) {
+      return failure(fmt::format("file '{}': is named twice, expected a file of its own for each", path));
+    }
+    seen.push_back(where);
+  }
   return {};
 }
 

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dbc/wire/result.hpp"
 
@@ -12,7 +13,11 @@ namespace canhil::report {
 /// still does.
 Result<void> write_file(const std::string& path, std::string_view content);
 
-/// Whether a file could be written there, before a long run: its folder exists and is writable.
+/// Whether a file could be written there, before a long run: its folder is writable, and what stands under
+/// the name, if anything, is a regular file. Error: one line.
 Result<void> check_writable(const std::string& path);
+
+/// Whether all paths (empty ones left out) name different files. Error: one line with the path named twice.
+Result<void> check_distinct(const std::vector<std::string>& paths);
 
 }  // namespace canhil::report

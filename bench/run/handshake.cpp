@@ -16,6 +16,7 @@ using namespace messages;
 constexpr std::int64_t repeat_ns = 300'000'000;        // longer than a heartbeat period
 constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
 constexpr std::int64_t answer_limit_ns = 2'000'000'000;
+constexpr std::int64_t several_syncs_ns = 8 * Sync::info.cycle_time_us * 1000;
 constexpr std::int64_t poll_ns = 20'000'000;
 
 // The latest answers of the target to commands.
@@ -24,9 +25,11 @@ class Mailbox final : public Observer {
   void received(const Received& received) override {
     if (const auto beat = heard<TargetHeartbeat>(received)) heartbeat = beat;
     if (const auto ack = heard<ParamAck>(received)) acknowledgement = ack;
+    if (heard<Sync>(received)) other_bench = true;
   }
   std::optional<TargetHeartbeat> heartbeat;
   std::optional<ParamAck> acknowledgement;
+  bool other_bench = false;  // somebody else keeps the time base
 };
 
 std::string errors_of(const TargetHeartbeat& heartbeat) {
@@ -67,6 +70,12 @@ class Dialogue {
       if (now_ns() >= deadline_ns) return failure(complaint(what, limit_ns));
       link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
     }
+  }
+
+  // Hears whatever comes for a while.
+  void listen(std::int64_t duration_ns) {
+    const std::int64_t deadline_ns = now_ns() + duration_ns;
+    while (now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
   }
 
   Mailbox& mailbox() { return mailbox_; }
@@ -152,6 +161,11 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
       "waiting for its heartbeat", find_limit_ns, [](nodes::Transmission&) {},
       [](const Mailbox& mailbox) { return mailbox.heartbeat.has_value(); });
   if (!found) return found;
+  if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
+  if (box.other_bench) {
+    return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one",
+                               link.port().name()));
+  }
   if (box.heartbeat->dbc_hash != dbc_hash24) {
     return failure(
         fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "

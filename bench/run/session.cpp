@@ -37,10 +37,13 @@ Result<std::unique_ptr<Port>> open(const std::string& bus) {
 Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                 const std::atomic<bool>& stop_requested, const Progress& progress) {
   const bool lockstep = options.clock == ClockKind::lockstep;
+  const auto in_file = [&](const Error& error) {
+    return failure(fmt::format("{}: {}", scenario.file, error.message));
+  };
   auto truth = make_truth(scenario);
-  if (!truth) return tl::unexpected(truth.error());
+  if (!truth) return in_file(truth.error());
   const auto initial = make_initial_state(scenario, *truth, options.run_index);
-  if (!initial) return tl::unexpected(initial.error());
+  if (!initial) return in_file(initial.error());
 
   auto port = open(options.bus);
   if (!port) return tl::unexpected(port.error());

@@ -10,8 +10,8 @@ namespace {
 
 std::string complaint(std::string_view what, double value, const MessageInfo& message,
                       const SignalInfo& signal) {
-  return fmt::format("scenario: {} {:g} {} does not fit into {}.{}, expected {:g} to {:g} in steps of {:g}",
-                     what, value, signal.unit, message.name, signal.name, signal.minimum, signal.maximum,
+  return fmt::format("{} {:g} {} does not fit into {}.{}, expected {:g} to {:g} in steps of {:g}", what,
+                     value, signal.unit, message.name, signal.name, signal.minimum, signal.maximum,
                      wire::lsb(signal));
 }
 

@@ -20,6 +20,7 @@ class ParameterTable {
     double initial;
     double minimum;
     double maximum;
+    bool whole;  ///< an integer
     bool while_running;
     void (*apply)(Tuning&, double);
   };

@@ -37,33 +37,36 @@ struct Tuning {
   std::int64_t output_interval_us = 0;
 };
 using Row = ParameterTable<Tuning>::Row;
+constexpr bool whole = true;
+constexpr bool real = false;
 constexpr bool any_time = true;
 constexpr bool stopped_only = false;
 constexpr std::array rows{
-    Row{Parameter::accel_bias_sigma_ug, 300, 0, 1e6, stopped_only,
+    Row{Parameter::accel_bias_sigma_ug, 300, 0, 1e6, real, stopped_only,
         [](Tuning& t, double v) { t.filter.accel_bias_sigma_0.setConstant(v * ug); }},
-    Row{Parameter::gyro_bias_sigma_degph, 3, 0, 1e6, stopped_only,
+    Row{Parameter::gyro_bias_sigma_degph, 3, 0, 1e6, real, stopped_only,
         [](Tuning& t, double v) { t.filter.gyro_bias_sigma_0.setConstant(v * degph); }},
-    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, any_time,
+    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
         [](Tuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
-    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, any_time,
+    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, real, any_time,
         [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
-    Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, any_time,
+    Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, real, any_time,
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
-    Row{Parameter::h2_case, 2, 1, 4, stopped_only,
+    Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.h2_case = static_cast<ta::H2Case>(std::lround(v)); }},
-    Row{Parameter::h2_alpha_rule, 0, 0, 1, stopped_only,
+    Row{Parameter::h2_alpha_rule, 0, 0, 1, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.alpha_rule = static_cast<ta::AlphaRule>(std::lround(v)); }},
-    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, any_time,
+    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, real, any_time,
         [](Tuning& t, double v) { t.filter.alpha_constant = v; }},
-    Row{Parameter::fading_per_s, 0, 0, 10, any_time, [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
-    Row{Parameter::mechanization, 1, 0, 1, stopped_only,
+    Row{Parameter::fading_per_s, 0, 0, 10, real, any_time,
+        [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
+    Row{Parameter::mechanization, 1, 0, 1, whole, stopped_only,
         [](Tuning& t, double v) {
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
-    Row{Parameter::closed_loop, 1, 0, 1, stopped_only,
+    Row{Parameter::closed_loop, 1, 0, 1, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
-    Row{Parameter::output_interval_ms, 10, 1, 1000, any_time,
+    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
         [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
 };
 

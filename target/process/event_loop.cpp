@@ -1,5 +1,7 @@
 #include "target/process/event_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dbc/ports/port.hpp"
@@ -45,12 +47,22 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
   TimingWindow window;
   Outbox<1> reports;
   std::int64_t bench_ns = now_ns() - bench_silent_ns;  // when the bench last kept the time base or commanded
-  std::int64_t report_due_ns = now_ns();
+  // Before its first word a target listens for longer than a heartbeat: two on one bus would spoil each
+  // other's groups.
+  std::int64_t report_due_ns = now_ns() + period_ns + period_ns / 4;
+  bool established = false;
 
   while (!stop && !port.closed()) {
     while (!stop) {
       const auto received = port.receive();
       if (!received) break;
+      if (!established) {
+        const bool heartbeat =
+            received->frame.id == messages::TargetHeartbeat::info.id && !received->frame.error;
+        if (!heartbeat) continue;
+        return failure(
+            fmt::format("bus '{}': a target answers here already, expected to be the only one", bus));
+      }
       const std::int64_t start_ns = clock_ns(port.stamp_clock());
       const std::span<const Frame> answers = device.receive(received->frame);
       const std::int64_t end_ns = clock_ns(port.stamp_clock());
@@ -61,6 +73,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     const std::int64_t now = now_ns();
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
+      established = true;
       // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the
       // device's frames are to be those of a replay. A target that a bench has left behind speaks up again
       // for the next one.

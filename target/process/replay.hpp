@@ -8,8 +8,9 @@
 
 namespace canhil::target {
 
-/// Feeds every frame of a candump log to a fresh device and writes its answers in the same format, each with
-/// the time of the frame that it answers. Error: the log cannot be read; one line with file, line and column.
+/// Feeds the bench's frames of a candump log to a fresh device and writes them with the device's answers, as
+/// a log of its own: `hil-bench diverge` compares the two. Answers carry the time of the frame that they
+/// answer. Error: the log cannot be read; one line with file, line and column.
 Result<void> replay(const std::string& log_path, std::FILE* out);
 
 }  // namespace canhil::target

@@ -9,7 +9,8 @@ namespace canhil {
 namespace {
 
 void run_20_s(benchmark::State& state, const char* file) {
-  const auto scenario = scenario::read_file(std::string(SOURCE_DIR "/bench/scenarios/") + file, run::contract());
+  const auto scenario =
+      scenario::read_file(std::string(SOURCE_DIR "/bench/scenarios/") + file, run::contract());
   if (!scenario) return state.SkipWithError(scenario.error().message.c_str());
   const auto truth = run::make_truth(*scenario);
   std::uint64_t index = 0;
@@ -17,9 +18,9 @@ void run_20_s(benchmark::State& state, const char* file) {
     auto finished = run::run_in_process(*scenario, *truth, index++);
     benchmark::DoNotOptimize(finished);
   }
-  state.counters["x_real_time"] =
-      benchmark::Counter(static_cast<double>(state.iterations()) * 1e-6 * static_cast<double>(scenario->duration_us),
-                         benchmark::Counter::kIsRate);
+  state.counters["x_real_time"] = benchmark::Counter(
+      static_cast<double>(state.iterations()) * 1e-6 * static_cast<double>(scenario->duration_us),
+      benchmark::Counter::kIsRate);
 }
 BENCHMARK_CAPTURE(run_20_s, kalman, "transfer_alignment.toml")->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(run_20_s, robust_h2, "transfer_alignment_h2.toml")->Unit(benchmark::kMicrosecond);

@@ -81,6 +81,32 @@ TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {
       "/no/such/folder/x.json");
 }
 
+TEST(BadInput, FilesThatWouldReplaceSomethingElse) {
+  const std::string quick = scenario("transfer_alignment_quick");
+  ASSERT_EQ(shell("mkfifo " + scratch("pipe")).code, 0);
+  expect_one_line(hil_bench(fmt::format("run {} --junit {}", quick, scratch("pipe"))), "is no regular file");
+  ASSERT_EQ(shell(fmt::format("cp {} {}", quick, scratch("self.toml"))).code, 0);
+  expect_one_line(hil_bench(fmt::format("run {0} --log {0}", scratch("self.toml"))), "is named twice");
+  EXPECT_EQ(read(scratch("self.toml")), read(quick));
+}
+
+// Both are refused without disturbing the run that is under way.
+TEST(BadInput, ASecondBenchOrTargetOnABus) {
+  const std::string quick = scenario("transfer_alignment_quick");
+  const std::string report = scratch("first.json");
+  const Ended second =
+      shell(fmt::format("{0} run {1} --bus local:shared --json {2} >{3} & first=$!; sleep 1.5; {4} --bus "
+                        "local:shared; echo $? >{5}; "
+                        "{0} run {1} --bus local:shared --target none; code=$?; wait $first; exit $code",
+                        HIL_BENCH, quick, report, scratch("first.out"), HIL_TARGET, scratch("target.code")));
+  EXPECT_EQ(second.code, 2) << second.out << second.err;
+  EXPECT_EQ(read(scratch("target.code")), "2\n");
+  EXPECT_THAT(second.err, HasSubstr("a target answers here already"));
+  EXPECT_THAT(second.err, HasSubstr("another bench is at work here"));
+  EXPECT_TRUE(read_json(report)["ending"]["completed"]);
+  EXPECT_EQ(read_json(report)["from_target"]["frames_lost"], 0);
+}
+
 TEST(BadInput, LogThatIsNoLog) {
   std::ofstream(scratch("broken.log")) << "(1.000000) can0 0A0#00\nnonsense\n";
   expect_one_line(hil_target("--replay " + scratch("broken.log")), "broken.log:2:");

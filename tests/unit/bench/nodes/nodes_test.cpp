@@ -47,15 +47,6 @@ TEST(IncrementRounding, SendsWhatTheCodecCarriesExactly) {
   }
 }
 
-TEST(IncrementRounding, WhatTheRangeCutsOffFollowsInTheNextSamples) {
-  const SignalInfo& signal = SlaveImuDeltaTheta::info.signals[0];
-  IncrementRounding rounding(signal);
-  const double large = 1.5 * signal.maximum;
-  const double first = rounding.round({large, 0, 0}).x();
-  EXPECT_EQ(first, signal.maximum);
-  EXPECT_NEAR(first + rounding.round({0, 0, 0}).x(), large, signal.scale);
-}
-
 TEST(Sampling, IsSentALatencyAfterItsTimeOfValidity) {
   Sampling sampling(20'000, 7'000, 100'000);
   EXPECT_EQ(sampling.valid_us(), 20'000);

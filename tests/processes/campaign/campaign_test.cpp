@@ -1,0 +1,226 @@
+// hil-bench campaign: the same merged bytes whatever threads, shards and kills did; one line for what cannot
+// be.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// Two variants of the quick flight, with a sweep.
+std::string campaign_file(int runs = 30) {
+  std::string file = scratch(fmt::format("campaign{}.toml", runs));
+  std::ofstream(file) << fmt::format(R"(title = "Short"
+runs = {}
+seed = 11
+[[variant]]
+name = "KF"
+scenario = "{}"
+[[variant]]
+name = "H2"
+scenario = "{}"
+set = {{ "target.algorithm" = "robust_h2" }}
+[sweep]
+"master_ins.latency_ms" = [0, 100]
+[[metric]]
+kind = "rms_curve"
+quantity = "heading"
+[[metric]]
+name = "heading at 2 s"
+kind = "value_at"
+quantity = "heading"
+at_s = 2.0
+variants = ["KF"]
+at_most_mrad = 200
+)",
+                                     runs, scenario("transfer_alignment_quick"),
+                                     scenario("transfer_alignment_quick"));
+  return file;
+}
+
+/// A new folder.
+std::string folder(const std::string& name) {
+  std::string path = scratch(name);
+  fs::remove_all(path);
+  fs::create_directories(path);
+  return path;
+}
+
+void expect_done(const Ended& ended) { EXPECT_EQ(ended.code, 0) << ended.out << ended.err; }
+
+void expect_one_line(const Ended& ended, const std::string& what) {
+  EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr(what));
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+}
+
+std::string merged(const std::string& in, const std::string& arguments = "*.sqlite") {
+  const std::string out = in + "/merged.db";
+  expect_done(hil_bench(fmt::format("campaign merge {} $(ls -r {}/{})", out, in, arguments)));
+  return read(out);
+}
+
+/// The merged bytes of a campaign that nothing disturbed, on one thread.
+const std::string& undisturbed() {
+  static const std::string bytes = [] {
+    const std::string at = folder("undisturbed");
+    expect_done(hil_bench(fmt::format("campaign {} --out {} --threads 1", campaign_file(), at)));
+    return merged(at);
+  }();
+  return bytes;
+}
+
+class Divided : public testing::TestWithParam<std::pair<int, int>> {};
+
+TEST_P(Divided, GivesTheSameMergedBytes) {
+  const auto [shards, threads] = GetParam();
+  const std::string at = folder(fmt::format("shards-{}-{}", shards, threads));
+  for (int i = 0; i < shards; ++i) {
+    expect_done(hil_bench(fmt::format("campaign {} --out {} --threads {} --shard {}/{}", campaign_file(), at,
+                                      threads, i, shards)));
+  }
+  EXPECT_TRUE(merged(at) == undisturbed());
+}
+
+INSTANTIATE_TEST_SUITE_P(ShardsAndThreads, Divided,
+                         testing::Values(std::pair{1, 1}, std::pair{1, 2}, std::pair{3, 1}, std::pair{3, 2},
+                                         std::pair{7, 1}, std::pair{7, 2}));
+
+/// Starts hil-bench campaign, and kills it after a while unless it has ended. Whether it was killed.
+bool start_and_kill(const std::string& file, const std::string& out, std::chrono::milliseconds after) {
+  const pid_t child = fork();
+  if (child == 0) {
+    fclose(stdout);
+    execl(HIL_BENCH, HIL_BENCH, "campaign", file.c_str(), "--out", out.c_str(), "--resume", nullptr);
+    _exit(127);
+  }
+  std::this_thread::sleep_for(after);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFSIGNALED(status);
+}
+
+TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
+  constexpr int kills = 20;
+  const std::string file = campaign_file(1000), at = folder("killed"), calm = folder("calm");
+  const auto start = std::chrono::steady_clock::now();
+  expect_done(hil_bench(fmt::format("campaign {} --out {}", file, calm)));
+  const auto whole = std::chrono::steady_clock::now() - start;
+
+  // Moments spread over the whole campaign, starts and commits included.
+  std::mt19937_64 random(20010101);
+  int killed = 0;
+  for (int i = 0; i < kills; ++i) {
+    const auto after = whole / kills * std::uniform_real_distribution(0.0, 2.0)(random);
+    killed += start_and_kill(file, at, std::chrono::duration_cast<std::chrono::milliseconds>(after)) ? 1 : 0;
+  }
+  EXPECT_GT(killed, kills / 2) << "the campaign was over too early to be killed";
+  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));
+  EXPECT_TRUE(merged(at) == merged(calm));
+  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", file, at)));  // nothing left to do
+}
+
+TEST(Interrupted, KeepsWhatItHasAndSaysHowToGoOn) {
+  const std::string at = folder("interrupted");
+  const Ended ended = shell(
+      fmt::format("timeout -s INT 0.4 {} campaign {} --out {}; exit $?", HIL_BENCH, campaign_file(2000), at));
+  EXPECT_THAT(ended.err, HasSubstr("interrupted; --resume goes on"));
+}
+
+TEST(Slurm, TaskOfAnArrayIsAShard) {
+  const std::string at = folder("slurm");
+  for (int i = 1; i <= 3; ++i) {
+    expect_done(shell(
+        fmt::format("SLURM_ARRAY_TASK_ID={} SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_MIN=1 {} campaign {} "
+                    "--out {}",
+                    i, HIL_BENCH, campaign_file(), at)));
+    EXPECT_TRUE(fs::exists(fmt::format("{}/campaign30-{}-of-3.sqlite", at, i - 1)));
+  }
+  EXPECT_TRUE(merged(at) == undisturbed());
+}
+
+TEST(Report, ComesFromTheMergedFileAlone) {
+  const std::string at = folder("report");
+  undisturbed();
+  fs::copy(scratch("undisturbed") + "/merged.db", at + "/results");
+  const Ended ended = hil_bench(fmt::format("campaign report {}/results --json", at));
+  expect_done(ended);
+  const auto json = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(json["variants"].size(), 4U);
+  EXPECT_EQ(json["variants"][0]["completed"], 30);
+  EXPECT_EQ(json["answers"][0]["curve"]["t_s"].size(), 29U);
+  EXPECT_THAT(hil_bench(fmt::format("campaign report {}/results", at)).out, HasSubstr("heading at 2 s"));
+}
+
+TEST(Report, ABarThatIsNotMetIsExitCode1) {
+  std::string text = read(campaign_file(5));
+  const std::string bar = "at_most_mrad = 200";
+  text.replace(text.find(bar), bar.size(), "at_most_mrad = 0.001");
+  std::ofstream(scratch("strict.toml")) << text;
+  const Ended ended =
+      hil_bench(fmt::format("campaign {} --out {}", scratch("strict.toml"), folder("strict")));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("FAIL"));
+}
+
+TEST(Replay, IsOneRunWithItsLog) {
+  const std::string log = scratch("replay.log");
+  const auto replay = [&] {
+    return hil_bench(fmt::format("campaign replay {} 3 --variant 'H2 master_ins.latency_ms=100' --log {}",
+                                 campaign_file(), log));
+  };
+  const Ended ended = replay();
+  EXPECT_THAT(ended.out, HasSubstr("variant H2 master_ins.latency_ms=100 · run 3"));
+  const auto frames = target_frames(log);
+  EXPECT_GT(frames.size(), 300U);
+  replay();
+  EXPECT_EQ(target_frames(log), frames);
+  expect_one_line(hil_bench(fmt::format("campaign replay {} 3 --variant H3", campaign_file())),
+                  "variant 'H3' is unknown, expected one of 'KF master_ins.latency_ms=0'");
+}
+
+TEST(CampaignBadInput, IsOneLine) {
+  const std::string file = campaign_file(), at = folder("bad");
+  const auto campaign = [&](const std::string& arguments) {
+    return hil_bench(fmt::format("campaign {} {}", file, arguments));
+  };
+  expect_one_line(hil_bench("campaign"), "FILE, or merge, report or replay");
+  expect_one_line(hil_bench("campaign none.toml"), "none.toml: cannot be read");
+  expect_one_line(campaign("--shard 3/3"), "shard '3/3'");
+  expect_one_line(campaign("--threads 0"), "--threads");
+  expect_one_line(campaign("--runs 0"), "--runs");
+  expect_one_line(campaign("--shard 0/2 --json x.json --out " + at), "a shard has no report");
+  expect_one_line(campaign("--json /no/such/x.json --out " + at), "/no/such/x.json");
+  expect_one_line(campaign("--out /dev/full"), "/dev/full");
+  expect_one_line(campaign("--out /proc/none"), "/proc/none");  // where nobody may write
+  expect_one_line(campaign("--out /proc/none.sqlite"), "/proc/none.sqlite");
+  expect_one_line(hil_bench(fmt::format("campaign merge {}/out.db {}", at, file)), "is no SQLite file");
+  expect_one_line(hil_bench("campaign report " + file), "is no SQLite file");
+}
+
+TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {
+  const std::string at = folder("full");
+  // No file may grow beyond 100 KiB: what a disk does when it is full.
+  expect_one_line(shell(fmt::format("trap '' XFSZ; ulimit -f 100; {} campaign {} --out {}", HIL_BENCH,
+                                    campaign_file(), at)),
+                  "campaign30.sqlite: cannot be read or written");
+  expect_done(hil_bench(fmt::format("campaign {} --out {} --resume", campaign_file(), at)));
+  EXPECT_TRUE(merged(at) == undisturbed());
+}
+
+}  // namespace
+}  // namespace canhil::test

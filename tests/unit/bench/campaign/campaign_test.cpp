@@ -1,0 +1,145 @@
+// Reading campaigns: variants, sweeps, and one line for every mistake.
+#include "bench/campaign/campaign.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/unit/bench/campaign/runs.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> names_of(const Campaign& campaign) {
+  std::vector<std::string> names;
+  for (const Variant& variant : campaign.variants) names.push_back(variant.name);
+  return names;
+}
+
+TEST(Campaign, VariantsAreTheirScenarioWithSettings) {
+  const auto campaign = parse(two_variants);
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  EXPECT_THAT(names_of(*campaign), ElementsAre("A", "B"));
+  EXPECT_EQ(campaign->runs, 4U);
+  EXPECT_NEAR(campaign->variants[0].scenario.target.initial_sigma.heading, 0.0873, 1e-4);
+  EXPECT_NEAR(campaign->variants[1].scenario.target.initial_sigma.heading, 0.01745, 1e-5);
+  EXPECT_NEAR(campaign->variants[1].scenario.target.initial_sigma.tilt, 0.0873, 1e-4);
+  EXPECT_NE(campaign->variants[0].scenario.hash, campaign->variants[1].scenario.hash);
+  for (const Variant& variant : campaign->variants) EXPECT_EQ(variant.scenario.seed, 3U);
+}
+
+TEST(Campaign, TablesInSettingsAreKeysWithDots) {
+  std::string text = two_variants;
+  text += "[variant.set.master_ins]\nperiod_ms = 50\n";
+  const auto where = text.find("set = {");
+  text.erase(where, text.find('\n', where) - where);
+  const auto campaign = parse(text);
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  EXPECT_EQ(campaign->variants[1].scenario.master_ins->schedule.period_us, 50'000);
+}
+
+TEST(Campaign, SweepIsTheCartesianProductWithEveryVariant) {
+  const auto campaign = parse(two_variants + R"([sweep]
+"master_ins.period_ms" = [50, 100]
+"target.parameters.fading_per_s" = [0.0, 0.1]
+[[metric]]
+kind = "paired"
+quantity = "heading"
+at_s = 2.0
+other = "A"
+)");
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  ASSERT_EQ(campaign->variants.size(), 8U);
+  EXPECT_EQ(campaign->variants[1].name, "A master_ins.period_ms=50 target.parameters.fading_per_s=0.1");
+  EXPECT_EQ(campaign->variants[6].name, "B master_ins.period_ms=100 target.parameters.fading_per_s=0");
+  EXPECT_EQ(campaign->variants[6].scenario.master_ins->schedule.period_us, 100'000);
+  EXPECT_THAT(variants_of(*campaign, campaign->metrics[0]), ElementsAre(4, 5, 6, 7));
+  EXPECT_EQ(counterpart(*campaign, 6, "A"), 2U);  // at the same point
+}
+
+TEST(Campaign, HashIsOfAllTexts) {
+  const auto first = parse(two_variants), second = parse(two_variants + "\n");
+  const auto other_scenario =
+      parse_campaign(two_variants, "c.toml",
+                     [](const std::string&) -> Result<std::string> { return quick_scenario() + "\n"; });
+  EXPECT_EQ(first->hash, parse_campaign(first->sources)->hash);
+  EXPECT_NE(first->hash, second->hash);
+  EXPECT_NE(first->hash, other_scenario->hash);
+}
+
+struct Mistake {
+  std::string what;
+  std::string text;
+  std::string said;
+};
+std::ostream& operator<<(std::ostream& out, const Mistake& mistake) { return out << mistake.what; }
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(Mistakes, AreOneLine) {
+  const auto campaign = parse(GetParam().text);
+  ASSERT_FALSE(campaign);
+  EXPECT_THAT(campaign.error().message, HasSubstr(GetParam().said));
+  EXPECT_EQ(campaign.error().message.find('\n'), std::string::npos);
+}
+
+std::string metric(const std::string& keys) { return two_variants + "[[metric]]\n" + keys; }
+std::string with_set(const std::string& set) {
+  std::string text = two_variants;
+  const auto where = text.find("set = {");
+  return text.replace(where, text.find('\n', where) - where, "set = " + set);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, Mistakes,
+    testing::Values(
+        Mistake{"not TOML", "title = ", "c.toml:1: not TOML"},
+        Mistake{"no variant", "title = 'x'\nruns = 1\nseed = 1\n", "key 'variant': is missing"},
+        Mistake{"no runs", "runs = 0\n" + two_variants.substr(two_variants.find("seed")),
+                "c.toml:1: key 'runs': 0 is out of range"},
+        Mistake{"unknown key", "colour = 1\n" + two_variants, "c.toml:1: key 'colour': is unknown"},
+        Mistake{"same name", two_variants + "[[variant]]\nname = 'A'\nscenario = 'quick.toml'\n",
+                "'A' is the name of another variant"},
+        Mistake{"no such scenario", two_variants + "[[variant]]\nname = 'C'\nscenario = 'none.toml'\n",
+                "c.toml:11: variant 'C': none.toml: cannot be read"},
+        Mistake{
+            "setting of unknown key", with_set("{ \"master_ins.perod_ms\" = 50 }"),
+            "c.toml:7: variant 'B': quick.toml: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"},
+        Mistake{"setting out of range", with_set("{ \"target.initial_sigma.tilt_deg\" = -1 }"),
+                "variant 'B': quick.toml: key 'target.initial_sigma.tilt_deg': -1 is out of range"},
+        Mistake{"setting of another type", with_set("{ duration_s = 'long' }"),
+                "key 'duration_s': is a string"},
+        Mistake{"setting inside a value", with_set("{ \"title.sub\" = 1 }"),
+                "key 'title.sub': 'title' is a string, expected a table"},
+        Mistake{"setting of the seed", with_set("{ seed = 1 }"), "is the same for all variants"},
+        Mistake{"empty sweep", two_variants + "[sweep]\n", "key 'sweep': is empty"},
+        Mistake{"sweep without values", two_variants + "[sweep]\n\"master_ins.period_ms\" = []\n",
+                "key 'sweep.master_ins.period_ms': is empty, expected an array"},
+        Mistake{"sweep of one value", two_variants + "[sweep]\n\"master_ins.period_ms\" = 50\n",
+                "is no array"},
+        Mistake{"same value twice", two_variants + "[sweep]\n\"master_ins.period_ms\" = [50, 50]\n",
+                "is there twice"},
+        Mistake{"set and swept", two_variants + "[sweep]\n\"target.initial_sigma.heading_deg\" = [1, 2]\n",
+                "is set by variant 'B' too"},
+        Mistake{"unknown kind", metric("kind = 'pared'\n"),
+                "key 'metric[1].kind': 'pared' is unknown, expected 'paired'"},
+        Mistake{"unknown quantity", metric("kind = 'rms_curve'\nquantity = 'heding'\n"),
+                "'heding' is unknown, expected 'heading'"},
+        Mistake{"unknown variant", metric("kind = 'rms_curve'\nquantity = 'roll'\nvariants = ['C']\n"),
+                "key 'metric[1].variants': 'C' is unknown"},
+        Mistake{"another unit",
+                metric("kind = 'value_at'\nquantity = 'v_east'\nat_s = 1\nat_most_mrad = 2\n"),
+                "key 'metric[1].at_most_mrad': is unknown, expected 'at_most_mps'"},
+        Mistake{"after the end", metric("kind = 'value_at'\nquantity = 'v_east'\nat_s = 4\n"),
+                "at_s': is after the end of the run, expected at most duration_s = 3"},
+        Mistake{"empty window", metric("kind = 'window'\nquantity = 'roll'\nfrom_s = 2\nto_s = 2\n"),
+                "is not before the end of the window"},
+        Mistake{
+            "metric twice",
+            metric(
+                "kind = 'rms_curve'\nquantity = 'roll'\n[[metric]]\nkind = 'rms_curve'\nquantity = 'roll'\n"),
+            "'rms_curve roll' is the name of another metric"}));
+
+}  // namespace
+}  // namespace canhil::campaign

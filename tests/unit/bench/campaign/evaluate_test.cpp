@@ -1,0 +1,110 @@
+// Bars, and what a missing run does to them.
+#include "bench/campaign/evaluate.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/campaign/report.hpp"
+#include "tests/unit/bench/campaign/runs.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+using testing::HasSubstr;
+
+// A is within 3 mrad from 0.2 s on, B never; A is better in three runs of four.
+std::vector<RunSeries> runs_of(std::size_t variant) {
+  std::vector<RunSeries> runs;
+  for (std::uint64_t run = 0; run < 4; ++run) {
+    runs.push_back(variant == 0 ? run_with(run, {9e-3, 2e-3, 1e-3})
+                                : run_with(run, {9e-3, 8e-3, run == 3 ? 0 : 8e-3}));
+  }
+  return runs;
+}
+
+Result<Evaluation> ask(const std::string& metric, const Load& load = runs_of) {
+  return parse(two_variants + "[[metric]]\nquantity = 'heading'\n" + metric)
+      .and_then([&](const Campaign& campaign) { return evaluate(campaign, load); });
+}
+
+std::optional<bool> passed(const std::string& metric, std::size_t answer = 0) {
+  const auto evaluation = ask(metric);
+  EXPECT_TRUE(evaluation) << evaluation.error().message;
+  return evaluation->answers.at(answer).passed;
+}
+
+TEST(Bars, OfTimeWithin) {
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\n"), std::nullopt);
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 0.2\n"), true);
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 0.19\n"), false);
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nat_most_s = 9.0\n", 1), false);  // never
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.3\n"), false);
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.2\n"), true);
+  EXPECT_EQ(passed("kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 9.0\n", 1), true);
+}
+
+TEST(Bars, OfLead) {
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.0\n"), true);
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 8.5\nother = 'B'\nat_least_s = 0.1\n"), false);
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'B'\nat_least_s = 5.0\n"), true);   // B never
+  EXPECT_EQ(passed("kind = 'lead'\nwithin_mrad = 3\nother = 'A'\nat_least_s = 0.0\n"), false);  // of B
+}
+
+TEST(Bars, OfValuesWindowsPairsAndDivergence) {
+  EXPECT_EQ(passed("kind = 'value_at'\nat_s = 0.2\nat_most_mrad = 2.001\n"), true);
+  EXPECT_EQ(passed("kind = 'value_at'\nat_s = 0.2\nat_most_mrad = 1.999\n"), false);
+  EXPECT_EQ(passed("kind = 'value_at'\nat_s = 0.2\nat_least_mrad = 2.001\n"), false);
+  EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nmean_at_most_mrad = 1.501\n"), true);
+  EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nmean_at_most_mrad = 1.499\n"), false);
+  EXPECT_EQ(passed("kind = 'window'\nfrom_s = 0.2\nstandard_deviation_at_most_mrad = 0.5\n"), false);  // 0.53
+  EXPECT_EQ(passed("kind = 'paired'\nat_s = 3.0\nother = 'B'\nat_least = 0.75\n"), true);
+  EXPECT_EQ(passed("kind = 'paired'\nat_s = 3.0\nother = 'B'\nat_least = 0.76\n"), false);
+  EXPECT_EQ(passed("kind = 'divergence'\nbeyond_mrad = 5\nat_most = 0\n"), true);
+  EXPECT_EQ(passed("kind = 'divergence'\nbeyond_mrad = 5\nat_most = 2\n", 1), false);
+  EXPECT_EQ(passed("kind = 'divergence'\nbeyond_mrad = 5\nat_least = 3\n", 1), true);
+}
+
+TEST(Bars, AreNotMetWhileARunIsMissing) {
+  const auto one_faulted = [](std::size_t variant) -> Result<std::vector<RunSeries>> {
+    auto runs = runs_of(variant);
+    runs[1].samples.pop_back();
+    runs[1].ending = {.kind = run::Ending::Kind::target_fault, .t_us = 250'000, .detail = "input_silent"};
+    return runs;
+  };
+  for (const std::string metric : {"kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.0\n",
+                                   "kind = 'value_at'\nat_s = 3.0\nat_most_mrad = 100\n",
+                                   "kind = 'window'\nmean_at_most_mrad = 100\n"}) {
+    const auto evaluation = ask(metric, one_faulted);
+    ASSERT_TRUE(evaluation) << evaluation.error().message;
+    EXPECT_EQ(evaluation->answers[0].passed, false) << metric;
+    EXPECT_FALSE(evaluation->passed);
+    EXPECT_EQ(evaluation->endings[0].completed, 3U);
+    EXPECT_EQ(evaluation->endings[0].first_fault, "run 1: input_silent");
+  }
+}
+
+TEST(Evaluate, RefusesResultsWithRunsMissing) {
+  const auto evaluation =
+      ask("kind = 'rms_curve'\n", [](std::size_t variant) -> Result<std::vector<RunSeries>> {
+        auto runs = runs_of(variant);
+        if (variant == 1) runs.pop_back();
+        return runs;
+      });
+  ASSERT_FALSE(evaluation);
+  EXPECT_THAT(evaluation.error().message, HasSubstr("variant 'B' has 3 of 4 runs"));
+}
+
+TEST(Report, CurvesAreInJson) {
+  const auto campaign = parse(two_variants + "[[metric]]\nkind = 'rms_curve'\nquantity = 'heading'\n");
+  const auto evaluation = evaluate(*campaign, runs_of);
+  const auto json = nlohmann::json::parse(canhil::campaign::json(*campaign, *evaluation));
+  EXPECT_EQ(json["outcome"], "pass");
+  const auto& curve = json["answers"][0]["curve"];
+  EXPECT_EQ(curve["t_s"], (std::vector<double>{0.1, 0.2, 0.3}));
+  EXPECT_DOUBLE_EQ(curve["rms_mrad"][1].get<double>(), 2);
+  EXPECT_THAT(text(*campaign, *evaluation), HasSubstr("A        4 of 4 runs completed"));
+}
+
+}  // namespace
+}  // namespace canhil::campaign

@@ -1,0 +1,149 @@
+#include "bench/campaign/execute.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+#include "bench/campaign/merge.hpp"
+#include "bench/run/flight.hpp"
+#include "tests/unit/bench/campaign/runs.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+using testing::HasSubstr;
+
+const std::atomic<bool> never = false;
+
+Options options_for(const std::filesystem::path& file, unsigned threads, Shard shard = {}) {
+  Options options;
+  options.file = file;
+  options.threads = threads;
+  options.shard = shard;
+  return options;
+}
+
+TEST(Execute, StoresWhatRunInProcessGives) {
+  const auto campaign = parse(two_variants);
+  const auto file = scratch("whole.sqlite");
+  const auto done = execute(*campaign, options_for(file, 2), never);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(*done, Execution::complete);
+  const auto store = Store::open(file);
+  ASSERT_TRUE(store);
+  const auto runs = store->load(1);
+  ASSERT_EQ(runs->size(), 4U);
+  const scenario::Scenario& scenario = campaign->variants[1].scenario;
+  const auto truth = run::make_truth(scenario);
+  const auto flown = run::run_in_process(scenario, *truth, 2);
+  EXPECT_EQ(encode((*runs)[2].samples), encode(series_of(2, *flown, *truth).samples));
+  EXPECT_EQ((*runs)[2].run, 2U);
+}
+
+TEST(Execute, ResumesWhatWasInterrupted) {
+  const auto campaign = parse(two_variants);
+  const auto whole = scratch("undisturbed.sqlite"), file = scratch("resumed.sqlite");
+  ASSERT_TRUE(execute(*campaign, options_for(whole, 1), never));
+
+  Options options = options_for(file, 1);
+  const std::atomic<bool> at_once = true;
+  EXPECT_EQ(execute(*campaign, options, at_once), Execution::interrupted);
+  EXPECT_THAT(execute(*campaign, options, never).error().message, HasSubstr("exists already"));
+  options.shard = {.index = 1, .count = 2};
+  options.resume = true;
+  EXPECT_EQ(execute(*campaign, options, never), Execution::complete);
+  options.shard = {};
+  std::size_t done = 0, stored = 0;
+  options.progress = [&](const Progress& progress) {
+    done = progress.done;
+    stored = progress.stored;
+  };
+  EXPECT_EQ(execute(*campaign, options, never), Execution::complete);
+  EXPECT_EQ(stored, 4U);
+  EXPECT_EQ(done, 4U);
+
+  const auto a = scratch("a.sqlite"), b = scratch("b.sqlite");
+  ASSERT_TRUE(merge(a, std::vector{whole}));
+  ASSERT_TRUE(merge(b, std::vector{file}));
+  EXPECT_EQ(content(a), content(b));
+}
+
+TEST(Execute, ResultsOfAnotherCampaignAreLeftAlone) {
+  const auto file = scratch("other.sqlite");
+  ASSERT_TRUE(execute(*parse(two_variants), options_for(file, 2), never));
+  const std::string before = content(file);
+  Options options = options_for(file, 2);
+  options.resume = true;
+  const auto refused = execute(*parse(two_variants + "\n"), options, never);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("is of another campaign"));
+  EXPECT_EQ(content(file), before);
+}
+
+TEST(Execute, ARunThatCannotBeConfiguredEndsItWithOneLine) {
+  const auto campaign = parse(two_variants + "[sweep]\n\"target.parameters.h2_case\" = [7]\n");
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  const auto refused = execute(*campaign, options_for(scratch("refused.sqlite"), 2), never);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("c.toml: variant 'A target.parameters.h2_case=7': "));
+  EXPECT_THAT(refused.error().message, HasSubstr("out_of_range"));
+}
+
+TEST(Execute, OneWriterAFile) {
+  const auto campaign = parse(two_variants);
+  const auto file = scratch("locked.sqlite");
+  const auto first = Store::create(file, identity_of(*campaign), campaign->sources);
+  ASSERT_TRUE(first);
+  EXPECT_THAT(Store::resume(file, identity_of(*campaign), campaign->sources).error().message,
+              HasSubstr("is in use by another program"));
+}
+
+TEST(Shard, IsReadStrictly) {
+  EXPECT_EQ(parse_shard("2/7")->index, 2U);
+  EXPECT_EQ(parse_shard("2/7")->count, 7U);
+  for (const std::string wrong : {"7/7", "1", "-1/3", "1/", "/2", "a/b", "1/2/3", "0/0", ""}) {
+    EXPECT_THAT(parse_shard(wrong).error().message, HasSubstr("expected i/N")) << wrong;
+  }
+}
+
+class SlurmEnvironment : public testing::Test {
+ protected:
+  static void set(const char* id, const char* count, const char* first, const char* step) {
+    const auto put = [](const char* name, const char* value) {
+      if (value == nullptr) {
+        unsetenv(name);
+      } else {
+        setenv(name, value, 1);
+      }
+    };
+    put("SLURM_ARRAY_TASK_ID", id);
+    put("SLURM_ARRAY_TASK_COUNT", count);
+    put("SLURM_ARRAY_TASK_MIN", first);
+    put("SLURM_ARRAY_TASK_STEP", step);
+  }
+  void TearDown() override { set(nullptr, nullptr, nullptr, nullptr); }
+};
+
+TEST_F(SlurmEnvironment, GivesThePlaceInTheArray) {
+  set(nullptr, nullptr, nullptr, nullptr);
+  EXPECT_EQ(shard_of_environment()->count, 1U);
+  set("2", "4", nullptr, nullptr);
+  EXPECT_EQ(shard_of_environment()->index, 2U);
+  EXPECT_EQ(shard_of_environment()->count, 4U);
+  set("4", "4", "1", "1");  // --array=1-4
+  EXPECT_EQ(shard_of_environment()->index, 3U);
+  set("15", "4", "0", "5");  // --array=0-15:5
+  EXPECT_EQ(shard_of_environment()->index, 3U);
+}
+
+TEST_F(SlurmEnvironment, ThatIsIncompleteIsRefused) {
+  set("2", nullptr, nullptr, nullptr);
+  EXPECT_THAT(shard_of_environment().error().message, HasSubstr("SLURM_ARRAY_TASK_COUNT"));
+  set("x", "4", nullptr, nullptr);
+  EXPECT_THAT(shard_of_environment().error().message, HasSubstr("SLURM_ARRAY_TASK_ID='x'"));
+  set("7", "3", "1", "1");  // --array=1,3,7
+  EXPECT_THAT(shard_of_environment().error().message, HasSubstr("expected an array without gaps"));
+}
+
+}  // namespace
+}  // namespace canhil::campaign

@@ -1,0 +1,68 @@
+// Runs made up for a test, and the texts of a short campaign.
+#pragma once
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "bench/campaign/campaign.hpp"
+#include "bench/campaign/series.hpp"
+
+namespace canhil::campaign {
+
+/// A run with these heading errors [rad] at 0.1 s, 0.2 s ...
+inline RunSeries run_with(std::uint64_t run, const std::vector<double>& headings) {
+  RunSeries series{.run = run, .ending = {}, .samples = {}};
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    Sample sample;
+    sample.t_us = 100'000 * static_cast<std::int64_t>(i + 1);
+    sample.angles.heading = headings[i];
+    series.samples.push_back(sample);
+  }
+  return series;
+}
+
+inline std::string content(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return std::move(text).str();
+}
+
+/// A new name in a folder of this process.
+inline std::filesystem::path scratch(const std::string& name) {
+  static const auto folder = std::filesystem::temp_directory_path() / fmt::format("campaign-{}", getpid());
+  std::filesystem::create_directories(folder);
+  std::filesystem::remove(folder / name);
+  return folder / name;
+}
+
+inline std::string quick_scenario() {
+  return content(SOURCE_DIR "/bench/scenarios/transfer_alignment_quick.toml");
+}
+
+inline const std::string two_variants = R"(title = "Two"
+runs = 4
+seed = 3
+[[variant]]
+name = "A"
+scenario = "quick.toml"
+[[variant]]
+name = "B"
+scenario = "quick.toml"
+set = { "target.initial_sigma.heading_deg" = 1.0 }
+)";
+
+/// Reads a campaign whose only scenario is quick.toml.
+inline Result<Campaign> parse(const std::string& text) {
+  return parse_campaign(text, "c.toml", [](const std::string& name) -> Result<std::string> {
+    if (name == "quick.toml") return quick_scenario();
+    return failure(name + ": cannot be read");
+  });
+}
+
+}  // namespace canhil::campaign

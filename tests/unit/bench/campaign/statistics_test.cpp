@@ -1,0 +1,128 @@
+// Against values computed by hand.
+#include "bench/campaign/statistics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/unit/bench/campaign/runs.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr Quantity heading = Quantity::heading;
+
+TEST(RmsCurve, IsTheRootOfTheMeanSquareOverRuns) {
+  const std::vector runs{run_with(0, {3, 1}), run_with(1, {-4, 7})};
+  const auto curve = rms_curve(runs, heading);
+  ASSERT_EQ(curve.size(), 2U);
+  EXPECT_EQ(curve[0].t_us, 100'000);
+  EXPECT_DOUBLE_EQ(curve[0].rms, std::sqrt(12.5));
+  EXPECT_DOUBLE_EQ(curve[1].rms, 5);
+  EXPECT_EQ(curve[1].runs, 2U);
+  EXPECT_EQ(curve[1].missing, 0U);
+}
+
+TEST(RmsCurve, CountsRunsThatEndedOrAreNotFinite) {
+  const std::vector runs{run_with(0, {3, 1}), run_with(1, {4}), run_with(2, {nan, 1})};
+  const auto curve = rms_curve(runs, heading);
+  ASSERT_EQ(curve.size(), 2U);
+  EXPECT_EQ(curve[0].missing, 1U);
+  EXPECT_DOUBLE_EQ(curve[0].rms, std::sqrt(12.5));
+  EXPECT_EQ(curve[1].missing, 1U);
+  EXPECT_DOUBLE_EQ(curve[1].rms, 1);
+}
+
+TEST(TimeWithin, IsTheFirstUpdateAfterWhichItStaysWithin) {
+  EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 9, 2, 2})}, heading), 2), 0.3);
+  EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 1})}, heading), 2), 0.1);
+  EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 1, 3})}, heading), 2), std::nullopt);
+  EXPECT_EQ(time_within({}, 2), std::nullopt);
+}
+
+TEST(TimeWithin, IsNeverWhileARunIsMissing) {
+  EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 1, 1}), run_with(1, {1, 1})}, heading), 2),
+            std::nullopt);
+  EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 1}), run_with(1, {nan, 1})}, heading), 2), 0.2);
+}
+
+TEST(ValueAt, IsTheLastUpdateAtOrBefore) {
+  const auto curve = rms_curve(std::vector{run_with(0, {1, 2, 3})}, heading);
+  EXPECT_EQ(value_at(curve, 200'000)->rms, 2);
+  EXPECT_EQ(value_at(curve, 299'999)->rms, 2);
+  EXPECT_EQ(value_at(curve, 99'999), std::nullopt);
+}
+
+TEST(WindowStatistics, AreMeanAndStandardDeviationOverRunsAndTime) {
+  const std::vector runs{run_with(0, {99, 2, 4, 99}), run_with(1, {99, 4, 6, 99})};
+  const auto found = window_statistics(runs, heading, 200'000, 300'000);
+  EXPECT_EQ(found.count, 4U);
+  EXPECT_DOUBLE_EQ(found.mean, 4);
+  EXPECT_DOUBLE_EQ(found.standard_deviation, std::sqrt(8.0 / 3));
+  EXPECT_EQ(
+      window_statistics(std::vector{run_with(0, {1, 2}), run_with(1, {1})}, heading, 0, 1'000'000).missing,
+      1U);
+}
+
+TEST(PairedFraction, ComparesMagnitudesOfTheSameRun) {
+  const std::vector a{run_with(0, {1}), run_with(1, {-1}), run_with(2, {3}), run_with(4, {0})};
+  const std::vector b{run_with(0, {-2}), run_with(1, {2}), run_with(2, {2}), run_with(3, {9})};
+  const auto paired = paired_fraction(a, b, heading, 100'000, 0.95);
+  EXPECT_EQ(paired.pairs, 3U);
+  EXPECT_EQ(paired.better, 2U);
+  EXPECT_DOUBLE_EQ(paired.fraction, 2.0 / 3);
+  // Clopper and Pearson (1934), 95 %, 2 of 3.
+  EXPECT_NEAR(paired.low, 0.0943, 5e-5);
+  EXPECT_NEAR(paired.high, 0.9916, 5e-5);
+}
+
+TEST(PairedFraction, NoValueIsWorseThanAny) {
+  const std::vector good{run_with(0, {5, 5})}, ended{run_with(0, {1}), run_with(1, {1, 1})};
+  EXPECT_EQ(paired_fraction(good, ended, heading, 200'000, 0.9).better, 1U);
+  EXPECT_EQ(paired_fraction(ended, good, heading, 200'000, 0.9).better, 0U);
+  const std::vector lost{run_with(0, {nan, nan})};
+  EXPECT_EQ(paired_fraction(lost, lost, heading, 200'000, 0.9).better, 0U);
+}
+
+TEST(PairedFraction, AllBetterIsBoundedBelowOnly) {
+  std::vector<RunSeries> a, b;
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    a.push_back(run_with(run, {1}));
+    b.push_back(run_with(run, {2}));
+  }
+  const auto paired = paired_fraction(a, b, heading, 100'000, 0.95);
+  EXPECT_NEAR(paired.low, std::pow(0.025, 1.0 / 20), 1e-9);  // p^20 = 2.5 %
+  EXPECT_DOUBLE_EQ(paired.high, 1);
+}
+
+TEST(Consistency, HasTheBoundsOfChiSquareForTheMeanOverRuns) {
+  std::vector<RunSeries> runs(10, run_with(0, {0, 0}));
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].samples[0].nis = 3;
+    runs[i].samples[1].nis = 9;
+  }
+  const auto found = consistency(runs, Quantity::nis, 0, 1'000'000, 0.95);
+  EXPECT_DOUBLE_EQ(found.mean, 6);
+  EXPECT_NEAR(found.low, 1.6791, 1e-4);   // chi2(30) at 2.5 %: 16.791
+  EXPECT_NEAR(found.high, 4.6979, 1e-4);  // at 97.5 %: 46.979
+  EXPECT_EQ(found.updates, 2U);
+  EXPECT_DOUBLE_EQ(found.inside, 0.5);
+  runs[3].samples[0].nis = nan;
+  EXPECT_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).missing, 1U);
+  EXPECT_DOUBLE_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).inside, 0);
+}
+
+TEST(Divergence, CountsFaultsAndWhatIsBeyondAtTheEnd) {
+  std::vector runs{run_with(0, {9, 1}), run_with(1, {1, -9}), run_with(2, {1, nan}), run_with(3, {1}),
+                   run_with(4, {})};
+  runs[3].ending.kind = run::Ending::Kind::target_fault;
+  const auto found = divergence(runs, heading, 2);
+  EXPECT_EQ(found.faulted, 1U);
+  EXPECT_EQ(found.beyond, 3U);
+  EXPECT_EQ(found.runs, 5U);
+}
+
+}  // namespace
+}  // namespace canhil::campaign
