@@ -3,6 +3,7 @@
 #   bash tests/run.sh                 everything
 #   bash tests/run.sh --quick         the optimised build and its tests, no sanitizers, no static checks
 #   bash tests/run.sh --tidy          everything, and clang-tidy on every source: about an hour more on two cores
+#   bash tests/run.sh --fuzz          everything, and a short run of each fuzzer: what it finds need not be of the last change
 #   bash tests/run.sh --only REGEX    the CTest cases whose name matches, in every configuration
 # Counted: each CTest case in each configuration, each static check, and each build that fails.
 # JUnit files and logs: build/results/.
@@ -12,13 +13,14 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
 root=$PWD
 results=$root/build/results
 
-quick=no tidy=no only=
+quick=no tidy=no fuzz=no only=
 while (($#)); do
   case "$1" in
     --quick) quick=yes ;;
     --tidy) tidy=yes ;;
+    --fuzz) fuzz=yes ;;
     --only) only=${2:?"--only needs a regular expression"}; shift ;;
-    *) echo "tests/run.sh: unknown option '$1': expected --quick, --tidy or --only REGEX" >&2; exit 2 ;;
+    *) echo "tests/run.sh: unknown option '$1': expected --quick, --tidy, --fuzz or --only REGEX" >&2; exit 2 ;;
   esac
   shift
 done
@@ -141,7 +143,11 @@ if [[ $quick == no ]]; then
   probe_sanitizers
   stage "address and UB sanitizers" address_sanitizer
   stage "thread sanitizer" thread_sanitizer
-  if [[ -d tests/fuzz ]]; then stage "fuzzing, a short run each" fuzzers; fi
+  if [[ $fuzz == yes ]]; then
+    stage "fuzzing, a short run each" fuzzers
+  else
+    echo "not run: the fuzzers; bash tests/run.sh --fuzz runs them"
+  fi
 fi
 if [[ $tidy == yes ]]; then
   stage "clang-tidy" one_check python3 tests/static/tidy.py build/default
