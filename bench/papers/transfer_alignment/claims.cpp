@@ -202,7 +202,7 @@ Section claims(const Results& results) {
       fmt::format("H2 case 2, told the true 5 deg, with 0.02 m/s of master noise: {}; runs beyond 20 mrad at "
                   "the end: {}.",
                   words(noisy),
-                  results.of("noise").diverged_runs("h2_case2", "master_ins.velocity_noise_mps=0.02")),
+                  diverged_runs(results.of("noise"), "h2_case2", "master_ins.velocity_noise_mps=0.02")),
       "The paper states neither P0 nor R. Both were picked to fit its Table 2, so that fit is weak evidence "
       "that its authors used them."};
   section.tables = {claim_table(results), bar_table(results)};
