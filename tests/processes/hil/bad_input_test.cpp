@@ -78,6 +78,64 @@ TEST(BadInput, UnknownOption) {
 TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {
   expect_one_line(
       hil_bench(fmt::format("run {} --json /no/such/folder/x.json", scenario("transfer_alignment_quick"))),
+TEST(BadInput, NumberThatIsNone) {
+  const auto run = [](const std::string& number) {
+    return hil_bench(fmt::format("run {} --bus in-process {}", scenario("transfer_alignment_quick"), number));
+  };
+  expect_one_line(run("--seed ''"), "--seed");
+  for (const char* number : {"-1", "18446744073709551616", "1e3", "0x10", "1.5", "seven"}) {
+    expect_one_line(run(fmt::format("--seed {}", number)), "--seed");
+    expect_one_line(run(fmt::format("--seed={}", number)),
+                    "is not a whole number from 0 to 18446744073709551615");
+  }
+  EXPECT_EQ(run("--seed 18446744073709551615").code, 3);
+  EXPECT_EQ(run("--seed 010 --json " + scratch("ten.json")).code, 3);
+  EXPECT_EQ(read_json(scratch("ten.json"))["provenance"]["seed"], 10);
+}
+
+TEST(Outputs, ADashIsStandardOutputInPlaceOfTheText) {
+  const std::string run = fmt::format("run {} --bus in-process ", scenario("transfer_alignment_quick"));
+  const Ended json = hil_bench(run + "--json -");
+  EXPECT_EQ(json.code, 3) << json.err;
+  EXPECT_EQ(nlohmann::json::parse(json.out)["provenance"]["bus"], "in-process");
+  const Ended junit = hil_bench(run + "--junit - --json " + scratch("beside.json"));
+  EXPECT_TRUE(junit.out.starts_with("<?xml")) << junit.out;
+  EXPECT_TRUE(junit.out.ends_with("</testsuites>\n")) << junit.out;
+  EXPECT_EQ(read_json(scratch("beside.json"))["checks"].size(),
+            nlohmann::json::parse(json.out)["checks"].size());
+  expect_one_line(hil_bench(run + "--json - --junit -"), "file '-': is named twice");
+  expect_one_line(hil_bench(run + "--log -"), "file '-': standard output cannot hold this");
+  EXPECT_FALSE(std::filesystem::exists("-"));
+  const Ended full = shell(fmt::format("{} {} --junit - >/dev/full", HIL_BENCH, run));
+  expect_one_line(full, "standard output: cannot be written: No space left on device");
+}
+
+std::string version_of(const Ended& ended) {
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 1) << ended.out;
+  return ended.out.substr(ended.out.find(' '));
+}
+
+TEST(Version, NamesTheProjectAndTheContract) {
+  const std::string bench = version_of(hil_bench("--version"));
+  EXPECT_EQ(bench, fmt::format(" {} · DBC {:016x}\n", PROJECT_VERSION, messages::dbc_hash));
+  EXPECT_EQ(version_of(hil_target("--version")), bench) << "the version that heartbeats carry";
+  EXPECT_NE(version_of(shell(HIL_BENCH_EXACT " --version")), bench) << "the twin has a contract of its own";
+}
+
+TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {
+  for (const char* script : {"bench/demo.sh", "tests/run.sh"}) {
+    const std::string command = fmt::format("bash {}/{} ", SOURCE_DIR, script);
+    const Ended help = shell(command + "--help");
+    EXPECT_EQ(help.code, 0) << help.err;
+    EXPECT_TRUE(help.out.starts_with("Builds")) << help.out;
+    EXPECT_EQ(help.out.find('#'), std::string::npos) << help.out;
+    expect_one_line(shell(command + "--colour"), "unknown option '--colour': expected");
+  }
+  expect_one_line(shell(fmt::format("bash {}/tests/run.sh --only", SOURCE_DIR)),
+                  "--only: expected a regular");
+}
+
       "/no/such/folder/x.json");
 }
 
