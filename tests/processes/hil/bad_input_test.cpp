@@ -41,16 +41,6 @@ TEST(BadInput, UnknownScenarioKey) {
   expect_one_line(hil_bench("run " + scratch("typo.toml")), "slave_inu");
 }
 
-TEST(BadInput, ParameterOutOfRangeIsRefusedByTheTarget) {
-  std::string text = read(scenario("transfer_alignment_quick"));
-  const std::string section = "[target.parameters]\n";
-  ASSERT_NE(text.find(section), std::string::npos);
-  text.insert(text.find(section) + section.size(), "h2_case = 7\n");
-  std::ofstream(scratch("range.toml")) << text;
-  expect_one_line(hil_bench(fmt::format("run {} --bus {}", scratch("range.toml"), bus())),
-                  "parameter 'h2_case' = 7: refused by the target: out_of_range");
-}
-
 std::string edited(const std::string& file, std::string_view from, std::string_view to) {
   std::string text = read(scenario("transfer_alignment_quick"));
   const auto at = text.find(from);
@@ -60,6 +50,16 @@ std::string edited(const std::string& file, std::string_view from, std::string_v
   return scratch(file);
 }
 
+TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
+  const std::string file =
+      edited("range.toml", "[target.parameters]\n", "[target.parameters]\nh2_case = 7\n");
+  expect_one_line(
+      hil_bench(fmt::format("run {} --bus {}", file, bus())),
+      file +
+          ":13: key 'target.parameters.h2_case': 7 was sent and refused by the target: out_of_range, "
+          "expected a value in its range; 2 stays in force");
+}
+
 TEST(BadInput, ValueThatTheBusCannotCarry) {
   expect_one_line(hil_bench("run " + edited("fine.toml", "heading_deg = 5.0", "heading_deg = 0.001")),
                   "initial value 0.001 deg does not fit into TargetInitSigma.heading_sigma_deg");
@@ -67,6 +67,9 @@ TEST(BadInput, ValueThatTheBusCannotCarry) {
                   "TargetInitVelocityNE.velocity_north_mps, expected -1677 to 1677");
   expect_one_line(hil_bench("run " + edited("slow.toml", "[slave_imu]", "[slave_imu]\nperiod_ms = 50")),
                   "IMU interval 50000 us does not fit into SlaveImuStatus.interval_us");
+  expect_one_line(
+      hil_bench("run " + edited("astray.toml", "gyro_bias_sigma_degph = 3", "gyro_bias_sigma_degph = 1e9")),
+      "'slave_imu.gyro_bias_sigma_degph' (largest part): an IMU increment of up to 290.888 rad does not fit");
 }
 
 TEST(BadInput, UnknownOption) {
@@ -75,9 +78,6 @@ TEST(BadInput, UnknownOption) {
   expect_one_line(hil_target(""), "--bus");
 }
 
-TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {
-  expect_one_line(
-      hil_bench(fmt::format("run {} --json /no/such/folder/x.json", scenario("transfer_alignment_quick"))),
 TEST(BadInput, NumberThatIsNone) {
   const auto run = [](const std::string& number) {
     return hil_bench(fmt::format("run {} --bus in-process {}", scenario("transfer_alignment_quick"), number));
@@ -136,6 +136,9 @@ TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {
                   "--only: expected a regular");
 }
 
+TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {
+  expect_one_line(
+      hil_bench(fmt::format("run {} --json /no/such/folder/x.json", scenario("transfer_alignment_quick"))),
       "/no/such/folder/x.json");
 }
 
