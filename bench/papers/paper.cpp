@@ -7,6 +7,7 @@
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/papers/transfer_alignment/sections.hpp"
 #include "bench/report/file.hpp"
+#include "bench/run/contract.hpp"
 
 namespace canhil::papers {
 
@@ -14,6 +15,8 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   if (request.paper != "transfer")
     return failure(fmt::format("paper '{}' is unknown, expected transfer", request.paper));
   if (request.runs == 0U) return failure("--runs 0: expected at least 1");
+  if (!request.exact.empty() && !run::frames_round())
+    return failure("--exact: this program rounds nothing itself, expected hil-bench to compare with");
   std::error_code error;
   std::filesystem::create_directories(request.folder, error);
   if (error)

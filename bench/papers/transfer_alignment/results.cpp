@@ -9,6 +9,7 @@
 #include "bench/campaign/statistics.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/papers/transfer_alignment/campaign_texts.hpp"
+#include "bench/run/contract.hpp"
 
 namespace canhil::papers::transfer_alignment {
 namespace {
@@ -141,8 +142,14 @@ std::string words(const Times& times) {
                      in_words(times.within_1_mrad));
 }
 
+std::string frames_of(const Results& results) {
+  return results.rounded ? "frames quantised as on the bus"
+                         : "frames without the bus's rounding (hil-bench-exact)";
+}
+
 Result<std::optional<Results>> fly(const Options& options, const std::atomic<bool>& stop) {
   Results results;
+  results.rounded = run::frames_round();
   for (const CampaignText& file : campaign_texts) {
     auto campaign = read_embedded(file);
     if (!campaign) return tl::unexpected(campaign.error());

@@ -54,6 +54,7 @@ struct Spread {
 struct Results {
   std::uint64_t runs = 0;
   std::size_t flights = 0;
+  bool rounded = true;  ///< frames as on the bus; false: flown by the twin that rounds nothing
   std::vector<Flown> campaigns;
   std::vector<std::pair<std::string, Spread>> spreads;  ///< by variant of table2
   std::optional<Flown> exact;                           ///< table2 without the rounding of the bus
@@ -67,6 +68,9 @@ struct Options {
   std::filesystem::path exact;        ///< results of table2 by the twin without rounding; empty: none
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
+
+/// "frames quantised as on the bus", or that they were not.
+std::string frames_of(const Results& results);
 
 /// Flies what the folder does not hold yet. None: stopped. Error: one line.
 Result<std::optional<Results>> fly(const Options& options, const std::atomic<bool>& stop);
