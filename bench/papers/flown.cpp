@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bench/campaign/execute.hpp"
+#include "bench/run/contract.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -70,6 +71,11 @@ const Flown& of(const std::vector<Flown>& flown, std::string_view name) {
   const auto found = std::ranges::find(flown, name, &Flown::name);
   if (found == flown.end()) no_such(name, "results");
   return *found;
+}
+
+std::string_view frames_flown() {
+  return run::frames_round() ? "frames quantised as on the bus"
+                             : "frames without the bus's rounding (hil-bench-exact)";
 }
 
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store) {

@@ -58,6 +58,9 @@ struct Flown {
 /// The campaign of this name; it must exist.
 const Flown& of(const std::vector<Flown>& flown, std::string_view name);
 
+/// "frames quantised as on the bus", or that they were not: hil-bench-exact rounds nothing.
+std::string_view frames_flown();
+
 /// A campaign with the answers that its results give. Error: results cannot be read, or runs are missing.
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store);
 

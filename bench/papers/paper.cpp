@@ -10,6 +10,7 @@
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/report/file.hpp"
+#include "bench/run/contract.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -37,6 +38,8 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   const auto paper = find_paper(request.paper);
   if (!paper) return tl::unexpected(paper.error());
   if (request.runs == 0U) return failure("--runs 0: expected at least 1");
+  if (!request.exact.empty() && !run::frames_round())
+    return failure("--exact: this program rounds nothing itself, expected hil-bench to compare with");
   std::error_code error;
   std::filesystem::create_directories(request.folder, error);
   if (error)

@@ -24,4 +24,6 @@ scenario::Contract contract() {
   return contract;
 }
 
+bool frames_round() { return wire::lsb(messages::SlaveImuDeltaTheta::info.signals[0]) != 0; }
+
 }  // namespace canhil::run

@@ -12,7 +12,11 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   const std::int64_t period_us =
       scenario.slave_imu ? scenario.slave_imu->schedule.period_us.value_or(cycle_us) : cycle_us;
   if (auto fits = check_fits_imu_interval(period_us); !fits) return tl::unexpected(fits.error());
-  return world::FlightRecord(scenario.truth, scenario.duration_us, period_us);
+  world::FlightRecord truth(scenario.truth, scenario.duration_us, period_us);
+  if (scenario.slave_imu) {
+    if (auto fits = check_fits(scenario.slave_imu->errors, truth); !fits) return tl::unexpected(fits.error());
+  }
+  return truth;
 }
 
 Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,

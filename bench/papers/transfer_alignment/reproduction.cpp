@@ -13,9 +13,8 @@ Page page(const Results& results) {
       .title = "Velocity-matching transfer alignment: robust H2 filter against Kalman filter",
       .subtitle = fmt::format(
           "Yang, Shim, Park, \"Velocity Matching Algorithm Using Robust H2 Filter\", 2001, flown over the "
-          "bus: {} runs "
-          "a variant.{}",
-          results.runs,
+          "bus{}: {} runs a variant.{}",
+          results.rounded ? "" : " without its rounding", results.runs,
           results.runs < enough ? " The bars are for 300 runs: with fewer they may fail by chance." : ""),
       .sections = {claims(results), table_2(results), cases(results), cruise(results), sizes(results),
                    axes(results), artefact(results), noise(results), rates(results), cost_of_the_bus(results),

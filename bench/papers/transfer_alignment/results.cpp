@@ -8,6 +8,7 @@
 #include "bench/campaign/statistics.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/papers/transfer_alignment/embedded.hpp"
+#include "bench/run/contract.hpp"
 
 namespace canhil::papers::transfer_alignment {
 namespace {
@@ -97,6 +98,7 @@ Result<std::optional<Results>> fly(const FlyOptions& options, const std::filesys
   if (!flown) return tl::unexpected(flown.error());
   if (!*flown) return std::nullopt;
   Results results;
+  results.rounded = run::frames_round();
   results.campaigns = std::move(**flown);
   for (const Flown& one : results.campaigns)
     results.flights += one.campaign.variants.size() * one.campaign.runs;

@@ -44,8 +44,13 @@ TEST(ScenarioFields, ParametersKeepTheUnitOfTheirNameAndTheOrderOfTheDbc) {
   ASSERT_EQ(parameters.size(), 2U);
   EXPECT_EQ(parameters[0].name, "accel_bias_sigma_ug");
   EXPECT_EQ(parameters[0].value, 300.0);
+  EXPECT_EQ(parameters[0].where, "s.toml:10: key 'target.parameters.accel_bias_sigma_ug'");
   EXPECT_EQ(parameters[1].name, "velocity_noise_m2ps");
   EXPECT_EQ(parameters[1].value, 0.01);
+  const Setting setting{.key = "target.parameters.h2_case", .value = "3", .elements = {}};
+  const auto varied = parse(valid, "s.toml", contract, {&setting, 1});
+  ASSERT_TRUE(varied) << varied.error().message;
+  EXPECT_EQ(varied->target.parameters.at(0).where, "s.toml: key 'target.parameters.h2_case'");
 }
 
 TEST(ScenarioFields, TruthAtRest) {
