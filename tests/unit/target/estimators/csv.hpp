@@ -1,5 +1,5 @@
 #pragma once
-// Reads the published vectors: a header row of names, then rows of numbers.
+// Reads the published vectors: lines of comment, a header row of names, then rows of numbers.
 #include <cstddef>
 #include <fstream>
 #include <map>
@@ -12,9 +12,10 @@ namespace canhil {
 
 class Csv {
  public:
-  explicit Csv(const std::string& path) {
+  explicit Csv(const std::string& path, int comment_lines = 0) {
     std::ifstream file(path);
     std::string line, cell;
+    while (comment_lines-- > 0) std::getline(file, line);
     if (!std::getline(file, line)) throw std::runtime_error(path + ": expected a header row");
     std::istringstream names(line);
     for (std::size_t i = 0; std::getline(names, cell, ','); ++i) column_[cell] = i;
