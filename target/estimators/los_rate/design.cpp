@@ -38,8 +38,11 @@ CombinedTable make_combined_table(const Settings& settings, const Noise& noise) 
       const SteadyState steady =
           steady_state(settings.jerk_density, displacement_noise(noise, at, settings.sample_period));
       const Sigma sigma = sigma_of(polar(steady.P, at));
+      const Gain gain = pole_matched(steady.d, settings.sample_period);
       table.node[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = {
-          pole_matched(steady.d, settings.sample_period),
+          gain.e,
+          std::sqrt(gain.w),
+          std::cbrt(gain.a),
           {sigma.error * at.range, sigma.rate * at.range, sigma.acceleration}};
     }
   }
@@ -71,7 +74,9 @@ Place place(double position, int count) {
 
 CombinedTable::Node blend(const CombinedTable::Node& a, const CombinedTable::Node& b, double share) {
   const auto mix = [share](double x, double y) { return x + share * (y - x); };
-  return {{mix(a.gain.e, b.gain.e), mix(a.gain.w, b.gain.w), mix(a.gain.a, b.gain.a)},
+  return {mix(a.alpha, b.alpha),
+          mix(a.root_beta, b.root_beta),
+          mix(a.root_gamma, b.root_gamma),
           {mix(a.sigma.error, b.sigma.error), mix(a.sigma.rate, b.sigma.rate),
            mix(a.sigma.acceleration, b.sigma.acceleration)}};
 }
@@ -173,7 +178,8 @@ ClosedGain closed_gain(const CombinedTable& table, Geometry at) {
   const CombinedTable::Node node =
       blend(blend(near[speed.node], near[speed.node + 1], speed.share),
             blend(far[speed.node], far[speed.node + 1], speed.share), range.share);
-  return {polar(node.gain, at),
+  const double b = node.root_beta, c = node.root_gamma;
+  return {polar(Gain{node.alpha, b * b, c * c * c}, at),
           {node.sigma.error / at.range, node.sigma.rate / at.range, node.sigma.acceleration}};
 }
 

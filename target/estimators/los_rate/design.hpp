@@ -33,12 +33,12 @@ struct PBarTable {
 };
 
 /// Pole-matched gain and steady sigmas of the sum of the noises over range (equal steps of its logarithm) and
-/// closing speed.
+/// closing speed, as what is proportional to the bandwidth or varies less, for linear interpolation.
 struct CombinedTable {
   static constexpr int ranges = 128, speeds = 9;
   struct Node {
-    Gain gain;    // of y
-    Sigma sigma;  // error and rate times range, which varies less
+    double alpha, root_beta, root_gamma;  // gain of y = [alpha, root_beta^2, root_gamma^3]
+    Sigma sigma;                          // error and rate times range
   };
   std::array<std::array<Node, speeds>, ranges> node;
   double log2_range_min = 0, nodes_per_octave = 0, nodes_per_speed = 0;

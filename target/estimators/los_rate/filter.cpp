@@ -44,7 +44,7 @@ Sample judged(const Measurement& m, const Settings& settings) {
       .fault = Fault::none};
   if (!s.error_ok) {
     s.fault = Fault::error_angle;
-  } else if (!(std::abs(s.error) <= settings.field_of_view)) {
+  } else if (!(std::norm(s.error) <= settings.field_of_view * settings.field_of_view)) {
     s.error_ok = false;
     s.fault = Fault::field_of_view;
   } else if (!s.antenna_ok) {
@@ -194,19 +194,13 @@ State initial() { return {}; }
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment) {
   const Transition phi = transition(end, dt);
-  if (roll_increment != 0) {
-    // c' = j p c: the states turn by the whole roll; in the axes before it, inputs are turned back by half.
-    const Plane half = std::polar(1.0, -roll_increment / 2);
-    antenna_increment *= half;
-    missile_acceleration *= half;
-  }
+  // c' = j p c: the states turn by the whole roll; in the axes before it, inputs are turned back by half.
+  const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
+  antenna_increment *= std::conj(half);
+  missile_acceleration *= std::conj(half);
   const Plane difference = state.acceleration - missile_acceleration;
-  state.error += phi.ew * state.rate + phi.ea * difference - antenna_increment;
-  state.rate = phi.ww * state.rate + phi.wa * difference;
-  if (roll_increment == 0) return;
-  const Plane whole = std::polar(1.0, roll_increment);
-  state.error *= whole;
-  state.rate *= whole;
+  state.error = whole * (state.error + phi.ew * state.rate + phi.ea * difference - antenna_increment);
+  state.rate = whole * (phi.ww * state.rate + phi.wa * difference);
   state.acceleration *= whole;
 }
 

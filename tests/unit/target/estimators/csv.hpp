@@ -12,11 +12,12 @@ namespace canhil {
 
 class Csv {
  public:
-  explicit Csv(const std::string& path, int comment_lines = 0) {
+  explicit Csv(const std::string& path) {
     std::ifstream file(path);
     std::string line, cell;
-    while (comment_lines-- > 0) std::getline(file, line);
-    if (!std::getline(file, line)) throw std::runtime_error(path + ": expected a header row");
+    do std::getline(file, line);
+    while (file && line.starts_with('#'));
+    if (!file) throw std::runtime_error(path + ": expected a header row");
     std::istringstream names(line);
     for (std::size_t i = 0; std::getline(names, cell, ','); ++i) column_[cell] = i;
     while (std::getline(file, line)) {

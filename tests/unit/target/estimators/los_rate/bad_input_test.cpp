@@ -169,9 +169,9 @@ TEST(BadInput, AJumpOfRangeIsRefusedAndBelievedOnlyWhenItLasts) {
     EXPECT_EQ(drive.sample(drive.range + 600 + 300 * (k % 2), 900).fault, Fault::range_jump);
   // A new range that lasts is the range.
   int refused = 0;
-  while (drive.sample(drive.range + 1000, 900).fault == Fault::range_jump) ASSERT_LT(++refused, 30);
+  while (drive.sample(drive.range + 2000, 900).fault == Fault::range_jump) ASSERT_LT(++refused, 30);
   EXPECT_EQ(refused, drive.design.settings.relock_samples);
-  EXPECT_NEAR(drive.state.track.now.range, drive.range + 4.5 + 1000, 1e-6);
+  EXPECT_NEAR(drive.state.track.now.range, drive.range + 4.5 + 2000, 1e-6);
 }
 
 TEST(BadInput, ARangeThatStandsStillIsExtrapolatedThenStale) {

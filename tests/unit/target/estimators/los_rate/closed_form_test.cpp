@@ -242,9 +242,15 @@ TEST(Bandwidth, DoesNotDependOnClosingSpeed) {
     low_gain = std::min(low_gain, d.e);
     high_gain = std::max(high_gain, d.e);
   }
-  EXPECT_NEAR(low / 6.283185307179586, 3.684, 0.03);  // [Hz]
   EXPECT_LT(high / low - 1, 0.02);
   EXPECT_GT(high_gain / low_gain - 1, 0.2);
+}
+
+TEST(Bandwidth, IsAMultipleOfOmegaWhereClosingSpeedIsSmall) {
+  for (const double x : {0.0, 0.05, 0.1, 0.2})
+    EXPECT_NEAR(bandwidth(steady_state(1, {1, x}).d) / 1.70, 1, 0.0025) << x;
+  EXPECT_NEAR(bandwidth(steady_state(1, {1, 0.5}).d), 1.88, 0.01);
+  EXPECT_NEAR(bandwidth(steady_state(1, {1, 1}).d), 2.9, 0.05);
 }
 
 }  // namespace

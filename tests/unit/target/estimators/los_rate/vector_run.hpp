@@ -22,7 +22,7 @@ struct Point {
 };
 
 inline const Csv& vector_file() {
-  static const Csv file(TEST_DATA_DIR "/los_rate/vec1_200hz.csv", 1);
+  static const Csv file(TEST_DATA_DIR "/los_rate/vec1_200hz.csv");
   return file;
 }
 
