@@ -93,4 +93,24 @@ class Engagement {
   Truth truth_;
 };
 
+/// Runs an engagement, handing truth, state and result of each step to `inspect`.
+template <class Inspect>
+State run(const EngagementSetup& setup, Inspect inspect) {
+  const Design design = make_design(setup.settings);
+  Engagement engagement(setup);
+  State state = initial();
+  while (!engagement.over()) {
+    const Measurement m = engagement.next();
+    const UpdateResult result = step(state, m, design);
+    inspect(engagement.truth(), state, result);
+  }
+  return state;
+}
+
+inline EngagementSetup setup_of(Algorithm algorithm) {
+  EngagementSetup setup;
+  setup.settings.algorithm = algorithm;
+  return setup;
+}
+
 }  // namespace canhil::los_rate

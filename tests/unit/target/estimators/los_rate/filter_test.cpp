@@ -1,4 +1,4 @@
-// Properties of the whole step: exactness, two planes, closed gains against the Kalman filter, statistics.
+// Properties of the whole step: exactness, signs, two planes under roll.
 #include "target/estimators/los_rate/filter.hpp"
 
 #include <gtest/gtest.h>
@@ -9,33 +9,12 @@
 #include <cmath>
 
 #include "tests/unit/target/estimators/los_rate/engagement.hpp"
-#include "tests/unit/target/estimators/los_rate/vector_run.hpp"
 
 namespace canhil::los_rate {
 namespace {
 
 constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
                                 Algorithm::low_pass};
-
-// Runs an engagement, handing measurement, truth, state and result to `inspect`.
-template <class Inspect>
-State run(const EngagementSetup& setup, Inspect inspect) {
-  const Design design = make_design(setup.settings);
-  Engagement engagement(setup);
-  State state = initial();
-  while (!engagement.over()) {
-    const Measurement m = engagement.next();
-    const UpdateResult result = step(state, m, design);
-    inspect(engagement.truth(), state, result);
-  }
-  return state;
-}
-
-EngagementSetup setup_of(Algorithm algorithm) {
-  EngagementSetup setup;
-  setup.settings.algorithm = algorithm;
-  return setup;
-}
 
 // Started on the truth, without noise, an exact prediction leaves nothing to correct: Euler steps would.
 TEST(LosRate, PredictionIsExactForConstantClosingSpeed) {
@@ -226,139 +205,12 @@ TEST(TwoPlanes, UnequalNoisesTakeTwoGainSets) {
     k = 0;
     double larger = 1e9;
     run(apart, [&](const Truth& truth, const State&, const UpdateResult& result) {
+      if (truth.time_to_go < 0.3) return;  // the noise of yaw leaves the field of view
       EXPECT_NEAR(result.sigma.pitch.rate, sigma[k++].rate, 1e-15);
       if (truth.time_to_go < 3) larger = std::min(larger, result.sigma.yaw.rate / result.sigma.pitch.rate);
     });
     EXPECT_GT(larger, 1.5);
   }
-}
-
-// Gain by gain: the combined table against the full Kalman filter, 100 to 500 Hz, after 2.2 s, to 0.05 s to
-// go.
-TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
-  for (const double T : {0.01, 0.005, 0.002}) {
-    for (const double vc : {600.0, 900.0, 1200.0}) {
-      Settings settings;
-      settings.sample_period = T;
-      const Noise noise = settings.noise.pitch;
-      const Design design = make_design(settings);
-      Covariance P{.ee = sample_variance(noise, 5000), .ww = 0.0025, .aa = 1600};
-      double worst = 0;
-      for (double t = T, r = 5000 - vc * T; r > vc * 0.05; t += T, r -= vc * T) {
-        P = predicted(P, {r, vc}, T, settings.jerk_density);
-        const Gain K = kalman_gain(P, sample_variance(noise, r));
-        P = updated(P, K);
-        if (t < 2.2) continue;
-        const ClosedGain closed = closed_gain(design.combined.pitch, {r, vc});
-        worst = std::max({worst, std::abs(closed.K.e / K.e - 1), std::abs(closed.K.w / K.w - 1),
-                          std::abs(closed.K.a / K.a - 1)});
-        // Sigmas of the closed forms are of continuous time, between prediction and update.
-        EXPECT_NEAR(closed.sigma.rate / std::sqrt(P.ww), 1, 0.08) << T << " " << vc << " " << r;
-        EXPECT_NEAR(closed.sigma.error / std::sqrt(P.ee), 1, 0.12) << T << " " << vc << " " << r;
-        EXPECT_NEAR(closed.sigma.acceleration / std::sqrt(P.aa), 1, 0.05) << T << " " << vc << " " << r;
-      }
-      // That the sum of noises scales like a power of r is an approximation whose error grows with vc/W:
-      // 1.8 % at 900 m/s, 3.03 % at 1200 m/s and 100 Hz. The bar of 3 % is for the paper's engagement.
-      EXPECT_LT(worst, vc > 1000 ? 0.035 : 0.03) << T << " " << vc;
-    }
-  }
-}
-
-TEST(ClosedGain, TablesAreWithinTheirInterpolationErrorOfTheClosedForms) {
-  for (const double constant : {0.0, 1e-3}) {
-    Settings settings;
-    settings.noise.pitch.constant = settings.noise.yaw.constant = constant;
-    const Noise noise = settings.noise.pitch;
-    const Design combined = make_design(settings);
-    settings.algorithm = Algorithm::switched_table;
-    const Design switched = make_design(settings);
-    const auto largest = [](const Gain& a, const Gain& b) {
-      return std::max({std::abs(a.e / b.e - 1), std::abs(a.w / b.w - 1), std::abs(a.a / b.a - 1)});
-    };
-    double table = 0, p_bar = 0;
-    for (double r = 31; r < 9900; r *= 1.013) {
-      for (double vc = 110; vc < 1990; vc += 73) {
-        const Geometry at{r, vc};
-        const Gain sum =
-            polar(pole_matched(steady_state(300, displacement_noise(noise, at, 0.005)).d, 0.005), at);
-        table = std::max(table, largest(closed_gain(combined.combined.pitch, at).K, sum));
-        p_bar = std::max(
-            p_bar, largest(closed_gain(switched.p_bar.pitch, switched.settings, at).K, switched_gain(at)));
-      }
-    }
-    EXPECT_LT(table, 1.5e-3);
-    EXPECT_LT(p_bar, 1e-9);
-  }
-}
-
-// Below the crossing the thermal gain is far too high: the mistake the switch is there for.
-TEST(ClosedGain, ThermalGainBelowTheCrossingIsCaught) {
-  const Settings settings;
-  const double Ts = settings.sample_period, psd = 1e-20 * Ts;
-  const Geometry at{500, 900};
-  const Gain thermal = thermal_gain(riccati(300, psd, 900), psd, 500);
-  const Gain right = glint_gain(riccati(300, 0.25 * Ts, 0), 0.25 * Ts, at);
-  EXPECT_GT(thermal.a / right.a, 20);
-  EXPECT_NEAR(crossing_range(settings.noise.pitch), 1710, 1);
-}
-
-// Own model, own noise: the normalised innovation squared of two planes has the mean 2, and errors match the
-// sigmas reported, whatever the gain.
-TEST(Statistics, NisAndSigmasAreConsistent) {
-  for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::combined, Algorithm::switched_table}) {
-    double nis = 0, ratio = 0, count = 0;
-    for (unsigned seed = 1; seed <= 40; ++seed) {
-      EngagementSetup setup = setup_of(algorithm);
-      setup.noisy = true;
-      setup.seed = seed;
-      setup.jerk_density = setup.settings.jerk_density;
-      run(setup, [&](const Truth& truth, const State& state, const UpdateResult& result) {
-        if (truth.time_to_go > 2.9 || truth.time_to_go < 0.1) return;
-        nis += result.nis / 2;
-        ratio += std::norm(state.rate - truth.rate) / (2 * result.sigma.pitch.rate * result.sigma.pitch.rate);
-        ++count;
-      });
-    }
-    EXPECT_NEAR(nis / count, 1, 0.05) << static_cast<int>(algorithm);
-    // Errors are correlated over about 1/W: some 40 * 2.8 * 8 independent ones.
-    EXPECT_NEAR(ratio / count, 1, 0.15) << static_cast<int>(algorithm);
-  }
-}
-
-// The paper forgets the transient: from the start on, Kalman filter first is no worse than half again.
-TEST(StartUp, KalmanFilterFirstThenTheClosedGain) {
-  EngagementSetup setup = setup_of(Algorithm::combined);
-  int start_up = 0, updated = 0;
-  run(setup, [&](const Truth&, const State& state, const UpdateResult& result) {
-    if (result.outcome == Outcome::start_up) {
-      EXPECT_EQ(updated, 0);
-      EXPECT_TRUE(state.covariance);
-      ++start_up;
-    }
-    if (result.outcome == Outcome::updated) {
-      EXPECT_FALSE(state.covariance) << "no covariance is carried on";
-      ++updated;
-    }
-  });
-  EXPECT_NEAR(start_up, 2.5 / 0.005, 1);
-  EXPECT_GT(updated, 500);
-
-  const auto early_rms = [](Algorithm algorithm, double start_up_s) {
-    double sum = 0;
-    for (unsigned seed = 1; seed <= 40; ++seed) {
-      EngagementSetup noisy = setup_of(algorithm);
-      noisy.settings.start_up = start_up_s;
-      noisy.noisy = true;
-      noisy.seed = seed;
-      run(noisy, [&](const Truth& truth, const State& state, const UpdateResult&) {
-        if (truth.time_to_go < 4.5 && truth.time_to_go > 3) sum += std::norm(state.rate - truth.rate);
-      });
-    }
-    return std::sqrt(sum);
-  };
-  const double kalman = early_rms(Algorithm::kalman, 0);
-  EXPECT_DOUBLE_EQ(early_rms(Algorithm::combined, 3), kalman);
-  EXPECT_GT(early_rms(Algorithm::combined, 0), 1.2 * kalman);
 }
 
 }  // namespace
