@@ -32,9 +32,9 @@ struct SteadyState {
 SteadyState steady_state(double q, DisplacementNoise noise);
 
 /// K = [d1, d2 + (vc/r) d1, r d3]: a gain of y as a gain of x, which the error angle drives.
-Gain polar(const Gain& displacement, Geometry at);
+Gain polar(const Gain& d, Geometry at);
 /// The inverse.
-Gain displacement(const Gain& polar, Geometry at);
+Gain displacement(const Gain& K, Geometry at);
 
 /// Discrete gain of y a sample every Ts [s] whose error poles are exp(s Ts) of the poles s of the continuous
 /// gain d, s^3 + d1 s^2 + d2 s + d3 = 0: [alpha, beta/Ts, gamma/Ts^2]. Stable for any Ts. d Hurwitz.

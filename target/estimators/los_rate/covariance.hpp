@@ -28,8 +28,8 @@ struct Transition {
 };
 Transition transition(Geometry end, double dt);
 
-/// Displacement covariance in polar states: M P M', M = [1/r 0 0; vc/r^2 1/r 0; 0 0 1].
-Covariance polar(const Covariance& displacement, Geometry at);
+/// Covariance of y as one of x: M P M', M = [1/r 0 0; vc/r^2 1/r 0; 0 0 1].
+Covariance polar(const Covariance& y, Geometry at);
 
 /// P+ = Phi P Phi' + M Qd M', Qd of white jerk of PSD q [m^2/s^5] over dt [s].
 Covariance predicted(const Covariance& P, Geometry end, double dt, double jerk_density);

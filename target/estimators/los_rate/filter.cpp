@@ -22,8 +22,9 @@ Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), 
 // function(plane) of pitch, and of yaw only where its noise differs; `plane` picks a member of a pair.
 template <class Function>
 auto of_planes(const Design& design, Function function) {
-  const auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
-  return Planes{pitch, design.equal_noise ? pitch : function([](auto& pair) -> auto& { return pair.yaw; })};
+  auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
+  return Planes<decltype(pitch)>{
+      pitch, design.equal_noise ? pitch : function([](auto& pair) -> auto& { return pair.yaw; })};
 }
 
 // What a sample lacks, and its inputs in the complex plane.

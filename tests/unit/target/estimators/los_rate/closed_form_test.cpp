@@ -223,8 +223,10 @@ double bandwidth(const Gain& d) {
     return std::abs((d.w * s + d.a) / (((s + d.e) * s + d.w) * s + d.a));
   };
   double low = 0, high = 0;
-  for (double w = 0.01; w < 1e4; w *= 1.01)
+  for (int i = 0; i < 1400; ++i) {
+    const double w = 0.01 * std::pow(1.01, i);
     if (gain(w) > std::sqrt(0.5)) low = w, high = 1.02 * w;
+  }
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
     (gain(middle) > std::sqrt(0.5) ? low : high) = middle;
@@ -235,7 +237,8 @@ double bandwidth(const Gain& d) {
 // Fig. 3: the bandwidth, not the gain, is insensitive to closing speed.
 TEST(Bandwidth, DoesNotDependOnClosingSpeed) {
   double low = 1e9, high = 0, low_gain = 1e9, high_gain = 0;
-  for (double vc = 300; vc <= 1800; vc += 100) {
+  for (int i = 3; i <= 18; ++i) {
+    const double vc = 100.0 * i;
     const Gain d = steady_state(q, displacement_noise(thermal, {1000, vc}, Ts)).d;
     low = std::min(low, bandwidth(d));
     high = std::max(high, bandwidth(d));

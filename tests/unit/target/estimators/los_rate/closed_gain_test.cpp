@@ -70,7 +70,8 @@ TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
       const Design design = make_design(settings);
       Covariance P{.ee = sample_variance(noise, 5000), .ww = 0.0025, .aa = 1600};
       double worst = 0;
-      for (double t = T, r = 5000 - vc * T; r > vc * 0.05; t += T, r -= vc * T) {
+      for (int k = 1; 5000 - vc * T * k > vc * 0.05; ++k) {
+        const double t = T * k, r = 5000 - vc * t;
         P = predicted(P, {r, vc}, T, settings.jerk_density);
         const Gain K = kalman_gain(P, sample_variance(noise, r));
         P = updated(P, K);
@@ -102,8 +103,10 @@ TEST(ClosedGain, TablesAreWithinTheirInterpolationErrorOfTheClosedForms) {
       return std::max({std::abs(a.e / b.e - 1), std::abs(a.w / b.w - 1), std::abs(a.a / b.a - 1)});
     };
     double table = 0, p_bar = 0;
-    for (double r = 31; r < 9900; r *= 1.013) {
-      for (double vc = 110; vc < 1990; vc += 73) {
+    for (int i = 0; i < 446; ++i) {
+      const double r = 31 * std::pow(1.013, i);
+      for (int j = 0; j < 26; ++j) {
+        const double vc = 110 + 73 * j;
         const Geometry at{r, vc};
         const Gain sum =
             polar(pole_matched(steady_state(300, displacement_noise(noise, at, 0.005)).d, 0.005), at);
