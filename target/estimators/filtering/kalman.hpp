@@ -94,4 +94,16 @@ Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, con
       [](const Matrix<N, N>& W) -> Matrix<N, M> { return W.template middleCols<M>(First); });
 }
 
+/// The same when the measurement is the states First .. less the states Less .., M of each.
+template <int First, int Less, int N, int M>
+Correction<N, M> update_state_difference(const Matrix<N, N>& P, const Matrix<M, M>& R,
+                                         const Vector<M>& innovation) {
+  const auto times_Ht = [](const Matrix<N, N>& W) -> Matrix<N, M> {
+    return W.template middleCols<M>(First) - W.template middleCols<M>(Less);
+  };
+  const Matrix<N, M> PHt = times_Ht(P);
+  const Matrix<M, M> HPHt = PHt.template middleRows<M>(First) - PHt.template middleRows<M>(Less);
+  return detail::joseph<N, M>(P, PHt, HPHt, R, innovation, times_Ht);
+}
+
 }  // namespace canhil::filtering
