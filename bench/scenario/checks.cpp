@@ -1,6 +1,6 @@
 #include "bench/scenario/checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -81,7 +81,12 @@ OutputPeriod read(Section& section, const Context& context, OutputPeriod rule) {
 }
 
 Latency read(Section& section, const Context& context, Latency rule) {
+  const std::vector<std::string>& answers = context.contract.answers;
   rule.message = section.one_of("message", context.contract.messages);
+  if (std::ranges::find(answers, rule.message) == answers.end()) {
+    section.reject("message", fmt::format("'{}' answers nothing", rule.message),
+                   fmt::format("one of: {}", fmt::join(answers, ", ")));
+  }
   rule.window = read_window(section, context.duration_us);
   rule.below_us = section.time_us("below_ms", Limits::above(0));
   rule.quantile = section.number("quantile", Limits::above(0, 1), 1);

@@ -153,8 +153,8 @@ TEST(Load, OfEveryNodeOfTheContractIsUnderHalfOfAMegabitPerSecond) {
   double bits_per_s = 0;
   for (const Message& message : database->messages) {
     if (message.cycle_time_us > 0)
-      bits_per_s +=
-          worst_case_bits(message.size, message.extended) * 1e6 / static_cast<double>(message.cycle_time_us);
+      bits_per_s += static_cast<double>(worst_case_bits(message.size, message.extended)) * 1e6 /
+                    static_cast<double>(message.cycle_time_us);
   }
   EXPECT_GT(bits_per_s, 0);
   EXPECT_LT(bits_per_s, 0.5 * 1e6);
