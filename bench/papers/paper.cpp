@@ -8,6 +8,7 @@
 
 #include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
+#include "bench/papers/inflight_alignment/reproduction.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/report/file.hpp"
 #include "bench/run/contract.hpp"
@@ -22,7 +23,8 @@ struct Paper {
                                                    const std::filesystem::path& exact,
                                                    const std::atomic<bool>& stop);
 };
-constexpr std::array papers{Paper{"transfer", transfer_alignment::reproduce}};
+constexpr std::array papers{Paper{"transfer", transfer_alignment::reproduce},
+                            Paper{"inflight", inflight_alignment::reproduce}};
 
 Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);
