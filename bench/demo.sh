@@ -3,6 +3,11 @@
 # Needs nothing but Debian 12: what is missing is installed first. Exit code: 0 outputs passed, 1 failed, 2 set-up failed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+case "${1:-}" in
+  '') ;;
+  -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' bench/demo.sh; exit ;;
+  *) echo "demo.sh: unknown option '$1': expected none, or --help" >&2; exit 2 ;;
+esac
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:$PATH
 progress() { echo "demo: $*" >&2; }
 

@@ -1,4 +1,6 @@
 // hil-bench: plays every node but the target, and judges it.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
@@ -9,6 +11,7 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/run.hpp"
 
+#include "messages/canhil.hpp"
 int main(int argc, char** argv) {
   using canhil::commands::ExitCode;
   CLI::App app{
@@ -16,6 +19,10 @@ int main(int argc, char** argv) {
       "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured."};
   app.require_subcommand(1);
   int code = 0;
+  app.set_version_flag("--version",
+                       fmt::format("hil-bench {} · DBC {:016x}", CANHIL_VERSION, canhil::messages::dbc_hash));
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file at its size limit is an error of write(), with a line that names the file
   canhil::commands::add_run(app, code);
   canhil::commands::add_bus(app, code);
   canhil::commands::add_campaign(app, code);

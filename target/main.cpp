@@ -1,10 +1,14 @@
 // hil-target: a Device on a bus.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <string>
 
+#include "messages/canhil.hpp"
+#include "target/device/version.hpp"
 #include "target/process/event_loop.hpp"
 #include "target/process/replay.hpp"
 
@@ -24,6 +28,9 @@ int complain(const canhil::Error& error) {
 
 int main(int argc, char** argv) {
   CLI::App app{"The device under test: navigation and guidance estimators behind a CAN interface."};
+  app.set_version_flag("--version",
+                       fmt::format("hil-target {}.{} · DBC {:016x}", canhil::target::version_major,
+                                   canhil::target::version_minor, canhil::messages::dbc_hash));
   std::string bus;
   std::string log;
   auto* bus_option =

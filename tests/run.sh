@@ -19,7 +19,11 @@ while (($#)); do
     --quick) quick=yes ;;
     --tidy) tidy=yes ;;
     --fuzz) fuzz=yes ;;
-    --only) only=${2:?"--only needs a regular expression"}; shift ;;
+    --only)
+      only=${2:-}
+      if [[ -z "$only" ]]; then echo "tests/run.sh: --only: expected a regular expression" >&2; exit 2; fi
+      shift ;;
+    -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/run.sh; exit ;;
     *) echo "tests/run.sh: unknown option '$1': expected --quick, --tidy, --fuzz or --only REGEX" >&2; exit 2 ;;
   esac
   shift

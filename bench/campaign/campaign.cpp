@@ -164,6 +164,9 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
   campaign.sources = {.file = std::string(file), .text = std::string(text), .scenarios = {}};
   campaign.title = root.text("title");
   campaign.runs = static_cast<std::uint64_t>(root.integer("runs", 1));
+  if (campaign.runs > most_runs)
+    root.reject("runs", fmt::format("{} is out of range", campaign.runs),
+                fmt::format("at most {}", most_runs));
   campaign.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
   const std::vector<Given> given = read_variants(root);
   const std::vector<Setting> sweep = read_sweep(root, given);

@@ -31,6 +31,9 @@ struct Sources {
   std::map<std::string, std::string> scenarios;  ///< text by name as written in the campaign
 };
 
+/// Of one campaign: its list of runs stays in memory.
+inline constexpr std::uint64_t most_runs = 10'000'000;
+
 struct Campaign {
   Sources sources;
   std::uint64_t hash = 0;  ///< of all texts: results of equal hash belong together

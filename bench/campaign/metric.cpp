@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <span>
 
-#include "bench/scenario/section.hpp"
+#include "bench/scenario/rule.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -46,27 +46,6 @@ std::optional<double> optional_number(Section& section, std::string_view key, Li
   return std::nullopt;
 }
 
-std::int64_t read_time(Section& section, std::string_view key, const Context& context) {
-  const std::int64_t t_us = section.time_us(key, Limits::at_least(0));
-  if (t_us > context.duration_us) {
-    section.reject(key, "is after the end of the run",
-                   fmt::format("at most duration_s = {:g}", seconds(context.duration_us)));
-  }
-  return t_us;
-}
-
-std::pair<std::int64_t, std::int64_t> read_window(Section& section, const Context& context) {
-  const std::int64_t from_us = section.has("from_s") ? read_time(section, "from_s", context) : 0;
-  const std::int64_t to_us = section.has("to_s") ? read_time(section, "to_s", context) : context.duration_us;
-  section.optional("from_s");
-  section.optional("to_s");
-  if (from_us >= to_us) {
-    section.reject("from_s", "is not before the end of the window",
-                   fmt::format("less than {:g}", seconds(to_us)));
-  }
-  return {from_us, to_us};
-}
-
 RmsCurve read(Section& section, const Context& /*context*/, RmsCurve rule) {
   rule.quantity = read_error(section);
   return rule;
@@ -90,7 +69,7 @@ Lead read(Section& section, const Context& context, Lead rule) {
 
 ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
-  rule.at_us = read_time(section, "at_s", context);
+  rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
   rule.at_most = optional_number(section, key_of("at_most", rule.quantity), Limits::at_least(0));
   rule.at_least = optional_number(section, key_of("at_least", rule.quantity), Limits::at_least(0));
   return rule;
@@ -98,7 +77,9 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
 
 WindowMoments read(Section& section, const Context& context, WindowMoments rule) {
   rule.quantity = read_error(section);
-  std::tie(rule.from_us, rule.to_us) = read_window(section, context);
+  const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
+  rule.from_us = from_us;
+  rule.to_us = to_us;
   rule.mean_at_most = optional_number(section, key_of("mean_at_most", rule.quantity), Limits::at_least(0));
   rule.standard_deviation_at_most =
       optional_number(section, key_of("standard_deviation_at_most", rule.quantity), Limits::at_least(0));
@@ -108,7 +89,7 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
 Paired read(Section& section, const Context& context, Paired rule) {
   rule.quantity = read_error(section);
   rule.other = section.one_of("other", context.variants);
-  rule.at_us = read_time(section, "at_s", context);
+  rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
   rule.confidence = section.number("confidence", Limits::between(0.5, 0.999999), rule.confidence);
   rule.at_most = optional_number(section, "at_most", Limits::between(0, 1));
   rule.at_least = optional_number(section, "at_least", Limits::between(0, 1));
@@ -117,7 +98,9 @@ Paired read(Section& section, const Context& context, Paired rule) {
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   rule.quantity = read_quantity(section, "statistic", std::span(quantity_names).subspan(error_count));
-  std::tie(rule.from_us, rule.to_us) = read_window(section, context);
+  const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
+  rule.from_us = from_us;
+  rule.to_us = to_us;
   rule.probability = section.number("probability", Limits::between(0.5, 0.999999), rule.probability);
   if (section.has("mean_between")) rule.mean_between = section.interval("mean_between", Limits::at_least(0));
   section.optional("mean_between");
@@ -134,23 +117,6 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
 }
 
 using Rule = decltype(Metric::rule);
-
-/// Names of all kinds, in the order of the variant.
-template <std::size_t... I>
-std::vector<std::string> kinds(std::index_sequence<I...> /*all*/) {
-  return {std::string(std::variant_alternative_t<I, Rule>::kind)...};
-}
-
-/// Reads the rule whose kind has this name.
-template <std::size_t... I>
-Rule read_kind(std::string_view name, Section& section, const Context& context,
-               std::index_sequence<I...> /*all*/) {
-  Rule rule;
-  (void)((std::variant_alternative_t<I, Rule>::kind == name &&
-          (rule = read(section, context, std::variant_alternative_t<I, Rule>{}), true)) ||
-         ...);
-  return rule;
-}
 
 std::string in_unit(double value, Quantity quantity) {
   return fmt::format("{:g} {}", value / unit_of(quantity).factor, unit_of(quantity).name);
@@ -176,9 +142,7 @@ std::string subject(const Diverged& rule) { return " beyond " + in_unit(rule.bey
 
 }  // namespace
 
-std::string_view kind(const Metric& metric) {
-  return std::visit([](const auto& rule) { return rule.kind; }, metric.rule);
-}
+std::string_view kind(const Metric& metric) { return scenario::kind_of(metric.rule); }
 
 std::string other_of(const Metric& metric) {
   if (const auto* paired = std::get_if<Paired>(&metric.rule)) return paired->other;
@@ -187,12 +151,13 @@ std::string other_of(const Metric& metric) {
 }
 
 Metric read_metric(Section& section, const std::vector<std::string>& variants, std::int64_t duration_us) {
-  constexpr auto all = std::make_index_sequence<std::variant_size_v<Rule>>{};
   Metric metric;
-  const std::string wanted = section.one_of("kind", kinds(all));
+  const std::string wanted = section.one_of("kind", scenario::kinds<Rule>());
   metric.requirement = section.text("requirement", "");
   metric.variants = section.some_of("variants", variants);
-  metric.rule = read_kind(wanted, section, {.variants = variants, .duration_us = duration_us}, all);
+  const Context context{.variants = variants, .duration_us = duration_us};
+  metric.rule =
+      scenario::read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
   const std::string by_default = std::visit(
       [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, name(rule.quantity), subject(rule)); },
       metric.rule);

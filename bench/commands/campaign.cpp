@@ -1,7 +1,6 @@
 #include "bench/commands/campaign.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -16,6 +15,8 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/paper.hpp"
+#include "bench/commands/progress_line.hpp"
+#include "bench/commands/whole_number.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/text.hpp"
 #include "bench/run/session.hpp"
@@ -25,11 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t most_threads = 1024;
+
 // As typed.
 struct Arguments {
   std::string file;
   std::string out;
-  unsigned threads = 0;
+  std::optional<std::uint64_t> threads;
   std::string shard;
   std::optional<std::uint64_t> runs;
   bool resume = false;
@@ -45,42 +48,27 @@ struct ReportArguments {
 };
 struct ReplayArguments {
   std::string file;
-  std::uint64_t run = 0;
+  std::optional<std::uint64_t> run;
   std::string variant;
   std::string log;
 };
 
-// A line that renews itself, on a terminal only.
-class ProgressLine {
- public:
-  ProgressLine() : shown_(isatty(STDERR_FILENO) != 0) {}
-  ~ProgressLine() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
+// "[===   ] 300 / 1200 runs · 812.1/s · 1 s left"
+std::string progress_text(const campaign::Progress& progress, double elapsed_s) {
+  const auto done = static_cast<double>(progress.done), total = static_cast<double>(progress.total);
+  std::string text =
+      fmt::format("{} {} / {} runs", progress_bar(done / total), progress.done, progress.total);
+  if (progress.done > 0) {
+    const double rate = done / elapsed_s;
+    text += fmt::format(" · {:.1f}/s · {:.0f} s left", rate, (total - done) / rate);
   }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  void operator()(const campaign::Progress& progress) const {
-    if (!shown_ || progress.total == 0) return;
-    constexpr std::size_t width = 30;
-    const std::size_t bar = progress.done * width / progress.total;
-    const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const double rate = static_cast<double>(progress.done) / s;
-    fmt::print(stderr, "\r\033[K  [{:=<{}}{:{}}] {} / {} runs", "", bar, "", width - bar, progress.done,
-               progress.total);
-    if (progress.done > 0) {
-      fmt::print(stderr, " · {:.1f}/s · {:.0f} s left", rate,
-                 static_cast<double>(progress.total - progress.done) / rate);
-    }
-  }
-
- private:
-  bool shown_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+  return text;
+}
 
 // --out names the file, or the folder of a file named after the campaign and the shard.
 Result<fs::path> results_file(const Arguments& arguments, const campaign::Shard& shard) {
   const fs::path out = arguments.out;
+  if (out == report::to_stdout) return failure("--out -: expected a folder or a file, not standard output");
   if (out.extension() == ".sqlite") return out;
   std::error_code error;
   if (!out.empty()) fs::create_directories(out, error);
@@ -95,15 +83,13 @@ ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, 
   if (!store) return complain(store.error());
   const auto evaluation = campaign::evaluate(campaign, *store);
   if (!evaluation) return complain(evaluation.error());
-  if (json == "-") {
-    fmt::print("{}", campaign::json(campaign, *evaluation));
-  } else {
-    fmt::print("{}", campaign::text(campaign, *evaluation));
-    if (!json.empty()) {
-      if (auto written = report::write_file(json, campaign::json(campaign, *evaluation)); !written) {
-        return complain(written.error());
-      }
-    }
+  if (json != report::to_stdout) {
+    if (auto shown = report::write_stdout(campaign::text(campaign, *evaluation)); !shown)
+      return complain(shown.error());
+  }
+  if (!json.empty()) {
+    if (auto written = report::write(json, campaign::json(campaign, *evaluation)); !written)
+      return complain(written.error());
   }
   return evaluation->passed ? ExitCode::pass : ExitCode::fail;
 }
@@ -118,7 +104,7 @@ ExitCode execute(const Arguments& arguments) {
   if (!arguments.json.empty()) {
     if (shard->count > 1)
       return complain({"--json: a shard has no report, expected all runs: merge them first"});
-    if (arguments.json != "-") {
+    if (arguments.json != report::to_stdout) {
       if (auto writable = report::check_writable(arguments.json); !writable)
         return complain(writable.error());
     }
@@ -128,13 +114,18 @@ ExitCode execute(const Arguments& arguments) {
 
   catch_interrupts();
   const auto execution = [&] {
-    const ProgressLine progress;
+    const ProgressLine line;
+    const auto start = std::chrono::steady_clock::now();
+    const auto show = [&](const campaign::Progress& progress) {
+      const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+      if (progress.total > 0) line.show([&] { return progress_text(progress, elapsed.count()); });
+    };
     return campaign::execute(*campaign,
                              {.file = *file,
                               .shard = *shard,
-                              .threads = arguments.threads,
+                              .threads = static_cast<unsigned>(arguments.threads.value_or(0)),
                               .resume = arguments.resume,
-                              .progress = std::cref(progress)},
+                              .progress = show},
                              interrupted);
   }();
   if (!execution) return complain(execution.error());
@@ -148,6 +139,7 @@ ExitCode execute(const Arguments& arguments) {
 
 ExitCode merge(const MergeArguments& arguments) {
   const std::vector<fs::path> shards(arguments.shards.begin(), arguments.shards.end());
+  if (auto writable = report::check_writable(arguments.out); !writable) return complain(writable.error());
   const auto merged = campaign::merge(arguments.out, shards);
   return merged ? ExitCode::pass : complain(merged.error());
 }
@@ -160,7 +152,7 @@ ExitCode report_on(const ReportArguments& arguments) {
   auto campaign = campaign::parse_campaign(*sources);
   if (!campaign) return complain(campaign.error());
   campaign->runs = store->identity().runs;
-  return print_report(*campaign, arguments.merged, arguments.json ? "-" : "");
+  return print_report(*campaign, arguments.merged, std::string(arguments.json ? report::to_stdout : ""));
 }
 
 ExitCode replay(const ReplayArguments& arguments) {
@@ -180,7 +172,7 @@ ExitCode replay(const ReplayArguments& arguments) {
   run::Options options;
   options.bus = "in-process";
   options.clock = run::ClockKind::lockstep;
-  options.run_index = arguments.run;
+  options.run_index = *arguments.run;
   if (!arguments.log.empty()) {
     if (auto writable = report::check_writable(arguments.log); !writable) return complain(writable.error());
     options.log_path = arguments.log;
@@ -188,7 +180,7 @@ ExitCode replay(const ReplayArguments& arguments) {
   catch_interrupts();
   const auto finished = run::run(variant->scenario, options, interrupted, [](std::int64_t) {});
   if (!finished) return complain(finished.error());
-  fmt::print("variant {} · run {}\n{}", variant->name, arguments.run,
+  fmt::print("variant {} · run {}\n{}", variant->name, options.run_index,
              report::text(variant->scenario, *finished));
   return exit_code(finished->verdict.outcome);
 }
@@ -215,7 +207,7 @@ void add_replay(CLI::App& campaign, int& code) {
   auto arguments = std::make_shared<ReplayArguments>();
   CLI::App* command = campaign.add_subcommand("replay", "one run again, with its checks and its frames");
   command->add_option("FILE", arguments->file, "campaign file (TOML)")->required();
-  command->add_option("RUN", arguments->run, "index of the run, from 0")->required();
+  add_whole_number(*command, "RUN", arguments->run, "index of the run, from 0")->required();
   command->add_option("--variant", arguments->variant, "by name (default: the first)");
   command->add_option("--log", arguments->log, "record every frame in candump's log format");
   command->callback([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
@@ -229,11 +221,11 @@ void add_campaign(CLI::App& app, int& code) {
       app.add_subcommand("campaign", "fly variants of scenarios many times, and compare them");
   CLI::Option* file = command->add_option("FILE", arguments->file, "campaign file (TOML)");
   command->add_option("--out", arguments->out, "folder, or file.sqlite, of the results (default: here)");
-  command->add_option("--threads", arguments->threads, "default: one a core")->check(CLI::PositiveNumber);
+  add_whole_number(*command, "--threads", arguments->threads, "default: one a core", 1, most_threads);
   command->add_option("--shard", arguments->shard,
                       "i/N: only runs with run % N == i (default: the task of a Slurm array, or all)");
-  command->add_option("--runs", arguments->runs, "another number of runs than the campaign's")
-      ->check(CLI::PositiveNumber);
+  add_whole_number(*command, "--runs", arguments->runs, "another number of runs than the campaign's", 1,
+                   campaign::most_runs);
   command->add_flag("--resume", arguments->resume, "go on with results that are there");
   command->add_option("--json", arguments->json,
                       "write the report as JSON to a file; -: to stdout, in place of the text");

@@ -1,18 +1,18 @@
 #include "bench/commands/paper.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <chrono>
 
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/progress_line.hpp"
 #include "bench/papers/paper.hpp"
 
 namespace canhil::commands {
 
 ExitCode reproduce_paper(const PaperArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const ProgressLine line;
   catch_interrupts();
   const auto reproduced = papers::reproduce(
       {.paper = arguments.paper,
@@ -21,10 +21,10 @@ ExitCode reproduce_paper(const PaperArguments& arguments) {
        .exact = arguments.exact,
        .progress =
            [&](std::string_view campaign, std::size_t done, std::size_t total) {
-             if (terminal) fmt::print(stderr, "\r\033[K  {}: {} / {} runs", campaign, done, total);
+             line.show([&] { return fmt::format("{}: {} / {} runs", campaign, done, total); });
            }},
       interrupted);
-  if (terminal) fmt::print(stderr, "\r\033[K");
+  line.clear();
   if (!reproduced) return complain(reproduced.error());
   if (reproduced->outcome == papers::Outcome::interrupted) {
     fmt::print(stderr, "hil-bench: interrupted; the same command goes on\n");

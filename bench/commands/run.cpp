@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/progress_line.hpp"
+#include "bench/commands/whole_number.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
@@ -51,64 +52,50 @@ run::Options options_of(const Arguments& arguments) {
   return options;
 }
 
-// A line that renews itself, on a terminal only.
-class ProgressLine {
- public:
-  explicit ProgressLine(std::int64_t duration_us)
-      : duration_us_(duration_us), shown_(isatty(STDERR_FILENO) != 0) {}
-  ~ProgressLine() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
-  }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  void operator()(std::int64_t t_us) const {
-    if (!shown_) return;
-    constexpr int width = 30;
-    const int done = static_cast<int>(std::clamp<std::int64_t>(t_us * width / duration_us_, 0, width));
-    fmt::print(stderr, "\r  [{:=<{}}{:{}}] {:.1f} / {:g} s ", "", done, "", width - done,
-               static_cast<double>(t_us) * 1e-6, static_cast<double>(duration_us_) * 1e-6);
-  }
+// "[===   ] 7.3 / 20 s"
+std::string progress_text(std::int64_t t_us, std::int64_t duration_us) {
+  const double t_s = 1e-6 * static_cast<double>(t_us), duration_s = 1e-6 * static_cast<double>(duration_us);
+  return fmt::format("{} {:.1f} / {:g} s", progress_bar(t_s / duration_s), t_s, duration_s);
+}
 
- private:
-  std::int64_t duration_us_;
-  bool shown_;
-};
-
+// A report on stdout stands in place of the text.
 Result<void> write_reports(const Arguments& arguments, const scenario::Scenario& scenario,
                            const run::Run& run) {
-  if (arguments.json == "-") {
-    fmt::print("{}", report::json(scenario, run));
-  } else {
-    fmt::print("{}", report::text(scenario, run));
-    if (!arguments.json.empty()) {
-      if (auto written = report::write_file(arguments.json, report::json(scenario, run)); !written)
-        return written;
-    }
+  if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
+    if (auto shown = report::write_stdout(report::text(scenario, run)); !shown) return shown;
   }
-  if (std::fflush(stdout) != 0)
-    return failure(fmt::format("stdout: cannot be written: {}", std::strerror(errno)));
-  if (!arguments.junit.empty()) return report::write_file(arguments.junit, report::junit(scenario, run));
+  if (!arguments.json.empty()) {
+    if (auto written = report::write(arguments.json, report::json(scenario, run)); !written) return written;
+  }
+  if (!arguments.junit.empty()) return report::write(arguments.junit, report::junit(scenario, run));
   return {};
+}
+
+Result<void> check_outputs(const Arguments& arguments) {
+  if (auto distinct =
+          report::check_distinct({arguments.scenario, arguments.json, arguments.junit, arguments.log});
+      !distinct) {
+    return distinct;
+  }
+  for (const std::string& path : {arguments.json, arguments.junit}) {
+    if (path.empty() || path == report::to_stdout) continue;
+    if (auto writable = report::check_writable(path); !writable) return writable;
+  }
+  if (arguments.log.empty()) return {};
+  return report::check_writable(arguments.log);
 }
 
 ExitCode execute(const Arguments& arguments) {
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
   if (!scenario) return complain(scenario.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
-  const std::string json = arguments.json == "-" ? "" : arguments.json;
-  const std::vector<std::string> outputs{json, arguments.junit, arguments.log};
-  if (auto distinct = report::check_distinct({arguments.scenario, json, arguments.junit, arguments.log});
-      !distinct) {
-    return complain(distinct.error());
-  }
-  for (const std::string& path : outputs) {
-    if (path.empty()) continue;
-    if (auto writable = report::check_writable(path); !writable) return complain(writable.error());
-  }
+  if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   catch_interrupts();
   Result<run::Run> finished = [&] {
-    const ProgressLine progress(scenario->duration_us);
-    return run::run(*scenario, options_of(arguments), interrupted, std::cref(progress));
+    const ProgressLine line;
+    return run::run(*scenario, options_of(arguments), interrupted, [&](std::int64_t t_us) {
+      line.show([&] { return progress_text(t_us, scenario->duration_us); });
+    });
   }();
   if (!finished) return complain(finished.error());
   if (auto written = write_reports(arguments, *scenario, *finished); !written)
@@ -129,10 +116,11 @@ void add_run(CLI::App& app, int& code) {
       "--target", arguments->target,
       "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
   command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
-  command->add_option("--seed", arguments->seed, "another seed than the scenario's");
+  add_whole_number(*command, "--seed", arguments->seed, "another seed than the scenario's");
   command->add_option("--json", arguments->json,
                       "write the report as JSON to a file; -: to stdout, in place of the text");
-  command->add_option("--junit", arguments->junit, "write the checks as JUnit XML to a file");
+  command->add_option("--junit", arguments->junit,
+                      "write the checks as JUnit XML to a file; -: to stdout, in place of the text");
   command->add_option("--log", arguments->log, "record every frame in candump's log format");
   command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }

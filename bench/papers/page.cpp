@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <string_view>
 
+#include "bench/report/markup.hpp"
+
 namespace canhil::papers {
 namespace {
+
+using report::escaped;
 
 constexpr std::string_view style = R"(
 :root{color-scheme:light}
@@ -40,29 +44,6 @@ a{color:#0a58a6}
 }
 @media print{.narrow{display:none}.wide{display:block}}
 )";
-
-std::string escaped(std::string_view plain) {
-  std::string safe;
-  for (const char c : plain) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
 
 // Times "14.7 / 16.2 / never" stay on one line.
 std::string unbroken(std::string cell) {

@@ -18,6 +18,12 @@ auto complaint(const std::string& path, int error) {
 
 }  // namespace
 
+Result<void> write_stdout(std::string_view content) {
+  const bool written = std::fwrite(content.data(), 1, content.size(), stdout) == content.size();
+  if (written && std::fflush(stdout) == 0) return {};
+  return failure(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+}
+
 Result<void> write_file(const std::string& path, std::string_view content) {
   const std::string unfinished = path + ".part";
   std::FILE* file = std::fopen(unfinished.c_str(), "wb");
@@ -37,8 +43,13 @@ Result<void> write_file(const std::string& path, std::string_view content) {
   return {};
 }
 
+Result<void> write(const std::string& path, std::string_view content) {
+  return path == to_stdout ? write_stdout(content) : write_file(path, content);
+}
+
 Result<void> check_writable(const std::string& path) {
   namespace fs = std::filesystem;
+  if (path == to_stdout) return failure("file '-': standard output cannot hold this, expected a file");
   const fs::path folder = fs::absolute(path).parent_path();
   if (fs::is_directory(path)) return complaint(path, EISDIR);
   // The finished file takes the name's place: a device, a pipe or a link would be gone.
@@ -53,7 +64,8 @@ Result<void> check_distinct(const std::vector<std::string>& paths) {
   std::vector<std::filesystem::path> seen;
   for (const std::string& path : paths) {
     if (path.empty()) continue;
-    const std::filesystem::path where = std::filesystem::weakly_canonical(path);
+    namespace fs = std::filesystem;
+    const fs::path where = path == to_stdout ? fs::path(path) : fs::weakly_canonical(fs::absolute(path));
     if (std::ranges::find(seen, where) != seen.end()) {
       return failure(fmt::format("file '{}': is named twice, expected a file of its own for each", path));
     }

@@ -4,34 +4,13 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/report/markup.hpp"
+
 namespace canhil::report {
 namespace {
 
 using checks::CheckResult;
 using checks::Outcome;
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return safe;
-}
 
 }  // namespace
 

@@ -57,6 +57,8 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   };
   add(scenario.slave_imu, messages::SlaveImuStatus::info);
   add(scenario.master_ins, messages::MasterInsVelocityD::info);
+  add(scenario.ssbl, messages::SsblRelativeD::info);
+  add(scenario.gps, messages::GpsTime::info);
   return lines;
 }
 

@@ -18,10 +18,16 @@ scenario::Contract contract() {
   scenario::Contract contract{.estimators = names<messages::Estimator>(),
                               .algorithms = names<messages::Algorithm>(),
                               .parameters = names<messages::Parameter>(),
-                              .messages = {}};
+                              .messages = {},
+                              .answers = {}};
   std::erase(contract.estimators, name_of(messages::Estimator::none));
-  for (const MessageInfo& info : messages::all_messages) contract.messages.emplace_back(info.name);
+  for (const MessageInfo& info : messages::all_messages) {
+    contract.messages.emplace_back(info.name);
+    if (!info.answers.empty()) contract.answers.emplace_back(info.name);
+  }
   return contract;
 }
+
+bool frames_round() { return wire::lsb(messages::SlaveImuDeltaTheta::info.signals[0]) != 0; }
 
 }  // namespace canhil::run

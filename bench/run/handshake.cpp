@@ -118,9 +118,25 @@ TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
   return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
 }
 
+// Why, what was expected, and what becomes of the old value.
+std::string refusal(const ParamAck& ack) {
+  const auto in_force = static_cast<double>(ack.value);
+  switch (ack.status) {
+    case ParameterStatus::out_of_range:
+      return fmt::format("out_of_range, expected a value in its range; {:g} stays in force", in_force);
+    case ParameterStatus::unknown:
+      return "unknown, expected a parameter of the estimator in use";
+    case ParameterStatus::wrong_state:
+      return fmt::format("wrong_state, expected to be set before the start; {:g} stays in force", in_force);
+    case ParameterStatus::accepted:
+      break;
+  }
+  return fmt::format("status {}, which is none of the DBC's", static_cast<int>(ack.status));
+}
+
 Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted) {
   const auto parameter = from_name<Parameter>(wanted.name);
-  if (!parameter) return failure(fmt::format("parameter '{}': not in the DBC", wanted.name));
+  if (!parameter) return failure(fmt::format("{}: not in the DBC", wanted.where));
   const auto value = static_cast<float>(wanted.value);
   dialogue.mailbox().acknowledgement.reset();
   auto answered = dialogue.until(
@@ -132,14 +148,13 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
   if (!answered) return answered;
   const ParamAck& ack = *dialogue.mailbox().acknowledgement;
   if (ack.status != ParameterStatus::accepted) {
-    return failure(fmt::format("parameter '{}' = {:g}: refused by the target: {} (value in force: {:g})",
-                               wanted.name, wanted.value, name_of(ack.status),
-                               static_cast<double>(ack.value)));
+    return failure(fmt::format("{}: {:g} was sent and refused by the target: {}", wanted.where,
+                               static_cast<double>(value), refusal(ack)));
   }
   // Read-back: the value in force is the one sent, up to the rounding of a conversion of units in the target.
   if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
-    return failure(fmt::format("parameter '{}' = {:g}: the target reads back {:g}", wanted.name, wanted.value,
-                               static_cast<double>(ack.value)));
+    return failure(fmt::format("{}: {:g} was sent, the target reads back {:g}", wanted.where,
+                               static_cast<double>(value), static_cast<double>(ack.value)));
   }
   return {};
 }

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
+#include <numeric>
 
 namespace canhil::run {
 namespace {
@@ -26,6 +29,59 @@ void check(const Message& message, std::string& wrong) {
         wrong = complaint("initial value", member, Message::info, signal);
     }
   });
+}
+
+// What a sample of one axis is made of, in the order of `parts_of`: names for messages.
+using Names = std::array<std::string_view, 7>;
+constexpr Names gyro_parts{"the flight",
+                           "'slave_imu.gyro_bias_degph'",
+                           "'slave_imu.gyro_bias_sigma_degph'",
+                           "'slave_imu.gyro_noise_degprth'",
+                           "'slave_imu.gyro_scale_factor_ppm'",
+                           "'slave_imu.gyro_scale_factor_sigma_ppm'",
+                           "'slave_imu.gyro_misalignment_sigma_mrad'"};
+constexpr Names accel_parts{"the flight",
+                            "'slave_imu.accel_bias_ug'",
+                            "'slave_imu.accel_bias_sigma_ug'",
+                            "'slave_imu.accel_noise_ugprthz'",
+                            "'slave_imu.accel_scale_factor_ppm'",
+                            "'slave_imu.accel_scale_factor_sigma_ppm'",
+                            "'slave_imu.accel_misalignment_sigma_mrad'"};
+
+// Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt), random ones at six sigma. A row of M has
+// two misalignments: the sigma of their sum is that of one, times the length of the other two components.
+std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world::Vector3& exact, int axis,
+                               double dt) {
+  constexpr double certain = 6;
+  const double along = std::abs(exact[axis]);
+  const double across = std::sqrt(std::max(0.0, exact.squaredNorm() - along * along));
+  return {along,
+          std::abs(model.bias.value[axis]) * dt,
+          certain * model.bias.sigma[axis] * dt,
+          certain * model.noise[axis] * std::sqrt(dt),
+          std::abs(model.scale_factor.value[axis]) * along,
+          certain * model.scale_factor.sigma[axis] * along,
+          certain * model.misalignment_sigma * across};
+}
+
+// The first three signals of a message of increments are its axes.
+template <class Message>
+std::string check_triad(const Names& names, const world::TriadErrorModel& model,
+                        const world::FlightRecord& truth, world::Vector3 world::ImuIncrement::*delta) {
+  const double dt = 1e-6 * static_cast<double>(truth.interval_us());
+  for (const world::ImuIncrement& exact : truth.increments()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const SignalInfo& signal = Message::info.signals[static_cast<std::size_t>(axis)];
+      const auto parts = parts_of(model, exact.*delta, axis, dt);
+      const double reach = std::reduce(parts.begin(), parts.end());
+      if (reach <= std::min(-signal.minimum, signal.maximum)) continue;
+      const auto largest = std::ranges::max_element(parts) - parts.begin();
+      return complaint(fmt::format("{} (largest part): an IMU increment of up to",
+                                   names[static_cast<std::size_t>(largest)]),
+                       reach, Message::info, signal);
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -51,6 +107,16 @@ Result<void> check_fits_imu_interval(std::int64_t interval_us) {
       }
     }
   });
+  if (wrong.empty()) return {};
+  return failure(std::move(wrong));
+}
+
+Result<void> check_fits(const world::ImuErrorModel& imu, const world::FlightRecord& truth) {
+  std::string wrong = check_triad<messages::SlaveImuDeltaTheta>(gyro_parts, imu.gyro, truth,
+                                                                &world::ImuIncrement::delta_theta);
+  if (wrong.empty())
+    wrong =
+        check_triad<messages::SlaveImuDeltaV>(accel_parts, imu.accel, truth, &world::ImuIncrement::delta_v);
   if (wrong.empty()) return {};
   return failure(std::move(wrong));
 }

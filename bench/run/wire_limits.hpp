@@ -3,6 +3,8 @@
 #pragma once
 
 #include "bench/run/initial_state.hpp"
+#include "bench/world/flight_record.hpp"
+#include "bench/world/imu_errors.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::run {
@@ -12,5 +14,10 @@ Result<void> check_fits(const InitialState& state);
 
 /// The IMU's sample interval [us] can be told exactly. Error: one line.
 Result<void> check_fits_imu_interval(std::int64_t interval_us);
+
+/// The increments of an IMU with these errors, on this flight, within their signals' ranges: by at most one
+/// sample in 5e8, as a random part counts with six sigma. Error: one line, which names the key that
+/// contributes most.
+Result<void> check_fits(const world::ImuErrorModel& imu, const world::FlightRecord& truth);
 
 }  // namespace canhil::run

@@ -1,12 +1,12 @@
 #include "bench/scenario/checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "bench/scenario/section.hpp"
+#include "bench/scenario/rule.hpp"
 
 namespace canhil::scenario {
 namespace {
@@ -31,27 +31,9 @@ Enum read_enum(Section& section, std::string_view key, std::span<const std::stri
   return found == words.end() ? Enum{} : static_cast<Enum>(found - words.begin());
 }
 
-void expect_within_run(Section& section, std::string_view key, std::int64_t t_us, std::int64_t duration_us) {
-  if (t_us <= duration_us) return;
-  section.reject(key, "is after the end of the run",
-                 fmt::format("at most duration_s = {}", 1e-6 * static_cast<double>(duration_us)));
-}
-
-Window read_window(Section& section, const Context& context) {
-  const Window window{
-      .from_us = section.time_us("from_s", Limits::at_least(0), 0),
-      .to_us = section.optional_time_us("to_s", Limits::at_least(0)).value_or(context.duration_us)};
-  expect_within_run(section, "to_s", window.to_us, context.duration_us);
-  if (window.from_us >= window.to_us) {
-    section.reject("from_s", "is not before the end of the window",
-                   fmt::format("less than {}", 1e-6 * static_cast<double>(window.to_us)));
-  }
-  return window;
-}
-
 AttitudeError read(Section& section, const Context& context, AttitudeError rule) {
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
-  rule.window = read_window(section, context);
+  rule.window = read_window(section, context.duration_us);
   rule.below = section.number("below_mrad", Limits::above(0));
   return rule;
 }
@@ -59,21 +41,20 @@ AttitudeError read(Section& section, const Context& context, AttitudeError rule)
 Convergence read(Section& section, const Context& context, Convergence rule) {
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
   rule.within = section.number("within_mrad", Limits::above(0));
-  rule.before_us = section.time_us("before_s", Limits::above(0));
-  expect_within_run(section, "before_s", rule.before_us, context.duration_us);
+  rule.before_us = read_time(section, "before_s", Limits::above(0), context.duration_us);
   return rule;
 }
 
 VelocityError read(Section& section, const Context& context, VelocityError rule) {
   rule.axis = read_enum<VelocityAxis>(section, "axis", velocity_axes, VelocityAxis::norm);
-  rule.window = read_window(section, context);
+  rule.window = read_window(section, context.duration_us);
   rule.below = section.number("below_mps", Limits::above(0));
   return rule;
 }
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   rule.statistic = read_enum<Statistic>(section, "statistic", statistics);
-  rule.window = read_window(section, context);
+  rule.window = read_window(section, context.duration_us);
   if (!section.has("probability")) {
     const auto [low, high] = section.interval("mean_between", Limits::at_least(0));
     rule.bound = MeanBetween{.low = low, .high = high};
@@ -93,15 +74,20 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
 
 OutputPeriod read(Section& section, const Context& context, OutputPeriod rule) {
   rule.message = section.one_of("message", context.contract.messages);
-  rule.window = read_window(section, context);
+  rule.window = read_window(section, context.duration_us);
   rule.within = section.number("within_percent", Limits::above(0));
   rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
   return rule;
 }
 
 Latency read(Section& section, const Context& context, Latency rule) {
+  const std::vector<std::string>& answers = context.contract.answers;
   rule.message = section.one_of("message", context.contract.messages);
-  rule.window = read_window(section, context);
+  if (std::ranges::find(answers, rule.message) == answers.end()) {
+    section.reject("message", fmt::format("'{}' answers nothing", rule.message),
+                   fmt::format("one of: {}", fmt::join(answers, ", ")));
+  }
+  rule.window = read_window(section, context.duration_us);
   rule.below_us = section.time_us("below_ms", Limits::above(0));
   rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
   return rule;
@@ -125,23 +111,6 @@ Heartbeat read(Section& section, const Context& /*context*/, Heartbeat rule) {
 
 using Rule = decltype(Check::rule);
 
-/// Names of all kinds, in the order of the variant.
-template <std::size_t... I>
-std::vector<std::string> kinds(std::index_sequence<I...> /*all*/) {
-  return {std::string(std::variant_alternative_t<I, Rule>::kind)...};
-}
-
-/// Reads the rule whose kind has this name.
-template <std::size_t... I>
-Rule read_kind(std::string_view name, Section& section, const Context& context,
-               std::index_sequence<I...> /*all*/) {
-  Rule rule;
-  (void)((std::variant_alternative_t<I, Rule>::kind == name &&
-          (rule = read(section, context, std::variant_alternative_t<I, Rule>{}), true)) ||
-         ...);
-  return rule;
-}
-
 /// What a rule looks at, if a scenario may well have several of its kind.
 std::string subject(const AttitudeError& rule) { return fmt::format(" {}", name(rule.axis)); }
 std::string subject(const Convergence& rule) { return fmt::format(" {}", name(rule.axis)); }
@@ -158,17 +127,15 @@ std::string_view name(AttitudeAxis axis) { return attitude_axes[static_cast<std:
 std::string_view name(VelocityAxis axis) { return velocity_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(Statistic statistic) { return statistics[static_cast<std::size_t>(statistic)]; }
 
-std::string_view kind(const Check& check) {
-  return std::visit([](const auto& rule) { return rule.kind; }, check.rule);
-}
+std::string_view kind(const Check& check) { return kind_of(check.rule); }
 
 Check read_check(Section& section, std::int64_t duration_us, const Contract& contract) {
-  constexpr auto all = std::make_index_sequence<std::variant_size_v<Rule>>{};
   Check check;
   check.line = section.line();
-  const std::string wanted = section.one_of("kind", kinds(all));
+  const std::string wanted = section.one_of("kind", kinds<Rule>());
   check.requirement = section.text("requirement", "");
-  check.rule = read_kind(wanted, section, {.duration_us = duration_us, .contract = contract}, all);
+  const Context context{.duration_us = duration_us, .contract = contract};
+  check.rule = read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
   const std::string by_default = fmt::format(
       "{}{}", kind(check), std::visit([](const auto& rule) { return subject(rule); }, check.rule));
   check.name = section.text("name", by_default);

@@ -12,6 +12,7 @@ struct Contract {
   std::vector<std::string> algorithms;  ///< value table Algorithm
   std::vector<std::string> parameters;  ///< value table Parameter
   std::vector<std::string> messages;    ///< names of all messages
+  std::vector<std::string> answers;     ///< of those that answer a sample group
 };
 
 }  // namespace canhil::scenario

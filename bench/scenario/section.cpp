@@ -73,11 +73,14 @@ struct Section::File {
   toml::table root;
   std::optional<Error> error;
 
+  /// What a setting put there is on no line of the file.
+  [[nodiscard]] std::string where(std::size_t line) const {
+    return line == 0 ? name : fmt::format("{}:{}", name, line);
+  }
+
   void fail(std::size_t line, std::string_view what) {
     if (error) return;
-    // What a setting put there is on no line of the file.
-    std::string message =
-        line == 0 ? fmt::format("{}: {}", name, what) : fmt::format("{}:{}: {}", name, line, what);
+    std::string message = fmt::format("{}: {}", where(line), what);
     for (char& c : message) {
       if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';  // a quoted key may hold anything
     }
@@ -121,6 +124,10 @@ struct Section::State {
   }
   [[nodiscard]] std::string path_of(std::string_view key) const {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+  }
+  [[nodiscard]] std::size_t line_of_key(std::string_view key) const {
+    const toml::node* node = table == nullptr ? nullptr : table->get(key);
+    return node == nullptr ? line : line_of(*node);
   }
   void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
     file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
@@ -171,6 +178,10 @@ bool Section::has(std::string_view key) const {
 int Section::line() const { return static_cast<int>(state_->line); }
 
 std::string Section::path(std::string_view key) const { return state_->path_of(key); }
+
+std::string Section::where(std::string_view key) const {
+  return state_->file->where(state_->line_of_key(key));
+}
 
 void Section::optional(std::string_view key) { state_->ask(key); }
 
@@ -354,8 +365,7 @@ std::vector<Section> Section::tables(std::string_view key) {
 }
 
 void Section::reject(std::string_view key, std::string_view what, std::string_view expected) {
-  const toml::node* node = state_->table == nullptr ? nullptr : state_->table->get(key);
-  state_->fail(key, node == nullptr ? state_->line : line_of(*node), what, expected);
+  state_->fail(key, state_->line_of_key(key), what, expected);
 }
 
 void Section::finish() {

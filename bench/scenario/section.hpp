@@ -33,6 +33,9 @@ class Section {
   /// The key with the path of the tables around it.
   [[nodiscard]] std::string path(std::string_view key) const;
 
+  /// "file:line" of a key, or "file" if a setting put it there.
+  [[nodiscard]] std::string where(std::string_view key) const;
+
   /// Says that a key may be there, though nothing more of it is wanted.
   void optional(std::string_view key);
 

@@ -1,5 +1,7 @@
 #include "bench/scenario/target_setup.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "bench/scenario/section.hpp"
@@ -10,7 +12,7 @@ namespace {
 InitialSigma read_initial_sigma(Section section) {
   const InitialSigma sigma{.velocity = section.number("velocity_mps", Limits::above(0)),
                            .tilt = section.number("tilt_deg", Limits::above(0, 90)),
-                           .heading = section.number("heading_deg", Limits::above(0, 180)),
+                           .heading = section.number("heading_deg", Limits::above(0, 600)),
                            .position = section.number("position_m", Limits::above(0))};
   section.finish();
   return sigma;
@@ -22,7 +24,10 @@ std::vector<Parameter> read_parameters(Section section, const Contract& contract
   for (const std::string& name : contract.parameters) {
     const bool given = section.has(name);
     const double value = section.plain_number(name, Limits::between(-largest, largest), 0.0);
-    if (given) parameters.push_back({.name = name, .value = value});
+    if (!given) continue;
+    parameters.push_back({.name = name,
+                          .value = value,
+                          .where = fmt::format("{}: key '{}'", section.where(name), section.path(name))});
   }
   section.finish();
   return parameters;

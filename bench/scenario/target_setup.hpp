@@ -22,6 +22,7 @@ struct InitialSigma {
 struct Parameter {
   std::string name;
   double value = 0;
+  std::string where{};  ///< in the scenario, for messages: "my.toml:31: key 'target.parameters.h2_case'"
 };
 
 struct TargetSetup {

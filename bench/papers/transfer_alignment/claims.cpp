@@ -202,7 +202,7 @@ Section claims(const Results& results) {
       fmt::format("H2 case 2, told the true 5 deg, with 0.02 m/s of master noise: {}; runs beyond 20 mrad at "
                   "the end: {}.",
                   words(noisy),
-                  results.of("noise").diverged_runs("h2_case2", "master_ins.velocity_noise_mps=0.02")),
+                  diverged_runs(results.of("noise"), "h2_case2", "master_ins.velocity_noise_mps=0.02")),
       "The paper states neither P0 nor R. Both were picked to fit its Table 2, so that fit is weak evidence "
       "that its authors used them."};
   section.tables = {claim_table(results), bar_table(results)};
@@ -211,6 +211,12 @@ Section claims(const Results& results) {
 
 Section cost_of_the_bus(const Results& results) {
   Section section{.id = "bus", .title = "What the bus costs", .paragraphs = {}, .tables = {}, .figures = {}};
+  if (!results.rounded) {
+    section.paragraphs = {
+        "Nothing on this page has the bus's rounding: it was flown by hil-bench-exact. hil-bench shows what "
+        "it costs."};
+    return section;
+  }
   if (!results.exact) {
     section.paragraphs = {
         "Not compared: hil-bench-exact campaign bench/campaigns/paper_transfer/table2.toml gives the results "
@@ -240,11 +246,11 @@ Section settings(const Results& results) {
   return {
       .id = "settings",
       .title = "Settings, and what the bus cannot express",
-      .paragraphs = {fmt::format("{} runs a variant, {} flights of 20 s in virtual time, each through the "
-                                 "codec with frames quantised as on the "
-                                 "bus. Run r has the same random numbers in every variant (seed 20010101), "
-                                 "so runs are compared in pairs.",
-                                 results.runs, results.flights),
+      .paragraphs = {fmt::format(
+                         "{} runs a variant, {} flights of 20 s in virtual time, each through the "
+                         "codec with {}. Run r has the same random numbers in every variant (seed 20010101), "
+                         "so runs are compared in pairs.",
+                         results.runs, results.flights, frames_flown()),
                      "Flight: 500 km/h north at 37 deg latitude, 10 s of cruise, then 1 g (9.80665 m/s²) for "
                      "10 s. IMU 100 Hz, velocity update "
                      "10 Hz, closed loop. R = 0.01 (m/s)² s, that is 0.316 m/s at 10 Hz; master without "

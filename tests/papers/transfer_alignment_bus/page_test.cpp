@@ -2,14 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/paper.hpp"
+#include "tests/papers/transfer_alignment_bus/reproduced.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -17,40 +15,20 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const std::atomic<bool> go_on = false;
-
-Request request(const char* folder) {
-  Request request;
-  request.paper = "transfer";
-  request.folder = std::filesystem::path(testing::TempDir()) / folder;
-  request.runs = 2;
-  request.progress = [](std::string_view, std::size_t, std::size_t) {};
-  return request;
-}
-
 TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
-  const Request asked = request("paper_page");
-  std::filesystem::remove_all(asked.folder);
-  const auto reproduced = reproduce(asked, go_on);
-  ASSERT_TRUE(reproduced) << reproduced.error().message;
-  EXPECT_NE(reproduced->outcome, Outcome::interrupted);
-  std::ostringstream content;
-  content << std::ifstream(reproduced->page).rdbuf();
-  const std::string html = content.str();
+  const auto [html, text] = reproduced("paper_page");
   for (const char* figure : {"fig3", "fig4", "fig5", "fig6-kf", "fig6-h2", "fig7-heading", "fig7-roll",
                              "fig7-pitch", "velocity", "artefact", "noise"})
     EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
   for (const char* bar : {"bar 4", "bar 5", "bar 6", "bar 7", "bar 8", "bar 9"})
     EXPECT_THAT(html, HasSubstr(bar));
+  EXPECT_THAT(html, HasSubstr("2 runs a curve, seed 20010101, frames quantised as on the bus"));
+  EXPECT_THAT(html, HasSubstr("each through the codec with frames quantised as on the bus."));
+  EXPECT_THAT(html, Not(HasSubstr("rounding (hil-bench-exact)")));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
   EXPECT_THAT(html, Not(HasSubstr("url(")));
-  EXPECT_THAT(reproduced->text, HasSubstr("Table 2"));
-  EXPECT_THAT(reproduced->text, Not(HasSubstr("nan")));
-}
-
-std::string complaint(const Request& asked) {
-  const auto reproduced = reproduce(asked, go_on);
-  return reproduced ? "no error" : reproduced.error().message;
+  EXPECT_THAT(text, HasSubstr("Table 2"));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
 TEST(PaperPage, NamesWhatIsWrongWithTheRequest) {

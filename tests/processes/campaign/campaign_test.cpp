@@ -203,6 +203,14 @@ TEST(CampaignBadInput, IsOneLine) {
   expect_one_line(campaign("--shard 3/3"), "shard '3/3'");
   expect_one_line(campaign("--threads 0"), "--threads");
   expect_one_line(campaign("--runs 0"), "--runs");
+  expect_one_line(campaign("--runs -3"), "--runs: '-3' is not a whole number from 1 to 10000000");
+  expect_one_line(campaign("--runs 18446744073709551617"), "--runs");
+  expect_one_line(campaign("--threads -1"), "--threads: '-1' is not a whole number from 1 to 1024");
+  expect_one_line(hil_bench(fmt::format("campaign replay {} -1", file)), "RUN: '-1' is not a whole number");
+  expect_one_line(hil_bench(fmt::format("campaign replay {} 1 --log -", file)), "file '-'");
+  expect_one_line(hil_bench("campaign " + campaign_file(10'000'001)), "at most 10000000");
+  expect_one_line(campaign("--out -"), "--out -: expected a folder or a file");
+  expect_one_line(hil_bench("campaign merge - x.sqlite"), "file '-'");
   expect_one_line(campaign("--shard 0/2 --json x.json --out " + at), "a shard has no report");
   expect_one_line(campaign("--json /no/such/x.json --out " + at), "/no/such/x.json");
   expect_one_line(campaign("--out /dev/full"), "/dev/full");

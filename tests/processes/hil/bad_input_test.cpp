@@ -41,16 +41,6 @@ TEST(BadInput, UnknownScenarioKey) {
   expect_one_line(hil_bench("run " + scratch("typo.toml")), "slave_inu");
 }
 
-TEST(BadInput, ParameterOutOfRangeIsRefusedByTheTarget) {
-  std::string text = read(scenario("transfer_alignment_quick"));
-  const std::string section = "[target.parameters]\n";
-  ASSERT_NE(text.find(section), std::string::npos);
-  text.insert(text.find(section) + section.size(), "h2_case = 7\n");
-  std::ofstream(scratch("range.toml")) << text;
-  expect_one_line(hil_bench(fmt::format("run {} --bus {}", scratch("range.toml"), bus())),
-                  "parameter 'h2_case' = 7: refused by the target: out_of_range");
-}
-
 std::string edited(const std::string& file, std::string_view from, std::string_view to) {
   std::string text = read(scenario("transfer_alignment_quick"));
   const auto at = text.find(from);
@@ -60,6 +50,16 @@ std::string edited(const std::string& file, std::string_view from, std::string_v
   return scratch(file);
 }
 
+TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
+  const std::string file =
+      edited("range.toml", "[target.parameters]\n", "[target.parameters]\nh2_case = 7\n");
+  expect_one_line(
+      hil_bench(fmt::format("run {} --bus {}", file, bus())),
+      file +
+          ":13: key 'target.parameters.h2_case': 7 was sent and refused by the target: out_of_range, "
+          "expected a value in its range; 2 stays in force");
+}
+
 TEST(BadInput, ValueThatTheBusCannotCarry) {
   expect_one_line(hil_bench("run " + edited("fine.toml", "heading_deg = 5.0", "heading_deg = 0.001")),
                   "initial value 0.001 deg does not fit into TargetInitSigma.heading_sigma_deg");
@@ -67,12 +67,73 @@ TEST(BadInput, ValueThatTheBusCannotCarry) {
                   "TargetInitVelocityNE.velocity_north_mps, expected -1677 to 1677");
   expect_one_line(hil_bench("run " + edited("slow.toml", "[slave_imu]", "[slave_imu]\nperiod_ms = 50")),
                   "IMU interval 50000 us does not fit into SlaveImuStatus.interval_us");
+  expect_one_line(
+      hil_bench("run " + edited("astray.toml", "gyro_bias_sigma_degph = 3", "gyro_bias_sigma_degph = 1e9")),
+      "'slave_imu.gyro_bias_sigma_degph' (largest part): an IMU increment of up to 290.888 rad does not fit");
 }
 
 TEST(BadInput, UnknownOption) {
   expect_one_line(hil_bench("run --colour x.toml"), "--colour");
   expect_one_line(hil_target("--bus x --speed 3"), "--speed");
   expect_one_line(hil_target(""), "--bus");
+}
+
+TEST(BadInput, NumberThatIsNone) {
+  const auto run = [](const std::string& number) {
+    return hil_bench(fmt::format("run {} --bus in-process {}", scenario("transfer_alignment_quick"), number));
+  };
+  expect_one_line(run("--seed ''"), "--seed");
+  for (const char* number : {"-1", "18446744073709551616", "1e3", "0x10", "1.5", "seven"}) {
+    expect_one_line(run(fmt::format("--seed {}", number)), "--seed");
+    expect_one_line(run(fmt::format("--seed={}", number)),
+                    "is not a whole number from 0 to 18446744073709551615");
+  }
+  EXPECT_EQ(run("--seed 18446744073709551615").code, 3);
+  EXPECT_EQ(run("--seed 010 --json " + scratch("ten.json")).code, 3);
+  EXPECT_EQ(read_json(scratch("ten.json"))["provenance"]["seed"], 10);
+}
+
+TEST(Outputs, ADashIsStandardOutputInPlaceOfTheText) {
+  const std::string run = fmt::format("run {} --bus in-process ", scenario("transfer_alignment_quick"));
+  const Ended json = hil_bench(run + "--json -");
+  EXPECT_EQ(json.code, 3) << json.err;
+  EXPECT_EQ(nlohmann::json::parse(json.out)["provenance"]["bus"], "in-process");
+  const Ended junit = hil_bench(run + "--junit - --json " + scratch("beside.json"));
+  EXPECT_TRUE(junit.out.starts_with("<?xml")) << junit.out;
+  EXPECT_TRUE(junit.out.ends_with("</testsuites>\n")) << junit.out;
+  EXPECT_EQ(read_json(scratch("beside.json"))["checks"].size(),
+            nlohmann::json::parse(json.out)["checks"].size());
+  expect_one_line(hil_bench(run + "--json - --junit -"), "file '-': is named twice");
+  expect_one_line(hil_bench(run + "--log -"), "file '-': standard output cannot hold this");
+  EXPECT_FALSE(std::filesystem::exists("-"));
+  const Ended full = shell(fmt::format("{} {} --junit - >/dev/full", HIL_BENCH, run));
+  expect_one_line(full, "standard output: cannot be written: No space left on device");
+}
+
+std::string version_of(const Ended& ended) {
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 1) << ended.out;
+  return ended.out.substr(ended.out.find(' '));
+}
+
+TEST(Version, NamesTheProjectAndTheContract) {
+  const std::string bench = version_of(hil_bench("--version"));
+  EXPECT_EQ(bench, fmt::format(" {} · DBC {:016x}\n", PROJECT_VERSION, messages::dbc_hash));
+  EXPECT_EQ(version_of(hil_target("--version")), bench) << "the version that heartbeats carry";
+  EXPECT_NE(version_of(shell(HIL_BENCH_EXACT " --version")), bench) << "the twin has a contract of its own";
+}
+
+TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {
+  for (const char* script : {"bench/demo.sh", "tests/run.sh"}) {
+    const std::string command = fmt::format("bash {}/{} ", SOURCE_DIR, script);
+    const Ended help = shell(command + "--help");
+    EXPECT_EQ(help.code, 0) << help.err;
+    EXPECT_TRUE(help.out.starts_with("Builds")) << help.out;
+    EXPECT_EQ(help.out.find('#'), std::string::npos) << help.out;
+    expect_one_line(shell(command + "--colour"), "unknown option '--colour': expected");
+  }
+  expect_one_line(shell(fmt::format("bash {}/tests/run.sh --only", SOURCE_DIR)),
+                  "--only: expected a regular");
 }
 
 TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {

@@ -52,10 +52,11 @@ class Handshake : public testing::Test {
 
   FakePort port_;
   TargetHeartbeat heartbeat_{.dbc_hash = dbc_hash24};
-  scenario::TargetSetup setup_{.estimator = "transfer_alignment",
-                               .algorithm = "robust_h2",
-                               .initial_sigma = {},
-                               .parameters = {{.name = "h2_case", .value = 2}}};
+  scenario::TargetSetup setup_{
+      .estimator = "transfer_alignment",
+      .algorithm = "robust_h2",
+      .initial_sigma = {},
+      .parameters = {{.name = "h2_case", .value = 2, .where = "my.toml:9: key 'h2_case'"}}};
   std::optional<std::string> gone_;
   bool offers_ = true;
   bool starts_ = true;
@@ -114,19 +115,29 @@ TEST_F(Handshake, NamesAnEstimatorThatTheTargetDoesNotOffer) {
                                               "'robust_h2' (errors: command)"));
 }
 
-TEST_F(Handshake, NamesAParameterThatTheTargetRefuses) {
-  parameter_status_ = ParameterStatus::out_of_range;
-  const auto done = configure();
-  ASSERT_FALSE(done);
-  EXPECT_THAT(done.error().message,
-              HasSubstr("parameter 'h2_case' = 2: refused by the target: out_of_range"));
+TEST_F(Handshake, SaysWhereAParameterStandsThatTheTargetRefusesAndWhy) {
+  const auto refused_with = [&](ParameterStatus status) {
+    parameter_status_ = status;
+    beat();
+    const auto done = configure();
+    EXPECT_FALSE(done);
+    return done ? "" : done.error().message;
+  };
+  const std::string sent = "my.toml:9: key 'h2_case': 2 was sent and refused by the target: ";
+  EXPECT_EQ(refused_with(ParameterStatus::out_of_range),
+            sent + "out_of_range, expected a value in its range; 2 stays in force");
+  EXPECT_EQ(refused_with(ParameterStatus::unknown),
+            sent + "unknown, expected a parameter of the estimator in use");
+  EXPECT_EQ(refused_with(ParameterStatus::wrong_state),
+            sent + "wrong_state, expected to be set before the start; 2 stays in force");
+  EXPECT_EQ(refused_with(static_cast<ParameterStatus>(9)), sent + "status 9, which is none of the DBC's");
 }
 
 TEST_F(Handshake, NamesAParameterThatReadsBackOtherwise) {
   misread_ = 0.5F;
   const auto done = configure();
   ASSERT_FALSE(done);
-  EXPECT_THAT(done.error().message, HasSubstr("'h2_case' = 2: the target reads back 2.5"));
+  EXPECT_EQ(done.error().message, "my.toml:9: key 'h2_case': 2 was sent, the target reads back 2.5");
 }
 
 TEST_F(Handshake, SaysInWhichStateATargetIsThatDoesNotStart) {

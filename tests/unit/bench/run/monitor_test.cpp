@@ -106,8 +106,8 @@ TEST_F(Watched, TheStampOfTheEchoReplacesTheBenchsOwn) {
   answer(20'000, 3'700);
   EXPECT_THAT(checks::latencies_s(seen(), "AlignVelocityD", everything),
               ElementsAre(testing::DoubleEq(1e-6)));
-  EXPECT_EQ(seen().slave_imu[0].t_ns, 1'000);
-  EXPECT_EQ(seen().slave_imu[2].t_ns, 3'000);
+  EXPECT_EQ(seen().stimuli.at("SlaveImu")[0].t_ns, 1'000);
+  EXPECT_EQ(seen().stimuli.at("SlaveImu")[2].t_ns, 3'000);
 }
 
 TEST_F(Watched, AnEchoIsNoAnswer) {

@@ -29,12 +29,20 @@ std::vector<std::string> value_table(const std::string& text, const std::string&
   return tables.empty() ? std::vector<std::string>{} : matches(tables[0], "\"([a-z0-9_]+)\"");
 }
 
+std::vector<std::string> answers(const std::string& text) {
+  std::vector<std::string> names;
+  for (const std::string& id : matches(text, "\nBA_ \"Answers\" BO_ ([0-9]+) "))
+    names.push_back(matches(text, "\nBO_ " + id + " ([A-Za-z]+):").at(0));
+  return names;
+}
+
 Contract of_the_dbc() {
   const std::string text = dbc();
   return {.estimators = value_table(text, "Estimator"),
           .algorithms = value_table(text, "Algorithm"),
           .parameters = value_table(text, "Parameter"),
-          .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):")};
+          .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):"),
+          .answers = answers(text)};
 }
 
 TEST(ScenarioFiles, AreAllValid) {

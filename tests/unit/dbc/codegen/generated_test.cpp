@@ -187,6 +187,8 @@ TEST(Generated, DirectoryFindsMessagesById) {
   EXPECT_EQ(messages::find_message(0x80)->name, "SlaveImuDeltaTheta");
   EXPECT_EQ(messages::find_message(0x80)->cycle_time_us, 10'000);
   EXPECT_EQ(messages::find_message(0x80)->sample_group, "SlaveImu");
+  EXPECT_TRUE(messages::find_message(0x80)->answers.empty());
+  EXPECT_TRUE(std::ranges::equal(messages::FixUpdate::info.answers, std::array{"Ssbl", "Gps"}));
   EXPECT_EQ(messages::find_message(0x80, true), nullptr);
   EXPECT_EQ(messages::find_message(0x7FF), nullptr);
   ASSERT_NE(test_messages::fd::find_message(0x18FEF100, true), nullptr);

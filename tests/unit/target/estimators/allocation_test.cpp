@@ -7,8 +7,10 @@
 #include <memory>
 #include <new>
 
+#include "target/estimators/los_rate/filter.hpp"
 #include "target/estimators/transfer_alignment/history.hpp"
 #include "tests/unit/target/estimators/flight.hpp"
+#include "tests/unit/target/estimators/los_rate/engagement.hpp"
 
 namespace {
 std::size_t allocations = 0;
@@ -60,3 +62,35 @@ TEST(Allocation, TransferAlignmentAllocatesNothing) {
 
 }  // namespace
 }  // namespace canhil::transfer_alignment
+
+namespace canhil::los_rate {
+namespace {
+
+TEST(Allocation, LosRateAllocatesNothing) {
+  for (const Algorithm algorithm :
+       {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman, Algorithm::low_pass}) {
+    EngagementSetup setup;
+    setup.settings.algorithm = algorithm;
+    setup.settings.noise.yaw.glint = 1;  // two gain sets
+    setup.settings.start_up = 1;
+    setup.roll_rate = 3;
+    const Design design = make_design(setup.settings);
+    Engagement engagement(setup);
+    State state = initial();
+    int updated = 0, coasted = 0;
+    const std::size_t before = allocations;
+    for (int k = 0; !engagement.over(); ++k) {
+      Measurement m = engagement.next();
+      m.error_valid = k % 600 < 580;  // starts up again after each gap
+      const UpdateResult result = step(state, m, design);
+      if (result.outcome == Outcome::updated) ++updated;
+      if (result.outcome == Outcome::coasting) ++coasted;
+    }
+    EXPECT_EQ(allocations - before, 0);
+    EXPECT_GT(updated, 300);
+    EXPECT_GT(coasted, 15);
+  }
+}
+
+}  // namespace
+}  // namespace canhil::los_rate

@@ -1,0 +1,40 @@
+// A line on stderr that renews itself, on a terminal only.
+#pragma once
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace canhil::commands {
+
+class ProgressLine {
+ public:
+  ProgressLine() : shown_(isatty(STDERR_FILENO) != 0) {}
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// Shows what `text()` gives in place of the line before.
+  template <class Text>
+  void show(Text&& text) const {
+    if (shown_) fmt::print(stderr, "\r\033[K  {}", text());
+  }
+  void clear() const {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+  }
+
+ private:
+  bool shown_;
+};
+
+/// "[=====     ]" for done / total from 0 to 1.
+inline std::string progress_bar(double fraction) {
+  constexpr int width = 30;
+  const int done = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
+  return fmt::format("[{:=<{}}{:{}}]", "", done, "", width - done);
+}
+
+}  // namespace canhil::commands

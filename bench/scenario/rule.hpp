@@ -1,0 +1,52 @@
+// What [[check]] and [[metric]] have in common: a rule of one of several kinds, named by `kind`, and times
+// within a run.
+//
+// A rule is a std::variant of structs, each with a constant `kind`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "bench/scenario/checks.hpp"
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+
+/// Names of all kinds, in the order of the variant.
+template <class Rule>
+std::vector<std::string> kinds() {
+  return []<std::size_t... i>(std::index_sequence<i...>) {
+    return std::vector<std::string>{std::string(std::variant_alternative_t<i, Rule>::kind)...};
+  }
+  (std::make_index_sequence<std::variant_size_v<Rule>>{});
+}
+
+template <class Rule>
+std::string_view kind_of(const Rule& rule) {
+  return std::visit([](const auto& alternative) { return alternative.kind; }, rule);
+}
+
+/// The rule of this kind, as `read` makes it of an empty one; none of them: the first, empty.
+template <class Rule, class Read>
+Rule read_rule(std::string_view kind, Read&& read) {
+  Rule rule;
+  [&]<std::size_t... i>(std::index_sequence<i...>) {
+    (void)((std::variant_alternative_t<i, Rule>::kind == kind &&
+            (rule = read(std::variant_alternative_t<i, Rule>{}), true)) ||
+           ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Rule>>{});
+  return rule;
+}
+
+/// A time not after the end of the run.
+std::int64_t read_time(Section& section, std::string_view key, Limits limits, std::int64_t duration_us);
+
+/// `from_s` and `to_s`; by default the whole run.
+Window read_window(Section& section, std::int64_t duration_us);
+
+}  // namespace canhil::scenario

@@ -1,0 +1,51 @@
+// The reproduction with two runs a variant.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "bench/papers/paper.hpp"
+
+namespace canhil::papers {
+
+inline const std::atomic<bool> go_on = false;
+
+inline Request request(const char* folder) {
+  Request request;
+  request.paper = "transfer";
+  request.folder = std::filesystem::path(testing::TempDir()) / folder;
+  request.runs = 2;
+  request.progress = [](std::string_view, std::size_t, std::size_t) {};
+  return request;
+}
+
+struct Written {
+  std::string html, text;
+};
+
+/// In a new folder.
+inline Written reproduced(const char* folder) {
+  const Request asked = request(folder);
+  std::filesystem::remove_all(asked.folder);
+  const auto reproduced = reproduce(asked, go_on);
+  if (!reproduced) {
+    ADD_FAILURE() << reproduced.error().message;
+    return {};
+  }
+  EXPECT_NE(reproduced->outcome, Outcome::interrupted);
+  std::ostringstream content;
+  content << std::ifstream(reproduced->page).rdbuf();
+  return {.html = content.str(), .text = reproduced->text};
+}
+
+inline std::string complaint(const Request& asked) {
+  const auto reproduced = reproduce(asked, go_on);
+  return reproduced ? "no error" : reproduced.error().message;
+}
+
+}  // namespace canhil::papers
