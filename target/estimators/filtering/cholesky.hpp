@@ -1,7 +1,7 @@
 #pragma once
 // Lower Cholesky factors of fixed size, left-looking: a column is finished in registers before it is stored.
-#include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "target/estimators/filtering/kalman.hpp"
@@ -23,14 +23,14 @@ auto column_left(const Matrix<N, N>& P, const Matrix<even_rows(N), K>& L, int do
 }  // namespace detail
 
 /// The first K columns of the lower Cholesky factor of P [N x N] (lower triangle read), with one row of
-/// padding where N is odd; false: P's leading K x K block is not positive definite.
+/// padding where N is odd; false: P's leading K x K block is not positive definite, or not finite.
 template <int K, int N>
 bool cholesky_columns(const Matrix<N, N>& P, Matrix<even_rows(N), K>& L) {
   const auto column = [&]<int c>() {
     constexpr int first = c - c % 2;
     const auto left = detail::column_left<c, N, K>(P, L, c);
     const double pivot = left(c - first);
-    if (!(pivot > 0)) return false;
+    if (!(pivot > 0 && pivot <= std::numeric_limits<double>::max())) return false;
     L.col(c).template head<first>().setZero();
     L.col(c).template tail<even_rows(N) - first>() = left * (1 / std::sqrt(pivot));
     if constexpr (c % 2 != 0) L(c - 1, c) = 0;
@@ -54,11 +54,12 @@ Matrix<N - K, N - K> cholesky_rest(const Matrix<N, N>& P, const Matrix<even_rows
   return rest;
 }
 
-/// True when a symmetric matrix (lower triangle read) is finite and positive definite.
+/// True when a symmetric matrix (lower triangle read) is finite and positive definite: a NaN or infinity
+/// anywhere reaches a pivot.
 template <int N>
 bool is_positive_definite(const Matrix<N, N>& P) {
   Matrix<even_rows(N), N> L;
-  return P.allFinite() && cholesky_columns<N, N>(P, L);
+  return cholesky_columns<N, N>(P, L);
 }
 
 }  // namespace canhil::filtering

@@ -150,7 +150,8 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Vector3d
   errors.x += c.dx;
   errors.P = c.P;
   result.outcome = Outcome::non_finite;
-  if (!errors.x.allFinite() || !errors.P.allFinite()) return result;
+  // One that is not finite makes the sum so.
+  if (!std::isfinite(errors.x.sum()) || !std::isfinite(errors.P.sum())) return result;
   result.outcome = Outcome::not_positive_definite;
   if (!(errors.P.diagonal().minCoeff() >= 0)) return result;
 
