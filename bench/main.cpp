@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <string>
 
@@ -10,19 +11,19 @@
 #include "bench/commands/diverge.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/run.hpp"
-
 #include "messages/canhil.hpp"
+
 int main(int argc, char** argv) {
   using canhil::commands::ExitCode;
   CLI::App app{
       "A hardware-in-the-loop bench over CAN for navigation and guidance estimators.\n"
       "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured."};
   app.require_subcommand(1);
-  int code = 0;
   app.set_version_flag("--version",
                        fmt::format("hil-bench {} · DBC {:016x}", CANHIL_VERSION, canhil::messages::dbc_hash));
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file at its size limit is an error of write(), with a line that names the file
+  int code = 0;
   canhil::commands::add_run(app, code);
   canhil::commands::add_bus(app, code);
   canhil::commands::add_campaign(app, code);

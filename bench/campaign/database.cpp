@@ -1,16 +1,34 @@
 #include "bench/campaign/database.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 
 namespace canhil::campaign {
 namespace {
 
-auto complaint(const std::string& file, int code, const char* message) {
+// Why the system refused, where SQLite's words do not say: 0 if it does not know.
+int reason_of(int code, const std::string& file, sqlite3* database) {
+  int reason = 0;
+  if (code == SQLITE_IOERR) sqlite3_file_control(database, "main", SQLITE_FCNTL_LAST_ERRNO, &reason);
+  if (code == SQLITE_CANTOPEN) {  // SQLite's own errno is that of another try, to read only
+    const std::filesystem::path path = std::filesystem::absolute(file);
+    const bool there = std::filesystem::exists(std::filesystem::symlink_status(path));
+    if (access((there ? path : path.parent_path()).c_str(), W_OK) != 0) reason = errno;
+  }
+  return reason;
+}
+
+auto complaint(const std::string& file, int code, sqlite3* database) {
   if (code == SQLITE_BUSY) return failure(fmt::format("{}: is in use by another program", file));
   if (code == SQLITE_NOTADB) {
     return failure(fmt::format("{}: is no SQLite file, expected results of a campaign", file));
   }
-  return failure(fmt::format("{}: cannot be read or written: {}", file, message));
+  const int reason = reason_of(code & 0xFF, file, database);
+  return failure(fmt::format("{}: cannot be read or written: {}{}", file, sqlite3_errmsg(database),
+                             reason == 0 ? "" : fmt::format(" ({})", std::strerror(reason))));
 }
 
 }  // namespace
@@ -37,7 +55,7 @@ Result<bool> Statement::step() {
   const int code = sqlite3_step(statement_.get());
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
-  return complaint(file_, code, sqlite3_errmsg(sqlite3_db_handle(statement_.get())));
+  return complaint(file_, code, sqlite3_db_handle(statement_.get()));
 }
 
 void Statement::reset() {
@@ -73,14 +91,14 @@ Result<Database> Database::open(const std::filesystem::path& path, Access access
   sqlite3* handle = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &handle, flags, nullptr);
   Database database(handle, path.string());
-  if (code != SQLITE_OK) return complaint(database.file_, code, sqlite3_errmsg(handle));
+  if (code != SQLITE_OK) return complaint(database.file_, code, handle);
   sqlite3_extended_result_codes(handle, 0);
   return database;
 }
 
 Result<void> Database::run(const std::string& sql) {
   const int code = sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr);
-  if (code != SQLITE_OK) return complaint(file_, code, sqlite3_errmsg(handle_.get()));
+  if (code != SQLITE_OK) return complaint(file_, code, handle_.get());
   return {};
 }
 
@@ -88,13 +106,13 @@ Result<Statement> Database::prepare(std::string_view sql) const {
   sqlite3_stmt* statement = nullptr;
   const int code =
       sqlite3_prepare_v2(handle_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
-  if (code != SQLITE_OK) return complaint(file_, code, sqlite3_errmsg(handle_.get()));
+  if (code != SQLITE_OK) return complaint(file_, code, handle_.get());
   return Statement(statement, file_);
 }
 
 Result<void> Database::close() {
   const int code = sqlite3_close(handle_.get());
-  if (code != SQLITE_OK) return complaint(file_, code, sqlite3_errmsg(handle_.get()));
+  if (code != SQLITE_OK) return complaint(file_, code, handle_.get());
   static_cast<void>(handle_.release());
   return {};
 }

@@ -115,7 +115,10 @@ Result<void> compute_truths(Work& work) {
 Result<void> write_all(Store& store, Finishing& finishing, Progress progress, const Options& options) {
   while (const auto runs = finishing.take()) {
     if (!runs->empty()) {
-      if (auto added = store.add(*runs); !added) return added;
+      if (auto added = store.add(*runs); !added) {
+        return failure(fmt::format("{}; {} of {} runs are kept, to be resumed", added.error().message,
+                                   progress.stored + progress.done, progress.stored + progress.total));
+      }
     }
     progress.done += runs->size();
     options.progress(progress);

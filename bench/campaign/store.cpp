@@ -165,7 +165,13 @@ Result<Store> Store::create(const std::filesystem::path& path, const Identity& i
   if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
     return failure(fmt::format("{}: exists already, expected a new file (or --resume)", path.string()));
   }
-  return resume(path, identity, sources);
+  auto store = resume(path, identity, sources);
+  if (!store) {  // a file without tables would be in the way of the next try
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+    std::filesystem::remove(path.string() + "-journal", ignored);
+  }
+  return store;
 }
 
 Result<Store> Store::resume(const std::filesystem::path& path, const Identity& identity,

@@ -42,7 +42,7 @@ struct FixAnswer {
   messages::FixOutcome outcome = messages::FixOutcome::accepted;
   double nis = 0;
   world::Vector3 innovation = world::Vector3::Zero();  ///< NED [m]
-  world::Position position;                            ///< at the time of validity of the fix
+  world::Position position{};                          ///< at the time of validity of the fix
   double tilt_sigma_north = 0, tilt_sigma_east = 0;    ///< of the misalignment
   double heading_sigma = 0;
   world::Vector3 velocity_sigma = world::Vector3::Zero();  ///< NED

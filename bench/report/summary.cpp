@@ -10,6 +10,7 @@ namespace {
 
 using messages::AlignUpdate;
 using messages::AlignVelocityD;
+using messages::FixUpdate;
 
 constexpr double bands_mrad[] = {10, 3, 2, 1};
 
@@ -28,10 +29,11 @@ Summary summarise(const run::Run& run) {
     summary.final_velocity_error_mps = errors.back().v_eb_n.norm();
   }
   summary.navigation_answers = run.seen.navigation.size();
-  summary.filter_answers = run.seen.filter.size();
+  summary.filter_answers = run.seen.filter.size() + run.seen.fixes.size();
 
   const scenario::Window everything{0, run.truth.end_us()};
-  for (const std::string_view message : {AlignVelocityD::info.name, AlignUpdate::info.name}) {
+  const std::string_view update = run.seen.fixes.empty() ? AlignUpdate::info.name : FixUpdate::info.name;
+  for (const std::string_view message : {AlignVelocityD::info.name, update}) {
     summary.latencies.push_back(
         {.message = std::string(message),
          .latency_s = checks::distribution(checks::latencies_s(run.seen, message, everything)),

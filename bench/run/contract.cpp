@@ -19,6 +19,7 @@ scenario::Contract contract() {
                               .algorithms = names<messages::Algorithm>(),
                               .parameters = names<messages::Parameter>(),
                               .messages = {},
+                              .fix_outcomes = names<messages::FixOutcome>(),
                               .answers = {}};
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {

@@ -53,5 +53,6 @@ while read -r program; do
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
 as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
 as_text estimators_instructions sh tests/perf/estimators/count_instructions.sh "$build"
+as_text run_stages python3 tests/perf/run/stages.py "$build"
 printf '\nrecorded in %s\n' "$records"
 exit "$code"

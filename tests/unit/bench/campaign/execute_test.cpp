@@ -1,7 +1,9 @@
 #include "bench/campaign/execute.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <cstdlib>
 
 #include "bench/campaign/merge.hpp"
@@ -87,6 +89,66 @@ TEST(Execute, ARunThatCannotBeConfiguredEndsItWithOneLine) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message, HasSubstr("c.toml: variant 'A target.parameters.h2_case=7': "));
   EXPECT_THAT(refused.error().message, HasSubstr("out_of_range"));
+}
+
+/// No file of this process grows beyond a limit, as on a disk that is full there; until the end of its scope.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{.rlim_cur = bytes, .rlim_max = before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+TEST(Execute, AFullDiskKeepsWhatWasCommittedAndResumes) {
+  const auto campaign = parse(two_variants);
+  const auto whole = scratch("not_full.sqlite"), file = scratch("full.sqlite");
+  ASSERT_TRUE(execute(*campaign, options_for(whole, 1), never));
+  Options options = options_for(file, 1);
+  options.resume = true;
+  options.shard = {.index = 0, .count = 2};
+  ASSERT_TRUE(execute(*campaign, options, never));  // half of the runs
+  options.shard = {};
+  {
+    const FileSizeLimit full(std::filesystem::file_size(file) + 1);
+    const auto refused = execute(*campaign, options, never);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              file.string() +
+                  ": cannot be read or written: disk I/O error (File too large); 4 of 8 runs are "
+                  "kept, to be resumed");
+  }
+  const auto kept = Store::open(file);
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(kept->keys()->size(), 4U);
+  ASSERT_TRUE(execute(*campaign, options, never));
+  const auto a = scratch("full_a.sqlite"), b = scratch("full_b.sqlite");
+  ASSERT_TRUE(merge(a, std::vector{whole}));
+  ASSERT_TRUE(merge(b, std::vector{file}));
+  EXPECT_EQ(content(a), content(b));
+}
+
+TEST(Execute, AFileThatCouldNotBeBegunIsNotInTheWayOfTheNextTry) {
+  const auto campaign = parse(two_variants);
+  const auto file = scratch("begun.sqlite");
+  {
+    const FileSizeLimit full(1000);
+    EXPECT_THAT(execute(*campaign, options_for(file, 1), never).error().message, HasSubstr("File too large"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_TRUE(execute(*campaign, options_for(file, 1), never));
 }
 
 TEST(Execute, OneWriterAFile) {

@@ -149,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"\"heartbeat\"", "\"banana\"",
               "17: key 'check[1].kind': 'banana' is unknown, expected one of: attitude_error, convergence, "
               "velocity_error, "
-              "consistency, output_period, latency, counters, heartbeat"},
+              "consistency, output_period, latency, counters, heartbeat, position_error, fixes, coasting"},
         Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'yaw'\nbelow_mrad = 1"),
               "18: key 'check[1].axis': 'yaw' is unknown, expected one of: roll, pitch, heading"},
         Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),
@@ -218,6 +218,20 @@ INSTANTIATE_TEST_SUITE_P(
               "13: key 'truth.dive_depth_m': is too deep for the speed and dive_period_s, expected at most "
               "40.51, a "
               "dive of 45 degrees"},
+        Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 1\nbelow_deg = 1"),
+              "19: key 'check[1].below_mrad': is given beside below_deg, expected one of the two"},
+        Wrong{"[[check]]", check("kind = 'fixes'"),
+              "16: key 'check[1].accepted_at_least': is missing, as are all its like, expected at least one "
+              "limit"},
+        Wrong{
+            "[[check]]", check("kind = 'fixes'\nlost_at_most = 1\ngated_at_most = 1"),
+            "18: key 'check[1].lost_at_most': is unknown, expected one of: kind, requirement, from_s, to_s, "
+            "accepted_at_least, accepted_at_most, gated_at_least, gated_at_most, repairs_at_most, "
+            "handed_over_before_s, name"},
+        Wrong{"[[check]]", check("kind = 'coasting'"),
+              "16: key 'check[1].at_least': is missing, as is 'at_most', expected at least one limit"},
+        Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'heading_nees'\nprobability = 0.9"),
+              "19: key 'check[1].probability': is for nis only, expected mean_between = [low, high]"},
         Wrong{"[[check]]", "[ssbl]\noutlier_percent = 5\n[[check]]",
               "17: key 'ssbl.outlier_percent': is given alone, expected outlier_percent and outlier_m, both "
               "above "

@@ -1,0 +1,19 @@
+// The campaign whose runs are timed: Table 2 of the transfer-alignment paper, 20 s at 100 Hz.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "bench/campaign/campaign.hpp"
+
+namespace canhil {
+
+/// Or the program ends.
+inline campaign::Campaign paper_campaign() {
+  auto read = campaign::read_campaign(SOURCE_DIR "/bench/campaigns/paper_transfer/table2.toml");
+  if (read) return std::move(*read);
+  std::fprintf(stderr, "%s\n", read.error().message.c_str());
+  std::exit(1);
+}
+
+}  // namespace canhil

@@ -1,0 +1,37 @@
+// Runs of the paper's flight, for callgrind: stages.py collects inside one_run().
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "bench/campaign/series.hpp"
+#include "bench/run/flight.hpp"
+#include "tests/perf/run/paper_flight.hpp"
+
+namespace {
+
+using namespace canhil;
+
+// What a campaign does for each run, but for storing it.
+[[gnu::noinline]] std::size_t one_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                      std::uint64_t index) {
+  const auto finished = run::run_in_process(scenario, truth, index);
+  return finished ? campaign::series_of(index, *finished, truth).samples.size() : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string_view wanted = argc > 1 ? argv[1] : "kf_p1";
+  const campaign::Campaign campaign = paper_campaign();
+  for (const campaign::Variant& variant : campaign.variants) {
+    if (variant.name != wanted) continue;
+    const auto truth = run::make_truth(variant.scenario);  // once a variant
+    if (!truth) break;
+    for (std::uint64_t index = 0; index < 3; ++index) {
+      if (one_run(variant.scenario, *truth, index) != 199) break;
+      if (index == 2) return 0;
+    }
+  }
+  std::fprintf(stderr, "run_instructions: variant %s did not fly as expected\n", argv[1]);
+  return 1;
+}
