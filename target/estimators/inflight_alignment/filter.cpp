@@ -131,6 +131,7 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
     const Matrix3d axes = rotation_axes(psi);
     errors.P.template middleRows<3>(6) = (axes * errors.P.template middleRows<3>(6)).eval();
     errors.P.template middleCols<3>(6) = (errors.P.template middleCols<3>(6) * axes.transpose()).eval();
+    filtering::average_with_transpose<N>(errors.P);
   }
 }
 
