@@ -47,11 +47,13 @@ Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, 
 /// zeros: times_Gt(M) gives M G' [rows x K] of any M [rows x N], and may know more about G.
 template <int K, int N, class TimesGt>
 Matrix<N, N> propagate_covariance_moving(const Matrix<N, N>& P, const TimesGt& times_Gt) {
-  const Matrix<N, K> X = P.template leftCols<K>() + times_Gt(P);
-  const Matrix<K, N> Xt = X.transpose();
+  const auto rows = padded(P);
+  const Matrix<even_rows(N), K> X = rows.template leftCols<K>() + times_Gt(rows);
+  const auto Xt = padded(X.template topRows<N>().transpose());  // [K x N]
+  const Matrix<even_rows(K), K> Y = Xt.template leftCols<K>() + times_Gt(Xt);
   Matrix<N, N> next = P;
-  next.template topLeftCorner<K, K>() = Xt.template leftCols<K>() + times_Gt(Xt);
-  next.template bottomLeftCorner<N - K, K>() = X.template bottomRows<N - K>();
+  next.template topLeftCorner<K, K>() = Y.template topRows<K>();
+  next.template bottomLeftCorner<N - K, K>() = X.template middleRows<N - K>(K);
   mirror_lower<N>(next);
   return next;
 }

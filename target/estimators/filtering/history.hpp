@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace canhil::filtering {
 
@@ -17,6 +18,7 @@ namespace canhil::filtering {
 ///   update(state, earlier, share, measurement, settings): of a measurement valid at the state's epoch less
 ///     `share` of the increment that began with the ins `earlier` (null: at the epoch)
 ///   keep_refusal(state, tried): what an update that was refused leaves behind
+///   applied_at(t_us, now_us, settings): the epoch at which one valid at t_us is to be applied
 /// A filter that predicts by itself between measurements (Predictions > 0: how many of them the increments
 /// kept may span) adds
 ///   prediction_is_due(state, settings), predict(state, settings)
@@ -30,7 +32,14 @@ class History {
   using UpdateResult = typename Model::UpdateResult;
   using Outcome = typename Model::Outcome;
 
-  explicit History(std::int64_t start_us) : now_us_(start_us), last_update_us_(start_us) {}
+  explicit History(std::int64_t start_us) { restart(start_us); }
+
+  /// Empty, with the state's epoch at start_us.
+  void restart(std::int64_t start_us) {
+    first_ = count_ = prediction_count_ = 0;
+    now_us_ = last_update_us_ = start_us;
+    forgotten_us_ = std::numeric_limits<std::int64_t>::min();
+  }
 
   /// A step over an increment that ends at t_us, remembered.
   void propagate(State& state, const Increment& increment, std::int64_t t_us, const Settings& settings) {
@@ -44,12 +53,13 @@ class History {
     step(state, increment, t_us, settings);
   }
 
-  /// The update of a measurement valid at t_us: at that epoch, or, between two epochs, at the later one with
-  /// what is compared interpolated linearly to t_us. Refused, with the state untouched: not_reached,
+  /// The update of a measurement valid at valid_us: at that epoch, or, between two epochs, at the later one
+  /// with what is compared interpolated linearly. Refused, with the state untouched: not_reached,
   /// out_of_order (before the last update), older_than_history.
-  UpdateResult update(State& state, const Measurement& measurement, std::int64_t t_us,
+  UpdateResult update(State& state, const Measurement& measurement, std::int64_t valid_us,
                       const Settings& settings) {
-    if (t_us > now_us_) return refused(Outcome::not_reached);
+    if (valid_us > now_us_) return refused(Outcome::not_reached);
+    const std::int64_t t_us = Model::applied_at(valid_us, now_us_, settings);
     if (t_us < last_update_us_) return refused(Outcome::out_of_order);
     std::size_t epoch = count_;  // epoch i < count_ is the start of increment i; epoch count_ is now
     while (epoch > 0 && epoch_us(epoch - 1) >= t_us) --epoch;
@@ -131,8 +141,8 @@ class History {
   std::array<Entry, Capacity> entries_;
   std::array<Prediction, Predictions> predictions_;
   std::size_t first_ = 0, count_ = 0, prediction_count_ = 0;
-  std::int64_t now_us_, last_update_us_;
-  std::int64_t forgotten_us_ = INT64_MIN;  // before this epoch the filter's state is not known any more
+  std::int64_t now_us_ = 0, last_update_us_ = 0;
+  std::int64_t forgotten_us_ = 0;  // before this epoch the filter's state is not known any more
 };
 
 }  // namespace canhil::filtering

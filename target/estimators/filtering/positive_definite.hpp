@@ -1,9 +1,8 @@
 #pragma once
 // What to do with a covariance that has lost its positive definiteness.
 #include <Eigen/Eigenvalues>
-#include <cmath>
 
-#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/filtering/cholesky.hpp"
 
 namespace canhil::filtering {
 
@@ -16,15 +15,15 @@ Matrix<N, N> with_eigenvalue_floor(const Matrix<N, N>& P, double floor = 1e-9) {
   const Vector<N> weight = sigma.cwiseInverse();
   const Matrix<N, N> correlation = weight.asDiagonal() * P * weight.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix<N, N>> solver(correlation);
-  const Matrix<N, N> scaled = sigma.asDiagonal() * solver.eigenvectors() *
-                              solver.eigenvalues().cwiseMax(floor).cwiseSqrt().asDiagonal();
+  const Vector<N> root = solver.eigenvalues().cwiseMax(floor).cwiseSqrt();
+  const Matrix<N, N> scaled = sigma.asDiagonal() * solver.eigenvectors() * root.asDiagonal();
   return scaled.lazyProduct(scaled.transpose());
 }
 
-/// P made positive definite where it is not (lower triangle read); true: it was not.
+/// P made positive definite where it is not; true: it was not.
 template <int N>
 bool repair(Matrix<N, N>& P) {
-  if (Eigen::LLT<Matrix<N, N>>(P).info() == Eigen::Success) return false;
+  if (is_positive_definite<N>(P)) return false;
   P = with_eigenvalue_floor<N>(P);
   return true;
 }

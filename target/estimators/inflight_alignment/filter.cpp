@@ -73,18 +73,26 @@ Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition
           d_longitude * (earth.transverse_radius + ins.height) * earth.cos_latitude, fix.height - ins.height};
 }
 
+GeodeticPosition position_of(const strapdown::NavState& nav) {
+  return {nav.latitude, nav.longitude, nav.height};
+}
+
+GeodeticPosition corrected(const GeodeticPosition& ins, const Vector3d& dR) {
+  const strapdown::LocalEarth earth = strapdown::local_earth(ins.latitude, ins.height);
+  const double latitude = ins.latitude - dR.x() / (earth.meridian_radius + ins.height);
+  const double parallel_radius = (earth.transverse_radius + ins.height) * std::cos(latitude);
+  return {latitude, ins.longitude - dR.y() / parallel_radius, ins.height + dR.z()};
+}
+
 // The INS less position [m] and velocity errors, and its attitude turned to the computer frame by C_pc.
 strapdown::NavState corrected(const strapdown::NavState& nav, const Vector3d& dR, const Vector3d& dV,
                               const Matrix3d& C_pc) {
-  const strapdown::LocalEarth earth = strapdown::local_earth(nav.latitude, nav.height);
-  strapdown::NavState better;
-  better.latitude = nav.latitude - dR.x() / (earth.meridian_radius + nav.height);
-  better.longitude =
-      nav.longitude - dR.y() / ((earth.transverse_radius + nav.height) * std::cos(better.latitude));
-  better.height = nav.height + dR.z();
-  better.v_eb_n = nav.v_eb_n - dV;
-  better.C_bn = C_pc * nav.C_bn;
-  return better;
+  const GeodeticPosition position = corrected(position_of(nav), dR);
+  return {.C_bn = C_pc * nav.C_bn,
+          .v_eb_n = nav.v_eb_n - dV,
+          .latitude = position.latitude,
+          .longitude = position.longitude,
+          .height = position.height};
 }
 
 // Position, velocity and biases into the INS; their states zero.
@@ -108,6 +116,7 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
     const bool resolved = heading_is_resolved<N>(errors, settings);
     feed_back<N>(state, errors, resolved ? tilt_and_heading<N>(errors.x) : Matrix3d::Identity());
     if (resolved) take_out_attitude<N>(errors);
+    state.handed_over = resolved;
   } else {
     const Vector3d psi = errors.x.template segment<3>(6);
     const bool platform = settings.attitude_error_frame == AttitudeErrorFrame::platform;
@@ -122,18 +131,21 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
     const Matrix3d axes = rotation_axes(psi);
     errors.P.template middleRows<3>(6) = (axes * errors.P.template middleRows<3>(6)).eval();
     errors.P.template middleCols<3>(6) = (errors.P.template middleCols<3>(6) * axes.transpose()).eval();
+    filtering::average_with_transpose<N>(errors.P);
   }
 }
 
 template <int N>
-UpdateResult update_errors(State& state, const Errors<N>& before, const Vector3d& difference,
-                           const Settings& settings) {
+UpdateResult update_errors(State& state, const Errors<N>& before, const GeodeticPosition& ins,
+                           const Vector3d& difference, const Settings& settings) {
   UpdateResult result;
   Errors<N> errors = before;
   result.repairs = predict_errors<N>(errors, state.ins.interval, settings);
   result.innovation = difference + state.fix_bias - errors.x.template segment<3>(Layout<N>::position);
   if constexpr (Layout<N>::has_fix_bias)
     result.innovation += errors.x.template segment<3>(Layout<N>::fix_bias);
+
+  result.position = corrected(ins, errors.x.template segment<3>(Layout<N>::position));
 
   const auto c = correction<N>(errors, result.innovation, settings);
   result.innovation_covariance = c.S;
@@ -142,7 +154,8 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Vector3d
   result.outcome = Outcome::not_positive_definite;
   if (!c.positive_definite) return result;
   result.nis = c.nis;
-  if (settings.gate_nis > 0 && c.nis > settings.gate_nis && state.rejected < settings.gate_recovery) {
+  const bool beyond_gate = settings.gate_nis > 0 && c.nis > settings.gate_nis;
+  if (beyond_gate && state.rejected < settings.gate_recovery) {
     result.outcome = Outcome::gated;
     ++state.rejected;
     return result;
@@ -150,11 +163,14 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Vector3d
   errors.x += c.dx;
   errors.P = c.P;
   result.outcome = Outcome::non_finite;
-  if (!errors.x.allFinite() || !errors.P.allFinite()) return result;
+  // One that is not finite makes the sum so.
+  if (!std::isfinite(errors.x.sum()) || !std::isfinite(errors.P.sum())) return result;
   result.outcome = Outcome::not_positive_definite;
   if (!(errors.P.diagonal().minCoeff() >= 0)) return result;
 
   result.outcome = Outcome::ok;
+  result.gate_opened = beyond_gate;
+  result.position = corrected(ins, errors.x.template segment<3>(Layout<N>::position));
   if constexpr (!is_sin_cos<N>) errors.x(8) = std::remainder(errors.x(8), 2 * std::numbers::pi);
   if (is_sin_cos<N> || settings.closed_loop) close_loop<N>(state, errors, settings);
   state.errors = errors;
@@ -228,8 +244,7 @@ void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings&
 }
 
 UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& settings) {
-  const strapdown::NavState& nav = state.ins.nav;
-  return update(state, {nav.latitude, nav.longitude, nav.height}, fix, settings);
+  return update(state, position_of(state.ins.nav), fix, settings);
 }
 
 UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
@@ -240,7 +255,9 @@ UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPos
   const Vector3d difference = position_difference(ins, fix);
   if (!difference.allFinite()) return result;
   return std::visit(
-      [&]<int N>(const Errors<N>& errors) { return update_errors<N>(state, errors, difference, settings); },
+      [&]<int N>(const Errors<N>& errors) {
+        return update_errors<N>(state, errors, ins, difference, settings);
+      },
       state.errors);
 }
 

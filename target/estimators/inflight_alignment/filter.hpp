@@ -19,6 +19,11 @@ struct Ins {
   std::uint32_t steps = 0;  // since the start
 };
 
+struct GeodeticPosition {
+  double latitude = 0, longitude = 0;  // [rad]
+  double height = 0;                   // above the ellipsoid [m]
+};
+
 struct State {
   Ins ins;
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();                 // estimates, taken from IMU [m/s^2],
@@ -28,11 +33,7 @@ struct State {
   std::uint32_t updated_at = 0;                                         // step of the last update
   std::uint32_t rejected = 0;                                           // fixes gated in a row
   std::uint32_t repairs = 0;  // how often P lost its positive definiteness
-};
-
-struct GeodeticPosition {
-  double latitude = 0, longitude = 0;  // [rad]
-  double height = 0;                   // above the ellipsoid [m]
+  bool handed_over = false;   // sin_cos: tilt and heading were fed back at the last fix
 };
 
 enum class Outcome : std::uint8_t {
@@ -53,7 +54,9 @@ struct UpdateResult {
   Eigen::Vector3d innovation = Eigen::Vector3d::Zero();             // INS - fix less its estimate, NED [m]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [m^2]
   double nis = 0;                                                   // chi-square of 3 if consistent
-  int repairs = 0;                                                  // of P, in this call
+  GeodeticPosition position;  // best estimate at the fix's time of validity
+  bool gate_opened = false;   // ok in spite of its NIS
+  int repairs = 0;            // of P, in this call
 };
 
 /// The state at the start of an alignment from the INS's own navigation state; P0 from the settings.

@@ -33,6 +33,9 @@ struct HistoryModel {
     return inflight_alignment::update(state, ins, fix, settings);
   }
 
+  static std::int64_t applied_at(std::int64_t valid_us, std::int64_t now_us, const Settings& settings) {
+    return settings.late_fixes == LateFixes::at_validity ? valid_us : now_us;
+  }
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 

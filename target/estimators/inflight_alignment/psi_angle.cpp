@@ -77,20 +77,26 @@ struct Model {
   }
 };
 
-// The map's even and odd parts in x +- d: sin and cos of both points from one set of them.
+// The map about x: x's own image, the even and odd parts of x +- d, and its Jacobian with respect to the
+// biases.
 template <int N>
-class PairOfPoints {
+class Centre {
  public:
   using At = Layout<N>;
 
-  PairOfPoints(const Vector<N>& x, const Interval& interval)
+  Centre(const Vector<N>& x, const Interval& interval)
       : model_(interval),
         trig_(Vector3d(x.template segment<3>(At::attitude))),
         true_force_(interval.delta_v_n - interval.C_bn_integral * x.template segment<3>(At::accel_bias)),
         drift_(interval.C_bn_integral * x.template segment<3>(At::gyro_bias)),
-        centre_(model_(trig_, true_force_, drift_)),
+        terms_(model_(trig_, true_force_, drift_)),
         coriolis_(2 * interval.omega_ie_n + interval.omega_en_n) {}
 
+  [[nodiscard]] Vector<N> image(const Vector<N>& x) const {
+    return moved<N>(x, model_.interval, model_.interval.delta_v_n - terms_.force, terms_.rates);
+  }
+
+  // sin and cos of both points come from one set of them.
   filtering::Parts<9> operator()(const Vector<N>& d) const {
     const Interval& interval = model_.interval;
     const double T = interval.duration;
@@ -102,50 +108,69 @@ class PairOfPoints {
     const Terms plus = model_(sum(trig_, turn), true_force_ - force, drift_ + drift);
     const Terms minus = model_(difference(trig_, turn), true_force_ + force, drift_ - drift);
 
-    filtering::Parts<9> parts;
     const Vector3d odd_dV =
         T * (gravity_error_per_m().cwiseProduct(R) - coriolis_.cross(V)) - 0.5 * (plus.force - minus.force);
-    const Vector3d even_dV = centre_.force - 0.5 * (plus.force + minus.force);
-    parts.odd << R + T * (V + 0.5 * odd_dV - interval.omega_en_n.cross(R)), V + odd_dV,
-        psi + 0.5 * (plus.rates - minus.rates);
-    parts.even << (0.5 * T) * even_dV, even_dV, 0.5 * (plus.rates + minus.rates) - centre_.rates;
+    const Vector3d even_dV = terms_.force - 0.5 * (plus.force + minus.force);
+    filtering::Parts<9> parts;
+    parts.odd.template segment<3>(At::position) = R + T * (V + 0.5 * odd_dV - interval.omega_en_n.cross(R));
+    parts.odd.template segment<3>(At::velocity) = V + odd_dV;
+    parts.odd.template segment<3>(At::attitude) = psi + 0.5 * (plus.rates - minus.rates);
+    parts.even.template segment<3>(At::position) = (0.5 * T) * even_dV;
+    parts.even.template segment<3>(At::velocity) = even_dV;
+    parts.even.template segment<3>(At::attitude) = 0.5 * (plus.rates + minus.rates) - terms_.rates;
     return parts;
+  }
+
+  // The lower root's columns beyond psi move biases alone, and for a given psi the map is linear in them:
+  // what those points would add is G_c rest, and G_c rest G_c'.
+  void add_points_of_biases(filtering::Moments<N, 9>& moments, const Matrix<N - 9, N - 9>& rest) const {
+    const Matrix3d& A = model_.interval.C_bn_integral;
+    const Matrix3d velocity_accel = rotation(trig_) * A;
+    const Matrix3d attitude_gyro = -euler_rate_matrix(trig_) * A;
+    const double half = model_.interval.duration / 2;
+    Matrix<N - 9, 9> added;  // rest G_c'
+    added.template middleCols<3>(3) = rest.template leftCols<3>().lazyProduct(velocity_accel.transpose());
+    added.template leftCols<3>() = half * added.template middleCols<3>(3);
+    added.template middleCols<3>(6) = rest.template middleCols<3>(3).lazyProduct(attitude_gyro.transpose());
+    moments.about_central.template middleRows<N - 9>(9) += added;
+    const Matrix<3, 9> velocity = velocity_accel.lazyProduct(added.template topRows<3>());
+    moments.about_central.template topRows<3>() += half * velocity;
+    moments.about_central.template middleRows<3>(3) += velocity;
+    moments.about_central.template middleRows<3>(6) +=
+        attitude_gyro.lazyProduct(added.template middleRows<3>(3));
   }
 
  private:
   Model model_;
   Trig trig_;
   Vector3d true_force_, drift_;
-  Terms centre_;
+  Terms terms_;
   Vector3d coriolis_;
 };
 
-// The lower root's columns beyond psi move biases alone, and for a given psi the map is linear in them: what
-// those points would add is G_c rest G_c', G_c the map's Jacobian with respect to the biases at x.
+// Moments over the whole root's sigma points, the lower one's columns beyond psi in closed form; counts the
+// repairs that P needed.
 template <int N>
-void add_points_of_biases(filtering::Moments<N, 9>& moments, const Matrix<N - 9, N - 9>& rest,
-                          const Vector<N>& x, const Interval& interval) {
-  const Trig trig(Vector3d(x.template segment<3>(Layout<N>::attitude)));
-  const Matrix3d velocity_accel = rotation(trig) * interval.C_bn_integral;
-  const Matrix3d attitude_gyro = -euler_rate_matrix(trig) * interval.C_bn_integral;
-  const double half = interval.duration / 2;
-  Matrix<N - 9, 9> added;  // rest G_c'
-  added.template middleCols<3>(3) = rest.template leftCols<3>().lazyProduct(velocity_accel.transpose());
-  added.template leftCols<3>() = half * added.template middleCols<3>(3);
-  added.template middleCols<3>(6) = rest.template middleCols<3>(3).lazyProduct(attitude_gyro.transpose());
-  moments.cross += added;
-  const Matrix<3, 9> velocity = velocity_accel.lazyProduct(added.template topRows<3>());
-  moments.about_central.template topRows<3>() += half * velocity;
-  moments.about_central.template middleRows<3>(3) += velocity;
-  moments.about_central.template bottomRows<3>() +=
-      attitude_gyro.lazyProduct(added.template middleRows<3>(3));
-}
-
-template <int N>
-filtering::Moments<N, 9> lower_cholesky_moments(const Vector<N>& x, const filtering::PartialRoot<N, 9>& root,
-                                                const Interval& interval) {
-  auto moments = filtering::unscented_moments<9>(root.columns, spread, PairOfPoints<N>(x, interval));
-  add_points_of_biases<N>(moments, root.rest, x, interval);
+filtering::Moments<N, 9> moments_about(const Centre<N>& centre, Matrix<N, N>& P, UkfRoot kind, int& repairs) {
+  if (kind == UkfRoot::symmetric) {
+    repairs += filtering::repair<N>(P) ? 1 : 0;
+    return filtering::unscented_moments<9, N>(filtering::padded(filtering::symmetric_root<N>(P)), spread,
+                                              centre);
+  }
+  Matrix<filtering::even_rows(N), 9> root;
+  Matrix<N - 9, N - 9> rest;
+  const auto factor = [&] {
+    if (!filtering::cholesky_columns<9, N>(P, root)) return false;
+    rest = filtering::cholesky_rest<9, N>(P, root);
+    return filtering::is_positive_definite<N - 9>(rest);
+  };
+  if (!factor()) {
+    P = filtering::with_eigenvalue_floor<N>(P);
+    ++repairs;
+    factor();
+  }
+  auto moments = filtering::unscented_moments<9, N>(root, spread, centre);
+  centre.add_points_of_biases(moments, rest);
   return moments;
 }
 
@@ -164,12 +189,7 @@ Matrix3d rotation_axes(const Vector3d& psi) {
 
 template <int N>
 Vector<N> predicted(const Vector<N>& x, const Interval& interval) {
-  using At = Layout<N>;
-  const Vector3d true_force =
-      interval.delta_v_n - interval.C_bn_integral * x.template segment<3>(At::accel_bias);
-  const Terms terms = Model(interval)(Trig(Vector3d(x.template segment<3>(At::attitude))), true_force,
-                                      interval.C_bn_integral * x.template segment<3>(At::gyro_bias));
-  return moved<N>(x, interval, interval.delta_v_n - terms.force, terms.rates);
+  return Centre<N>(x, interval).image(x);
 }
 
 template <int N>
@@ -202,28 +222,15 @@ void predict_ekf(Errors<N>& errors, const Interval& interval, const Settings& se
 template <int N>
 int predict_ukf(Errors<N>& errors, const Interval& interval, const Settings& settings) {
   int repairs = 0;
-  filtering::Moments<N, 9> moments;
-  if (settings.ukf_root == UkfRoot::lower_cholesky) {
-    auto root = filtering::partial_cholesky<9, N>(errors.P);
-    if (!root.positive_definite) {
-      repairs += filtering::repair<N>(errors.P) ? 1 : 0;
-      root = filtering::partial_cholesky<9, N>(errors.P);
-    }
-    moments = lower_cholesky_moments<N>(errors.x, root, interval);
-  } else {
-    repairs += filtering::repair<N>(errors.P) ? 1 : 0;
-    moments = filtering::unscented_moments<9>(filtering::symmetric_root<N>(errors.P), spread,
-                                              PairOfPoints<N>(errors.x, interval));
-  }
-  errors.x = predicted<N>(errors.x, interval);
+  const Centre<N> centre(errors.x, interval);
+  const auto moments = moments_about<N>(centre, errors.P, settings.ukf_root, repairs);
+  errors.x = centre.image(errors.x);
   errors.x.template head<9>() += moments.shift;
+  errors.P.template leftCols<9>() = moments.about_central.template topRows<N>();
   // The second moment about the mean is that about the centre's image less the shift's square, whatever the
   // centre's weight.
-  auto moving = errors.P.template topLeftCorner<9, 9>();
-  moving = moments.about_central;
   if (settings.ukf_covariance == UkfCovariance::about_mean)
-    moving.noalias() -= moments.shift.lazyProduct(moments.shift.transpose());
-  errors.P.template bottomLeftCorner<N - 9, 9>() = moments.cross;
+    errors.P.template topLeftCorner<9, 9>().noalias() -= moments.shift.lazyProduct(moments.shift.transpose());
   filtering::mirror_lower<N>(errors.P);
   add_process_noise<N>(errors.P, settings, interval.duration, Matrix3d::Identity());
   return repairs + (filtering::repair<N>(errors.P) ? 1 : 0);

@@ -26,7 +26,7 @@ enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 /// about_central: about the transformed central point; positive semi-definite whatever the weights.
 enum class UkfCovariance : std::uint8_t { about_mean, about_central };
 
-enum class LateFixes : std::uint8_t { at_validity, at_arrival };
+enum class LateFixes : std::uint8_t { at_arrival, at_validity };
 
 struct Settings {
   Algorithm algorithm = Algorithm::sin_cos;

@@ -22,6 +22,7 @@ struct HistoryModel {
     if (earlier != nullptr) velocity -= share * (velocity - earlier->nav.v_eb_n);
     return update_with_difference(state, velocity - master_velocity, settings);
   }
+  static std::int64_t applied_at(std::int64_t valid_us, std::int64_t, const Settings&) { return valid_us; }
   static void keep_refusal(State&, const State&) {}
 };
 

@@ -1,4 +1,5 @@
 #include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/filtering/cholesky.hpp"
 
 #include <gtest/gtest.h>
 
