@@ -24,9 +24,9 @@ Page page(const Results& results) {
 
 }  // namespace
 
-Result<std::optional<Reproduction>> reproduce(const FlyOptions& options, const std::filesystem::path& exact,
+Result<std::optional<Reproduction>> reproduce(const FlyOptions& options,
+                                              const std::filesystem::path& /*exact*/,
                                               const std::atomic<bool>& stop) {
-  if (!exact.empty()) return failure("--exact: expected with --paper transfer only");
   const auto results = fly(options, stop);
   if (!results) return tl::unexpected(results.error());
   if (!*results) return std::nullopt;
