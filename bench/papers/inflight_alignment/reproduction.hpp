@@ -7,8 +7,8 @@
 namespace canhil::papers::inflight_alignment {
 
 /// Flies what the folder does not hold yet, and makes the page: figures, tables and verdicts; it says so
-/// where there are fewer runs than the bars ask. `exact` must be empty: nothing is compared with the twin
-/// that rounds nothing. None: stopped. Error: one line.
+/// where there are fewer runs than the bars ask. `exact` is not looked at. None: stopped. Error:
+/// one line.
 Result<std::optional<Reproduction>> reproduce(const FlyOptions& options, const std::filesystem::path& exact,
                                               const std::atomic<bool>& stop);
 
