@@ -54,7 +54,7 @@ Figure figure(const Results& results, int number, const char* campaign, const ch
       .y_label = "heading error, RMS [deg]",
       .x_range = {0, 300},
       .y_range = {0.3, 200},
-      .thresholds = {1, 10},
+      .thresholds = {},
       .curves = {}};
   for (const Filter& filter : filters) {
     Curve curve{.label = filter.label, .points = {}};
