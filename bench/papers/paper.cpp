@@ -8,6 +8,7 @@
 
 #include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
+#include "bench/papers/inflight_alignment/reproduction.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/report/file.hpp"
 #include "bench/run/contract.hpp"
@@ -21,8 +22,11 @@ struct Paper {
   Result<std::optional<Reproduction>> (*reproduce)(const FlyOptions& options,
                                                    const std::filesystem::path& exact,
                                                    const std::atomic<bool>& stop);
+  bool compares = false;  // with results of the twin that rounds nothing
 };
-constexpr std::array papers{Paper{"transfer", transfer_alignment::reproduce}};
+constexpr std::array papers{
+    Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
+    Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce}};
 
 Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);
@@ -37,6 +41,11 @@ Result<Paper> find_paper(std::string_view name) {
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop) {
   const auto paper = find_paper(request.paper);
   if (!paper) return tl::unexpected(paper.error());
+  if (!request.exact.empty() && !paper->compares)
+    return failure(
+        fmt::format("--exact: paper '{}' compares with no results without rounding, expected with "
+                    "--paper transfer",
+                    request.paper));
   if (request.runs == 0U) return failure("--runs 0: expected at least 1");
   if (!request.exact.empty() && !run::frames_round())
     return failure("--exact: this program rounds nothing itself, expected hil-bench to compare with");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/checks/errors.hpp"
 #include "bench/world/units.hpp"
 
@@ -13,6 +15,20 @@ using messages::AlignVelocityD;
 using messages::FixUpdate;
 
 constexpr double bands_mrad[] = {10, 3, 2, 1};
+
+FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes) {
+  FixSummary summary{.outcomes = {},
+                     .repairs = fixes.back().repairs,
+                     .resolved_s = {},
+                     .heading_sigma_rad = fixes.back().heading_sigma};
+  for (const messages::FixOutcome outcome : messages::enumerators<messages::FixOutcome>) {
+    const auto count = std::ranges::count(fixes, outcome, &checks::FixAnswer::outcome);
+    if (count > 0) summary.outcomes.emplace_back(name_of(outcome), count);
+  }
+  const auto resolved = std::ranges::find(fixes, true, &checks::FixAnswer::handed_over);
+  if (resolved != fixes.end()) summary.resolved_s = static_cast<double>(resolved->cause_us) / 1e6;
+  return summary;
+}
 
 }  // namespace
 
@@ -30,6 +46,8 @@ Summary summarise(const run::Run& run) {
   }
   summary.navigation_answers = run.seen.navigation.size();
   summary.filter_answers = run.seen.filter.size() + run.seen.fixes.size();
+
+  if (!run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
 
   const scenario::Window everything{0, run.truth.end_us()};
   const std::string_view update = run.seen.fixes.empty() ? AlignUpdate::info.name : FixUpdate::info.name;
