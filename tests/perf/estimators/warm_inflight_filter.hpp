@@ -1,6 +1,6 @@
 #pragma once
-// An in-flight alignment in its turn, ready for one more IMU sample or one more fix: a made-up motion with the
-// published sensors' settings.
+// An in-flight alignment in its turn, ready for one more IMU sample or one more fix: a made-up motion with
+// the published sensors' settings.
 #include <cmath>
 
 #include "target/estimators/inflight_alignment/filter.hpp"
