@@ -8,10 +8,10 @@
 namespace canhil::test {
 namespace {
 
-std::string record(const std::string& name, const std::string& options) {
+std::string record(const std::string& name, const std::string& options,
+                   const std::string& flown = "transfer_alignment_quick") {
   const std::string log = scratch(name);
-  const Ended ended =
-      hil_bench(fmt::format("run {} {} --log {}", scenario("transfer_alignment_quick"), options, log));
+  const Ended ended = hil_bench(fmt::format("run {} {} --log {}", scenario(flown), options, log));
   EXPECT_NE(ended.code, 2) << ended.err;
   return log;
 }
@@ -23,6 +23,14 @@ TEST(Bits, InProcessLockstepAndRealTimeAgree) {
   EXPECT_GT(in_process.size(), 500U);
   EXPECT_TRUE(in_process == lockstep);
   EXPECT_TRUE(in_process == real_time);
+}
+
+TEST(Bits, OfAnAlignmentInFlightAgreeInProcessAndInLockstep) {
+  const auto in_process = target_frames(record("fix_in_process.log", "--bus in-process", "inflight_quick"));
+  const auto lockstep =
+      target_frames(record("fix_lockstep.log", fmt::format("--bus {} --lockstep", bus()), "inflight_quick"));
+  EXPECT_GT(in_process.size(), 4500U);
+  EXPECT_TRUE(in_process == lockstep);
 }
 
 TEST(Bits, AnotherSeedGivesOtherFrames) {
