@@ -53,6 +53,16 @@ TEST_P(RunOfScenario, OutputsPassInLockstep) {
 INSTANTIATE_TEST_SUITE_P(Run, RunOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps"));
 
+TEST(Run, AnAlignmentInFlightPassesInRealTime) {
+  const std::string report = scratch("inflight.json");
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --json {}", scenario("inflight_quick"), bus(), report));
+  ASSERT_NE(ended.code, 2) << ended.err;
+  expect_outputs_passed(ended, read_json(report));
+  EXPECT_EQ(read_json(report)["from_target"]["navigation_answers"], 1500);
+  EXPECT_EQ(read_json(report)["fixes"]["outcomes"]["accepted"], 29);
+}
+
 TEST(Run, ATargetKilledInMidRunIsNamed) {
   const std::string mortal = scratch("mortal_target");
   std::ofstream(mortal) << "#!/bin/sh\nexec timeout -s KILL 1 " HIL_TARGET " \"$@\"\n";
