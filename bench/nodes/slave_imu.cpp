@@ -16,7 +16,7 @@ constexpr std::int8_t temperature_degc = 25;  // the error model knows no temper
 
 SlaveImu::SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& config, world::Stream stream)
     : flight_(flight),
-      imu_(config.errors, std::move(stream)),
+      imu_(config.errors, stream),
       sampling_(flight.interval_us(), config.schedule.latency_us, flight.end_us()),
       theta_rounding_(SlaveImuDeltaTheta::info.signals[0]),
       velocity_rounding_(SlaveImuDeltaV::info.signals[0]) {}

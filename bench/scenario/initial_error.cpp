@@ -6,7 +6,7 @@ namespace canhil::scenario {
 
 world::NavigationErrorModel read_initial_error(Section& section) {
   const Limits sigma = Limits::at_least(0);
-  const world::NavigationErrorModel model{
+  world::NavigationErrorModel model{
       .position = {.value = section.three("position_m"), .sigma = section.three("position_sigma_m", sigma)},
       .velocity = {.value = section.three("velocity_mps"),
                    .sigma = section.three("velocity_sigma_mps", sigma)},

@@ -9,7 +9,7 @@ namespace canhil::test {
 namespace {
 
 std::string record(const std::string& name, const std::string& options) {
-  const std::string log = scratch(name);
+  std::string log = scratch(name);
   const Ended ended =
       hil_bench(fmt::format("run {} {} --log {}", scenario("transfer_alignment_quick"), options, log));
   EXPECT_NE(ended.code, 2) << ended.err;
