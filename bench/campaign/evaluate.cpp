@@ -105,6 +105,49 @@ void answer(const ValueAt& rule, const Runs& runs, const Runs& /*other*/, Answer
     bars.expect(rms >= *rule.at_least, "at least " + with_unit(*rule.at_least, rule.quantity));
 }
 
+void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const Unit& unit = rule.unit;
+  const RunDistribution found = run_distribution(runs, rule.quantity, rule.at_us, rule.below.value_or(0),
+                                                 static_cast<std::size_t>(rule.batch));
+  const auto words = [&](double value) {
+    return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
+  };
+  out.measured = fmt::format("RMS {} (of {} runs: {:.4g} to {:.4g}), median {}, p90 {}", words(found.rms),
+                             rule.batch, found.rms_low / unit.factor, found.rms_high / unit.factor,
+                             words(found.median), words(found.p90));
+  if (rule.below)
+    out.measured += fmt::format(", below {} in {:.1f} %", words(*rule.below), 100 * found.below);
+  out.measured += missing_note(found.missing);
+  const auto add = [&](std::string_view stem, double value) {
+    out.figures.emplace_back(fmt::format("{}{}", stem, unit.ending), value / unit.factor);
+  };
+  add("rms", found.rms);
+  add("rms_low", found.rms_low);
+  add("rms_high", found.rms_high);
+  add("mean", found.mean);
+  add("median", found.median);
+  add("p90", found.p90);
+  if (rule.below) out.figures.emplace_back("fraction_below", found.below);
+  Bars bars(out, found.missing == 0);
+  const auto at_most = [&](std::string_view what, double value, const std::optional<double>& bar) {
+    if (bar) bars.expect(value <= *bar, fmt::format("{} at most {}", what, words(*bar)));
+  };
+  const auto at_least = [&](std::string_view what, double value, const std::optional<double>& bar) {
+    if (bar) bars.expect(value >= *bar, fmt::format("{} at least {}", what, words(*bar)));
+  };
+  at_most("RMS", found.rms, rule.rms_at_most);
+  at_least("RMS", found.rms, rule.rms_at_least);
+  at_most("median", found.median, rule.median_at_most);
+  at_least("median", found.median, rule.median_at_least);
+  at_most("p90", found.p90, rule.p90_at_most);
+  if (rule.fraction_at_least)
+    bars.expect(found.below >= *rule.fraction_at_least,
+                fmt::format("below in at least {:g} %", 100 * *rule.fraction_at_least));
+  if (rule.fraction_at_most)
+    bars.expect(found.below <= *rule.fraction_at_most,
+                fmt::format("below in at most {:g} %", 100 * *rule.fraction_at_most));
+}
+
 void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
   const auto [mean, deviation, count, missing] =
       window_statistics(runs, rule.quantity, rule.from_us, rule.to_us);
@@ -170,9 +213,15 @@ void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answe
   if (rule.at_least) bars.expect(count >= *rule.at_least, fmt::format("at least {}", *rule.at_least));
 }
 
+// Of all that its estimator tells: what it does not tell is NaN, and no sigma makes no ratio.
 bool finite(const Sample& sample) {
   for (std::size_t i = 0; i < quantity_names.size(); ++i) {
-    if (!std::isfinite(value_of(sample, static_cast<Quantity>(i)))) return false;
+    const auto quantity = static_cast<Quantity>(i);
+    if (quantity == Quantity::heading_over_sigma) continue;
+    const bool may_be_untold = quantity == Quantity::attitude_nees ||
+                               (quantity >= Quantity::p_north && quantity <= Quantity::p_down);
+    const double value = value_of(sample, quantity);
+    if (!std::isfinite(value) && !(may_be_untold && std::isnan(value))) return false;
   }
   return true;
 }

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "bench/scenario/rule.hpp"
+#include "bench/world/units.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 using scenario::Limits;
 using scenario::Section;
 
-constexpr std::size_t error_count = 9;  // of the quantities: the errors come first
+constexpr std::size_t error_count = 14;  // of the quantities: the normalised errors squared come last
 
 /// What the readers of all kinds need to know of the campaign.
 struct Context {
@@ -75,6 +76,36 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
   return rule;
 }
 
+Unit read_unit(Section& section, Quantity quantity) {
+  const Unit usual = unit_of(quantity);
+  if (usual.name != "mrad") return usual;
+  const std::vector<std::string> units{"mrad", "deg"};
+  return section.one_of("unit", units, "mrad") == "deg" ? Unit{"deg", "_deg", world::units::deg} : usual;
+}
+
+Distribution read(Section& section, const Context& context, Distribution rule) {
+  rule.quantity = read_error(section);
+  rule.unit = read_unit(section, rule.quantity);
+  rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
+  const auto bar = [&](std::string_view stem) {
+    return optional_number(section, fmt::format("{}{}", stem, rule.unit.ending), Limits::at_least(0));
+  };
+  rule.below = bar("below");
+  rule.rms_at_most = bar("rms_at_most");
+  rule.rms_at_least = bar("rms_at_least");
+  rule.median_at_most = bar("median_at_most");
+  rule.median_at_least = bar("median_at_least");
+  rule.p90_at_most = bar("p90_at_most");
+  rule.fraction_at_least = optional_number(section, "fraction_at_least", Limits::between(0, 1));
+  rule.fraction_at_most = optional_number(section, "fraction_at_most", Limits::between(0, 1));
+  if (!rule.below && (rule.fraction_at_least || rule.fraction_at_most)) {
+    section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
+                   "is of no use without a bound", fmt::format("below{} beside it", rule.unit.ending));
+  }
+  rule.batch = section.optional_integer("batch", 2).value_or(rule.batch);
+  return rule;
+}
+
 WindowMoments read(Section& section, const Context& context, WindowMoments rule) {
   rule.quantity = read_error(section);
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
@@ -129,6 +160,7 @@ std::string subject(const Lead& rule) {
   return fmt::format(" {} before {}", in_unit(rule.within, rule.quantity), rule.other);
 }
 std::string subject(const ValueAt& rule) { return fmt::format(" at {:g} s", seconds(rule.at_us)); }
+std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s", seconds(rule.at_us)); }
 std::string subject(const WindowMoments& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
 }

@@ -50,6 +50,18 @@ struct ValueAt {
   std::optional<double> at_most, at_least;  ///< [SI]
 };
 
+/// How |quantity| is spread over runs at a time: of each run the last update at or before it.
+struct Distribution {
+  static constexpr std::string_view kind = "distribution";
+  Quantity quantity = Quantity::heading;
+  std::int64_t at_us = 0;
+  Unit unit;                    ///< mrad or deg for angles
+  std::optional<double> below;  ///< asks for the fraction of runs below it [SI]
+  std::int64_t batch = 100;     ///< runs of the Monte Carlo whose RMS has the bootstrap range
+  std::optional<double> rms_at_most, rms_at_least, median_at_most, median_at_least, p90_at_most;  ///< [SI]
+  std::optional<double> fraction_at_least, fraction_at_most;
+};
+
 /// Mean and standard deviation over runs and a time window.
 struct WindowMoments {
   static constexpr std::string_view kind = "window";
@@ -91,7 +103,9 @@ struct Metric {
   std::string name;                   ///< unique; by default kind and subject
   std::string requirement;            ///< id carried to the reports; may be empty
   std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
-  std::variant<RmsCurve, TimeWithin, Lead, ValueAt, WindowMoments, Paired, Consistency, Diverged> rule;
+  std::variant<RmsCurve, TimeWithin, Lead, ValueAt, Distribution, WindowMoments, Paired, Consistency,
+               Diverged>
+      rule;
 };
 
 std::string_view kind(const Metric& metric);

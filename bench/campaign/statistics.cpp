@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/checks/timing.hpp"
+#include "bench/world/stream.hpp"
+
 namespace canhil::campaign {
 namespace {
 
@@ -51,6 +54,15 @@ double magnitude_at(const RunSeries& run, Quantity quantity, std::span<const std
   return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
 }
 
+// |value| of a run at its own last update at or before a time; NaN: none, or it had ended by then.
+double last_magnitude(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+  const bool ended = run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
+  const auto after = std::ranges::upper_bound(run.samples, t_us, {}, &Sample::t_us);
+  if (ended || after == run.samples.begin()) return nan;
+  const double value = std::abs(value_of(*std::prev(after), quantity));
+  return std::isfinite(value) ? value : nan;
+}
+
 }  // namespace
 
 std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity) {
@@ -83,6 +95,47 @@ std::optional<double> time_within(std::span<const CurvePoint> curve, double thre
   });
   if (outside == curve.rbegin()) return std::nullopt;  // at the end, or there is no end
   return seconds(outside.base()->t_us);
+}
+
+RunDistribution run_distribution(std::span<const RunSeries> runs, Quantity quantity, std::int64_t t_us,
+                                 double bound, std::size_t batch) {
+  constexpr std::size_t resamples = 2000;
+  std::vector<double> values;
+  for (const RunSeries& run : runs) {
+    const double value = last_magnitude(run, quantity, t_us);
+    if (!std::isnan(value)) values.push_back(value);
+  }
+  RunDistribution found{.missing = runs.size() - values.size()};
+  if (values.empty()) {
+    found.rms = found.mean = found.median = found.p90 = found.rms_low = found.rms_high = nan;
+    return found;
+  }
+  const auto n = static_cast<double>(values.size());
+  double sum = 0, squares = 0;
+  std::size_t inside = 0;
+  for (const double value : values) {
+    sum += value;
+    squares += value * value;
+    inside += value < bound ? 1 : 0;
+  }
+  found.mean = sum / n;
+  found.rms = std::sqrt(squares / n);
+  found.median = checks::quantile(values, 0.5);
+  found.p90 = checks::quantile(values, 0.9);
+  found.below = static_cast<double>(inside) / static_cast<double>(runs.size());
+  world::Stream stream(1, 0, "bootstrap");
+  std::vector<double> resampled(resamples);
+  for (double& rms : resampled) {
+    double sum_of_batch = 0;
+    for (std::size_t i = 0; i < batch; ++i) {
+      const double value = values[static_cast<std::size_t>(stream.uniform() * n)];
+      sum_of_batch += value * value;
+    }
+    rms = std::sqrt(sum_of_batch / static_cast<double>(batch));
+  }
+  found.rms_low = checks::quantile(resampled, 0.05);
+  found.rms_high = checks::quantile(resampled, 0.95);
+  return found;
 }
 
 WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,

@@ -30,6 +30,19 @@ std::optional<CurvePoint> value_at(std::span<const CurvePoint> curve, std::int64
 /// missing; none: never.
 std::optional<double> time_within(std::span<const CurvePoint> curve, double threshold);
 
+/// How a magnitude is spread over the runs at a time. Of each run its last update at or before it counts; a
+/// run that had ended by then, or has no finite value, is missing.
+struct RunDistribution {
+  double rms = 0, mean = 0, median = 0, p90 = 0;  ///< of the finite values [SI]; quantiles by nearest rank
+  double below = 0;                               ///< fraction of all runs below a bound
+  double rms_low = 0, rms_high = 0;               ///< 5 % and 95 % quantile of the RMS of `batch` runs
+  std::size_t missing = 0;
+};
+/// `batch`: runs drawn with replacement for each of 2000 bootstrap samples (Efron, Tibshirani (1993), chapter
+/// 6), from a fixed seed: the same runs give the same figures.
+RunDistribution run_distribution(std::span<const RunSeries> runs, Quantity quantity, std::int64_t t_us,
+                                 double bound, std::size_t batch);
+
 /// Mean and standard deviation of the signed quantity over all runs and updates of a window, ends included.
 struct WindowStatistics {
   double mean = 0;

@@ -42,12 +42,27 @@ std::vector<NavigationError> navigation_errors(const Observations& seen, const w
   return errors;
 }
 
+const NavigationError* first_after(const std::vector<NavigationError>& errors, std::int64_t cause_us,
+                                   std::int64_t navigation_us) {
+  const auto after =
+      std::ranges::upper_bound(errors, std::max(cause_us, navigation_us), {}, &NavigationError::t_us);
+  return after == errors.end() ? nullptr : &*after;
+}
+
+std::vector<Normalised> nis(const Observations& seen) {
+  std::vector<Normalised> series;
+  for (const FilterAnswer& answer : seen.filter) series.push_back({answer.cause_us, answer.nis});
+  for (const FixAnswer& answer : seen.fixes) {
+    if (used(answer.outcome)) series.push_back({answer.cause_us, answer.nis});
+  }
+  return series;
+}
+
 std::vector<Normalised> attitude_nees(const Observations& seen, const std::vector<NavigationError>& errors) {
   std::vector<Normalised> series;
   for (const FilterAnswer& answer : seen.filter) {
-    const auto after = std::ranges::upper_bound(errors, std::max(answer.cause_us, answer.navigation_us), {},
-                                                &NavigationError::t_us);
-    if (after == errors.end()) continue;
+    const NavigationError* after = first_after(errors, answer.cause_us, answer.navigation_us);
+    if (after == nullptr) continue;
     const Eigen::LDLT<Matrix3> factor(covariance(answer));
     const bool positive = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
     // A covariance that is not positive definite after rounding explains no error at all.
@@ -56,6 +71,36 @@ std::vector<Normalised> attitude_nees(const Observations& seen, const std::vecto
     series.push_back({answer.cause_us, nees});
   }
   return series;
+}
+
+std::vector<Normalised> heading_nees(const Observations& seen, const std::vector<NavigationError>& errors) {
+  std::vector<Normalised> series;
+  const auto add = [&](const auto& answer, double sigma) {
+    const NavigationError* after = first_after(errors, answer.cause_us, answer.navigation_us);
+    if (after != nullptr) series.push_back({answer.cause_us, std::pow(after->angles.heading / sigma, 2)});
+  };
+  for (const FilterAnswer& answer : seen.filter) add(answer, answer.attitude_sigma.z());
+  for (const FixAnswer& answer : seen.fixes) {
+    if (used(answer.outcome)) add(answer, answer.heading_sigma);
+  }
+  return series;
+}
+
+bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth) {
+  const bool considered = used(answer.outcome) || answer.outcome == messages::FixOutcome::gated;
+  return considered && answer.cause_us >= 0 && answer.cause_us <= truth.end_us();
+}
+
+Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth) {
+  return world::displacement_n(truth.at(answer.cause_us).position, answer.position);
+}
+
+std::vector<PositionError> position_errors(const Observations& seen, const world::FlightRecord& truth) {
+  std::vector<PositionError> errors;
+  for (const FixAnswer& answer : seen.fixes) {
+    if (tells_of_its_time(answer, truth)) errors.push_back({answer.cause_us, position_error(answer, truth)});
+  }
+  return errors;
 }
 
 std::optional<std::int64_t> convergence_us(const std::vector<NavigationError>& errors,

@@ -27,10 +27,34 @@ struct Normalised {
   double value = 0;
 };
 
+/// The first navigation answer that knew of a filter update: of a late fix not those between its time of
+/// validity and its arrival. `navigation_us` is the cause of the last one before the update. None: nullptr.
+const NavigationError* first_after(const std::vector<NavigationError>& errors, std::int64_t cause_us,
+                                   std::int64_t navigation_us);
+
+/// NIS (3 degrees of freedom) of each update: of velocity updates, and of the fixes that the filter used.
+std::vector<Normalised> nis(const Observations& seen);
+
 /// Attitude NEES (3 degrees of freedom) after each velocity update: phi' P^-1 phi, with P from the sigmas and
-/// correlations on the bus and phi from the first navigation answer after the update: of a late fix not the
-/// answers between its time of validity and its arrival, which knew nothing of it.
+/// correlations on the bus and phi from first_after().
 std::vector<Normalised> attitude_nees(const Observations& seen, const std::vector<NavigationError>& errors);
+
+/// (error / sigma)^2 of the heading (1 degree of freedom) after each update, with the error from
+/// first_after().
+std::vector<Normalised> heading_nees(const Observations& seen, const std::vector<NavigationError>& errors);
+
+/// The error (estimated - true) of one position, at the time of validity of its fix.
+struct PositionError {
+  std::int64_t t_us = 0;
+  world::Vector3 displacement_n = world::Vector3::Zero();  ///< NED [m]
+};
+
+/// Whether the position in an answer holds at a known time: that of a fix that the filter used or gated.
+bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth);
+/// Its error, NED [m].
+world::Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth);
+/// Errors of all answers that hold at a known time.
+std::vector<PositionError> position_errors(const Observations& seen, const world::FlightRecord& truth);
 
 /// When |error| of an angle enters the band for good [us]; none: it is outside at the end.
 std::optional<std::int64_t> convergence_us(const std::vector<NavigationError>& errors,

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <numeric>
 
+#include "bench/checks/finding.hpp"
+#include "bench/checks/fixes.hpp"
 #include "bench/checks/timing.hpp"
-#include "bench/world/units.hpp"
 
 namespace canhil::checks {
 namespace {
 
 using messages::AlignUpdate;
 using messages::AlignVelocityD;
-using world::units::mrad;
 
 constexpr double degrees_of_freedom = 3;
 
@@ -25,14 +25,6 @@ constexpr double lateness_share = 0.5;
 // Judged is what was answered; a target that falls silent for longer than this, or than two of its periods,
 // leaves a part of the window unjudged.
 constexpr double longest_stretch_s = 1;
-
-struct Finding {
-  Outcome outcome = Outcome::not_measured;
-  std::string measured;
-  std::string expected;
-};
-
-Outcome pass_if(bool good) { return good ? Outcome::pass : Outcome::fail; }
 
 double world::Euler::*member(scenario::AttitudeAxis axis) {
   switch (axis) {
@@ -60,20 +52,6 @@ double component(const world::Vector3& v, scenario::VelocityAxis axis) {
   return v.norm();
 }
 
-template <class Series>
-auto inside(const Series& series, const scenario::Window& window) {
-  Series part;
-  std::ranges::copy_if(series, std::back_inserter(part), [&](const auto& item) {
-    return item.t_us >= window.from_us && item.t_us <= window.to_us;
-  });
-  return part;
-}
-
-std::string seconds(const scenario::Window& window) {
-  return fmt::format("from {:g} to {:g} s", static_cast<double>(window.from_us) * 1e-6,
-                     static_cast<double>(window.to_us) * 1e-6);
-}
-
 // Judges each kind of rule; an absent answer is a failure of the target, never a pass.
 class Judge {
  public:
@@ -82,20 +60,22 @@ class Judge {
 
   Finding operator()(const scenario::AttitudeError& rule) const {
     const auto part = inside(errors_, rule.window);
-    const std::string expected =
-        fmt::format("|error| < {:g} mrad {}", rule.below / mrad, seconds(rule.window));
+    const std::string expected = fmt::format("|error| < {:g} {} {}", rule.below / rule.unit.factor,
+                                             rule.unit.name, seconds(rule.window));
     if (auto gap = unanswered(part, rule.window, AlignVelocityD::info.name); !gap.empty())
       return {Outcome::fail, std::move(gap), expected};
     double worst = 0;
     for (const auto& error : part) worst = std::max(worst, std::abs(error.angles.*member(rule.axis)));
-    return {pass_if(worst < rule.below), fmt::format("max {:.3f} mrad of {}", worst / mrad, part.size()),
+    return {pass_if(worst < rule.below),
+            fmt::format("max {:.3f} {} of {}", worst / rule.unit.factor, rule.unit.name, part.size()),
             expected};
   }
 
   Finding operator()(const scenario::Convergence& rule) const {
     const auto t_us = convergence_us(errors_, member(rule.axis), rule.within);
-    const std::string expected = fmt::format("within {:g} mrad for good before {:g} s", rule.within / mrad,
-                                             static_cast<double>(rule.before_us) * 1e-6);
+    const std::string expected =
+        fmt::format("within {:g} {} for good before {:g} s", rule.within / rule.unit.factor, rule.unit.name,
+                    static_cast<double>(rule.before_us) * 1e-6);
     const scenario::Window to_the_end{rule.before_us, evidence_.duration_us};
     if (auto gap = unanswered(inside(errors_, to_the_end), to_the_end, AlignVelocityD::info.name);
         !gap.empty()) {
@@ -117,13 +97,11 @@ class Judge {
   }
 
   Finding operator()(const scenario::Consistency& rule) const {
-    const auto part =
-        inside(rule.statistic == scenario::Statistic::nis ? nis() : attitude_nees(evidence_.seen, errors_),
-               rule.window);
+    const auto part = inside(series_of(rule.statistic), rule.window);
     const auto [low, high] = interval(rule, part.size());
     const std::string expected =
         fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(rule.window));
-    if (auto gap = unanswered(part, rule.window, AlignUpdate::info.name); !gap.empty())
+    if (auto gap = unanswered_updates(part, rule.window); !gap.empty())
       return {Outcome::fail, std::move(gap), expected};
     const double sum = std::accumulate(part.begin(), part.end(), 0.0,
                                        [](double s, const Normalised& n) { return s + n.value; });
@@ -188,6 +166,12 @@ class Judge {
     return finding;
   }
 
+  Finding operator()(const scenario::PositionError& rule) const {
+    return checks::judge(rule, evidence_.seen, evidence_.truth);
+  }
+  Finding operator()(const scenario::Fixes& rule) const { return checks::judge(rule, evidence_.seen); }
+  Finding operator()(const scenario::Coasting& rule) const { return checks::judge(rule, evidence_.seen); }
+
   Finding operator()(const scenario::Heartbeat& rule) const {
     const std::string expected =
         fmt::format("never silent for more than {:g} s", static_cast<double>(rule.silent_at_most_us) * 1e-6);
@@ -234,10 +218,24 @@ class Judge {
                        late_s * 1e3, quantile_name(q), lateness_share * 100);
   }
 
-  [[nodiscard]] std::vector<Normalised> nis() const {
-    std::vector<Normalised> series;
-    for (const FilterAnswer& answer : evidence_.seen.filter) series.push_back({answer.cause_us, answer.nis});
-    return series;
+  // Fixes may be lost on purpose: what the bench did not send needs no answer.
+  [[nodiscard]] std::string unanswered_updates(const std::vector<Normalised>& part,
+                                               const scenario::Window& window) const {
+    if (part.empty()) return "no answers";
+    return evidence_.seen.fixes.empty() ? unanswered(part, window, AlignUpdate::info.name)
+                                        : unanswered_fixes(evidence_.seen, window);
+  }
+
+  [[nodiscard]] std::vector<Normalised> series_of(scenario::Statistic statistic) const {
+    switch (statistic) {
+      case scenario::Statistic::nis:
+        return nis(evidence_.seen);
+      case scenario::Statistic::heading_nees:
+        return heading_nees(evidence_.seen, errors_);
+      case scenario::Statistic::attitude_nees:
+        break;
+    }
+    return attitude_nees(evidence_.seen, errors_);
   }
 
   // The mean of n independent chi-squares of k degrees of freedom is chi-square of n k, divided by n.
@@ -256,6 +254,11 @@ class Judge {
 };
 
 }  // namespace
+
+std::string seconds(const scenario::Window& window) {
+  return fmt::format("from {:g} to {:g} s", static_cast<double>(window.from_us) * 1e-6,
+                     static_cast<double>(window.to_us) * 1e-6);
+}
 
 std::string unfit_for_timing(const Observations& seen) {
   if (seen.receive_overflows > 0)

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <vector>
 
-#include "bench/world/attitude.hpp"
+#include "bench/world/earth.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {
@@ -32,10 +34,39 @@ struct FilterAnswer {
   world::Vector3 accel_bias = world::Vector3::Zero();  ///< body
 };
 
+/// Group FixFilter: what became of a fix of the SSBL or the GPS, and the filter after it. SI, rad.
+struct FixAnswer {
+  std::int64_t cause_us = 0;
+  std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
+  messages::FixSource source = messages::FixSource::ssbl;
+  messages::FixOutcome outcome = messages::FixOutcome::accepted;
+  double nis = 0;
+  world::Vector3 innovation = world::Vector3::Zero();  ///< NED [m]
+  world::Position position{};                          ///< at the time of validity of the fix
+  double tilt_sigma_north = 0, tilt_sigma_east = 0;    ///< of the misalignment
+  double heading_sigma = 0;
+  world::Vector3 velocity_sigma = world::Vector3::Zero();  ///< NED
+  world::Vector3 position_sigma = world::Vector3::Zero();  ///< NED [m]
+  world::Vector3 gyro_bias = world::Vector3::Zero();       ///< body
+  world::Vector3 accel_bias = world::Vector3::Zero();      ///< body
+  world::Vector3 fix_bias = world::Vector3::Zero();        ///< NED [m]
+  world::Vector3 fix_bias_sigma = world::Vector3::Zero();  ///< NED [m]
+  bool handed_over = false;                                ///< the heading is resolved and fed back
+  std::uint32_t repairs = 0;                               ///< of the covariance, since start
+  std::uint32_t gated = 0;                                 ///< fixes rejected by the gate, since start
+  std::uint32_t refused = 0;                               ///< fixes not used for another reason, since start
+};
+
+/// True if the filter made use of the fix.
+constexpr bool used(messages::FixOutcome outcome) {
+  return outcome == messages::FixOutcome::accepted || outcome == messages::FixOutcome::recovered;
+}
+
 /// One arrival of a message of the target.
 struct Arrival {
-  std::int64_t t_ns = 0;       ///< stamp of the port
-  std::int64_t cause_us = -1;  ///< time of validity of what it answers; -1: answers nothing
+  std::int64_t t_ns = 0;           ///< stamp of the port
+  std::int64_t cause_us = -1;      ///< time of validity of what it answers; -1: answers nothing
+  std::string_view cause_group{};  ///< sample group of what it answers
 };
 
 /// The last frame of a sample group that the bench sent.
@@ -48,12 +79,12 @@ struct Stimulus {
 struct Observations {
   std::vector<NavigationAnswer> navigation;
   std::vector<FilterAnswer> filter;
+  std::vector<FixAnswer> fixes;
 
   std::array<std::vector<Arrival>, messages::all_messages.size()> arrivals;  ///< by place in all_messages
-  std::vector<Stimulus> slave_imu;
-  std::vector<Stimulus> master_ins;
-  std::int64_t first_ns = 0;              ///< stamp of the bench's first transmission
-  std::int64_t last_ns = 0;               ///< and of its last one
+  std::map<std::string_view, std::vector<Stimulus>> stimuli;  ///< by sample group, those that are answered
+  std::int64_t first_ns = 0;                                  ///< stamp of the bench's first transmission
+  std::int64_t last_ns = 0;                                   ///< and of its last one
   std::vector<std::int64_t> lateness_ns;  ///< of every transmission of the bench against its deadline
   bool transmit_stamps_echoed = false;    ///< stamps of stimuli are the bus's, not the bench's
 

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <limits>
 
+#include "bench/checks/finding.hpp"
+
 namespace canhil::checks {
 namespace {
 
@@ -17,15 +19,19 @@ const std::vector<Arrival>& arrivals_of(const Observations& seen, const MessageI
   return seen.arrivals[static_cast<std::size_t>(&info - messages::all_messages.data())];
 }
 
-// Which group of the bench a group of the target answers.
-const std::vector<Stimulus>* stimuli_of(const Observations& seen, const MessageInfo& info) {
-  if (info.sample_group == messages::AlignVelocityD::info.sample_group) return &seen.slave_imu;
-  if (info.sample_group == messages::AlignUpdate::info.sample_group) return &seen.master_ins;
-  return nullptr;
+const std::vector<Stimulus>* stimuli_of(const Observations& seen, std::string_view group) {
+  const auto found = seen.stimuli.find(group);
+  return found == seen.stimuli.end() ? nullptr : &found->second;
 }
 
-bool within(const scenario::Window& window, std::int64_t t_us) {
-  return t_us >= window.from_us && t_us <= window.to_us;
+// What a message answers in this run: the stimuli of each group that was sent.
+std::vector<const std::vector<Stimulus>*> all_stimuli_of(const Observations& seen, const MessageInfo& info) {
+  std::vector<const std::vector<Stimulus>*> all;
+  for (const std::string_view group : info.answers) {
+    const std::vector<Stimulus>* stimuli = stimuli_of(seen, group);
+    if (stimuli != nullptr && !stimuli->empty()) all.push_back(stimuli);
+  }
+  return all;
 }
 
 }  // namespace
@@ -52,10 +58,10 @@ std::vector<double> latencies_s(const Observations& seen, std::string_view messa
                                 const scenario::Window& window) {
   std::vector<double> sample;
   const MessageInfo* info = info_of(message);
-  const std::vector<Stimulus>* stimuli = info == nullptr ? nullptr : stimuli_of(seen, *info);
-  if (stimuli == nullptr) return sample;
+  if (info == nullptr) return sample;
   for (const Arrival& arrival : arrivals_of(seen, *info)) {
-    if (arrival.cause_us < 0 || !within(window, arrival.cause_us)) continue;
+    const std::vector<Stimulus>* stimuli = stimuli_of(seen, arrival.cause_group);
+    if (stimuli == nullptr || !within(window, arrival.cause_us)) continue;
     const auto cause = std::ranges::lower_bound(*stimuli, arrival.cause_us, {}, &Stimulus::valid_us);
     if (cause == stimuli->end() || cause->valid_us != arrival.cause_us) continue;
     sample.push_back(static_cast<double>(arrival.t_ns - cause->t_ns) * 1e-9);
@@ -68,7 +74,7 @@ std::vector<double> periods_s(const Observations& seen, std::string_view message
   std::vector<double> sample;
   const MessageInfo* info = info_of(message);
   if (info == nullptr) return sample;
-  const bool answers = stimuli_of(seen, *info) != nullptr;
+  const bool answers = !info->answers.empty();
   const Arrival* before = nullptr;
   for (const Arrival& arrival : arrivals_of(seen, *info)) {
     if (answers && !within(window, arrival.cause_us)) continue;
@@ -93,16 +99,16 @@ double longest_silence_s(const Observations& seen, std::string_view message) {
 
 double ended_before_s(const Observations& seen, std::string_view message, const scenario::Window& window) {
   const MessageInfo* info = info_of(message);
-  const std::vector<Stimulus>* stimuli = info == nullptr ? nullptr : stimuli_of(seen, *info);
-  std::int64_t end_ns = seen.last_ns;
-  if (stimuli != nullptr) {
-    const auto after = std::ranges::upper_bound(*stimuli, window.to_us, {}, &Stimulus::valid_us);
-    if (after != stimuli->begin()) end_ns = std::prev(after)->t_ns;
-  }
   double ended_s = std::numeric_limits<double>::infinity();
   if (info == nullptr) return ended_s;
+  const auto all = all_stimuli_of(seen, *info);
+  std::int64_t end_ns = all.empty() ? seen.last_ns : 0;
+  for (const std::vector<Stimulus>* stimuli : all) {
+    const auto after = std::ranges::upper_bound(*stimuli, window.to_us, {}, &Stimulus::valid_us);
+    end_ns = std::max(end_ns, after == stimuli->begin() ? seen.last_ns : std::prev(after)->t_ns);
+  }
   for (const Arrival& arrival : arrivals_of(seen, *info)) {
-    if (stimuli == nullptr || within(window, arrival.cause_us))
+    if (all.empty() || within(window, arrival.cause_us))
       ended_s = static_cast<double>(end_ns - arrival.t_ns) * 1e-9;
   }
   return ended_s;
@@ -112,11 +118,15 @@ double nominal_period_s(const Observations& seen, std::string_view message) {
   const MessageInfo* info = info_of(message);
   if (info == nullptr) return 0;
   const double cycle_s = static_cast<double>(info->cycle_time_us) * 1e-6;
-  const std::vector<Stimulus>* stimuli = stimuli_of(seen, *info);
-  if (stimuli == nullptr || stimuli->size() < 2) return cycle_s;
-  const double span_us = static_cast<double>(stimuli->back().valid_us - stimuli->front().valid_us);
-  const double stimulus_s = span_us / static_cast<double>(stimuli->size() - 1) * 1e-6;
-  return stimuli == &seen.slave_imu ? std::max(cycle_s, stimulus_s) : stimulus_s;
+  const auto all = all_stimuli_of(seen, *info);
+  if (all.size() > 1) return 0;
+  if (all.empty() || all[0]->size() < 2) return cycle_s;
+  const std::vector<Stimulus>& stimuli = *all[0];
+  const double span_us = static_cast<double>(stimuli.back().valid_us - stimuli.front().valid_us);
+  const double stimulus_s = span_us / static_cast<double>(stimuli.size() - 1) * 1e-6;
+  // Navigation answers keep an interval of their own where the IMU is faster.
+  const bool navigation = info->sample_group == messages::AlignVelocityD::info.sample_group;
+  return navigation ? std::max(cycle_s, stimulus_s) : stimulus_s;
 }
 
 }  // namespace canhil::checks

@@ -35,7 +35,8 @@ std::vector<double> periods_s(const Observations& seen, std::string_view message
 /// The longest time [s] without a message, the beginning and the end of the run included.
 double longest_silence_s(const Observations& seen, std::string_view message);
 
-/// The period [s] a message should have: that of its stimulus as it was sent, or its cycle time in the DBC.
+/// The period [s] a message should have: that of its stimulus as it was sent, or its cycle time in the DBC;
+/// 0: none, as it answers groups of several rhythms.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
 /// How much later [s] than its stimuli within the window a message ended: from its last arrival to the last

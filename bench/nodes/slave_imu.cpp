@@ -14,9 +14,12 @@ constexpr std::int8_t temperature_degc = 25;  // the error model knows no temper
 
 }  // namespace
 
-SlaveImu::SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& config, world::Stream stream)
+SlaveImu::SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& config, world::Stream stream,
+                   world::Stream losses)
     : flight_(flight),
       imu_(config.errors, stream),
+      losses_(losses),
+      loss_probability_(config.loss_probability),
       sampling_(flight.interval_us(), config.schedule.latency_us, flight.end_us()),
       theta_rounding_(SlaveImuDeltaTheta::info.signals[0]),
       velocity_rounding_(SlaveImuDeltaV::info.signals[0]) {}
@@ -36,6 +39,7 @@ void SlaveImu::transmit(Transmission& out) {
   out.send(SlaveImuStatus{.time_of_validity_us = wrap_us(measured.t_us),
                           .interval_us = static_cast<double>(measured.interval_us),
                           .temperature_degc = temperature_degc});
+  if (losses_.uniform() < loss_probability_) out.clear();  // counted as sent: the receiver sees the gap
   ++next_;
   sampling_.advance();
 }

@@ -9,10 +9,12 @@
 
 namespace canhil::nodes {
 
-/// Sends the group SlaveImu at every epoch of the flight record; the record must outlive the node.
+/// Sends the group SlaveImu at every epoch of the flight record; the record must outlive the node. Losses
+/// have numbers of their own, so that they change no measurement.
 class SlaveImu final : public Node {
  public:
-  SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& config, world::Stream stream);
+  SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& config, world::Stream stream,
+           world::Stream losses);
 
   [[nodiscard]] std::int64_t due_us() const override { return sampling_.due_us(); }
   void transmit(Transmission& out) override;
@@ -23,6 +25,8 @@ class SlaveImu final : public Node {
  private:
   const world::FlightRecord& flight_;
   world::ErroneousImu imu_;
+  world::Stream losses_;
+  double loss_probability_;
   Sampling sampling_;
   std::size_t next_ = 0;
   IncrementRounding theta_rounding_;

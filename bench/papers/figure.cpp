@@ -16,12 +16,22 @@ struct Layout {
   int width, height;             // [px]
   int left, right, top, bottom;  // margins [px]
   int font;                      // [px]
-  double x_step;                 // of the grid [s]
+  int x_steps;                   // of the grid, about
 };
 constexpr Layout desktop{
-    .width = 800, .height = 440, .left = 76, .right = 0, .top = 14, .bottom = 58, .font = 15, .x_step = 2};
+    .width = 800, .height = 440, .left = 76, .right = 0, .top = 14, .bottom = 58, .font = 15, .x_steps = 10};
 constexpr Layout phone{
-    .width = 390, .height = 410, .left = 62, .right = 0, .top = 12, .bottom = 54, .font = 13, .x_step = 5};
+    .width = 390, .height = 410, .left = 62, .right = 0, .top = 12, .bottom = 54, .font = 13, .x_steps = 4};
+
+// 1, 2 or 5 times a power of ten: a grid of about so many steps.
+double grid_step(double length, int steps) {
+  const double wanted = length / steps;
+  const double power = std::pow(10, std::floor(std::log10(wanted)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (wanted <= digit * power * 1.001) return digit * power;
+  }
+  return 10 * power;
+}
 
 // The margin on the right holds the names of the curves and the markers before them.
 Layout with_room_for_labels(Layout layout, const Figure& figure) {
@@ -118,7 +128,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   const double length = figure.x_range.second - figure.x_range.first;
   script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n", figure.x_range.first,
                         figure.x_range.second, figure.y_range.first, figure.y_range.second,
-                        length <= 10 ? layout.x_step / 2 : layout.x_step);
+                        grid_step(length, layout.x_steps));
   // gnuplot would put the names of the axes where tick labels leave room: outside, on a narrow figure.
   script += fmt::format(
       "set label 'time [s]' at screen {:.4f},{:.4f} center\n"

@@ -38,6 +38,12 @@ struct Page {
   std::vector<Section> sections;
 };
 
+/// What became of a paper.
+struct Reproduction {
+  Page page;
+  bool bars_met = false;
+};
+
 /// One HTML file without anything outside it, for phone and desktop. Error: a figure cannot be drawn.
 Result<std::string> html(const Page& page);
 

@@ -1,19 +1,51 @@
 #include "bench/papers/paper.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
 
 #include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
+#include "bench/papers/inflight_alignment/reproduction.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
-#include "bench/papers/transfer_alignment/sections.hpp"
 #include "bench/report/file.hpp"
 #include "bench/run/contract.hpp"
 
 namespace canhil::papers {
+namespace {
+
+// The papers: what a new one joins.
+struct Paper {
+  std::string_view name;
+  Result<std::optional<Reproduction>> (*reproduce)(const FlyOptions& options,
+                                                   const std::filesystem::path& exact,
+                                                   const std::atomic<bool>& stop);
+  bool compares = false;  // with results of the twin that rounds nothing
+};
+constexpr std::array papers{
+    Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
+    Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce}};
+
+Result<Paper> find_paper(std::string_view name) {
+  const auto found = std::ranges::find(papers, name, &Paper::name);
+  if (found != papers.end()) return *found;
+  std::vector<std::string_view> names;
+  for (const Paper& paper : papers) names.push_back(paper.name);
+  return failure(fmt::format("paper '{}' is unknown, expected {}", name, fmt::join(names, " or ")));
+}
+
+}  // namespace
 
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop) {
-  if (request.paper != "transfer")
-    return failure(fmt::format("paper '{}' is unknown, expected transfer", request.paper));
+  const auto paper = find_paper(request.paper);
+  if (!paper) return tl::unexpected(paper.error());
+  if (!request.exact.empty() && !paper->compares)
+    return failure(
+        fmt::format("--exact: paper '{}' compares with no results without rounding, expected with "
+                    "--paper transfer",
+                    request.paper));
   if (request.runs == 0U) return failure("--runs 0: expected at least 1");
   if (!request.exact.empty() && !run::frames_round())
     return failure("--exact: this program rounds nothing itself, expected hil-bench to compare with");
@@ -22,7 +54,7 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   if (error)
     return failure(fmt::format("folder '{}': cannot be made: {}", request.folder.string(), error.message()));
   Reproduced reproduced;
-  reproduced.page = request.folder / "transfer.html";
+  reproduced.page = request.folder / fmt::format("{}.html", request.paper);
   if (auto writable = report::check_writable(reproduced.page.string()); !writable)
     return tl::unexpected(writable.error());
   if (auto there = check_gnuplot(); !there) return tl::unexpected(there.error());
@@ -31,18 +63,16 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
     if (auto there = campaign::Store::open(request.exact); !there) return tl::unexpected(there.error());
   }
 
-  const auto results = transfer_alignment::fly(
-      {.folder = request.folder, .runs = request.runs, .exact = request.exact, .progress = request.progress},
-      stop);
-  if (!results) return tl::unexpected(results.error());
-  if (!*results) return reproduced;
-  const Page page = transfer_alignment::page(**results);
-  const auto drawn = html(page);
+  const auto written = paper->reproduce(
+      {.folder = request.folder, .runs = request.runs, .progress = request.progress}, request.exact, stop);
+  if (!written) return tl::unexpected(written.error());
+  if (!*written) return reproduced;
+  const auto drawn = html((*written)->page);
   if (!drawn) return tl::unexpected(drawn.error());
-  if (auto written = report::write_file(reproduced.page.string(), *drawn); !written)
-    return tl::unexpected(written.error());
-  reproduced.text = text(page);
-  reproduced.outcome = transfer_alignment::bars_met(**results) ? Outcome::bars_met : Outcome::bars_missed;
+  if (auto saved = report::write_file(reproduced.page.string(), *drawn); !saved)
+    return tl::unexpected(saved.error());
+  reproduced.text = text((*written)->page);
+  reproduced.outcome = (*written)->bars_met ? Outcome::bars_met : Outcome::bars_missed;
   return reproduced;
 }
 

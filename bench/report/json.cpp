@@ -56,6 +56,13 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                            {"heading_rad", summary.final_error_rad->heading},
                            {"velocity_mps", summary.final_velocity_error_mps}};
   }
+  if (summary.fixes) {
+    page["fixes"] = {
+        {"repairs", summary.fixes->repairs},
+        {"resolved_s", summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr)},
+        {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
+    for (const auto& [outcome, count] : summary.fixes->outcomes) page["fixes"]["outcomes"][outcome] = count;
+  }
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {
       page["latency_s"][row.message] = object(row.latency_s);

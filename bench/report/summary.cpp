@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/checks/errors.hpp"
 #include "bench/world/units.hpp"
 
@@ -10,8 +12,23 @@ namespace {
 
 using messages::AlignUpdate;
 using messages::AlignVelocityD;
+using messages::FixUpdate;
 
 constexpr double bands_mrad[] = {10, 3, 2, 1};
+
+FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes) {
+  FixSummary summary{.outcomes = {},
+                     .repairs = fixes.back().repairs,
+                     .resolved_s = {},
+                     .heading_sigma_rad = fixes.back().heading_sigma};
+  for (const messages::FixOutcome outcome : messages::enumerators<messages::FixOutcome>) {
+    const auto count = std::ranges::count(fixes, outcome, &checks::FixAnswer::outcome);
+    if (count > 0) summary.outcomes.emplace_back(name_of(outcome), count);
+  }
+  const auto resolved = std::ranges::find(fixes, true, &checks::FixAnswer::handed_over);
+  if (resolved != fixes.end()) summary.resolved_s = static_cast<double>(resolved->cause_us) / 1e6;
+  return summary;
+}
 
 }  // namespace
 
@@ -28,10 +45,13 @@ Summary summarise(const run::Run& run) {
     summary.final_velocity_error_mps = errors.back().v_eb_n.norm();
   }
   summary.navigation_answers = run.seen.navigation.size();
-  summary.filter_answers = run.seen.filter.size();
+  summary.filter_answers = run.seen.filter.size() + run.seen.fixes.size();
+
+  if (!run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
 
   const scenario::Window everything{0, run.truth.end_us()};
-  for (const std::string_view message : {AlignVelocityD::info.name, AlignUpdate::info.name}) {
+  const std::string_view update = run.seen.fixes.empty() ? AlignUpdate::info.name : FixUpdate::info.name;
+  for (const std::string_view message : {AlignVelocityD::info.name, update}) {
     summary.latencies.push_back(
         {.message = std::string(message),
          .latency_s = checks::distribution(checks::latencies_s(run.seen, message, everything)),
@@ -57,6 +77,8 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   };
   add(scenario.slave_imu, messages::SlaveImuStatus::info);
   add(scenario.master_ins, messages::MasterInsVelocityD::info);
+  add(scenario.ssbl, messages::SsblRelativeD::info);
+  add(scenario.gps, messages::GpsTime::info);
   return lines;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/checks/timing.hpp"
@@ -23,12 +24,21 @@ struct MessageLatency {
   checks::Distribution period_s;
 };
 
+/// What became of the fixes of an alignment in flight, as the target says.
+struct FixSummary {
+  std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< those that occurred
+  std::uint32_t repairs = 0;                                  ///< of the covariance
+  std::optional<double> resolved_s;                           ///< heading resolved; none: not by the end
+  double heading_sigma_rad = 0;                               ///< at the end
+};
+
 struct Summary {
   std::vector<BandEntry> heading_entries;
   std::optional<world::Euler> final_error_rad;  ///< of the last navigation answer
   double final_velocity_error_mps = 0;
   std::size_t navigation_answers = 0;
   std::size_t filter_answers = 0;
+  std::optional<FixSummary> fixes;        ///< none: the target answered no fix
   std::vector<MessageLatency> latencies;  ///< of the closing message of each group
   checks::Distribution lateness_s;        ///< of the bench's own transmissions
   std::string stamp_source;               ///< what the latencies were measured with

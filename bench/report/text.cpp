@@ -24,6 +24,15 @@ std::string_view label(checks::Outcome outcome) {
   return "?";
 }
 
+std::string words(const FixSummary& fixes) {
+  std::string outcomes;
+  for (const auto& [outcome, count] : fixes.outcomes)
+    outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", outcome, count);
+  return fmt::format("{}; repairs {}; heading {}, sigma {:.3f} deg at the end", outcomes, fixes.repairs,
+                     fixes.resolved_s ? fmt::format("resolved at {:g} s", *fixes.resolved_s) : "not resolved",
+                     fixes.heading_sigma_rad / world::units::deg);
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
@@ -60,6 +69,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   } else {
     fmt::format_to(out, "\n  the target gave no navigation answers\n");
   }
+  if (summary.fixes) fmt::format_to(out, "  fixes                         {}\n", words(*summary.fixes));
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {
       fmt::format_to(out, "  latency {:<22}p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} answers\n",

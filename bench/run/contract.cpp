@@ -18,9 +18,14 @@ scenario::Contract contract() {
   scenario::Contract contract{.estimators = names<messages::Estimator>(),
                               .algorithms = names<messages::Algorithm>(),
                               .parameters = names<messages::Parameter>(),
-                              .messages = {}};
+                              .messages = {},
+                              .fix_outcomes = names<messages::FixOutcome>(),
+                              .answers = {}};
   std::erase(contract.estimators, name_of(messages::Estimator::none));
-  for (const MessageInfo& info : messages::all_messages) contract.messages.emplace_back(info.name);
+  for (const MessageInfo& info : messages::all_messages) {
+    contract.messages.emplace_back(info.name);
+    if (!info.answers.empty()) contract.answers.emplace_back(info.name);
+  }
   return contract;
 }
 

@@ -1,7 +1,9 @@
 #include "bench/run/flight.hpp"
 
+#include "bench/nodes/gps.hpp"
 #include "bench/nodes/master_ins.hpp"
 #include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/ssbl.hpp"
 #include "bench/nodes/time_keeper.hpp"
 #include "bench/run/wire_limits.hpp"
 
@@ -22,7 +24,7 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
 Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                         std::uint64_t run_index) {
   world::Stream stream(scenario.seed, run_index, "initial_error");
-  InitialState state = initial_state(measure(truth.epochs().front(), scenario.initial_error, stream),
+  InitialState state = initial_state(initial_solution(truth.epochs().front(), scenario.initial_error, stream),
                                      scenario.target.initial_sigma);
   if (auto fits = check_fits(state); !fits) return tl::unexpected(fits.error());
   return state;
@@ -33,11 +35,14 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
   std::vector<std::unique_ptr<nodes::Node>> sensors;
   const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
   if (scenario.slave_imu) {
-    sensors.push_back(std::make_unique<nodes::SlaveImu>(truth, *scenario.slave_imu, stream("slave_imu")));
+    sensors.push_back(std::make_unique<nodes::SlaveImu>(truth, *scenario.slave_imu, stream("slave_imu"),
+                                                        stream("slave_imu.loss")));
   }
   if (scenario.master_ins) {
     sensors.push_back(std::make_unique<nodes::MasterIns>(truth, *scenario.master_ins, stream("master_ins")));
   }
+  if (scenario.ssbl) sensors.push_back(std::make_unique<nodes::Ssbl>(truth, *scenario.ssbl, stream("ssbl")));
+  if (scenario.gps) sensors.push_back(std::make_unique<nodes::Gps>(truth, *scenario.gps, stream("gps")));
   return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep)};
 }
 

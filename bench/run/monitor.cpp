@@ -19,12 +19,37 @@ constexpr Routes target_messages([](const MessageInfo& info) {
   return info.sender == TargetHeartbeat::info.sender;
 });
 
-// The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
-void restamp(std::vector<checks::Stimulus>& stimuli, std::int64_t valid_us, std::int64_t t_ns) {
-  const auto found = std::find_if(stimuli.rbegin(), stimuli.rend(), [&](const checks::Stimulus& stimulus) {
-    return stimulus.valid_us == valid_us;
+constexpr bool is_answered(std::string_view group) {
+  return std::ranges::any_of(all_messages, [&](const MessageInfo& info) {
+    return std::ranges::find(info.answers, group) != info.answers.end();
   });
-  if (found != stimuli.rend()) found->t_ns = t_ns;
+}
+
+// The message that closes a sample group which the target answers.
+template <class Message>
+concept ClosesStimulus = requires(Message message) {
+  message.time_of_validity_us;
+}
+&&is_answered(Message::info.sample_group);
+
+// The sample group that a frame of the bench closes, and its time of validity.
+struct Closed {
+  std::string_view group;  // empty: none that is answered
+  std::uint32_t valid_us = 0;
+};
+
+Closed closed_by(const Frame& frame) {
+  Closed closed;
+  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
+    if constexpr (ClosesStimulus<Message>) {
+      if (frame.id == Message::info.id)
+        closed = {Message::info.sample_group, from_frame<Message>(frame).time_of_validity_us};
+    }
+  };
+  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+    (try_one(std::type_identity<Messages>{}), ...);
+  }(std::type_identity<AllMessages>{});
+  return closed;
 }
 
 }  // namespace
@@ -35,25 +60,21 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
   seen_.lateness_ns.push_back(late_ns);
   if (frame.id == Sync::info.id) {
     now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
-  } else if (frame.id == SlaveImuStatus::info.id) {
-    seen_.slave_imu.push_back(
-        {unwrap_us(from_frame<SlaveImuStatus>(frame).time_of_validity_us, now_us_), t_ns});
-  } else if (frame.id == MasterInsVelocityD::info.id) {
-    seen_.master_ins.push_back(
-        {unwrap_us(from_frame<MasterInsVelocityD>(frame).time_of_validity_us, now_us_), t_ns});
+  } else if (const Closed closed = closed_by(frame); !closed.group.empty()) {
+    seen_.stimuli[closed.group].push_back({unwrap_us(closed.valid_us, now_us_), t_ns});
   }
 }
 
+// The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
 void Monitor::echoed(const Received& received) {
-  const Frame& frame = received.frame;
-  if (frame.id == SlaveImuStatus::info.id) {
-    seen_.transmit_stamps_echoed = true;
-    restamp(seen_.slave_imu, unwrap_us(from_frame<SlaveImuStatus>(frame).time_of_validity_us, now_us_),
-            received.t_ns);
-  } else if (frame.id == MasterInsVelocityD::info.id) {
-    restamp(seen_.master_ins, unwrap_us(from_frame<MasterInsVelocityD>(frame).time_of_validity_us, now_us_),
-            received.t_ns);
-  }
+  const Closed closed = closed_by(received.frame);
+  if (closed.group.empty()) return;
+  seen_.transmit_stamps_echoed = true;
+  std::vector<checks::Stimulus>& stimuli = seen_.stimuli[closed.group];
+  const auto found = std::find_if(
+      stimuli.rbegin(), stimuli.rend(),
+      [valid_us = unwrap_us(closed.valid_us, now_us_)](const auto& s) { return s.valid_us == valid_us; });
+  if (found != stimuli.rend()) found->t_ns = received.t_ns;
 }
 
 void Monitor::received(const Received& received) {
@@ -84,30 +105,6 @@ void Monitor::received(const Received& received) {
 
 void Monitor::decode(const Frame& frame, std::uint8_t counter) {
   switch (frame.id) {
-    case AlignAttitude::info.id:
-      return put_navigation<AlignAttitude>(frame, counter);
-    case AlignVelocityNE::info.id:
-      return put_navigation<AlignVelocityNE>(frame, counter);
-    case AlignVelocityD::info.id:
-      return put_navigation<AlignVelocityD>(frame, counter);
-    case AlignInnovation::info.id:
-      return put_filter<AlignInnovation>(frame, counter);
-    case AlignAttitudeSigma::info.id:
-      return put_filter<AlignAttitudeSigma>(frame, counter);
-    case AlignAttitudeCorrelation::info.id:
-      return put_filter<AlignAttitudeCorrelation>(frame, counter);
-    case AlignVelocitySigma::info.id:
-      return put_filter<AlignVelocitySigma>(frame, counter);
-    case AlignGyroBias::info.id:
-      return put_filter<AlignGyroBias>(frame, counter);
-    case AlignGyroBiasSigma::info.id:
-      return put_filter<AlignGyroBiasSigma>(frame, counter);
-    case AlignAccelBias::info.id:
-      return put_filter<AlignAccelBias>(frame, counter);
-    case AlignAccelBiasSigma::info.id:
-      return put_filter<AlignAccelBiasSigma>(frame, counter);
-    case AlignUpdate::info.id:
-      return put_filter<AlignUpdate>(frame, counter);
     case TargetHeartbeat::info.id:
       seen_.heartbeat = from_frame<TargetHeartbeat>(frame);
       return;
@@ -122,26 +119,35 @@ void Monitor::decode(const Frame& frame, std::uint8_t counter) {
       return;
     }
     default:
-      return;
+      break;
   }
+  if (put(navigation_, frame, counter)) on_navigation();
+  if (put(filter_, frame, counter)) on_filter();
+  if (put(fix_, frame, counter)) on_fix();
 }
 
-template <class Message>
-void Monitor::put_navigation(const Frame& frame, std::uint8_t counter) {
-  using Group = decltype(navigation_);
-  if (navigation_.put(from_frame<Message>(frame), counter) == Group::Outcome::complete) on_navigation();
-}
-
-template <class Message>
-void Monitor::put_filter(const Frame& frame, std::uint8_t counter) {
-  using Group = decltype(filter_);
-  if (filter_.put(from_frame<Message>(frame), counter) == Group::Outcome::complete) on_filter();
+// Puts a frame into the group if it is one of its messages; true: the group is whole now.
+template <class... Messages>
+bool Monitor::put(SampleGroup<Messages...>& group, const Frame& frame, std::uint8_t counter) {
+  bool complete = false;
+  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
+    if (frame.id == Message::info.id)
+      complete =
+          group.put(from_frame<Message>(frame), counter) == SampleGroup<Messages...>::Outcome::complete;
+  };
+  (try_one(std::type_identity<Messages>{}), ...);
+  return complete;
 }
 
 // Gives the newest arrival of every message of a whole group its cause.
 template <class... Messages>
-void Monitor::attribute(std::int64_t cause_us) {
-  ((seen_.arrivals[message_index<Messages>()].back().cause_us = cause_us), ...);
+void Monitor::attribute(const SampleGroup<Messages...>& /*group*/, std::int64_t cause_us,
+                        std::string_view cause_group) {
+  const auto to = [&](checks::Arrival& arrival) {
+    arrival.cause_us = cause_us;
+    arrival.cause_group = cause_group;
+  };
+  (to(seen_.arrivals[message_index<Messages>()].back()), ...);
 }
 
 void Monitor::on_navigation() {
@@ -155,7 +161,7 @@ void Monitor::on_navigation() {
        .v_eb_n =
            Vector3(horizontal.velocity_north_mps, horizontal.velocity_east_mps, vertical.velocity_down_mps),
        .coasting = attitude.coasting != 0});
-  attribute<AlignAttitude, AlignVelocityNE, AlignVelocityD>(cause_us);
+  attribute(navigation_, cause_us, AlignVelocityD::info.answers.front());
 }
 
 void Monitor::on_filter() {
@@ -181,8 +187,51 @@ void Monitor::on_filter() {
                           velocity.velocity_sigma_down_mps},
        .gyro_bias = Vector3(gyro.gyro_bias_x_degph, gyro.gyro_bias_y_degph, gyro.gyro_bias_z_degph) * degph,
        .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug});
-  attribute<AlignInnovation, AlignAttitudeSigma, AlignAttitudeCorrelation, AlignVelocitySigma, AlignGyroBias,
-            AlignGyroBiasSigma, AlignAccelBias, AlignAccelBiasSigma, AlignUpdate>(cause_us);
+  attribute(filter_, cause_us, AlignUpdate::info.answers.front());
+}
+
+void Monitor::on_fix() {
+  const auto& innovation = fix_.get<FixInnovation>();
+  const auto& latitude = fix_.get<FixPositionLatitude>();
+  const auto& attitude = fix_.get<FixAttitudeSigma>();
+  const auto& velocity = fix_.get<FixVelocitySigma>();
+  const auto& position = fix_.get<FixPositionSigma>();
+  const auto& gyro = fix_.get<FixGyroBias>();
+  const auto& accel = fix_.get<FixAccelBias>();
+  const auto& bias = fix_.get<FixBias>();
+  const auto& bias_sigma = fix_.get<FixBiasSigma>();
+  const auto& status = fix_.get<FixStatus>();
+  const auto& update = fix_.get<FixUpdate>();
+  const std::int64_t cause_us = unwrap_us(update.cause_time_us, now_us_);
+  seen_.fixes.push_back(
+      {.cause_us = cause_us,
+       .navigation_us = seen_.navigation.empty() ? -1 : seen_.navigation.back().cause_us,
+       .source = status.source,
+       .outcome = status.outcome,
+       .nis = update.nis,
+       .innovation = {innovation.innovation_north_m, innovation.innovation_east_m,
+                      innovation.innovation_down_m},
+       .position = {.latitude = latitude.latitude_deg * deg,
+                    .longitude = fix_.get<FixPositionLongitude>().longitude_deg * deg,
+                    .height = latitude.height_m},
+       .tilt_sigma_north = attitude.tilt_sigma_north_deg * deg,
+       .tilt_sigma_east = attitude.tilt_sigma_east_deg * deg,
+       .heading_sigma = attitude.heading_sigma_deg * deg,
+       .velocity_sigma = {velocity.velocity_sigma_north_mps, velocity.velocity_sigma_east_mps,
+                          velocity.velocity_sigma_down_mps},
+       .position_sigma = {position.position_sigma_north_m, position.position_sigma_east_m,
+                          position.position_sigma_down_m},
+       .gyro_bias = Vector3(gyro.gyro_bias_x_degph, gyro.gyro_bias_y_degph, gyro.gyro_bias_z_degph) * degph,
+       .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug,
+       .fix_bias = {bias.fix_bias_north_m, bias.fix_bias_east_m, bias.fix_bias_down_m},
+       .fix_bias_sigma = {bias_sigma.fix_bias_sigma_north_m, bias_sigma.fix_bias_sigma_east_m,
+                          bias_sigma.fix_bias_sigma_down_m},
+       .handed_over = status.handed_over != 0,
+       .repairs = status.repairs,
+       .gated = status.gated,
+       .refused = status.refused});
+  attribute(fix_, cause_us,
+            status.source == FixSource::gps ? GpsTime::info.sample_group : SsblRelativeD::info.sample_group);
 }
 
 }  // namespace canhil::run

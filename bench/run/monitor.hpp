@@ -25,12 +25,11 @@ class Monitor final : public Observer {
   void decode(const Frame& frame, std::uint8_t counter);
   void on_navigation();
   void on_filter();
+  void on_fix();
   template <class... Messages>
-  void attribute(std::int64_t cause_us);
-  template <class Message>
-  void put_navigation(const Frame& frame, std::uint8_t counter);
-  template <class Message>
-  void put_filter(const Frame& frame, std::uint8_t counter);
+  static bool put(SampleGroup<Messages...>& group, const Frame& frame, std::uint8_t counter);
+  template <class... Messages>
+  void attribute(const SampleGroup<Messages...>& group, std::int64_t cause_us, std::string_view cause_group);
 
   checks::Observations seen_;
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
@@ -39,6 +38,12 @@ class Monitor final : public Observer {
               messages::AlignVelocitySigma, messages::AlignGyroBias, messages::AlignGyroBiasSigma,
               messages::AlignAccelBias, messages::AlignAccelBiasSigma, messages::AlignUpdate>
       filter_;
+  SampleGroup<messages::FixInnovation, messages::FixPositionLatitude, messages::FixPositionLongitude,
+              messages::FixAttitudeSigma, messages::FixVelocitySigma, messages::FixPositionSigma,
+              messages::FixGyroBias, messages::FixGyroBiasSigma, messages::FixAccelBias,
+              messages::FixAccelBiasSigma, messages::FixBias, messages::FixBiasSigma, messages::FixStatus,
+              messages::FixUpdate>
+      fix_;
   std::int64_t now_us_ = 0;  // last Sync
 };
 

@@ -1,10 +1,11 @@
 #include "bench/scenario/checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <span>
+#include <tuple>
 
 #include "bench/scenario/rule.hpp"
 
@@ -13,7 +14,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> attitude_axes{"roll", "pitch", "heading"};
 constexpr std::array<std::string_view, 4> velocity_axes{"north", "east", "down", "norm"};
-constexpr std::array<std::string_view, 2> statistics{"attitude_nees", "nis"};
+constexpr std::array<std::string_view, 5> position_axes{"north", "east", "down", "horizontal", "norm"};
+constexpr std::array<std::string_view, 3> statistics{"attitude_nees", "nis", "heading_nees"};
 
 /// What the readers of all kinds need to know of the scenario.
 struct Context {
@@ -31,16 +33,30 @@ Enum read_enum(Section& section, std::string_view key, std::span<const std::stri
   return found == words.end() ? Enum{} : static_cast<Enum>(found - words.begin());
 }
 
+/// An angle as STEM_mrad or STEM_deg.
+std::pair<double, AngleUnit> read_angle(Section& section, const std::string& stem) {
+  const bool in_degrees = section.has(stem + "_deg");
+  if (!in_degrees) {
+    section.optional(stem + "_deg");
+    return {section.number(stem + "_mrad", Limits::above(0)), mrad};
+  }
+  if (section.has(stem + "_mrad")) {
+    section.reject(stem + "_mrad", fmt::format("is given beside {}_deg", stem), "one of the two");
+    section.optional(stem + "_mrad");
+  }
+  return {section.number(stem + "_deg", Limits::above(0)), degrees};
+}
+
 AttitudeError read(Section& section, const Context& context, AttitudeError rule) {
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
   rule.window = read_window(section, context.duration_us);
-  rule.below = section.number("below_mrad", Limits::above(0));
+  std::tie(rule.below, rule.unit) = read_angle(section, "below");
   return rule;
 }
 
 Convergence read(Section& section, const Context& context, Convergence rule) {
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
-  rule.within = section.number("within_mrad", Limits::above(0));
+  std::tie(rule.within, rule.unit) = read_angle(section, "within");
   rule.before_us = read_time(section, "before_s", Limits::above(0), context.duration_us);
   return rule;
 }
@@ -81,7 +97,12 @@ OutputPeriod read(Section& section, const Context& context, OutputPeriod rule) {
 }
 
 Latency read(Section& section, const Context& context, Latency rule) {
+  const std::vector<std::string>& answers = context.contract.answers;
   rule.message = section.one_of("message", context.contract.messages);
+  if (std::ranges::find(answers, rule.message) == answers.end()) {
+    section.reject("message", fmt::format("'{}' answers nothing", rule.message),
+                   fmt::format("one of: {}", fmt::join(answers, ", ")));
+  }
   rule.window = read_window(section, context.duration_us);
   rule.below_us = section.time_us("below_ms", Limits::above(0));
   rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
@@ -104,6 +125,39 @@ Heartbeat read(Section& section, const Context& /*context*/, Heartbeat rule) {
   return rule;
 }
 
+PositionError read(Section& section, const Context& context, PositionError rule) {
+  rule.axis = read_enum<PositionAxis>(section, "axis", position_axes, PositionAxis::norm);
+  rule.window = read_window(section, context.duration_us);
+  rule.below = section.number("below_m", Limits::above(0));
+  return rule;
+}
+
+Fixes read(Section& section, const Context& context, Fixes rule) {
+  rule.window = read_window(section, context.duration_us);
+  for (const std::string& outcome : context.contract.fix_outcomes) {
+    Fixes::Count count{.outcome = outcome,
+                       .at_least = section.optional_integer(outcome + "_at_least", 0),
+                       .at_most = section.optional_integer(outcome + "_at_most", 0)};
+    if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
+  }
+  rule.repairs_at_most = section.optional_integer("repairs_at_most", 0);
+  rule.handed_over_before_us = section.optional_time_us("handed_over_before_s", Limits::above(0));
+  if (rule.handed_over_before_us)
+    expect_within_run(section, "handed_over_before_s", *rule.handed_over_before_us, context.duration_us);
+  if (rule.counts.empty() && !rule.repairs_at_most && !rule.handed_over_before_us)
+    section.reject("accepted_at_least", "is missing, as are all its like", "at least one limit");
+  return rule;
+}
+
+Coasting read(Section& section, const Context& context, Coasting rule) {
+  rule.window = read_window(section, context.duration_us);
+  rule.at_least = section.optional_integer("at_least", 0);
+  rule.at_most = section.optional_integer("at_most", 0);
+  if (!rule.at_least && !rule.at_most)
+    section.reject("at_least", "is missing, as is 'at_most'", "at least one limit");
+  return rule;
+}
+
 using Rule = decltype(Check::rule);
 
 /// What a rule looks at, if a scenario may well have several of its kind.
@@ -115,11 +169,15 @@ std::string subject(const OutputPeriod& rule) { return fmt::format(" {}", rule.m
 std::string subject(const Latency& rule) { return fmt::format(" {}", rule.message); }
 std::string subject(const Counters& /*rule*/) { return {}; }
 std::string subject(const Heartbeat& /*rule*/) { return {}; }
+std::string subject(const PositionError& rule) { return fmt::format(" {}", name(rule.axis)); }
+std::string subject(const Fixes& /*rule*/) { return {}; }
+std::string subject(const Coasting& /*rule*/) { return {}; }
 
 }  // namespace
 
 std::string_view name(AttitudeAxis axis) { return attitude_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(VelocityAxis axis) { return velocity_axes[static_cast<std::size_t>(axis)]; }
+std::string_view name(PositionAxis axis) { return position_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(Statistic statistic) { return statistics[static_cast<std::size_t>(statistic)]; }
 
 std::string_view kind(const Check& check) { return kind_of(check.rule); }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/scenario/contract.hpp"
+#include "bench/world/units.hpp"
 
 namespace canhil::scenario {
 
@@ -17,7 +18,16 @@ class Section;
 
 enum class AttitudeAxis : std::uint8_t { roll, pitch, heading };
 enum class VelocityAxis : std::uint8_t { north, east, down, norm };
-enum class Statistic : std::uint8_t { attitude_nees, nis };
+enum class PositionAxis : std::uint8_t { north, east, down, horizontal, norm };
+enum class Statistic : std::uint8_t { attitude_nees, nis, heading_nees };
+
+/// The unit in which a bar was given, and is reported in.
+struct AngleUnit {
+  std::string_view name;
+  double factor;  ///< to rad
+};
+inline constexpr AngleUnit mrad{"mrad", world::units::mrad};
+inline constexpr AngleUnit degrees{"deg", world::units::deg};
 
 /// Part of a run, ends included, by the time of validity an answer names as its cause.
 struct Window {
@@ -31,6 +41,7 @@ struct AttitudeError {
   AttitudeAxis axis = AttitudeAxis::heading;
   Window window;
   double below = 0;  ///< [rad]
+  AngleUnit unit = mrad;
 };
 
 /// The error enters a band before a time, and stays there to the end of the run.
@@ -39,6 +50,7 @@ struct Convergence {
   AttitudeAxis axis = AttitudeAxis::heading;
   double within = 0;  ///< [rad]
   std::int64_t before_us = 0;
+  AngleUnit unit = mrad;
 };
 
 /// |estimated - true| velocity stays below a bar throughout the window.
@@ -47,6 +59,34 @@ struct VelocityError {
   VelocityAxis axis = VelocityAxis::norm;
   Window window;
   double below = 0;  ///< [m/s]
+};
+
+/// |estimated - true| position stays below a bar at all fixes of the window that were used or gated.
+struct PositionError {
+  static constexpr std::string_view kind = "position_error";
+  PositionAxis axis = PositionAxis::norm;
+  Window window;
+  double below = 0;  ///< [m]
+};
+
+/// What became of the fixes of the window, as the target says. Absent: not judged.
+struct Fixes {
+  static constexpr std::string_view kind = "fixes";
+  struct Count {
+    std::string outcome;  ///< a name of the DBC's value table FixOutcome
+    std::optional<std::int64_t> at_least, at_most;
+  };
+  Window window;
+  std::vector<Count> counts;
+  std::optional<std::int64_t> repairs_at_most;        ///< of the covariance, since the start
+  std::optional<std::int64_t> handed_over_before_us;  ///< the heading is resolved
+};
+
+/// How many navigation answers of the window said that they bridged an input that was lost.
+struct Coasting {
+  static constexpr std::string_view kind = "coasting";
+  Window window;
+  std::optional<std::int64_t> at_least, at_most;
 };
 
 /// The mean of a normalised error squared over the window lies between two values.
@@ -61,7 +101,7 @@ struct Probability {
 };
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
-  Statistic statistic = Statistic::nis;  ///< both have 3 degrees of freedom
+  Statistic statistic = Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1
   Window window;
   std::variant<MeanBetween, Probability> bound;
 };
@@ -105,13 +145,14 @@ struct Check {
   std::string requirement;  ///< id carried to the reports; may be empty
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
-               Heartbeat>
+               Heartbeat, PositionError, Fixes, Coasting>
       rule;
 };
 
 std::string_view kind(const Check& check);
 std::string_view name(AttitudeAxis axis);
 std::string_view name(VelocityAxis axis);
+std::string_view name(PositionAxis axis);
 std::string_view name(Statistic statistic);
 
 Check read_check(Section& section, std::int64_t duration_us, const Contract& contract);

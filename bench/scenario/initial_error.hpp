@@ -7,6 +7,6 @@ namespace canhil::scenario {
 
 class Section;
 
-world::NavigationErrorModel read_initial_error(Section& section);
+world::InitialErrorModel read_initial_error(Section& section);
 
 }  // namespace canhil::scenario

@@ -7,13 +7,13 @@ namespace {
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
+}  // namespace
+
 void expect_within_run(Section& section, std::string_view key, std::int64_t t_us, std::int64_t duration_us) {
   if (t_us <= duration_us) return;
   section.reject(key, "is after the end of the run",
                  fmt::format("at most duration_s = {}", seconds(duration_us)));
 }
-
-}  // namespace
 
 std::int64_t read_time(Section& section, std::string_view key, Limits limits, std::int64_t duration_us) {
   const std::int64_t t_us = section.time_us(key, limits);

@@ -43,6 +43,9 @@ Rule read_rule(std::string_view kind, Read&& read) {
   return rule;
 }
 
+/// Rejects a key whose time is after the end of the run.
+void expect_within_run(Section& section, std::string_view key, std::int64_t t_us, std::int64_t duration_us);
+
 /// A time not after the end of the run.
 std::int64_t read_time(Section& section, std::string_view key, Limits limits, std::int64_t duration_us);
 

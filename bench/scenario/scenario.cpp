@@ -65,7 +65,13 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   }
   const bool transfer = scenario.target.estimator == "transfer_alignment";
   scenario.master_ins = read_node<MasterIns>(root, "master_ins", transfer, read_master_ins);
-  scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer, read_slave_imu);
+  const bool inflight = scenario.target.estimator == "inflight_alignment";
+  scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer || inflight, read_slave_imu);
+  scenario.ssbl = read_node<Ssbl>(root, "ssbl", false, read_ssbl);
+  scenario.gps = read_node<Gps>(root, "gps", false, read_gps);
+  if (inflight && !scenario.ssbl && !scenario.gps) {
+    root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
+  }
   scenario.checks = read_checks(root, scenario.duration_us, contract);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);

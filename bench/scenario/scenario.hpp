@@ -17,9 +17,11 @@
 
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/contract.hpp"
+#include "bench/scenario/gps.hpp"
 #include "bench/scenario/master_ins.hpp"
 #include "bench/scenario/setting.hpp"
 #include "bench/scenario/slave_imu.hpp"
+#include "bench/scenario/ssbl.hpp"
 #include "bench/scenario/target_setup.hpp"
 #include "bench/world/motion.hpp"
 #include "bench/world/navigation_errors.hpp"
@@ -36,10 +38,11 @@ struct Scenario {
 
   TargetSetup target;
   world::Flight truth;
-  world::NavigationErrorModel
-      initial_error;                    ///< of the state the target is told, w.r.t. the truth at the start
-  std::optional<MasterIns> master_ins;  ///< absent: not on the bus
+  world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start
+  std::optional<MasterIns> master_ins;     ///< absent: not on the bus
   std::optional<SlaveImu> slave_imu;
+  std::optional<Ssbl> ssbl;
+  std::optional<Gps> gps;
   std::vector<Check> checks;
 };
 

@@ -10,7 +10,7 @@ class Section;
 
 struct Schedule {
   std::optional<std::int64_t>
-      period_us;                ///< absent: the DBC's cycle time; given: an override that reports must name
+      period_us{};              ///< absent: the DBC's cycle time; given: an override that reports must name
   std::int64_t latency_us = 0;  ///< from time of validity to the first frame of the group
 };
 

@@ -20,6 +20,7 @@ SlaveImu read_slave_imu(Section& section) {
       .scale_factor = {.value = section.three("accel_scale_factor_ppm"),
                        .sigma = section.three("accel_scale_factor_sigma_ppm", sigma)},
       .misalignment_sigma = section.number("accel_misalignment_sigma_mrad", sigma, 0)};
+  node.loss_probability = section.number("loss_percent", Limits::between(0, 100), 0);
   section.finish();
   return node;
 }

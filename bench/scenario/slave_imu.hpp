@@ -9,8 +9,9 @@ namespace canhil::scenario {
 class Section;
 
 struct SlaveImu {
-  Schedule schedule;
-  world::ImuErrorModel errors;
+  Schedule schedule{};
+  world::ImuErrorModel errors{};
+  double loss_probability = 0;  ///< of each group: not sent, its increments are gone
 };
 
 SlaveImu read_slave_imu(Section& section);

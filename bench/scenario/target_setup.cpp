@@ -12,7 +12,7 @@ namespace {
 InitialSigma read_initial_sigma(Section section) {
   const InitialSigma sigma{.velocity = section.number("velocity_mps", Limits::above(0)),
                            .tilt = section.number("tilt_deg", Limits::above(0, 90)),
-                           .heading = section.number("heading_deg", Limits::above(0, 180)),
+                           .heading = section.number("heading_deg", Limits::above(0, 600)),
                            .position = section.number("position_m", Limits::above(0))};
   section.finish();
   return sigma;

@@ -1,6 +1,9 @@
 #include "bench/scenario/truth.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -9,14 +12,16 @@
 namespace canhil::scenario {
 namespace {
 
+double read_heading(Section& section) { return section.number("heading_deg", Limits::between(-180, 360)); }
+
 world::Motion read_rest(Section& section) {
   return world::Rest{.angles = {.roll = section.number("roll_deg", Limits::between(-180, 180), 0),
                                 .pitch = section.number("pitch_deg", Limits::between(-90, 90), 0),
-                                .heading = section.number("heading_deg", Limits::between(-180, 360))}};
+                                .heading = read_heading(section)}};
 }
 
 world::Motion read_level_acceleration(Section& section) {
-  return world::LevelAcceleration{.heading = section.number("heading_deg", Limits::between(-180, 360)),
+  return world::LevelAcceleration{.heading = read_heading(section),
                                   .speed = section.number("speed_kmph", Limits::at_least(0)),
                                   .cruise_us = section.time_us("cruise_s", Limits::at_least(0)),
                                   .acceleration = section.number("acceleration_g", Limits::between(-10, 10))};
@@ -25,7 +30,7 @@ world::Motion read_level_acceleration(Section& section) {
 world::Motion read_weave(Section& section) {
   // Without a motion its period is of no consequence, but must not be zero.
   return world::Weave{
-      .heading = section.number("heading_deg", Limits::between(-180, 360)),
+      .heading = read_heading(section),
       .speed = section.number("speed_kmph", Limits::at_least(0)),
       .heading_amplitude = section.number("heading_amplitude_deg", Limits::between(0, 90)),
       .turn_period = section.number("turn_period_s", Limits::above(0)),
@@ -36,13 +41,79 @@ world::Motion read_weave(Section& section) {
   };
 }
 
+// Surfaces and dives again; without a depth its period is of no consequence.
+world::DepthProfile read_depth(Section& section, double speed) {
+  const world::DepthProfile profile{.depth = section.number("dive_depth_m", Limits::at_least(0), 0),
+                                    .period = section.number("dive_period_s", Limits::above(0), 1)};
+  constexpr double steepest_sine = 0.70710678118654752;  // 45 degrees
+  if (world::steepest(profile) > steepest_sine * speed) {
+    section.reject("dive_depth_m", "is too deep for the speed and dive_period_s",
+                   fmt::format("at most {:.4g}, a dive of 45 degrees",
+                               steepest_sine * speed * profile.period / std::numbers::pi));
+  }
+  return profile;
+}
+
+double read_roll(Section& section, std::string_view key) {
+  return section.number(key, Limits::between(-45, 45), 0);
+}
+
+world::Motion read_s_path(Section& section) {
+  world::SPath path;
+  path.speed = section.number("speed_mps", Limits::above(0));
+  path.heading = read_heading(section);
+  path.heading_amplitude = section.number("heading_amplitude_deg", Limits::between(0, 180));
+  path.heading_period = section.number("turn_period_s", Limits::above(0));
+  path.pitch_amplitude = section.number("pitch_amplitude_deg", Limits::between(0, 40), 0);
+  path.pitch_period = section.number("pitch_period_s", Limits::above(0), 1);
+  path.roll_amplitude = read_roll(section, "roll_amplitude_deg");
+  path.roll_period = section.number("roll_period_s", Limits::above(0), path.heading_period);
+  path.depth = read_depth(section, path.speed);
+  return path;
+}
+
+world::Motion read_racetrack(Section& section) {
+  world::Racetrack track;
+  track.speed = section.number("speed_mps", Limits::above(0));
+  track.heading = read_heading(section);
+  track.leg = section.number("leg_s", Limits::above(0));
+  track.turn = section.number("turn_s", Limits::above(0));
+  track.roll = read_roll(section, "roll_deg");
+  track.depth = read_depth(section, track.speed);
+  return track;
+}
+
+world::Motion read_spiral(Section& section) {
+  world::Spiral spiral;
+  spiral.speed = section.number("speed_mps", Limits::above(0));
+  spiral.heading = read_heading(section);
+  spiral.period = section.number("turn_period_s", Limits::above(0));
+  spiral.roll = read_roll(section, "roll_deg");
+  spiral.depth = read_depth(section, spiral.speed);
+  return spiral;
+}
+
+world::Motion read_rest_then_go(Section& section) {
+  world::RestThenGo motion;
+  motion.speed = section.number("speed_mps", Limits::above(0));
+  motion.heading = read_heading(section);
+  motion.rest = section.number("rest_s", Limits::at_least(0));
+  motion.start = section.number("start_s", Limits::above(0));
+  motion.depth = read_depth(section, motion.speed);
+  return motion;
+}
+
 struct MotionReader {
   std::string_view name;
   world::Motion (*read)(Section&);
 };
 constexpr std::array motion_readers{MotionReader{"rest", read_rest},
                                     MotionReader{"level_acceleration", read_level_acceleration},
-                                    MotionReader{"weave", read_weave}};
+                                    MotionReader{"weave", read_weave},
+                                    MotionReader{"s_path", read_s_path},
+                                    MotionReader{"racetrack", read_racetrack},
+                                    MotionReader{"spiral", read_spiral},
+                                    MotionReader{"rest_then_go", read_rest_then_go}};
 
 }  // namespace
 

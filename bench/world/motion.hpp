@@ -7,12 +7,16 @@
 
 #include "bench/world/earth.hpp"
 #include "bench/world/motion/level_acceleration.hpp"
+#include "bench/world/motion/racetrack.hpp"
 #include "bench/world/motion/rest.hpp"
+#include "bench/world/motion/rest_then_go.hpp"
+#include "bench/world/motion/s_path.hpp"
+#include "bench/world/motion/spiral.hpp"
 #include "bench/world/motion/weave.hpp"
 
 namespace canhil::world {
 
-using Motion = std::variant<Rest, LevelAcceleration, Weave>;
+using Motion = std::variant<Rest, LevelAcceleration, Weave, SPath, Racetrack, Spiral, RestThenGo>;
 
 /// Velocity and attitude at time t [s] from the start; right-continuous where the motion has a jump.
 Kinematics kinematics(const Motion& motion, double t);

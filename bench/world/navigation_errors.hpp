@@ -22,7 +22,17 @@ struct NavigationErrorModel {
   RandomConstant attitude;  ///< misalignment phi [rad]: computed C_bn = exp(-[phi x]) C_bn
 };
 
+/// Errors of an initial state. A large heading error turns about down before the misalignment tilts:
+/// computed C_bn = exp(-[phi x]) Rz(-psi) C_bn, so that it leaves the size of the tilts alone.
+struct InitialErrorModel : NavigationErrorModel {
+  double heading_sigma = 0;      ///< of psi [rad]
+  double heading_magnitude = 0;  ///< added to psi, to either side at random [rad]
+};
+
 /// A solution with errors drawn from the model. Takes nine numbers of the stream, whatever the sigmas are.
 NavigationSolution measure(const Truth& truth, const NavigationErrorModel& model, Stream& stream);
+
+/// The same for an initial state. Takes eleven numbers.
+NavigationSolution initial_solution(const Truth& truth, const InitialErrorModel& model, Stream& stream);
 
 }  // namespace canhil::world

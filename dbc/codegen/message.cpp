@@ -226,7 +226,14 @@ std::string info_text(const Message& message, const std::vector<const Signal*>& 
         literal(s->maximum), literal(s->sensor_sigma), s->carries_remainder, s->start_bit, s->length,
         s->byte_order == ByteOrder::big_endian, s->is_float(), !s->multiplexed_by.empty());
   }
-  return text + "}};\n}  // namespace detail\n\n";
+  text += "}};\n";
+  if (!message.answers.empty()) {
+    text += fmt::format("inline constexpr std::array<std::string_view, {}> answers_of_{}{{",
+                        message.answers.size(), type);
+    for (const std::string& group : message.answers) text += quoted(group) + ", ";
+    text += "};\n";
+  }
+  return text + "}  // namespace detail\n\n";
 }
 
 }  // namespace
@@ -241,9 +248,11 @@ std::string message_text(const Enums& enums, const Message& message) {
       "  static constexpr MessageInfo info{{.name = {}, .id = 0x{:X}, .extended = {}, .fd = {}, .size = "
       "size,\n"
       "                                   .cycle_time_us = {}, .e2e_data_id = {}, .sender = {},\n"
-      "                                   .sample_group = {}, .signals = detail::signals_of_{}}};\n\n",
+      "                                   .sample_group = {}, .answers = {},\n"
+      "                                   .signals = detail::signals_of_{}}};\n\n",
       quoted(message.name), message.id, message.extended, message.fd, message.cycle_time_us,
-      message.e2e_data_id, quoted(message.sender), quoted(message.sample_group), type);
+      message.e2e_data_id, quoted(message.sender), quoted(message.sample_group),
+      message.answers.empty() ? "{}" : fmt::format("detail::answers_of_{}", type), type);
   text += unpack_text(enums, message, members) + pack_text(message, members) + visit_text(message, members);
   text += fmt::format("\n  friend constexpr bool operator==(const {0}&, const {0}&) = default;\n}};\n", type);
   text += fmt::format(

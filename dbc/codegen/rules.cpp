@@ -1,6 +1,8 @@
 #include "dbc/codegen/rules.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "dbc/wire/generated.hpp"
 
@@ -29,6 +31,25 @@ std::optional<Breach> protection_breach(const Message& message) {
                 fmt::format("message {} has an E2eDataId, expected the signals e2e_crc : 0|8@1+ and "
                             "e2e_counter : 8|4@1+",
                             message.name)};
+}
+
+/// A sample group is answered as a whole, and what it answers is a sample group of another node.
+std::optional<Breach> answer_breach(const Database& database, const Message& message) {
+  for (const std::string& group : message.answers) {
+    const auto answered = std::ranges::find(database.messages, group, &Message::sample_group);
+    if (answered == database.messages.end() || answered->sender == message.sender) {
+      return Breach{message.at,
+                    fmt::format("message {} answers {}, expected the sample groups of other nodes",
+                                message.name, group)};
+    }
+  }
+  if (message.sample_group.empty()) return std::nullopt;
+  const Message& first = *std::ranges::find(database.messages, message.sample_group, &Message::sample_group);
+  if (message.answers == first.answers) return std::nullopt;
+  return Breach{
+      message.at,
+      fmt::format("message {} answers \"{}\", expected \"{}\" as {} of its sample group", message.name,
+                  fmt::join(message.answers, " "), fmt::join(first.answers, " "), first.name)};
 }
 
 std::optional<Breach> resolution_breach(const Message& message, const Signal& signal) {
@@ -61,6 +82,7 @@ std::optional<Breach> resolution_breach(const Message& message, const Signal& si
 std::optional<Breach> find_breach(const Database& database) {
   for (const Message& message : database.messages) {
     if (auto breach = protection_breach(message)) return breach;
+    if (auto breach = answer_breach(database, message)) return breach;
     for (const Signal& signal : message.signals) {
       if (auto breach = resolution_breach(message, signal)) return breach;
     }

@@ -36,6 +36,16 @@ double number_or_zero(const Database& database, const Attributes& attributes, Ow
   return real != nullptr ? *real : 0;
 }
 
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = text.find_first_not_of(' '); at != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    words.emplace_back(text.substr(at, end - at));
+    at = text.find_first_not_of(' ', end);
+  }
+  return words;
+}
+
 void read_message_attributes(const Database& database, Message& message) {
   const auto number = [&](std::string_view name) {
     return number_or_zero(database, message.attributes, Owner::message, name);
@@ -48,6 +58,8 @@ void read_message_attributes(const Database& database, Message& message) {
   message.e2e_data_id = static_cast<std::uint16_t>(data_id);
   message.sample_group =
       attribute_or<std::string>(database, message.attributes, Owner::message, "SampleGroup", {});
+  message.answers =
+      words_of(attribute_or<std::string>(database, message.attributes, Owner::message, "Answers", {}));
   const auto format =
       attribute_or<std::string>(database, message.attributes, Owner::message, "VFrameFormat", {});
   message.fd = format.ends_with("_FD");

@@ -122,11 +122,12 @@ struct Message {
   Attributes attributes;
   Position at;
 
-  /// From the attributes VFrameFormat, GenMsgCycleTime, E2eDataId and SampleGroup.
+  /// From the attributes VFrameFormat, GenMsgCycleTime, E2eDataId, SampleGroup and Answers.
   bool fd = false;
   std::int64_t cycle_time_us = 0;
   std::uint16_t e2e_data_id = 0;
   std::string sample_group;
+  std::vector<std::string> answers;  ///< sample groups, separated by spaces in the text
 };
 
 struct EnvironmentVariable {

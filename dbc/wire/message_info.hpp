@@ -43,8 +43,9 @@ struct MessageInfo {
   std::int64_t cycle_time_us = 0;  ///< 0: sent on events
   std::uint16_t e2e_data_id = 0;   ///< 0: not protected
   std::string_view sender{};
-  std::string_view sample_group{};        ///< empty: stands alone
-  std::span<const SignalInfo> signals{};  ///< in the order of the DBC, without the E2E fields
+  std::string_view sample_group{};              ///< empty: stands alone
+  std::span<const std::string_view> answers{};  ///< sample groups, each of which brings this message about
+  std::span<const SignalInfo> signals{};        ///< in the order of the DBC, without the E2E fields
 };
 
 }  // namespace canhil

@@ -76,7 +76,7 @@ namespace {
 // Where the RMS diverges, how many runs do.
 void count_diverged(Row& row, const Flown& flown, std::string_view variant, std::string_view at = {}) {
   std::string& ours = row.cells.back();
-  if (ours.starts_with("diverges")) ours += ": " + flown.diverged_runs(variant, at);
+  if (ours.starts_with("diverges")) ours += ": " + diverged_runs(flown, variant, at);
 }
 
 }  // namespace

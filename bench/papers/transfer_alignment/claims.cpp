@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/papers/transfer_alignment/sections.hpp"
+#include "bench/papers/verdicts.hpp"
 
 namespace canhil::papers::transfer_alignment {
 namespace {
@@ -50,22 +51,6 @@ std::string with_unit(double value, std::string_view unit) {
   return std::isfinite(value) ? fmt::format("{:.1f} {}", value, unit) : "never";
 }
 
-Row verdict(std::string claim, std::string paper, std::string ours, Mark mark, std::string words) {
-  return {.cells = {std::move(claim), std::move(paper), std::move(ours)},
-          .mark = mark,
-          .verdict = std::move(words)};
-}
-Row yes_or_no(std::string claim, std::string paper, std::string ours, bool yes) {
-  return verdict(std::move(claim), std::move(paper), std::move(ours), yes ? Mark::yes : Mark::no,
-                 yes ? "reproduces" : "does not reproduce");
-}
-
-bool passed(const Flown& flown, std::string_view bar) {
-  const auto answers = flown.answers(bar);
-  return !answers.empty() &&
-         std::ranges::all_of(answers, [](const auto* a) { return a->passed.value_or(false); });
-}
-
 Table claim_table(const Results& results) {
   const Flown& table2 = results.of("table2");
   const Times kf = times_of(table2.curve("kf_p1")), h2 = times_of(table2.curve("h2_case2_p1"));
@@ -75,7 +60,7 @@ Table claim_table(const Results& results) {
                   "Times to 3 / 2 / 1 mrad of heading, 1σ, in s. Verdicts are worked out from the figures of "
                   "this run."};
   table.rows.push_back(
-      yes_or_no("Table 2, Kalman filter", "14.4 / 15.6 / never", words(kf), passed(table2, "bar 4")));
+      reproduces("Table 2, Kalman filter", "14.4 / 15.6 / never", words(kf), passed(table2, "bar 4")));
   const bool h2_bars = passed(table2, "bar 5") && passed(table2, "bar 6");
   table.rows.push_back(verdict(
       "Table 2, H2 case 2 is faster", "11.4 / 11.7 / 12.9", words(h2), h2_bars ? Mark::partly : Mark::no,
@@ -90,14 +75,14 @@ Table claim_table(const Results& results) {
                          rows.begin() + static_cast<std::ptrdiff_t>(first) + 3,
                          [](const Row& row) { return row.mark == Mark::yes; });
   };
-  table.rows.push_back(yes_or_no(
+  table.rows.push_back(reproduces(
       "Figs 3, 4: case 2 is the best of four", "yes",
       fmt::format("alpha from covariance: in {} of 3 steps; constant: in {} of 3", best(0), best(3)),
       best(0) == 3));
 
   const double random = heading_mrad(results.of("cruise").curve("h2_random"), 9.95);
   const double fixed = heading_mrad(results.of("cruise").curve("h2_ppp"), 9.95);
-  table.rows.push_back(yes_or_no(
+  table.rows.push_back(reproduces(
       "Fig 5: heading converges in cruise", "yes",
       fmt::format("87 mrad become {:.0f} (random errors); {:.0f} with +5 deg on all axes", random, fixed),
       random < 0.8 * 87.3));
@@ -117,10 +102,10 @@ Table claim_table(const Results& results) {
   const auto& axis_rows = axis_section.tables.front().rows;
   const bool roll_and_pitch = axis_rows[0].mark == Mark::yes && axis_rows[1].mark == Mark::yes;
   table.rows.push_back(
-      yes_or_no("Fig 7: roll and pitch gain too", "yes",
-                fmt::format("roll {} and {}, pitch {} and {} mrad at 20 s (KF, H2)", axis_rows[0].cells[2],
-                            axis_rows[0].cells[3], axis_rows[1].cells[2], axis_rows[1].cells[3]),
-                roll_and_pitch));
+      reproduces("Fig 7: roll and pitch gain too", "yes",
+                 fmt::format("roll {} and {}, pitch {} and {} mrad at 20 s (KF, H2)", axis_rows[0].cells[2],
+                             axis_rows[0].cells[3], axis_rows[1].cells[2], axis_rows[1].cells[3]),
+                 roll_and_pitch));
   table.rows.push_back(
       verdict("Velocity errors nearly equal", "yes",
               fmt::format("KF {} / {} / {}, H2 {} / {} / {} m/s at 20 s", axis_rows[3].cells[2],
@@ -139,22 +124,12 @@ Table bar_table(const Results& results) {
                   "the H2 result from being "
                   "sold as better than a correctly initialised Kalman filter. Bars 1 to 3 are replays of "
                   "vectors: unit tests."};
-  const auto add = [&](const char* bar) {
-    for (const campaign::Answer* answer : table2.answers(bar)) {
-      const bool pass = answer->passed.value_or(false);
-      table.rows.push_back(
-          {.cells = {fmt::format("{}: {}", bar, answer->metric), answer->expected, answer->measured},
-           .mark = pass ? Mark::yes : Mark::no,
-           .verdict = pass ? "pass" : "FAIL"});
-    }
-  };
-  for (const char* bar : {"bar 4", "bar 5", "bar 6", "bar 7"}) add(bar);
+  for (const char* name : {"bar 4", "bar 5", "bar 6", "bar 7"}) add_bars(table, table2, name);
   for (const Guard& guard : guards(results))
-    table.rows.push_back({.cells = {fmt::format("bar 8: {}", guard.subject), guard.asked,
-                                    fmt::format("KF {}, H2 {}", with_unit(guard.kf, guard.unit),
-                                                with_unit(guard.h2, guard.unit))},
-                          .mark = holds(guard) ? Mark::yes : Mark::no,
-                          .verdict = holds(guard) ? "pass" : "FAIL"});
+    table.rows.push_back(
+        bar(fmt::format("bar 8: {}", guard.subject), guard.asked,
+            fmt::format("KF {}, H2 {}", with_unit(guard.kf, guard.unit), with_unit(guard.h2, guard.unit)),
+            holds(guard)));
   const auto end = [&](const char* variant) {
     return times_of(results.of("artefact").curve(variant)).end_mrad;
   };
@@ -165,7 +140,7 @@ Table bar_table(const Results& results) {
                              end("kf_open"), end("kf_p5_open"), end("h2_open"))},
        .mark = Mark::none,
        .verdict = "recorded"});
-  add("bar 9");
+  add_bars(table, table2, "bar 9");
   table.rows.push_back({.cells = {"bar 9: H2 case 2 told 5 deg, noise", "recorded only",
                                   words(times_of(table2.curve("h2_case2_p5_noise")))},
                         .mark = Mark::none,
@@ -176,7 +151,7 @@ Table bar_table(const Results& results) {
 }  // namespace
 
 bool bars_met(const Results& results) {
-  return std::ranges::all_of(bars, [&](const char* bar) { return passed(results.of("table2"), bar); }) &&
+  return std::ranges::all_of(bars, [&](const char* name) { return passed(results.of("table2"), name); }) &&
          std::ranges::all_of(guards(results), holds);
 }
 
@@ -202,7 +177,7 @@ Section claims(const Results& results) {
       fmt::format("H2 case 2, told the true 5 deg, with 0.02 m/s of master noise: {}; runs beyond 20 mrad at "
                   "the end: {}.",
                   words(noisy),
-                  results.of("noise").diverged_runs("h2_case2", "master_ins.velocity_noise_mps=0.02")),
+                  diverged_runs(results.of("noise"), "h2_case2", "master_ins.velocity_noise_mps=0.02")),
       "The paper states neither P0 nor R. Both were picked to fit its Table 2, so that fit is weak evidence "
       "that its authors used them."};
   section.tables = {claim_table(results), bar_table(results)};
@@ -250,7 +225,7 @@ Section settings(const Results& results) {
                          "{} runs a variant, {} flights of 20 s in virtual time, each through the "
                          "codec with {}. Run r has the same random numbers in every variant (seed 20010101), "
                          "so runs are compared in pairs.",
-                         results.runs, results.flights, frames_of(results)),
+                         results.runs, results.flights, frames_flown()),
                      "Flight: 500 km/h north at 37 deg latitude, 10 s of cruise, then 1 g (9.80665 m/s²) for "
                      "10 s. IMU 100 Hz, velocity update "
                      "10 Hz, closed loop. R = 0.01 (m/s)² s, that is 0.316 m/s at 10 Hz; master without "

@@ -5,6 +5,7 @@
 #include "bench/papers/transfer_alignment/sections.hpp"
 
 namespace canhil::papers::transfer_alignment {
+namespace {
 
 Page page(const Results& results) {
   constexpr std::uint64_t enough = 300;
@@ -19,6 +20,16 @@ Page page(const Results& results) {
                    axes(results), artefact(results), noise(results), rates(results), cost_of_the_bus(results),
                    settings(results)}};
   return page;
+}
+
+}  // namespace
+
+Result<std::optional<Reproduction>> reproduce(const FlyOptions& options, const std::filesystem::path& exact,
+                                              const std::atomic<bool>& stop) {
+  const auto results = fly(options, exact, stop);
+  if (!results) return tl::unexpected(results.error());
+  if (!*results) return std::nullopt;
+  return Reproduction{.page = page(**results), .bars_met = bars_met(**results)};
 }
 
 }  // namespace canhil::papers::transfer_alignment

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/campaign/execute.hpp"
 #include "bench/campaign/statistics.hpp"
 #include "bench/campaign/store.hpp"
-#include "bench/papers/transfer_alignment/campaign_texts.hpp"
+#include "bench/papers/transfer_alignment/embedded.hpp"
 #include "bench/run/contract.hpp"
 
 namespace canhil::papers::transfer_alignment {
@@ -19,19 +18,6 @@ constexpr double diverged_mrad = 20;
 constexpr std::string_view main_campaign = "table2";
 
 std::string in_words(double t_s) { return std::isfinite(t_s) ? fmt::format("{:.1f}", t_s) : "never"; }
-
-Result<campaign::Campaign> read_embedded(const CampaignText& file) {
-  return campaign::parse_campaign(
-      file.text, fmt::format("{}.toml", file.name),
-      [](const std::string& /*name*/) -> Result<std::string> { return std::string(flight_text); });
-}
-
-Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store) {
-  auto evaluation = campaign::evaluate(campaign, store);
-  if (!evaluation) return tl::unexpected(evaluation.error());
-  return Flown{
-      .name = std::move(name), .campaign = std::move(campaign), .evaluation = std::move(*evaluation)};
-}
 
 Times lowest(Times a, const Times& b) {
   a.within_3_mrad = std::min(a.within_3_mrad, b.within_3_mrad);
@@ -83,46 +69,10 @@ Result<Flown> read_exact(const std::filesystem::path& path, const campaign::Camp
   return evaluated("exact", ours, *store);
 }
 
-template <class Wanted>
-const campaign::Answer& answer_of(const Flown& flown, std::string_view variant, std::string_view point,
-                                  Wanted&& wanted) {
-  const std::string name = point.empty() ? std::string(variant) : fmt::format("{} {}", variant, point);
-  for (const campaign::Answer& answer : flown.evaluation.answers) {
-    if (answer.variant == name && wanted(answer)) return answer;
-  }
-  // The campaigns are built into the program, and their names with them: a test asks for every one.
-  throw std::logic_error(fmt::format("campaign '{}': no such answer for '{}'", flown.name, name));
-}
-
 }  // namespace
 
-std::span<const CurvePoint> Flown::curve(std::string_view variant, std::string_view point,
-                                         Quantity quantity) const {
-  return answer_of(*this, variant, point,
-                   [&](const campaign::Answer& answer) {
-                     return answer.kind == campaign::RmsCurve::kind && answer.quantity == quantity;
-                   })
-      .curve;
-}
-
-std::string Flown::diverged_runs(std::string_view variant, std::string_view point) const {
-  return answer_of(*this, variant, point,
-                   [](const campaign::Answer& answer) { return answer.kind == campaign::Diverged::kind; })
-      .measured;
-}
-
-std::vector<const campaign::Answer*> Flown::answers(std::string_view requirement) const {
-  std::vector<const campaign::Answer*> found;
-  for (const campaign::Answer& answer : evaluation.answers) {
-    if (answer.requirement == requirement) found.push_back(&answer);
-  }
-  return found;
-}
-
-const Flown& Results::of(std::string_view name) const {
-  const auto found = std::ranges::find(campaigns, name, &Flown::name);
-  if (found == campaigns.end()) throw std::logic_error(fmt::format("no campaign '{}'", name));
-  return *found;
+std::string diverged_runs(const Flown& flown, std::string_view variant, std::string_view point) {
+  return flown.answer_of_kind(campaign::Diverged::kind, variant, point).measured;
 }
 
 Times times_of(std::span<const CurvePoint> curve) {
@@ -142,45 +92,27 @@ std::string words(const Times& times) {
                      in_words(times.within_1_mrad));
 }
 
-std::string frames_of(const Results& results) {
-  return results.rounded ? "frames quantised as on the bus"
-                         : "frames without the bus's rounding (hil-bench-exact)";
-}
-
-Result<std::optional<Results>> fly(const Options& options, const std::atomic<bool>& stop) {
+Result<std::optional<Results>> fly(const FlyOptions& options, const std::filesystem::path& exact,
+                                   const std::atomic<bool>& stop) {
+  auto flown = papers::fly(embedded, options, stop);
+  if (!flown) return tl::unexpected(flown.error());
+  if (!*flown) return std::nullopt;
   Results results;
   results.rounded = run::frames_round();
-  for (const CampaignText& file : campaign_texts) {
-    auto campaign = read_embedded(file);
-    if (!campaign) return tl::unexpected(campaign.error());
-    if (options.runs) campaign->runs = *options.runs;
-    const campaign::Options flying{.file = options.folder / fmt::format("{}.sqlite", file.name),
-                                   .shard = {},
-                                   .threads = 0,
-                                   .resume = true,
-                                   .progress = [&](const campaign::Progress& p) {
-                                     options.progress(file.name, p.stored + p.done, p.total);
-                                   }};
-    const auto ended = campaign::execute(*campaign, flying, stop);
-    if (!ended) return tl::unexpected(ended.error());
-    if (*ended == campaign::Execution::interrupted) return std::nullopt;
-    const auto store = campaign::Store::open(flying.file);
-    if (!store) return tl::unexpected(store.error());
-    if (file.name == main_campaign) {
-      auto spreads = spreads_of(*campaign, *store);
-      if (!spreads) return tl::unexpected(spreads.error());
-      results.spreads = std::move(*spreads);
-      results.runs = campaign->runs;
-      if (!options.exact.empty()) {
-        auto exact = read_exact(options.exact, *campaign);
-        if (!exact) return tl::unexpected(exact.error());
-        results.exact = std::move(*exact);
-      }
-    }
-    results.flights += campaign->variants.size() * campaign->runs;
-    auto flown = evaluated(std::string(file.name), std::move(*campaign), *store);
-    if (!flown) return tl::unexpected(flown.error());
-    results.campaigns.push_back(std::move(*flown));
+  results.campaigns = std::move(**flown);
+  for (const Flown& one : results.campaigns)
+    results.flights += one.campaign.variants.size() * one.campaign.runs;
+  const campaign::Campaign& table = results.of(main_campaign).campaign;
+  results.runs = table.runs;
+  const auto store = campaign::Store::open(results_file(options, main_campaign));
+  if (!store) return tl::unexpected(store.error());
+  auto spreads = spreads_of(table, *store);
+  if (!spreads) return tl::unexpected(spreads.error());
+  results.spreads = std::move(*spreads);
+  if (!exact.empty()) {
+    auto without_rounding = read_exact(exact, table);
+    if (!without_rounding) return tl::unexpected(without_rounding.error());
+    results.exact = std::move(*without_rounding);
   }
   return results;
 }

@@ -12,28 +12,15 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/campaign/campaign.hpp"
-#include "bench/campaign/evaluate.hpp"
+#include "bench/papers/flown.hpp"
 
 namespace canhil::papers::transfer_alignment {
 
 using campaign::CurvePoint;
 using campaign::Quantity;
 
-/// A campaign of bench/campaigns/paper_transfer with its answers.
-struct Flown {
-  std::string name;  ///< of the file, without its ending
-  campaign::Campaign campaign;
-  campaign::Evaluation evaluation;
-
-  /// RMS over runs of a variant, by its name in the file and its point of the sweep; they must exist.
-  [[nodiscard]] std::span<const CurvePoint> curve(std::string_view variant, std::string_view point = {},
-                                                  Quantity quantity = Quantity::heading) const;
-  /// "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, where the campaign counts them.
-  [[nodiscard]] std::string diverged_runs(std::string_view variant, std::string_view point = {}) const;
-  /// Answers that carry a requirement.
-  [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
-};
+/// "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, where the campaign counts them.
+std::string diverged_runs(const Flown& flown, std::string_view variant, std::string_view point = {});
 
 /// When the RMS of the heading enters 3, 2 and 1 mrad for good [s].
 inline constexpr double never = std::numeric_limits<double>::infinity();
@@ -59,20 +46,12 @@ struct Results {
   std::vector<std::pair<std::string, Spread>> spreads;  ///< by variant of table2
   std::optional<Flown> exact;                           ///< table2 without the rounding of the bus
 
-  [[nodiscard]] const Flown& of(std::string_view name) const;
+  [[nodiscard]] const Flown& of(std::string_view name) const { return papers::of(campaigns, name); }
 };
 
-struct Options {
-  std::filesystem::path folder;       ///< for the results, NAME.sqlite; must exist
-  std::optional<std::uint64_t> runs;  ///< in place of the campaigns' own number
-  std::filesystem::path exact;        ///< results of table2 by the twin without rounding; empty: none
-  std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
-};
-
-/// "frames quantised as on the bus", or that they were not.
-std::string frames_of(const Results& results);
-
-/// Flies what the folder does not hold yet. None: stopped. Error: one line.
-Result<std::optional<Results>> fly(const Options& options, const std::atomic<bool>& stop);
+/// Flies what the folder does not hold yet. `exact`: results of table2 by the twin without rounding; empty:
+/// none. None: stopped. Error: one line.
+Result<std::optional<Results>> fly(const FlyOptions& options, const std::filesystem::path& exact,
+                                   const std::atomic<bool>& stop);
 
 }  // namespace canhil::papers::transfer_alignment

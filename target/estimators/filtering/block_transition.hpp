@@ -1,5 +1,5 @@
 #pragma once
-// Covariance prediction when Phi = I + G and G has few non-zero 3x3 blocks, known at compile time.
+// Covariance prediction when Phi = I + G and most of G is known at compile time to be zero.
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
@@ -39,6 +39,21 @@ Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, 
         Xt.template block<N - i, 3>(i, j).lazyProduct(G.template block<3, 3>(i, j).transpose());
   };
   each(blocks, left);
+  mirror_lower<N>(next);
+  return next;
+}
+
+/// (I + G) P (I + G)' for symmetric P [N x N] when only the first K states move, i.e. G has K rows and then
+/// zeros: times_Gt(M) gives M G' [rows x K] of any M [rows x N], and may know more about G.
+template <int K, int N, class TimesGt>
+Matrix<N, N> propagate_covariance_moving(const Matrix<N, N>& P, const TimesGt& times_Gt) {
+  const auto rows = padded(P);
+  const Matrix<even_rows(N), K> X = rows.template leftCols<K>() + times_Gt(rows);
+  const auto Xt = padded(X.template topRows<N>().transpose());  // [K x N]
+  const Matrix<even_rows(K), K> Y = Xt.template leftCols<K>() + times_Gt(Xt);
+  Matrix<N, N> next = P;
+  next.template topLeftCorner<K, K>() = Y.template topRows<K>();
+  next.template bottomLeftCorner<N - K, K>() = X.template middleRows<N - K>(K);
   mirror_lower<N>(next);
   return next;
 }

@@ -12,6 +12,20 @@ using Matrix = Eigen::Matrix<double, Rows, Cols>;
 template <int Rows>
 using Vector = Eigen::Matrix<double, Rows, 1>;
 
+/// The next even number of rows: a matrix of them is worked on by whole SIMD packets, which an odd one is
+/// not.
+constexpr int even_rows(int rows) { return rows + rows % 2; }
+
+/// M with a row of zeros more where its number of rows is odd.
+template <class Derived>
+auto padded(const Eigen::MatrixBase<Derived>& M) {
+  constexpr int rows = Derived::RowsAtCompileTime;
+  Matrix<even_rows(rows), Derived::ColsAtCompileTime> out;
+  out.template topRows<rows>() = M;
+  if constexpr (rows % 2 != 0) out.row(rows).setZero();
+  return out;
+}
+
 /// Copies the lower triangle into the upper: exact symmetry after computing one half only.
 template <int N>
 void mirror_lower(Matrix<N, N>& P) {
@@ -19,10 +33,12 @@ void mirror_lower(Matrix<N, N>& P) {
     for (int row = 0; row < column; ++row) P(row, column) = P(column, row);
 }
 
-/// True when a symmetric matrix (lower triangle read) is finite and positive definite.
+/// Each pair of mirrored elements becomes its mean.
 template <int N>
-bool is_positive_definite(const Matrix<N, N>& P) {
-  return P.allFinite() && Eigen::LLT<Matrix<N, N>>(P).info() == Eigen::Success;
+void average_with_transpose(Matrix<N, N>& P) {
+  for (int column = 0; column < N; ++column)
+    for (int row = column + 1; row < N; ++row)
+      P(row, column) = P(column, row) = 0.5 * (P(row, column) + P(column, row));
 }
 
 /// P+ = Phi P Phi' + Q, symmetric.
@@ -50,8 +66,12 @@ struct Correction {
 
 namespace detail {
 
+template <int N, int M>
+using Padded = Matrix<even_rows(N), M>;
+
 // Joseph form (I - K H) P (I - K H)' + K R K' with the products by H left to the caller: PHt = P H', and
-// times_Ht(W) = W H'. W = (I - K H) P; P+ = W + (K R - W H') K', whose bracket vanishes for the optimal K.
+// times_Ht(W) = W H' of a W padded to even rows. W = (I - K H) P; P+ = W + (K R - W H') K', whose bracket
+// vanishes for the optimal K.
 template <int N, int M, class TimesHt>
 Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Matrix<M, M>& HPHt,
                         const Matrix<M, M>& R, const Vector<M>& innovation, TimesHt times_Ht) {
@@ -64,11 +84,13 @@ Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Ma
   c.K.noalias() = PHt.lazyProduct(S_inverse);
   c.dx.noalias() = c.K.lazyProduct(innovation);
   c.nis = innovation.dot(S_inverse * innovation);
-  c.P = P;
-  c.P.noalias() -= c.K.lazyProduct(PHt.transpose());
-  const Matrix<N, M> bracket = c.K.lazyProduct(R) - times_Ht(c.P);
-  c.P.noalias() += bracket.lazyProduct(c.K.transpose());
-  c.P = (0.5 * (c.P + c.P.transpose())).eval();
+  const auto K = padded(c.K);
+  auto W = padded(P);
+  W.noalias() -= K.lazyProduct(PHt.transpose());
+  const Matrix<even_rows(N), M> bracket = K.lazyProduct(R) - times_Ht(W);
+  W.noalias() += bracket.lazyProduct(c.K.transpose());
+  c.P = W.template topRows<N>();
+  average_with_transpose<N>(c.P);
   return c;
 }
 
@@ -80,7 +102,7 @@ Correction<N, M> update(const Matrix<N, N>& P, const Matrix<M, N>& H, const Matr
                         const Vector<M>& innovation) {
   const Matrix<N, M> PHt = P.lazyProduct(H.transpose());
   const Matrix<M, M> HPHt = H.lazyProduct(PHt);
-  return detail::joseph<N, M>(P, PHt, HPHt, R, innovation, [&](const Matrix<N, N>& W) -> Matrix<N, M> {
+  return detail::joseph<N, M>(P, PHt, HPHt, R, innovation, [&](const auto& W) -> detail::Padded<N, M> {
     return W.lazyProduct(H.transpose());
   });
 }
@@ -91,7 +113,19 @@ template <int First, int N, int M>
 Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, const Vector<M>& innovation) {
   return detail::joseph<N, M>(
       P, P.template middleCols<M>(First), P.template block<M, M>(First, First), R, innovation,
-      [](const Matrix<N, N>& W) -> Matrix<N, M> { return W.template middleCols<M>(First); });
+      [](const auto& W) -> detail::Padded<N, M> { return W.template middleCols<M>(First); });
+}
+
+/// The same when the measurement is the states First .. less the states Less .., M of each.
+template <int First, int Less, int N, int M>
+Correction<N, M> update_state_difference(const Matrix<N, N>& P, const Matrix<M, M>& R,
+                                         const Vector<M>& innovation) {
+  const auto times_Ht = [](const auto& W) -> detail::Padded<N, M> {
+    return W.template middleCols<M>(First) - W.template middleCols<M>(Less);
+  };
+  const Matrix<N, M> PHt = P.template middleCols<M>(First) - P.template middleCols<M>(Less);
+  const Matrix<M, M> HPHt = PHt.template middleRows<M>(First) - PHt.template middleRows<M>(Less);
+  return detail::joseph<N, M>(P, PHt, HPHt, R, innovation, times_Ht);
 }
 
 }  // namespace canhil::filtering

@@ -7,12 +7,14 @@ namespace canhil::strapdown {
 namespace {
 
 // Trapezoidal position from the velocities at both ends, radii and height of the start (as Groves 2013,
-// eq. 5.56).
-void advance_position(NavState& nav, const NavState& from, const LocalEarth& earth, double dt) {
+// eq. 5.56); of the parallel at the start (share_of_end 0) or at the end (1) of the step.
+void advance_position(NavState& nav, const NavState& from, const LocalEarth& earth, double dt,
+                      double share_of_end = 0) {
   const Eigen::Vector3d mean = 0.5 * (from.v_eb_n + nav.v_eb_n);
   nav.latitude = from.latitude + mean.x() * dt / (earth.meridian_radius + from.height);
-  nav.longitude =
-      from.longitude + mean.y() * dt / ((earth.transverse_radius + from.height) * earth.cos_latitude);
+  const double cos_latitude =
+      earth.cos_latitude - share_of_end * earth.sin_latitude * (nav.latitude - from.latitude);
+  nav.longitude = from.longitude + mean.y() * dt / ((earth.transverse_radius + from.height) * cos_latitude);
   nav.height = from.height - mean.z() * dt;
 }
 
@@ -69,6 +71,37 @@ MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& 
   step.nav.C_bn = exp_rotation(-zeta) * nav.C_bn * exp_rotation(phi);
   step.C_bn_mean = 0.5 * (nav.C_bn + step.nav.C_bn);
   return step;
+}
+
+MechanizationStep mechanize_one_sample(const NavState& nav, const ImuIncrement& imu) {
+  const LocalEarth earth = local_earth(nav.latitude, nav.height);
+  MechanizationStep step;
+  step.omega_ie_n = earth.omega_ie_n;
+  step.omega_en_n = transport_rate(earth, nav.height, nav.v_eb_n);
+
+  const Eigen::Vector3d zeta_b = nav.C_bn.transpose() * (step.omega_ie_n + step.omega_en_n) * imu.dt;
+  step.nav.C_bn = nav.C_bn * exp_rotation(imu.delta_theta - zeta_b);
+  step.C_bn_mean = 0.5 * (nav.C_bn + step.nav.C_bn);
+  step.delta_v_n = nav.C_bn * (imu.delta_v + 0.5 * imu.delta_theta.cross(imu.delta_v));
+
+  const Eigen::Vector3d gravity(0, 0, earth.ellipsoid_gravity * (1 - 2 * nav.height / semi_major_axis));
+  const Eigen::Vector3d coriolis = 2 * step.omega_ie_n + step.omega_en_n;
+  step.nav.v_eb_n = nav.v_eb_n + step.delta_v_n + (gravity - coriolis.cross(nav.v_eb_n)) * imu.dt;
+  advance_position(step.nav, nav, earth, imu.dt, 1);
+  return step;
+}
+
+MechanizationStep mechanize(Mechanization kind, const NavState& nav, const ImuIncrement& previous,
+                            const ImuIncrement& imu) {
+  switch (kind) {
+    case Mechanization::reference:
+      return mechanize_reference(nav, imu);
+    case Mechanization::one_sample:
+      return mechanize_one_sample(nav, imu);
+    case Mechanization::two_sample:
+      break;
+  }
+  return mechanize_two_sample(nav, previous, imu);
 }
 
 }  // namespace canhil::strapdown

@@ -23,7 +23,7 @@ struct MechanizationStep {
   Eigen::Vector3d omega_ie_n, omega_en_n;  // [rad/s]
 };
 
-enum class Mechanization : std::uint8_t { reference, two_sample };
+enum class Mechanization : std::uint8_t { reference, two_sample, one_sample };
 
 /// One sample taken as constant rate and specific force; earth terms frozen at its start (the published
 /// vectors' rule). C1 = exp(-[w_in dt x]) C exp([dtheta x]), V1 = V + (C + C1)/2 dv + (g - (2w_ie + w_en) x
@@ -36,5 +36,15 @@ MechanizationStep mechanize_reference(const NavState& nav, const ImuIncrement& i
 /// 0.
 MechanizationStep mechanize_two_sample(const NavState& nav, const ImuIncrement& previous,
                                        const ImuIncrement& imu);
+
+/// One sample, specific force turned by half of its own rotation, earth terms frozen at its start (the
+/// published in-flight vectors' rule): C1 = C exp([(dtheta - C' w_in dt) x]), V1 = V + C (dv + dtheta x dv/2)
+/// + (g - (2w_ie + w_en) x V) dt, gravity in proportion to 1 - 2h/a, longitude by the
+/// parallel of the end. Requires dt > 0.
+MechanizationStep mechanize_one_sample(const NavState& nav, const ImuIncrement& imu);
+
+/// A step of the kind asked for; `previous` serves two_sample alone.
+MechanizationStep mechanize(Mechanization kind, const NavState& nav, const ImuIncrement& previous,
+                            const ImuIncrement& imu);
 
 }  // namespace canhil::strapdown

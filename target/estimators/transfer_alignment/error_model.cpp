@@ -6,14 +6,6 @@ namespace canhil::transfer_alignment {
 
 using strapdown::skew;
 
-void extend(Interval& interval, const strapdown::MechanizationStep& step, double dt) {
-  interval.duration += dt;
-  interval.delta_v_n += step.delta_v_n;
-  interval.C_bn_integral += step.C_bn_mean * dt;
-  interval.omega_ie_n = step.omega_ie_n;
-  interval.omega_en_n = step.omega_en_n;
-}
-
 Covariance transition_increment(const Interval& interval) {
   const double dt = interval.duration;
   Covariance G = Covariance::Zero();

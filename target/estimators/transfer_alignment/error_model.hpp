@@ -9,7 +9,7 @@
 #include <array>
 
 #include "target/estimators/filtering/block_transition.hpp"
-#include "target/estimators/strapdown/mechanization.hpp"
+#include "target/estimators/strapdown/interval.hpp"
 #include "target/estimators/transfer_alignment/settings.hpp"
 
 namespace canhil::transfer_alignment {
@@ -20,18 +20,7 @@ using Covariance = Eigen::Matrix<double, state_count, state_count>;
 
 enum Index : int { velocity_state = 0, attitude_state = 3, accel_bias_state = 6, gyro_bias_state = 9 };
 
-/// What the error model needs of the mechanisation since the last update: integrals, so that a step of the
-/// specific force need not fall on an update.
-struct Interval {
-  double duration = 0;                                      // [s]
-  Eigen::Vector3d delta_v_n = Eigen::Vector3d::Zero();      // integral of C_bn f_ib_b [m/s]
-  Eigen::Matrix3d C_bn_integral = Eigen::Matrix3d::Zero();  // integral of C_bn [s]
-  Eigen::Vector3d omega_ie_n = Eigen::Vector3d::Zero();     // of the last sample [rad/s]
-  Eigen::Vector3d omega_en_n = Eigen::Vector3d::Zero();
-};
-
-/// The interval and one more mechanisation step of dt [s].
-void extend(Interval& interval, const strapdown::MechanizationStep& step, double dt);
+using strapdown::Interval;  // since the last update
 
 /// The non-zero blocks of G = A dt; the H2 term adds P N'N/beta, which fills the attitude column.
 inline constexpr std::array<filtering::Block, 5> kalman_blocks{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}}};

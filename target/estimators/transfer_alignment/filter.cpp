@@ -66,9 +66,7 @@ void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings&
   Ins& ins = state.ins;
   const strapdown::ImuIncrement clean = strapdown::without_bias(imu, ins.gyro_bias, ins.accel_bias);
   const strapdown::MechanizationStep step =
-      settings.mechanization == strapdown::Mechanization::reference
-          ? strapdown::mechanize_reference(ins.nav, clean)
-          : strapdown::mechanize_two_sample(ins.nav, ins.previous, clean);
+      strapdown::mechanize(settings.mechanization, ins.nav, ins.previous, clean);
   ins.nav = step.nav;
   ins.previous = clean;
   extend(ins.interval, step, imu.dt);

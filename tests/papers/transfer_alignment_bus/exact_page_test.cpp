@@ -1,7 +1,7 @@
 // The page of the twin that rounds nothing says so.
 #include <gmock/gmock.h>
 
-#include "tests/papers/transfer_alignment_bus/reproduced.hpp"
+#include "tests/papers/reproduced.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -10,7 +10,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(ExactPaperPage, ClaimsNoQuantisation) {
-  const auto [html, text] = reproduced("paper_page_exact");
+  const auto [html, text] = reproduced("transfer", "paper_page_exact");
   EXPECT_THAT(html, Not(HasSubstr("quantised")));
   EXPECT_THAT(
       html, HasSubstr("2 runs a curve, seed 20010101, frames without the bus's rounding (hil-bench-exact)"));
@@ -19,7 +19,7 @@ TEST(ExactPaperPage, ClaimsNoQuantisation) {
 }
 
 TEST(ExactPaperPage, HasNothingToCompareWithItself) {
-  Request compared = request("paper_errors_exact");
+  Request compared = request("transfer", "paper_errors_exact");
   compared.exact = "exact.sqlite";
   EXPECT_THAT(complaint(compared), HasSubstr("--exact: this program rounds nothing itself"));
 }

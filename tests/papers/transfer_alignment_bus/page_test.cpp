@@ -7,7 +7,7 @@
 
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/paper.hpp"
-#include "tests/papers/transfer_alignment_bus/reproduced.hpp"
+#include "tests/papers/reproduced.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
-  const auto [html, text] = reproduced("paper_page");
+  const auto [html, text] = reproduced("transfer", "paper_page");
   for (const char* figure : {"fig3", "fig4", "fig5", "fig6-kf", "fig6-h2", "fig7-heading", "fig7-roll",
                              "fig7-pitch", "velocity", "artefact", "noise"})
     EXPECT_THAT(html, HasSubstr(std::string("<figure id=\"") + figure + "\">"));
@@ -32,13 +32,13 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
 }
 
 TEST(PaperPage, NamesWhatIsWrongWithTheRequest) {
-  Request unknown = request("paper_errors");
+  Request unknown = request("transfer", "paper_errors");
   unknown.paper = "transfr";
-  EXPECT_EQ(complaint(unknown), "paper 'transfr' is unknown, expected transfer");
-  Request no_folder = request("paper_errors");
+  EXPECT_EQ(complaint(unknown), "paper 'transfr' is unknown, expected transfer or inflight");
+  Request no_folder = request("transfer", "paper_errors");
   no_folder.folder = "/dev/null/page";
   EXPECT_EQ(complaint(no_folder), "folder '/dev/null/page': cannot be made: Not a directory");
-  Request no_exact = request("paper_errors");
+  Request no_exact = request("transfer", "paper_errors");
   no_exact.exact = "/nowhere.sqlite";
   EXPECT_THAT(complaint(no_exact), HasSubstr("/nowhere.sqlite"));
 }

@@ -1,10 +1,17 @@
 #!/bin/sh
-# Instructions of one IMU step and one update: tests/perf/estimators/count_instructions.sh BUILD_DIR
+# Instructions of one step of each estimator: tests/perf/estimators/count_instructions.sh BUILD_DIR
 set -eu
-program=$1/tests/perf/estimators/estimators_instructions
 out=$(mktemp)
 trap 'rm -f "$out"' EXIT
-for call in imu_step_reference imu_step_two_sample update_kalman update_robust_h2; do
-  valgrind --tool=callgrind --toggle-collect="$call" --callgrind-out-file="$out" "$program" >/dev/null 2>&1
-  printf '%-22s %s instructions\n' "$call" "$(sed -n 's/^summary: //p' "$out")"
-done
+count() { # count PROGRAM CALL...
+  program=$1
+  shift
+  for call in "$@"; do
+    valgrind --tool=callgrind --toggle-collect="$call" --callgrind-out-file="$out" "$program" >/dev/null 2>&1
+    printf '%-22s %s instructions\n' "$call" "$(sed -n 's/^summary: //p' "$out")"
+  done
+}
+folder=$1/tests/perf/estimators
+count "$folder/estimators_instructions" imu_step_reference imu_step_two_sample update_kalman update_robust_h2
+count "$folder/los_rate_instructions" step_switched_thermal step_switched_glint step_combined step_kalman step_low_pass
+count "$folder/inflight_alignment_instructions" imu_step fix_ekf_15 fix_ekf_18 fix_ukf_15 fix_ukf_18 fix_sin_cos_16 fix_sin_cos_19

@@ -8,10 +8,10 @@
 namespace canhil::test {
 namespace {
 
-std::string record(const std::string& name, const std::string& options) {
+std::string record(const std::string& name, const std::string& options,
+                   const std::string& file = "transfer_alignment_quick") {
   std::string log = scratch(name);
-  const Ended ended =
-      hil_bench(fmt::format("run {} {} --log {}", scenario("transfer_alignment_quick"), options, log));
+  const Ended ended = hil_bench(fmt::format("run {} {} --log {}", scenario(file), options, log));
   EXPECT_NE(ended.code, 2) << ended.err;
   return log;
 }
@@ -22,6 +22,29 @@ TEST(Bits, InProcessLockstepAndRealTimeAgree) {
   const auto real_time = target_frames(record("real_time.log", fmt::format("--bus {}", bus())));
   EXPECT_GT(in_process.size(), 500U);
   EXPECT_TRUE(in_process == lockstep);
+  EXPECT_TRUE(in_process == real_time);
+}
+
+class BitsOfScenario : public testing::TestWithParam<const char*> {};
+
+TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
+  const std::string name = GetParam();
+  const auto in_process = target_frames(record(name + ".in_process.log", "--bus in-process", name));
+  const auto lockstep =
+      target_frames(record(name + ".lockstep.log", fmt::format("--bus {} --lockstep", bus()), name));
+  EXPECT_GT(in_process.size(), 10'000U);
+  EXPECT_TRUE(in_process == lockstep);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
+                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps"));
+
+TEST(Bits, InflightInProcessAndRealTimeAgree) {
+  const std::string name = "inflight_quick";
+  const auto in_process = target_frames(record("inflight.in_process.log", "--bus in-process", name));
+  const auto real_time =
+      target_frames(record("inflight.real_time.log", fmt::format("--bus {}", bus()), name));
+  EXPECT_GT(in_process.size(), 1000U);
   EXPECT_TRUE(in_process == real_time);
 }
 

@@ -40,6 +40,29 @@ TEST(Run, ThePapersFlightPassesInRealTime) {
   EXPECT_EQ(ended.err, "") << "no progress line into a pipe";
 }
 
+class RunOfScenario : public testing::TestWithParam<const char*> {};
+
+TEST_P(RunOfScenario, OutputsPassInLockstep) {
+  const std::string report = scratch(std::string(GetParam()) + ".json");
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --lockstep --json {}", scenario(GetParam()), bus(), report));
+  ASSERT_NE(ended.code, 2) << ended.err;
+  expect_outputs_passed(ended, read_json(report));
+}
+
+INSTANTIATE_TEST_SUITE_P(Run, RunOfScenario,
+                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps"));
+
+TEST(Run, AnAlignmentInFlightPassesInRealTime) {
+  const std::string report = scratch("inflight.json");
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --json {}", scenario("inflight_quick"), bus(), report));
+  ASSERT_NE(ended.code, 2) << ended.err;
+  expect_outputs_passed(ended, read_json(report));
+  EXPECT_EQ(read_json(report)["from_target"]["navigation_answers"], 1500);
+  EXPECT_EQ(read_json(report)["fixes"]["outcomes"]["accepted"], 29);
+}
+
 TEST(Run, ATargetKilledInMidRunIsNamed) {
   const std::string mortal = scratch("mortal_target");
   std::ofstream(mortal) << "#!/bin/sh\nexec timeout -s KILL 1 " HIL_TARGET " \"$@\"\n";

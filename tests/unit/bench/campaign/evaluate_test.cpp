@@ -65,6 +65,47 @@ TEST(Bars, OfValuesWindowsPairsAndDivergence) {
   EXPECT_EQ(passed("kind = 'divergence'\nbeyond_mrad = 5\nat_least = 3\n", 1), true);
 }
 
+TEST(Bars, OfDistributions) {
+  const auto of_b = [](const std::string& bar) {  // 8, 8, 8, 0 mrad
+    return passed("kind = 'distribution'\nat_s = 0.3\n" + bar, 1);
+  };
+  EXPECT_EQ(of_b(""), std::nullopt);
+  EXPECT_EQ(of_b("median_at_most_mrad = 8"), true);
+  EXPECT_EQ(of_b("median_at_most_mrad = 7.9"), false);
+  EXPECT_EQ(of_b("median_at_least_mrad = 8.1"), false);
+  EXPECT_EQ(of_b("p90_at_most_mrad = 7.9"), false);
+  EXPECT_EQ(of_b("rms_at_most_mrad = 6.93"), true);  // sqrt(48)
+  EXPECT_EQ(of_b("rms_at_most_mrad = 6.92"), false);
+  EXPECT_EQ(of_b("rms_at_least_mrad = 6.93"), false);
+  EXPECT_EQ(of_b("below_mrad = 1\nfraction_at_least = 0.25"), true);
+  EXPECT_EQ(of_b("below_mrad = 1\nfraction_at_least = 0.26"), false);
+  EXPECT_EQ(of_b("below_mrad = 1\nfraction_at_most = 0.24"), false);
+  EXPECT_EQ(of_b("unit = 'deg'\nmedian_at_most_deg = 0.459"), true);  // 0.4584
+  EXPECT_EQ(of_b("unit = 'deg'\nmedian_at_most_deg = 0.458"), false);
+}
+
+TEST(Distribution, SaysWhatItFoundInItsUnit) {
+  const auto evaluation = ask("kind = 'distribution'\nunit = 'deg'\nat_s = 0.3\nbelow_deg = 0.1\n");
+  ASSERT_TRUE(evaluation) << evaluation.error().message;
+  const Answer& answer = evaluation->answers.at(0);
+  EXPECT_EQ(
+      answer.measured,
+      "RMS 0.0573 deg (of 100 runs: 0.0573 to 0.0573), median 0.0573 deg, p90 0.0573 deg, below 0.1 deg in "
+      "100.0 %");
+  const auto figure = std::ranges::find(answer.figures, "median_deg", [](const auto& f) { return f.first; });
+  ASSERT_NE(figure, answer.figures.end());
+  EXPECT_NEAR(*figure->second, 0.0572958, 1e-6);
+}
+
+TEST(Distribution, AFractionNeedsABound) {
+  const auto evaluation = ask("kind = 'distribution'\nat_s = 0.3\nfraction_at_least = 0.5\n");
+  ASSERT_FALSE(evaluation);
+  EXPECT_THAT(
+      evaluation.error().message,
+      HasSubstr("key 'metric[1].fraction_at_least': is of no use without a bound, expected below_mrad "
+                "beside it"));
+}
+
 TEST(Bars, AreNotMetWhileARunIsMissing) {
   const auto one_faulted = [](std::size_t variant) -> Result<std::vector<RunSeries>> {
     auto runs = runs_of(variant);
@@ -74,6 +115,7 @@ TEST(Bars, AreNotMetWhileARunIsMissing) {
   };
   for (const std::string metric : {"kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.0\n",
                                    "kind = 'value_at'\nat_s = 3.0\nat_most_mrad = 100\n",
+                                   "kind = 'distribution'\nat_s = 3.0\nrms_at_most_mrad = 100\n",
                                    "kind = 'window'\nmean_at_most_mrad = 100\n"}) {
     const auto evaluation = ask(metric, one_faulted);
     ASSERT_TRUE(evaluation) << evaluation.error().message;

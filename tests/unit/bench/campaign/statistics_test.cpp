@@ -55,6 +55,43 @@ TEST(ValueAt, IsTheLastUpdateAtOrBefore) {
   EXPECT_EQ(value_at(curve, 99'999), std::nullopt);
 }
 
+TEST(RunDistribution, IsOfEachRunsLastUpdateAtOrBeforeTheTime) {
+  std::vector<RunSeries> runs;
+  for (std::uint64_t run = 0; run < 10; ++run)
+    runs.push_back(
+        run_with(run, {99, run % 2 == 0 ? static_cast<double>(run + 1) : -static_cast<double>(run + 1), 99}));
+  runs[3].samples.erase(runs[3].samples.begin() + 1);  // its fix was lost: the one before counts
+  runs[3].samples[0].angles.heading = 4;
+  const auto found = run_distribution(runs, heading, 250'000, 5, 100);
+  EXPECT_EQ(found.missing, 0U);
+  EXPECT_DOUBLE_EQ(found.rms, std::sqrt(38.5));
+  EXPECT_DOUBLE_EQ(found.mean, 5.5);
+  EXPECT_DOUBLE_EQ(found.median, 5);
+  EXPECT_DOUBLE_EQ(found.p90, 9);
+  EXPECT_DOUBLE_EQ(found.below, 0.4);
+}
+
+TEST(RunDistribution, BootstrapsTheRmsOfABatch) {
+  std::vector<RunSeries> runs;
+  for (std::uint64_t run = 0; run < 400; ++run) runs.push_back(run_with(run, {run % 4 == 0 ? 10.0 : 0.0}));
+  const auto found = run_distribution(runs, heading, 100'000, 1, 100);
+  // Of 100 runs B(100, 1/4) have 10: 5 % and 95 % quantiles are 18 and 32 of them.
+  EXPECT_NEAR(found.rms_low, std::sqrt(18.0), 0.13);
+  EXPECT_NEAR(found.rms_high, std::sqrt(32.0), 0.13);
+  EXPECT_EQ(run_distribution(runs, heading, 100'000, 1, 100).rms_low, found.rms_low) << "seeded";
+  EXPECT_LT(run_distribution(runs, heading, 100'000, 1, 1000).rms_high, found.rms_high);
+}
+
+TEST(RunDistribution, CountsRunsThatHadEndedOrAreNotFinite) {
+  std::vector<RunSeries> runs{run_with(0, {1, 2}), run_with(1, {1}), run_with(2, {1, nan}), run_with(3, {})};
+  runs[1].ending = {.kind = run::Ending::Kind::target_fault, .t_us = 150'000, .detail = ""};
+  const auto found = run_distribution(runs, heading, 200'000, 5, 100);
+  EXPECT_EQ(found.missing, 3U);
+  EXPECT_DOUBLE_EQ(found.rms, 2);
+  EXPECT_DOUBLE_EQ(found.below, 0.25) << "of all runs";
+  EXPECT_EQ(run_distribution(runs, heading, 100'000, 5, 100).missing, 1U) << "it had not ended then";
+}
+
 TEST(WindowStatistics, AreMeanAndStandardDeviationOverRunsAndTime) {
   const std::vector runs{run_with(0, {99, 2, 4, 99}), run_with(1, {99, 4, 6, 99})};
   const auto found = window_statistics(runs, heading, 200'000, 300'000);

@@ -21,12 +21,12 @@ class Judged : public testing::Test {
  protected:
   Judged() {
     for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
-      seen_.slave_imu.push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.stimuli["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
       seen_.navigation.push_back({.cause_us = t_us, .angles = {}});
       arrive<messages::AlignAttitude>(t_us * 1000 + 200'000, t_us);
       seen_.lateness_ns.push_back(50'000);
       if (t_us % 100'000 != 0) continue;
-      seen_.master_ins.push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.stimuli["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
       seen_.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
       arrive<messages::TargetHeartbeat>(t_us * 1000);
     }
@@ -35,7 +35,10 @@ class Judged : public testing::Test {
   }
   template <class Message>
   void arrive(std::int64_t t_ns, std::int64_t cause_us = -1) {
-    arrivals<Message>().push_back({.t_ns = t_ns, .cause_us = cause_us});
+    arrivals<Message>().push_back(
+        {.t_ns = t_ns,
+         .cause_us = cause_us,
+         .cause_group = cause_us < 0 ? std::string_view{} : Message::info.answers.front()});
   }
   template <class Message>
   std::vector<Arrival>& arrivals() {

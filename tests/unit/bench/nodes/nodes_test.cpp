@@ -57,10 +57,12 @@ TEST(Sampling, IsSentALatencyAfterItsTimeOfValidity) {
 
 TEST(Sampling, NothingIsSentAfterTheEndOfTheRun) {
   const auto flight = at_rest(40'000);
-  SlaveImu in_time(flight, {}, world::Stream(1, 0, "imu"));
+  SlaveImu in_time(flight, {}, world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
   EXPECT_THAT(times(in_time), ElementsAre(10'000, 20'000, 30'000, 40'000));
-  SlaveImu delayed(flight, {.schedule = {.period_us = std::nullopt, .latency_us = 5'000}, .errors = {}},
-                   world::Stream(1, 0, "imu"));
+  SlaveImu delayed(
+      flight,
+      {.schedule = {.period_us = std::nullopt, .latency_us = 5'000}, .errors = {}, .loss_probability = 0},
+      world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
   EXPECT_THAT(times(delayed), ElementsAre(15'000, 25'000, 35'000));
 }
 
@@ -98,6 +100,27 @@ TEST(MasterIns, ClosesItsGroupWithTheTimeOfValidityNotOfTransmission) {
   EXPECT_EQ(out.frames().back().id, messages::MasterInsVelocityD::info.id);
   EXPECT_EQ(closing.time_of_validity_us, 50'000U);
   for (const Frame& frame : out.frames()) EXPECT_EQ(e2e::counter(frame.payload()), 0);
+}
+
+TEST(SlaveImu, AGroupLostTakesItsIncrementsWithItAndLeavesAGapInTheCounters) {
+  const auto flight = at_rest(10'000'000);
+  scenario::SlaveImu config;
+  SlaveImu whole(flight, config, world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
+  config.loss_probability = 0.3;
+  SlaveImu lossy(flight, config, world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
+  Transmission out, lossy_out;
+  int lost = 0;
+  for (; whole.due_us() != never_us; out.clear(), lossy_out.clear()) {
+    ASSERT_EQ(whole.due_us(), lossy.due_us());
+    whole.transmit(out);
+    lossy.transmit(lossy_out);
+    if (lossy_out.frames().empty()) {
+      ++lost;
+    } else {
+      ASSERT_TRUE(std::ranges::equal(out.frames(), lossy_out.frames())) << "counters and measurements go on";
+    }
+  }
+  EXPECT_NEAR(lost, 300, 5 * 14.5);  // binomial: sigma = sqrt(1000 0.3 0.7)
 }
 
 }  // namespace

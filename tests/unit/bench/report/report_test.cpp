@@ -104,6 +104,26 @@ TEST(Reports, NameAPeriodThatIsNotTheDbcs) {
   EXPECT_THAT(page["provenance"]["period_overrides"], testing::SizeIs(1));
 }
 
+TEST(Reports, TellWhatBecameOfFixes) {
+  run::Run run = run_of();
+  EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("fixes")));
+  checks::FixAnswer fix{.cause_us = 100'000};
+  fix.heading_sigma = 0.01;
+  run.seen.fixes = {fix, fix, fix};
+  EXPECT_THAT(text(scenario_of(), run),
+              HasSubstr("accepted 3; repairs 0; heading not resolved, sigma 0.573 deg at the end"));
+  run.seen.fixes[1].outcome = messages::FixOutcome::gated;
+  run.seen.fixes[1].cause_us = 200'000;
+  run.seen.fixes[1].handed_over = run.seen.fixes[2].handed_over = true;
+  run.seen.fixes[2].repairs = 4;
+  EXPECT_THAT(text(scenario_of(), run),
+              HasSubstr("accepted 2, gated 1; repairs 4; heading resolved at 0.2 s"));
+  const auto page = nlohmann::json::parse(json(scenario_of(), run));
+  EXPECT_EQ(page["fixes"]["outcomes"]["gated"], 1);
+  EXPECT_EQ(page["fixes"]["resolved_s"], 0.2);
+  EXPECT_EQ(page["fixes"]["repairs"], 4);
+}
+
 TEST(File, IsWholeOrNotThere) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("canhil-report-" + std::to_string(getpid()));

@@ -51,6 +51,30 @@ class Watched : public testing::Test {
     receive(AlignAccelBiasSigma{});
     receive(AlignUpdate{.cause_time_us = wrap_us(cause_us), .nis = 2.5});
   }
+  void answer_fix(std::int64_t cause_us, FixSource source, std::int64_t t_ns = 0) {
+    receive(FixInnovation{.innovation_north_m = 1.5, .innovation_east_m = -2, .innovation_down_m = 3}, t_ns);
+    receive(FixPositionLatitude{.latitude_deg = 36, .height_m = -20}, t_ns);
+    receive(FixPositionLongitude{.longitude_deg = 129}, t_ns);
+    receive(
+        FixAttitudeSigma{.tilt_sigma_north_deg = 0.1, .tilt_sigma_east_deg = 0.2, .heading_sigma_deg = 90},
+        t_ns);
+    receive(FixVelocitySigma{.velocity_sigma_east_mps = 0.25}, t_ns);
+    receive(FixPositionSigma{.position_sigma_down_m = 5}, t_ns);
+    receive(FixGyroBias{.gyro_bias_x_degph = 3.6}, t_ns);
+    receive(FixGyroBiasSigma{}, t_ns);
+    receive(FixAccelBias{.accel_bias_z_ug = 100}, t_ns);
+    receive(FixAccelBiasSigma{}, t_ns);
+    receive(FixBias{.fix_bias_north_m = 2}, t_ns);
+    receive(FixBiasSigma{.fix_bias_sigma_north_m = 1}, t_ns);
+    receive(FixStatus{.outcome = FixOutcome::gated,
+                      .source = source,
+                      .handed_over = 1,
+                      .repairs = 7,
+                      .gated = 8,
+                      .refused = 9},
+            t_ns);
+    receive(FixUpdate{.cause_time_us = wrap_us(cause_us), .nis = 2.5}, t_ns);
+  }
   template <class Message>
   static Frame next(Outbox<1>& side, const Message& message) {
     side.clear();
@@ -86,6 +110,65 @@ TEST_F(Watched, AFilterGroupIsOneAnswerThatKnowsTheNavigationBeforeIt) {
   EXPECT_NEAR(seen().filter[0].gyro_bias.x(), 1.7453293e-5, 1e-12);
 }
 
+TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
+  answer(100'000);
+  answer_fix(60'000, FixSource::gps);
+  ASSERT_EQ(seen().fixes.size(), 1U);
+  const checks::FixAnswer& fix = seen().fixes[0];
+  EXPECT_EQ(fix.cause_us, 60'000);
+  EXPECT_EQ(fix.navigation_us, 100'000);
+  EXPECT_EQ(fix.source, FixSource::gps);
+  EXPECT_EQ(fix.outcome, FixOutcome::gated);
+  EXPECT_NEAR(fix.nis, 2.5, 1e-12);
+  EXPECT_TRUE(fix.innovation.isApprox(world::Vector3(1.5, -2, 3), 1e-12));
+  EXPECT_NEAR(fix.position.latitude, 0.62831853, 1e-8);
+  EXPECT_NEAR(fix.position.longitude, 2.25147474, 1e-8);
+  EXPECT_NEAR(fix.position.height, -20, 1e-9);
+  EXPECT_NEAR(fix.tilt_sigma_north, 1.7453293e-3, 1e-9);
+  EXPECT_NEAR(fix.tilt_sigma_east, 3.4906585e-3, 1e-9);
+  EXPECT_NEAR(fix.heading_sigma, 1.5707963, 1e-7);
+  EXPECT_NEAR(fix.velocity_sigma.y(), 0.25, 1e-12);
+  EXPECT_NEAR(fix.position_sigma.z(), 5, 1e-12);
+  EXPECT_NEAR(fix.gyro_bias.x(), 1.7453293e-5, 1e-12);
+  EXPECT_NEAR(fix.accel_bias.z(), 9.80665e-4, 1e-9);
+  EXPECT_NEAR(fix.fix_bias.x(), 2, 1e-12);
+  EXPECT_NEAR(fix.fix_bias_sigma.x(), 1, 1e-12);
+  EXPECT_TRUE(fix.handed_over);
+  EXPECT_EQ(std::tuple(fix.repairs, fix.gated, fix.refused), std::tuple(7U, 8U, 9U));
+}
+
+TEST_F(Watched, AFixIsPairedWithTheGroupOfItsSource) {
+  transmit(SsblRelativeD{.time_of_validity_us = 1'000'000}, 1'000);
+  transmit(GpsTime{.time_of_validity_us = 1'000'000}, 2'000);
+  answer_fix(1'000'000, FixSource::gps, 2'500);
+  answer_fix(1'000'000, FixSource::ssbl, 4'000);
+  EXPECT_THAT(checks::latencies_s(seen(), "FixUpdate", everything),
+              ElementsAre(testing::DoubleEq(0.5e-6), testing::DoubleEq(3e-6)));
+  EXPECT_THAT(checks::latencies_s(seen(), "FixStatus", everything), testing::SizeIs(2));
+}
+
+TEST_F(Watched, KeepsStimuliByTheGroupsThatAreAnswered) {
+  imu(10'000, 1'000);
+  transmit(MasterInsVelocityD{.time_of_validity_us = 20'000}, 2'000);
+  transmit(SsblRelativeD{.time_of_validity_us = 30'000}, 3'000);
+  transmit(GpsTime{.time_of_validity_us = 40'000}, 4'000);
+  transmit(TargetInitVelocityD{.time_of_validity_us = 50'000}, 5'000);
+  ASSERT_EQ(seen().stimuli.size(), 4U) << "nobody answers TargetInit";
+  EXPECT_EQ(seen().stimuli.at("SlaveImu").at(0).valid_us, 10'000);
+  EXPECT_EQ(seen().stimuli.at("MasterIns").at(0).valid_us, 20'000);
+  EXPECT_EQ(seen().stimuli.at("Ssbl").at(0).valid_us, 30'000);
+  EXPECT_EQ(seen().stimuli.at("Gps").at(0).valid_us, 40'000);
+  EXPECT_EQ(seen().stimuli.at("Gps").at(0).t_ns, 4'000);
+}
+
+TEST_F(Watched, AnAnswerToTwoRhythmsHasNoNominalPeriod) {
+  for (std::int64_t second = 1; second <= 4; ++second)
+    transmit(SsblRelativeD{.time_of_validity_us = wrap_us(second * 2'000'000)}, second);
+  EXPECT_DOUBLE_EQ(checks::nominal_period_s(seen(), "FixUpdate"), 2.0);
+  transmit(GpsTime{.time_of_validity_us = 500'000}, 9);
+  EXPECT_DOUBLE_EQ(checks::nominal_period_s(seen(), "FixUpdate"), 0.0);
+}
+
 TEST_F(Watched, LatencyIsPairedByCauseNotByOrder) {
   imu(10'000, 1'000);
   imu(20'000, 2'000);
@@ -106,8 +189,8 @@ TEST_F(Watched, TheStampOfTheEchoReplacesTheBenchsOwn) {
   answer(20'000, 3'700);
   EXPECT_THAT(checks::latencies_s(seen(), "AlignVelocityD", everything),
               ElementsAre(testing::DoubleEq(1e-6)));
-  EXPECT_EQ(seen().slave_imu[0].t_ns, 1'000);
-  EXPECT_EQ(seen().slave_imu[2].t_ns, 3'000);
+  EXPECT_EQ(seen().stimuli.at("SlaveImu")[0].t_ns, 1'000);
+  EXPECT_EQ(seen().stimuli.at("SlaveImu")[2].t_ns, 3'000);
 }
 
 TEST_F(Watched, AnEchoIsNoAnswer) {

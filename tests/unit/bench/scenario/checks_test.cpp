@@ -40,6 +40,11 @@ TEST(ScenarioChecks, NamesByDefaultSayWhatIsLookedAt) {
   EXPECT_EQ(name("kind = 'output_period'\nmessage = 'AlignUpdate'\nwithin_percent = 1"),
             "output_period AlignUpdate");
   EXPECT_EQ(name("kind = 'counters'\nlate_at_most = 1"), "counters");
+  EXPECT_EQ(name("kind = 'position_error'\nbelow_m = 1"), "position_error norm");
+  EXPECT_EQ(name("kind = 'fixes'\ngated_at_most = 1"), "fixes");
+  EXPECT_EQ(name("kind = 'coasting'\nat_most = 1"), "coasting");
+  EXPECT_EQ(name("kind = 'consistency'\nstatistic = 'heading_nees'\nmean_between = [0, 2]"),
+            "consistency heading_nees");
 }
 
 TEST(ScenarioChecks, AttitudeError) {
@@ -121,6 +126,50 @@ TEST(ScenarioChecks, Counters) {
   EXPECT_EQ(rest.bad_group_at_most, 1);
   EXPECT_EQ(rest.late_at_most, 2);
   EXPECT_FALSE(rest.bad_crc_at_most);
+}
+
+TEST(ScenarioChecks, AnglesMayBeInDegrees) {
+  const auto error = rule_of<AttitudeError>("kind = 'attitude_error'\naxis = 'heading'\nbelow_deg = 5");
+  EXPECT_DOUBLE_EQ(error.below, 5 * world::units::deg);
+  EXPECT_EQ(error.unit.name, "deg");
+  const auto convergence =
+      rule_of<Convergence>("kind = 'convergence'\naxis = 'heading'\nwithin_deg = 3\nbefore_s = 14");
+  EXPECT_DOUBLE_EQ(convergence.within, 3 * world::units::deg);
+  EXPECT_EQ(convergence.unit.name, "deg");
+  EXPECT_EQ(rule_of<AttitudeError>("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 5").unit.name,
+            "mrad");
+}
+
+TEST(ScenarioChecks, PositionError) {
+  const auto rule =
+      rule_of<PositionError>("kind = 'position_error'\naxis = 'horizontal'\nfrom_s = 3\nbelow_m = 12");
+  EXPECT_EQ(rule.axis, PositionAxis::horizontal);
+  EXPECT_EQ(rule.window.from_us, 3'000'000);
+  EXPECT_DOUBLE_EQ(rule.below, 12.0);
+  EXPECT_EQ(rule_of<PositionError>("kind = 'position_error'\nbelow_m = 1").axis, PositionAxis::norm);
+}
+
+TEST(ScenarioChecks, Fixes) {
+  const auto rule = rule_of<Fixes>(
+      "kind = 'fixes'\nfrom_s = 3\ngated_at_least = 2\ngated_at_most = 4\naccepted_at_least = 10\n"
+      "repairs_at_most = 1\nhanded_over_before_s = 15");
+  EXPECT_EQ(rule.window.from_us, 3'000'000);
+  ASSERT_EQ(rule.counts.size(), 2U);
+  EXPECT_EQ(rule.counts[0].outcome, "accepted");
+  EXPECT_EQ(rule.counts[0].at_least, 10);
+  EXPECT_FALSE(rule.counts[0].at_most);
+  EXPECT_EQ(rule.counts[1].outcome, "gated");
+  EXPECT_EQ(rule.counts[1].at_least, 2);
+  EXPECT_EQ(rule.counts[1].at_most, 4);
+  EXPECT_EQ(rule.repairs_at_most, 1);
+  EXPECT_EQ(rule.handed_over_before_us, 15'000'000);
+}
+
+TEST(ScenarioChecks, Coasting) {
+  const auto rule = rule_of<Coasting>("kind = 'coasting'\nto_s = 3\nat_least = 1\nat_most = 5");
+  EXPECT_EQ(rule.window.to_us, 3'000'000);
+  EXPECT_EQ(rule.at_least, 1);
+  EXPECT_EQ(rule.at_most, 5);
 }
 
 TEST(ScenarioChecks, HeartbeatAndOrder) {

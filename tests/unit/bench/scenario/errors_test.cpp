@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"seed = 7", "seed = 7\nzebra_crossing = 1\nape_house = 1",
               "4: key 'zebra_crossing': is unknown, expected one of: title, duration_s, seed, target, truth, "
-              "initial_error, master_ins, slave_imu, check"},
+              "initial_error, master_ins, slave_imu, ssbl, gps, check"},
         Wrong{"seed = 7", "seeds = 7", "3: key 'seeds': is unknown, expected 'seed'"},
         Wrong{"[master_ins]", "[master_ins]\nperod_ms = 3",
               "15: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"},
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
               "silent_at_most_s, name"},
         Wrong{"seed = 7", "seed = 7\n\"a\\nb\" = 1",
               "4: key 'a?b': is unknown, expected one of: title, duration_s, seed, target, truth, "
-              "initial_error, master_ins, slave_imu, check"},
+              "initial_error, master_ins, slave_imu, ssbl, gps, check"},
         Wrong{"[truth]", "[target.parameters]\nh2_cases = 1\n[truth]",
               "9: key 'target.parameters.h2_cases': is unknown, expected 'h2_case'"}));
 
@@ -83,7 +83,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"seed = 7", "seed = [7]", "3: key 'seed': is an array, expected a whole number of at least 0"},
         Wrong{"\"A title\"", "5", "1: key 'title': is a number, expected text on one line"},
         Wrong{"\"rest\"", "5",
-              "9: key 'truth.trajectory': is a number, expected one of: rest, level_acceleration, weave"},
+              "9: key 'truth.trajectory': is a number, expected one of: rest, level_acceleration, weave, "
+              "s_path, racetrack, spiral, "
+              "rest_then_go"},
         Wrong{sigma, "initial_sigma = 1", "7: key 'target.initial_sigma': is a number, expected a table"},
         Wrong{"[[check]]", "[check]", "16: key 'check': is a table, expected at least one [[check]]"},
         Wrong{"seed = 7\n", "seed = 7\ncheck = [ 5 ]\n",
@@ -147,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"\"heartbeat\"", "\"banana\"",
               "17: key 'check[1].kind': 'banana' is unknown, expected one of: attitude_error, convergence, "
               "velocity_error, "
-              "consistency, output_period, latency, counters, heartbeat"},
+              "consistency, output_period, latency, counters, heartbeat, position_error, fixes, coasting"},
         Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'yaw'\nbelow_mrad = 1"),
               "18: key 'check[1].axis': 'yaw' is unknown, expected one of: roll, pitch, heading"},
         Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),
@@ -160,6 +162,10 @@ INSTANTIATE_TEST_SUITE_P(
               "20: key 'check[1].before_s': is after the end of the run, expected at most duration_s = 20"},
         Wrong{"[[check]]", check("kind = 'latency'\nmessage = 'AlignAtitude'\nbelow_ms = 1"),
               "18: key 'check[1].message': 'AlignAtitude' is unknown, expected 'AlignAttitude'"},
+        Wrong{
+            "[[check]]", check("kind = 'latency'\nmessage = 'TargetHeartbeat'\nbelow_ms = 1"),
+            "18: key 'check[1].message': 'TargetHeartbeat' answers nothing, expected one of: AlignAttitude, "
+            "AlignUpdate"},
         Wrong{"[[check]]", check("kind = 'latency'\nmessage = 'AlignUpdate'\nbelow_ms = 1\nquantile = 99"),
               "20: key 'check[1].quantile': 99 is out of range, expected a number above 0, at most 1"},
         Wrong{
@@ -198,6 +204,49 @@ TEST(ScenarioFile, IsReadAsItsText) {
   EXPECT_EQ(scenario->file, path);
   EXPECT_EQ(scenario->hash, parsed(valid).hash);
 }
+
+const std::string s_path = "\"s_path\"\nspeed_mps = 3\nheading_amplitude_deg = 50\nturn_period_s = 33\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    InFlight, ScenarioError,
+    testing::Values(
+        Wrong{"transfer_alignment", "inflight_alignment",
+              "1: key 'ssbl': is missing, as is 'gps', expected at least one of the tables [ssbl] and [gps]"},
+        Wrong{"\"rest\"", "\"s_path\"\nspeed_mps = 0",
+              "10: key 'truth.speed_mps': 0 is out of range, expected a number above 0"},
+        Wrong{"\"rest\"", s_path + "dive_depth_m = 100\ndive_period_s = 60",
+              "13: key 'truth.dive_depth_m': is too deep for the speed and dive_period_s, expected at most "
+              "40.51, a "
+              "dive of 45 degrees"},
+        Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 1\nbelow_deg = 1"),
+              "19: key 'check[1].below_mrad': is given beside below_deg, expected one of the two"},
+        Wrong{"[[check]]", check("kind = 'fixes'"),
+              "16: key 'check[1].accepted_at_least': is missing, as are all its like, expected at least one "
+              "limit"},
+        Wrong{
+            "[[check]]", check("kind = 'fixes'\nlost_at_most = 1\ngated_at_most = 1"),
+            "18: key 'check[1].lost_at_most': is unknown, expected one of: kind, requirement, from_s, to_s, "
+            "accepted_at_least, accepted_at_most, gated_at_least, gated_at_most, repairs_at_most, "
+            "handed_over_before_s, name"},
+        Wrong{"[[check]]", check("kind = 'coasting'"),
+              "16: key 'check[1].at_least': is missing, as is 'at_most', expected at least one limit"},
+        Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'heading_nees'\nprobability = 0.9"),
+              "19: key 'check[1].probability': is for nis only, expected mean_between = [low, high]"},
+        Wrong{"[[check]]", "[ssbl]\noutlier_percent = 5\n[[check]]",
+              "17: key 'ssbl.outlier_percent': is given alone, expected outlier_percent and outlier_m, both "
+              "above "
+              "0"},
+        Wrong{"[[check]]", "[gps]\nloss_percent = 101\n[[check]]",
+              "17: key 'gps.loss_percent': 101 is out of range, expected a number from 0 to 100"},
+        Wrong{"[[check]]", "[gps]\nnoise = 10\n[[check]]",
+              "17: key 'gps.noise': is unknown, expected 'noise_m'"},
+        Wrong{"[[check]]", "[ssbl]\nsilence_s = [5, 4]\n[[check]]",
+              "17: key 'ssbl.silence_s': is descending, expected an array [low, high], each of at least 0"},
+        Wrong{"[slave_imu]", "[slave_imu]\nloss_percent = -1",
+              "16: key 'slave_imu.loss_percent': -1 is out of range, expected a number from 0 to 100"},
+        Wrong{"[master_ins]", "[initial_error]\nheading_magnitude_deg = 181\n[master_ins]",
+              "15: key 'initial_error.heading_magnitude_deg': 181 is out of range, expected a number from 0 "
+              "to 180"}));
 
 }  // namespace
 }  // namespace canhil::scenario

@@ -116,6 +116,14 @@ TEST(ScenarioFields, InitialErrorIsFixedOrDrawnForOneOrThreeAxes) {
   expect_near(error.velocity.sigma, {0, 0, 2});
   expect_near(error.attitude.value, Vector3(5, -5, 5) * deg);
   expect_near(error.attitude.sigma, Vector3(1, 1, 1) * deg);
+  EXPECT_EQ(error.heading_sigma, 0.0);
+  EXPECT_EQ(error.heading_magnitude, 0.0);
+  const auto heading =
+      parsed(with("[master_ins]",
+                  "[initial_error]\nheading_sigma_deg = 30\nheading_magnitude_deg = 90\n[master_ins]"))
+          .initial_error;
+  EXPECT_DOUBLE_EQ(heading.heading_sigma, 30 * deg);
+  EXPECT_DOUBLE_EQ(heading.heading_magnitude, 90 * deg);
 }
 
 TEST(ScenarioFields, MasterIns) {
@@ -144,7 +152,7 @@ TEST(ScenarioFields, SlaveImu) {
   EXPECT_FALSE(bare.schedule.period_us.has_value());
   EXPECT_TRUE(bare.errors.gyro.noise.isZero() && bare.errors.accel.bias.sigma.isZero());
   const auto node = parsed(inside("[slave_imu]",
-                                  "period_ms = 5\nlatency_ms = 1\n"
+                                  "period_ms = 5\nlatency_ms = 1\nloss_percent = 2\n"
                                   "accel_bias_ug = 10\naccel_bias_sigma_ug = 300\naccel_noise_ugprthz = 50\n"
                                   "accel_scale_factor_ppm = 100\naccel_scale_factor_sigma_ppm = 200\n"
                                   "accel_misalignment_sigma_mrad = 0.1\n"
@@ -154,6 +162,7 @@ TEST(ScenarioFields, SlaveImu) {
                         .slave_imu.value();
   EXPECT_EQ(node.schedule.period_us, 5'000);
   EXPECT_EQ(node.schedule.latency_us, 1'000);
+  EXPECT_DOUBLE_EQ(node.loss_probability, 0.02);
   const auto& accel = node.errors.accel;
   expect_near(accel.bias.value, Vector3::Constant(9.80665e-5));
   expect_near(accel.bias.sigma, Vector3::Constant(2.941995e-3));
@@ -170,12 +179,113 @@ TEST(ScenarioFields, SlaveImu) {
   EXPECT_DOUBLE_EQ(gyro.misalignment_sigma, 2e-4);
 }
 
+TEST(ScenarioFields, TruthSPath) {
+  const std::string text = with(R"(trajectory = "rest")",
+                                "trajectory = \"s_path\"\nspeed_mps = 3\nheading_amplitude_deg = 50\n"
+                                "turn_period_s = 33");
+  const auto plain = std::get<world::SPath>(parsed(text).truth.motion);
+  EXPECT_DOUBLE_EQ(plain.heading, 90 * deg);
+  EXPECT_DOUBLE_EQ(plain.speed, 3.0);
+  EXPECT_DOUBLE_EQ(plain.heading_amplitude, 50 * deg);
+  EXPECT_DOUBLE_EQ(plain.heading_period, 33.0);
+  EXPECT_DOUBLE_EQ(plain.roll_period, 33.0) << "rolls with its heading";
+  EXPECT_EQ(plain.pitch_amplitude, 0.0);
+  EXPECT_EQ(plain.roll_amplitude, 0.0);
+  EXPECT_EQ(plain.depth.depth, 0.0);
+  const auto full = std::get<world::SPath>(
+      parsed(with("turn_period_s = 33",
+                  "turn_period_s = 33\npitch_amplitude_deg = 2\npitch_period_s = 80\nroll_amplitude_deg = 3\n"
+                  "roll_period_s = 20\ndive_depth_m = 30\ndive_period_s = 100",
+                  text))
+          .truth.motion);
+  EXPECT_DOUBLE_EQ(full.pitch_amplitude, 2 * deg);
+  EXPECT_DOUBLE_EQ(full.pitch_period, 80.0);
+  EXPECT_DOUBLE_EQ(full.roll_amplitude, 3 * deg);
+  EXPECT_DOUBLE_EQ(full.roll_period, 20.0);
+  EXPECT_DOUBLE_EQ(full.depth.depth, 30.0);
+  EXPECT_DOUBLE_EQ(full.depth.period, 100.0);
+}
+
+TEST(ScenarioFields, TruthRacetrackSpiralAndRestThenGo) {
+  const auto moving = [](const std::string& lines) {
+    return parsed(with(R"(trajectory = "rest")",
+                       lines + "\nspeed_mps = 2\ndive_depth_m = 5\ndive_period_s = 50"))
+        .truth.motion;
+  };
+  const auto track =
+      std::get<world::Racetrack>(moving("trajectory = 'racetrack'\nleg_s = 100\nturn_s = 40\nroll_deg = 5"));
+  EXPECT_DOUBLE_EQ(track.speed, 2.0);
+  EXPECT_DOUBLE_EQ(track.heading, 90 * deg);
+  EXPECT_DOUBLE_EQ(track.leg, 100.0);
+  EXPECT_DOUBLE_EQ(track.turn, 40.0);
+  EXPECT_DOUBLE_EQ(track.roll, 5 * deg);
+  EXPECT_DOUBLE_EQ(track.depth.depth, 5.0);
+  const auto spiral =
+      std::get<world::Spiral>(moving("trajectory = 'spiral'\nturn_period_s = 60\nroll_deg = -5"));
+  EXPECT_DOUBLE_EQ(spiral.period, 60.0);
+  EXPECT_DOUBLE_EQ(spiral.roll, -5 * deg);
+  EXPECT_DOUBLE_EQ(spiral.depth.period, 50.0);
+  const auto going =
+      std::get<world::RestThenGo>(moving("trajectory = 'rest_then_go'\nrest_s = 60\nstart_s = 10"));
+  EXPECT_DOUBLE_EQ(going.rest, 60.0);
+  EXPECT_DOUBLE_EQ(going.start, 10.0);
+  EXPECT_DOUBLE_EQ(going.depth.depth, 5.0);
+}
+
+TEST(ScenarioFields, Ssbl) {
+  const auto bare = parsed(with("[slave_imu]", "[slave_imu]\n[ssbl]")).ssbl.value();
+  EXPECT_FALSE(bare.schedule.period_us.has_value());
+  EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero() && bare.ship_error.sigma.isZero());
+  EXPECT_FALSE(bare.faults.silence_us.has_value());
+  const auto node =
+      parsed(with("[slave_imu]",
+                  "[slave_imu]\n[ssbl]\nperiod_ms = 2000\nlatency_ms = 1500\n"
+                  "ship_offset_m = [100, 200, -10]\nship_velocity_mps = [1, 2, 0]\n"
+                  "ship_error_m = 4\nship_error_sigma_m = 3\nbias_m = [1, 0, 0]\nbias_sigma_m = 1\n"
+                  "noise_m = 2\nrange_noise_percent = 0.5\nloss_percent = 5\ninvalid_percent = 4\n"
+                  "outlier_percent = 3\noutlier_m = 1000\nsilence_s = [5, 6.5]"))
+          .ssbl.value();
+  EXPECT_EQ(node.schedule.period_us, 2'000'000);
+  EXPECT_EQ(node.schedule.latency_us, 1'500'000);
+  expect_near(node.ship_offset, {100, 200, -10});
+  expect_near(node.ship_velocity, {1, 2, 0});
+  expect_near(node.ship_error.value, {4, 4, 4});
+  expect_near(node.ship_error.sigma, {3, 3, 3});
+  expect_near(node.bias.value, {1, 0, 0});
+  expect_near(node.bias.sigma, {1, 1, 1});
+  expect_near(node.noise, {2, 2, 2});
+  EXPECT_DOUBLE_EQ(node.range_noise, 0.005);
+  EXPECT_DOUBLE_EQ(node.faults.loss_probability, 0.05);
+  EXPECT_DOUBLE_EQ(node.faults.invalid_probability, 0.04);
+  EXPECT_DOUBLE_EQ(node.faults.outlier_probability, 0.03);
+  EXPECT_DOUBLE_EQ(node.faults.outlier, 1000.0);
+  EXPECT_EQ(node.faults.silence_us, std::pair(std::int64_t{5'000'000}, std::int64_t{6'500'000}));
+}
+
+TEST(ScenarioFields, Gps) {
+  const auto bare = parsed(with("[slave_imu]", "[slave_imu]\n[gps]")).gps.value();
+  EXPECT_FALSE(bare.lowest_height.has_value());
+  EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero());
+  const auto node = parsed(with("[slave_imu]",
+                                "[slave_imu]\n[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
+                                "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7"))
+                        .gps.value();
+  EXPECT_EQ(node.schedule.latency_us, 100'000);
+  expect_near(node.bias.value, {1, 1, 1});
+  expect_near(node.bias.sigma, {2, 2, 3});
+  expect_near(node.noise, {10, 10, 15});
+  EXPECT_EQ(node.lowest_height, -0.5);
+  EXPECT_DOUBLE_EQ(node.faults.loss_probability, 0.07);
+}
+
 TEST(ScenarioFields, NodesAreOnTheBusOnlyIfNamed) {
-  const std::string text =
-      with("[master_ins]\n[slave_imu]\n", "[slave_imu]\n", with("transfer_alignment", "inflight_alignment"));
+  const std::string text = with("[master_ins]\n[slave_imu]\n", "[slave_imu]\n[gps]\n",
+                                with("transfer_alignment", "inflight_alignment"));
   const Scenario s = parsed(text);
   EXPECT_FALSE(s.master_ins.has_value());
   EXPECT_TRUE(s.slave_imu.has_value());
+  EXPECT_FALSE(s.ssbl.has_value());
+  EXPECT_TRUE(s.gps.has_value());
 }
 
 }  // namespace

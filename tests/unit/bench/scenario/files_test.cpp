@@ -29,12 +29,21 @@ std::vector<std::string> value_table(const std::string& text, const std::string&
   return tables.empty() ? std::vector<std::string>{} : matches(tables[0], "\"([a-z0-9_]+)\"");
 }
 
+std::vector<std::string> answers(const std::string& text) {
+  std::vector<std::string> names;
+  for (const std::string& id : matches(text, "\nBA_ \"Answers\" BO_ ([0-9]+) "))
+    names.push_back(matches(text, "\nBO_ " + id + " ([A-Za-z]+):").at(0));
+  return names;
+}
+
 Contract of_the_dbc() {
   const std::string text = dbc();
   return {.estimators = value_table(text, "Estimator"),
           .algorithms = value_table(text, "Algorithm"),
           .parameters = value_table(text, "Parameter"),
-          .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):")};
+          .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):"),
+          .fix_outcomes = value_table(text, "FixOutcome"),
+          .answers = answers(text)};
 }
 
 TEST(ScenarioFiles, AreAllValid) {
@@ -72,6 +81,36 @@ TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
   EXPECT_DOUBLE_EQ(s.target.initial_sigma.heading, 1 * world::units::deg);
   EXPECT_DOUBLE_EQ(s.initial_error.attitude.sigma.z(), 5 * world::units::deg);
   EXPECT_TRUE(s.master_ins->errors.velocity.sigma.isZero());
+}
+
+TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreToldTheTruth) {
+  for (const std::string name : {"inflight_ssbl", "inflight_gps", "inflight_ssbl_180", "inflight_quick"}) {
+    const auto s = read_file(SOURCE_DIR "/bench/scenarios/" + name + ".toml", of_the_dbc()).value();
+    const auto parameter = [&](std::string_view wanted) {
+      const auto found = std::ranges::find(s.target.parameters, wanted, &Parameter::name);
+      return found == s.target.parameters.end() ? std::nan("") : found->value;
+    };
+    EXPECT_EQ(s.target.algorithm, "sin_cos");
+    EXPECT_DOUBLE_EQ(s.target.initial_sigma.tilt, s.initial_error.attitude.sigma.x());
+    EXPECT_DOUBLE_EQ(s.target.initial_sigma.velocity, s.initial_error.velocity.sigma.x());
+    EXPECT_DOUBLE_EQ(s.target.initial_sigma.position, s.initial_error.position.sigma.x());
+    EXPECT_GE(s.target.initial_sigma.heading, s.initial_error.heading_magnitude);
+    const auto& imu = s.slave_imu->errors;
+    EXPECT_NEAR(parameter("accel_bias_sigma_ug") * world::units::ug, imu.accel.bias.sigma.x(), 1e-15);
+    EXPECT_NEAR(parameter("gyro_bias_sigma_degph") * world::units::degph, imu.gyro.bias.sigma.x(), 1e-15);
+    EXPECT_NEAR(parameter("accel_noise_ugprthz") * world::units::ugprthz, imu.accel.noise.x(), 1e-15);
+    EXPECT_NEAR(parameter("gyro_noise_degprth") * world::units::degprth, imu.gyro.noise.x(), 1e-15);
+    EXPECT_EQ(parameter("aiding"), s.gps ? 1.0 : 0.0);
+    const world::Vector3 noise = s.gps ? s.gps->noise : s.ssbl->noise;
+    EXPECT_EQ(parameter("fix_noise_horizontal_m"), noise.x());
+    EXPECT_EQ(parameter("fix_noise_vertical_m"), noise.z());
+    if (s.gps) {
+      EXPECT_EQ(parameter("initial_height_sigma_m"), s.initial_error.position.sigma.z());
+    } else {
+      EXPECT_NEAR(parameter("fix_bias_sigma_m"),
+                  std::hypot(s.ssbl->bias.sigma.x(), s.ssbl->ship_error.sigma.x()), 1e-6);
+    }
+  }
 }
 
 }  // namespace

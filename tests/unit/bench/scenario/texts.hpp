@@ -13,7 +13,9 @@ namespace canhil::scenario {
 inline const Contract contract{.estimators = {"transfer_alignment", "inflight_alignment"},
                                .algorithms = {"kalman", "robust_h2"},
                                .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
-                               .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"}};
+                               .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},
+                               .fix_outcomes = {"accepted", "gated"},
+                               .answers = {"AlignAttitude", "AlignUpdate"}};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0

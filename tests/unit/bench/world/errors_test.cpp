@@ -179,5 +179,52 @@ TEST(NavigationErrors, EachKindHasItsMomentsInNed) {
   attitude.expect_normal(model.attitude.value, model.attitude.sigma);
 }
 
+TEST(InitialErrors, AHeadingErrorTurnsFirstSoThatTiltsKeepTheirSize) {
+  InitialErrorModel model;
+  model.attitude.sigma = {1e-3, 2e-3, 0};
+  model.heading_magnitude = 3;
+  const Truth truth = somewhere();
+  Stream stream(1, 0, "initial_error");
+  Moments tilts;
+  int to_the_right = 0;
+  for (int k = 0; k < 50'000; ++k) {
+    const NavigationSolution solution = initial_solution(truth, model, stream);
+    const Matrix3 error = solution.C_bn * truth.C_bn.transpose();  // exp(-[phi x]) Rz(-psi)
+    const double psi = -std::atan2(error(1, 0), error(0, 0));
+    ASSERT_NEAR(std::abs(psi), 3, 0.02);
+    to_the_right += psi > 0 ? 1 : 0;
+    tilts.add(misalignment(error * rotation(Vector3(0, 0, psi)), Matrix3::Identity())
+                  .cwiseProduct(Vector3(1, 1, 0)));
+  }
+  tilts.expect_normal(Vector3::Zero(), model.attitude.sigma);
+  EXPECT_NEAR(to_the_right, 25'000, 5 * 112);  // binomial: sigma = sqrt(50'000) / 2
+}
+
+TEST(InitialErrors, ASpreadOfHeadingIsNormal) {
+  InitialErrorModel model;
+  model.heading_sigma = 0.1;
+  Stream stream(1, 0, "initial_error");
+  Moments heading;
+  for (int k = 0; k < 50'000; ++k) {
+    const Vector3 phi = misalignment(initial_solution(somewhere(), model, stream).C_bn, somewhere().C_bn);
+    EXPECT_LT(phi.head<2>().norm(), 1e-12);
+    heading.add({0, 0, phi.z()});
+  }
+  heading.expect_normal(Vector3::Zero(), {0, 0, 0.1});
+}
+
+TEST(InitialErrors, WithoutAHeadingErrorAreThoseOfANavigationSystem) {
+  InitialErrorModel model;
+  model.position.sigma = {1, 2, 3};
+  model.velocity.sigma = {4, 5, 6};
+  model.attitude.sigma = {0.1, 0.2, 0.3};
+  Stream one(1, 0, "initial_error"), other(1, 0, "initial_error");
+  const NavigationSolution a = initial_solution(somewhere(), model, one);
+  const NavigationSolution b = measure(somewhere(), model, other);
+  EXPECT_EQ(a.C_bn, b.C_bn);
+  EXPECT_EQ(a.v_eb_n, b.v_eb_n);
+  EXPECT_EQ(a.position.latitude, b.position.latitude);
+}
+
 }  // namespace
 }  // namespace canhil::world

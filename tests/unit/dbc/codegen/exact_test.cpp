@@ -78,6 +78,7 @@ TEST(Exact, KeepsNamesIdsGroupsRangesAndTypes) {
     const MessageInfo& b = Twin::info;
     EXPECT_EQ(std::tuple(a.name, a.id, a.cycle_time_us, a.e2e_data_id, a.sender, a.sample_group),
               std::tuple(b.name, b.id, b.cycle_time_us, b.e2e_data_id, b.sender, b.sample_group));
+    EXPECT_TRUE(std::ranges::equal(a.answers, b.answers)) << a.name;
     ASSERT_EQ(a.signals.size(), b.signals.size());
     for (std::size_t i = 0; i < a.signals.size(); ++i) {
       EXPECT_EQ(a.signals[i].name, b.signals[i].name);

@@ -147,5 +147,18 @@ BA_ "GenMsgCycleTime" BO_ 3 100;
   EXPECT_THAT(table, HasSubstr("14050    5.62% of 250000 bit/s\n"));
 }
 
+TEST(Load, OfEveryNodeOfTheContractIsUnderHalfOfAMegabitPerSecond) {
+  const auto database = read_file(SOURCE_DIR "/dbc/canhil.dbc");
+  ASSERT_TRUE(database);
+  double bits_per_s = 0;
+  for (const Message& message : database->messages) {
+    if (message.cycle_time_us > 0)
+      bits_per_s += static_cast<double>(worst_case_bits(message.size, message.extended)) * 1e6 /
+                    static_cast<double>(message.cycle_time_us);
+  }
+  EXPECT_GT(bits_per_s, 0);
+  EXPECT_LT(bits_per_s, 0.5 * 1e6);
+}
+
 }  // namespace
 }  // namespace canhil::dbc

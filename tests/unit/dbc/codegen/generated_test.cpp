@@ -113,7 +113,7 @@ TEST(Generated, EnumeratorsHaveTheNamesOfTheDbc) {
   EXPECT_EQ(messages::name_of(messages::Parameter::h2_alpha_rule), "h2_alpha_rule");
   EXPECT_EQ(messages::from_name<messages::Parameter>("closed_loop"), messages::Parameter::closed_loop);
   EXPECT_EQ(messages::from_name<messages::Parameter>("open_loop"), std::nullopt);
-  EXPECT_EQ(messages::enumerators<messages::Parameter>.size(), 12U);
+  EXPECT_EQ(messages::enumerators<messages::FixSource>.size(), 2U);
   EXPECT_EQ(static_cast<int>(test_messages::motorola::Gear::reverse), -1);
   static_assert(std::is_same_v<std::underlying_type_t<test_messages::motorola::Gear>, std::int8_t>);
 }
@@ -187,6 +187,8 @@ TEST(Generated, DirectoryFindsMessagesById) {
   EXPECT_EQ(messages::find_message(0x80)->name, "SlaveImuDeltaTheta");
   EXPECT_EQ(messages::find_message(0x80)->cycle_time_us, 10'000);
   EXPECT_EQ(messages::find_message(0x80)->sample_group, "SlaveImu");
+  EXPECT_TRUE(messages::find_message(0x80)->answers.empty());
+  EXPECT_TRUE(std::ranges::equal(messages::FixUpdate::info.answers, std::array{"Ssbl", "Gps"}));
   EXPECT_EQ(messages::find_message(0x80, true), nullptr);
   EXPECT_EQ(messages::find_message(0x7FF), nullptr);
   ASSERT_NE(test_messages::fd::find_message(0x18FEF100, true), nullptr);

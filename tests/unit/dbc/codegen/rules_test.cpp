@@ -64,6 +64,33 @@ TEST(SoundLayout, AssertsBoundsOverlapAndProtection) {
   EXPECT_FALSE(wire::is_sound({.size = 2, .e2e_data_id = 1, .signals = apart}));
 }
 
+/// What is wrong when M and N of a sample group of node B answer these, and L of group "Left" is A's.
+std::string answer_breach(std::string_view of_m, std::string_view of_n) {
+  const auto database =
+      parse(fmt::format("BS_:\nBU_: A B\nBO_ 1 L: 8 A\nBO_ 2 M: 8 B\nBO_ 3 N: 8 B\n"
+                        "BA_DEF_ BO_ \"SampleGroup\" STRING ;\nBA_DEF_ BO_ \"Answers\" STRING ;\n"
+                        "BA_ \"SampleGroup\" BO_ 1 \"Left\";\nBA_ \"SampleGroup\" BO_ 2 \"Right\";\n"
+                        "BA_ \"SampleGroup\" BO_ 3 \"Right\";\n"
+                        "BA_ \"Answers\" BO_ 2 \"{}\";\nBA_ \"Answers\" BO_ 3 \"{}\";\n",
+                        of_m, of_n),
+            "x.dbc");
+  EXPECT_TRUE(database) << database.error().message;
+  const auto found = find_breach(*database);
+  return found ? found->what : "";
+}
+
+TEST(AnswerRule, WhatIsAnsweredIsASampleGroupOfAnotherNode) {
+  EXPECT_EQ(answer_breach("Left", " Left "), "");
+  EXPECT_EQ(answer_breach("", ""), "");
+  EXPECT_EQ(answer_breach("Up", "Up"), "message M answers Up, expected the sample groups of other nodes");
+  EXPECT_EQ(answer_breach("Right", "Right"),
+            "message M answers Right, expected the sample groups of other nodes");
+}
+
+TEST(AnswerRule, AGroupAnswersAsAWhole) {
+  EXPECT_EQ(answer_breach("Left", ""), "message N answers \"\", expected \"Left\" as M of its sample group");
+}
+
 TEST(QuantisationTable, ListsEveryMeasurementOfTheContract) {
   const auto database = read_file(SOURCE_DIR "/dbc/canhil.dbc");
   ASSERT_TRUE(database);

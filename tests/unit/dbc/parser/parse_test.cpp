@@ -10,6 +10,7 @@ namespace canhil::dbc {
 namespace {
 
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 Database parsed(std::string_view text) {
   auto database = parse(text, "test.dbc");
@@ -26,8 +27,8 @@ TEST(Parse, TheContract) {
   const auto database = read_file(SOURCE_DIR "/dbc/canhil.dbc");
   ASSERT_TRUE(database) << database.error().message;
   EXPECT_EQ(database->version, "1");
-  EXPECT_EQ(database->nodes.size(), 4U);
-  EXPECT_EQ(database->messages.size(), 34U);
+  EXPECT_EQ(database->nodes.size(), 6U);
+  EXPECT_EQ(database->messages.size(), 55U);
   const Message* message = find_message(*database, "SlaveImuDeltaTheta");
   ASSERT_NE(message, nullptr);
   EXPECT_EQ(message, find_message(*database, 128));
@@ -35,6 +36,8 @@ TEST(Parse, TheContract) {
   EXPECT_EQ(message->cycle_time_us, 10'000);
   EXPECT_EQ(message->e2e_data_id, 16512);
   EXPECT_EQ(message->sample_group, "SlaveImu");
+  EXPECT_THAT(message->answers, IsEmpty());
+  EXPECT_THAT(find_message(*database, "FixUpdate")->answers, ElementsAre("Ssbl", "Gps"));
   EXPECT_EQ(message->comment, "Integrated gyro output of the slave IMU.");
   const Signal* signal = find_signal(*message, "delta_theta_x_rad");
   ASSERT_NE(signal, nullptr);

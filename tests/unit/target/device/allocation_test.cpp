@@ -63,6 +63,52 @@ TEST(Allocation, TheFramePathOfTheDeviceHasNone) {
   }
 }
 
+// The same for in-flight alignment: fixes late, gated, invalid, of the other aid; a P that needs repair.
+std::vector<Frame> inflight_session(messages::Algorithm algorithm) {
+  using namespace messages;
+  BenchSide bench;
+  bench.command(Command::reset, Estimator::inflight_alignment, algorithm);
+  bench.send(ParamSet{.parameter = Parameter::aiding, .value = 1.0F});
+  bench.send(ParamSet{.parameter = Parameter::gyro_bias_sigma_degph, .value = 0.0F});
+  bench.initialise();
+  bench.command(Command::start);
+  for (int k = 1; k <= 600; ++k) {
+    if (k % 37 == 0) {
+      bench.lose_imu(k * 10'000);
+    } else {
+      bench.imu(k * 10'000);
+    }
+    if (k % 50 == 0) {
+      const double north_deg = BenchSide::speed * (k - 40) * 0.01 / 111e3;
+      bench.send(GpsLatitude{.latitude_deg = k == 300 ? 38 : 37 + north_deg, .height_m = 1000});
+      bench.send(GpsLongitude{.longitude_deg = 127,
+                              .position_validity = k == 200 ? Validity::invalid : Validity::valid});
+      bench.send(GpsTime{.time_of_validity_us = wrap_us((k - 40) * 10'000)});
+      bench.send(SsblRelativeNE{});
+      bench.send(SsblShipLatitude{});
+      bench.send(SsblShipLongitude{});
+      bench.send(SsblRelativeD{});
+    }
+    bench.sync(k * 10'000, k > 300);
+  }
+  for (int k = 601; k <= 660; ++k) bench.sync(k * 10'000);
+  return bench.fed();
+}
+
+TEST(Allocation, TheFramePathOfInflightAlignmentHasNone) {
+  using messages::Algorithm;
+  for (const auto algorithm : {Algorithm::ekf, Algorithm::ukf, Algorithm::sin_cos}) {
+    const std::vector<Frame> frames = inflight_session(algorithm);
+    Device device;
+    std::size_t answers = 0;
+    const std::size_t before = allocations;
+    for (const Frame& frame : frames) answers += device.receive(frame).size();
+    EXPECT_EQ(allocations - before, 0U);
+    EXPECT_GT(answers, 1500U);
+    EXPECT_EQ(device.state(), messages::TargetState::fault);
+  }
+}
+
 TEST(Allocation, TheCounterOfThisTestCounts) {
   const std::size_t before = allocations;
   delete new Device;

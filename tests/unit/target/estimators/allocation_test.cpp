@@ -7,8 +7,11 @@
 #include <memory>
 #include <new>
 
+#include "target/estimators/inflight_alignment/history.hpp"
+#include "target/estimators/los_rate/filter.hpp"
 #include "target/estimators/transfer_alignment/history.hpp"
 #include "tests/unit/target/estimators/flight.hpp"
+#include "tests/unit/target/estimators/los_rate/engagement.hpp"
 
 namespace {
 std::size_t allocations = 0;
@@ -60,3 +63,80 @@ TEST(Allocation, TransferAlignmentAllocatesNothing) {
 
 }  // namespace
 }  // namespace canhil::transfer_alignment
+
+namespace canhil::inflight_alignment {
+namespace {
+
+TEST(Allocation, InflightAlignmentAllocatesNothing) {
+  for (const Algorithm algorithm : {Algorithm::ekf, Algorithm::ukf, Algorithm::sin_cos}) {
+    for (const Aiding aiding : {Aiding::ssbl, Aiding::gps}) {
+      for (const UkfRoot root : {UkfRoot::lower_cholesky, UkfRoot::symmetric}) {
+        Settings settings;
+        settings.algorithm = algorithm;
+        settings.aiding = aiding;
+        settings.ukf_root = root;
+        settings.closed_loop = root == UkfRoot::symmetric;
+        settings.longest_interval = 0.3;
+        settings.gyro_bias_sigma_0 = 0;  // a P that the ukf has to repair
+        const strapdown::NavState start = transfer_alignment::flight_start();
+        const auto imu = transfer_alignment::flight_increment(start, 0, 0.01);
+        const auto history = std::make_unique<History<128>>(0);
+        State state = initial(start, settings);
+        int ok = 0;
+        Eigen::internal::set_is_malloc_allowed(false);
+        const std::size_t before = allocations;
+        for (int k = 1; k <= 500; ++k) {
+          history->propagate(state, imu, k * 10'000, settings);
+          if (k % 50 != 0) continue;
+          const double north = start.v_eb_n.x() * (k * 0.01 - 0.455);
+          const UpdateResult result =
+              history->update(state, {start.latitude + north / 6.36e6, start.longitude, start.height},
+                              k * 10'000 - 455'000, settings);
+          if (result.outcome == Outcome::ok && std::isfinite(estimate(state).nav.height)) ++ok;
+          if (uncertainty(state).position.allFinite()) continue;
+          ok = 0;
+        }
+        const std::size_t made = allocations - before;
+        Eigen::internal::set_is_malloc_allowed(true);
+        EXPECT_EQ(made, 0);
+        EXPECT_EQ(ok, 10);
+        EXPECT_EQ(state.repairs > 0, algorithm == Algorithm::ukf);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace canhil::inflight_alignment
+
+namespace canhil::los_rate {
+namespace {
+
+TEST(Allocation, LosRateAllocatesNothing) {
+  for (const Algorithm algorithm :
+       {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman, Algorithm::low_pass}) {
+    EngagementSetup setup;
+    setup.settings.algorithm = algorithm;
+    setup.settings.noise.yaw.glint = 1;  // two gain sets
+    setup.settings.start_up = 1;
+    setup.roll_rate = 3;
+    const Design design = make_design(setup.settings);
+    Engagement engagement(setup);
+    State state = initial();
+    int updated = 0, coasted = 0;
+    const std::size_t before = allocations;
+    for (int k = 0; !engagement.over(); ++k) {
+      Measurement m = engagement.next();
+      m.error_valid = k % 600 < 580;  // starts up again after each gap
+      const UpdateResult result = step(state, m, design);
+      if (result.outcome == Outcome::updated) ++updated;
+      if (result.outcome == Outcome::coasting) ++coasted;
+    }
+    EXPECT_EQ(allocations - before, 0);
+    EXPECT_GT(updated, 300);
+    EXPECT_GT(coasted, 15);
+  }
+}
+
+}  // namespace
+}  // namespace canhil::los_rate

@@ -1,5 +1,5 @@
 #pragma once
-// Reads the published vectors: a header row of names, then rows of numbers.
+// Reads the published vectors: lines of comment, a header row of names, then rows of numbers.
 #include <cstddef>
 #include <fstream>
 #include <map>
@@ -15,7 +15,9 @@ class Csv {
   explicit Csv(const std::string& path) {
     std::ifstream file(path);
     std::string line, cell;
-    if (!std::getline(file, line)) throw std::runtime_error(path + ": expected a header row");
+    do std::getline(file, line);
+    while (file && line.starts_with('#'));
+    if (!file) throw std::runtime_error(path + ": expected a header row");
     std::istringstream names(line);
     for (std::size_t i = 0; std::getline(names, cell, ','); ++i) column_[cell] = i;
     while (std::getline(file, line)) {

@@ -1,4 +1,5 @@
 #include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/filtering/cholesky.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,7 +65,7 @@ TEST(Kalman, PositiveDefinitenessNeedsMoreThanAPositiveDiagonal) {
   EXPECT_FALSE(is_positive_definite<2>(P));
   P << 1, 0.5, 0.5, 1;
   EXPECT_TRUE(is_positive_definite<2>(P));
-  P(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  P(1, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(is_positive_definite<2>(P));
 }
 

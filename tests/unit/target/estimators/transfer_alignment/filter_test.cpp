@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/filtering/cholesky.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 #include "tests/unit/target/estimators/flight.hpp"
 #include "tests/unit/target/estimators/transfer_alignment/full_run.hpp"

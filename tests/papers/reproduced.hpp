@@ -1,4 +1,4 @@
-// The reproduction with two runs a variant.
+// A reproduction with two runs a variant: every campaign is read and flown, every figure drawn.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@ namespace canhil::papers {
 
 inline const std::atomic<bool> go_on = false;
 
-inline Request request(const char* folder) {
+inline Request request(const char* paper, const char* folder) {
   Request request;
-  request.paper = "transfer";
+  request.paper = paper;
   request.folder = std::filesystem::path(testing::TempDir()) / folder;
   request.runs = 2;
   request.progress = [](std::string_view, std::size_t, std::size_t) {};
@@ -29,8 +29,8 @@ struct Written {
 };
 
 /// In a new folder.
-inline Written reproduced(const char* folder) {
-  const Request asked = request(folder);
+inline Written reproduced(const char* paper, const char* folder) {
+  const Request asked = request(paper, folder);
   std::filesystem::remove_all(asked.folder);
   const auto reproduced = reproduce(asked, go_on);
   if (!reproduced) {

@@ -1,0 +1,28 @@
+#include "bench/scenario/fix_faults.hpp"
+
+#include <cmath>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+
+FixFaults read_fix_faults(Section& section) {
+  const Limits share = Limits::between(0, 100);
+  FixFaults faults{.loss_probability = section.number("loss_percent", share, 0),
+                   .invalid_probability = section.number("invalid_percent", share, 0),
+                   .outlier_probability = section.number("outlier_percent", share, 0),
+                   .outlier = section.number("outlier_m", Limits::at_least(0), 0),
+                   .silence_us = {}};
+  if ((faults.outlier_probability > 0) != (faults.outlier > 0)) {
+    section.reject(faults.outlier > 0 ? "outlier_m" : "outlier_percent", "is given alone",
+                   "outlier_percent and outlier_m, both above 0");
+  }
+  if (section.has("silence_s")) {
+    const auto [from, to] = section.interval("silence_s", Limits::at_least(0));
+    faults.silence_us = {std::llround(from * 1e6), std::llround(to * 1e6)};
+  }
+  section.optional("silence_s");
+  return faults;
+}
+
+}  // namespace canhil::scenario

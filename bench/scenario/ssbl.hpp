@@ -1,0 +1,27 @@
+// [ssbl]: acoustic positioning of the vehicle from a reference ship.
+#pragma once
+
+#include "bench/scenario/fix_faults.hpp"
+#include "bench/scenario/schedule.hpp"
+#include "bench/world/stream.hpp"
+
+namespace canhil::scenario {
+
+class Section;
+
+struct Ssbl {
+  Schedule schedule{};
+  world::Vector3 ship_offset =
+      world::Vector3::Zero();  ///< of the ship from the vehicle at the start, NED [m]
+  world::Vector3 ship_velocity = world::Vector3::Zero();  ///< constant, NED [m/s]
+  world::RandomConstant ship_error{};                     ///< of the position that the ship reports, NED [m]
+  world::RandomConstant bias{};                           ///< of the relative position, NED [m]
+  world::Vector3 noise =
+      world::Vector3::Zero();  ///< 1-sigma a fix of the relative position at no range, NED [m]
+  double range_noise = 0;      ///< 1-sigma a fix and component, over the slant range
+  FixFaults faults{};
+};
+
+Ssbl read_ssbl(Section& section);
+
+}  // namespace canhil::scenario

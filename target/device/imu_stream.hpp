@@ -1,0 +1,170 @@
+// The stream that drives an inertial estimator: groups SlaveImu in, increments without gaps out, groups
+// AlignNav as answers.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+
+#include "dbc/wire/time_base.hpp"
+#include "target/device/adapter.hpp"
+#include "target/device/group_intake.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/strapdown/imu_increment.hpp"
+#include "target/estimators/strapdown/mechanization.hpp"
+
+namespace canhil::target {
+
+/// Ends a run whose numbers are no longer to be trusted.
+inline Health numeric_fault(Context& context) {
+  context.errors.numeric = true;
+  return Health::fault;
+}
+
+class ImuStream {
+ public:
+  enum class Taken : std::uint8_t {
+    foreign,  ///< a frame of another group
+    waiting,  ///< nothing to do yet
+    stepped,  ///< the INS has reached now_us()
+    fault     ///< a gap too long to bridge
+  };
+
+  void reset() { group_.discard(); }
+
+  /// The INS starts at t_us; the first sample is answered.
+  void start(std::int64_t t_us, std::int64_t output_interval_us) {
+    now_us_ = t_us;
+    answered_us_ = t_us - output_interval_us;
+    previous_ = {};
+    coasting_ = false;
+  }
+
+  /// Epoch of the INS.
+  [[nodiscard]] std::int64_t now_us() const { return now_us_; }
+
+  /// Faults when the IMU has stayed away too long at the bench's time.
+  Health tick(Context& context) const {
+    if (context.now_us - now_us_ <= silence_limit_us) return Health::good;
+    context.errors.input_silent = true;
+    return Health::fault;
+  }
+
+  /// One frame; calls step(increment, t_us of its end) for each increment, those that bridge a gap included.
+  template <class Step>
+  Taken receive(const Frame& frame, std::uint8_t counter, Context& context, const Step& step) {
+    using namespace messages;
+    switch (frame.id) {
+      case SlaveImuDeltaTheta::info.id:
+        return put<SlaveImuDeltaTheta>(frame, counter, context, step);
+      case SlaveImuDeltaV::info.id:
+        return put<SlaveImuDeltaV>(frame, counter, context, step);
+      case SlaveImuStatus::info.id:
+        return put<SlaveImuStatus>(frame, counter, context, step);
+      default:
+        return Taken::foreign;
+    }
+  }
+
+  /// True if the last sample is to be answered. An interval of IMU samples need not divide the output
+  /// interval: half a sample early is in time.
+  [[nodiscard]] bool answer_is_due(std::int64_t output_interval_us) const {
+    return now_us_ - answered_us_ >= output_interval_us - interval_us_ / 2;
+  }
+
+  /// Answers the last sample with group AlignNav.
+  void answer(const strapdown::NavState& nav, Answers& answers) {
+    using namespace messages;
+    constexpr double deg = std::numbers::pi / 180;
+    const strapdown::Euler angles = strapdown::euler_from_dcm(nav.C_bn);
+    answers.send(AlignAttitude{.roll_deg = angles.roll / deg,
+                               .pitch_deg = angles.pitch / deg,
+                               .heading_deg = angles.heading / deg,
+                               .coasting = static_cast<std::uint8_t>(coasting_)});
+    answers.send(AlignVelocityNE{.velocity_north_mps = nav.v_eb_n.x(),
+                                 .velocity_east_mps = nav.v_eb_n.y(),
+                                 .cause_counter = group_.counter()});
+    answers.send(AlignVelocityD{.velocity_down_mps = nav.v_eb_n.z(), .cause_time_us = wrap_us(now_us_)});
+    answered_us_ = now_us_;
+    coasting_ = false;
+  }
+
+ private:
+  using Group = SampleGroup<messages::SlaveImuDeltaTheta, messages::SlaveImuDeltaV, messages::SlaveImuStatus>;
+
+  static constexpr double us = 1e-6;
+  static constexpr std::int64_t bridge_limit_us = 200'000;   // a longer gap ends the run
+  static constexpr std::int64_t silence_limit_us = 500'000;  // an IMU that stays away this long is named
+
+  template <class Message, class Step>
+  Taken put(const Frame& frame, std::uint8_t counter, Context& context, const Step& step) {
+    if (completes<Message>(group_, frame, counter, context)) return on_group(context, step);
+    return Taken::waiting;
+  }
+
+  template <class Step>
+  Taken on_group(Context& context, const Step& step) {
+    const auto& theta = group_.template get<messages::SlaveImuDeltaTheta>();
+    const auto& velocity = group_.template get<messages::SlaveImuDeltaV>();
+    const auto& status = group_.template get<messages::SlaveImuStatus>();
+    const strapdown::ImuIncrement imu{
+        .delta_theta = {theta.delta_theta_x_rad, theta.delta_theta_y_rad, theta.delta_theta_z_rad},
+        .delta_v = {velocity.delta_v_x_mps, velocity.delta_v_y_mps, velocity.delta_v_z_mps},
+        .dt = status.interval_us * us};
+    const std::int64_t t_us = unwrap_us(status.time_of_validity_us, context.now_us);
+    if (theta.gyro_validity != messages::Validity::valid ||
+        velocity.accel_validity != messages::Validity::valid || !(imu.dt > 0)) {
+      drop_group(context);  // the gap that it leaves is bridged by the next group
+      return Taken::waiting;
+    }
+    const auto interval_us = static_cast<std::int64_t>(status.interval_us);
+    const std::int64_t gap_us = t_us - interval_us - now_us_;
+    if (gap_us <= -interval_us / 2) {
+      ++context.losses.late;
+      return Taken::waiting;
+    }
+    if (gap_us > bridge_limit_us) {
+      context.errors.input_silent = true;
+      return Taken::fault;
+    }
+    interval_us_ = interval_us;
+    if (gap_us >= interval_us / 2) {
+      context.errors.input_lost = true;
+      bridge(imu, gap_us, step);
+    }
+    take(imu, t_us, step);
+    return Taken::stepped;
+  }
+
+  // A gap is bridged with the mean of the increments before and after it, at their rate, and reported as
+  // coasting.
+  template <class Step>
+  void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
+    coasting_ = true;
+    const std::int64_t missing = std::max<std::int64_t>(1, (gap_us + interval_us_ / 2) / interval_us_);
+    const strapdown::ImuIncrement before = previous_.dt > 0 ? previous_ : after;
+    const double dt = static_cast<double>(gap_us) * us / static_cast<double>(missing);
+    const strapdown::ImuIncrement mean{
+        .delta_theta = (before.delta_theta / before.dt + after.delta_theta / after.dt) * (dt / 2),
+        .delta_v = (before.delta_v / before.dt + after.delta_v / after.dt) * (dt / 2),
+        .dt = dt};
+    const std::int64_t start_us = now_us_;
+    for (std::int64_t i = 1; i <= missing; ++i) take(mean, start_us + gap_us * i / missing, step);
+  }
+
+  template <class Step>
+  void take(const strapdown::ImuIncrement& imu, std::int64_t t_us, const Step& step) {
+    step(imu, t_us);
+    previous_ = imu;
+    now_us_ = t_us;
+  }
+
+  Group group_;
+  std::int64_t now_us_ = 0;
+  std::int64_t answered_us_ = 0;  // epoch of the last answer
+  std::int64_t interval_us_ = 0;  // of the last sample
+  strapdown::ImuIncrement previous_;
+  bool coasting_ = false;
+};
+
+}  // namespace canhil::target

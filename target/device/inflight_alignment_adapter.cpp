@@ -1,0 +1,367 @@
+// In-flight alignment behind the bus: groups SlaveImu, Ssbl and Gps in, groups AlignNav and FixFilter out.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "dbc/wire/time_base.hpp"
+#include "target/device/adapters.hpp"
+#include "target/device/fix_queue.hpp"
+#include "target/device/group_intake.hpp"
+#include "target/device/imu_stream.hpp"
+#include "target/device/parameter_table.hpp"
+#include "target/estimators/inflight_alignment/history.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/strapdown/earth.hpp"
+
+namespace canhil::target {
+namespace {
+
+namespace ia = inflight_alignment;
+using namespace messages;
+
+constexpr double deg = std::numbers::pi / 180;
+constexpr double degph = deg / 3600;
+constexpr double degprth = deg / 60;
+constexpr double ug = 1e-6 * 9.80665;
+
+constexpr std::size_t history_length = 512;          // 2.5 s at 5 ms
+constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
+constexpr std::size_t pending_limit = 4;             // fixes ahead of the INS that are kept
+
+// Parameters in the unit of their name; defaults are those of Kang, Kim, Park 2006 with an SSBL.
+struct Tuning {
+  ia::Settings filter;
+  double height_sigma = 0;  // 0: as that of the other coordinates
+  std::int64_t output_interval_us = 0;
+};
+using Row = ParameterTable<Tuning>::Row;
+constexpr bool whole = true;
+constexpr bool real = false;
+constexpr bool any_time = true;
+constexpr bool stopped_only = false;
+constexpr std::array rows{
+    Row{Parameter::accel_bias_sigma_ug, 1000, 0, 1e6, real, stopped_only,
+        [](Tuning& t, double v) { t.filter.accel_bias_sigma_0 = v * ug; }},
+    Row{Parameter::gyro_bias_sigma_degph, 1, 0, 1e6, real, stopped_only,
+        [](Tuning& t, double v) { t.filter.gyro_bias_sigma_0 = v * degph; }},
+    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
+        [](Tuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
+    Row{Parameter::gyro_noise_degprth, 0.3, 0, 1e4, real, any_time,
+        [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
+    Row{Parameter::closed_loop, 1, 0, 1, whole, stopped_only,
+        [](Tuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
+    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
+        [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
+    Row{Parameter::aiding, 0, 0, 1, whole, stopped_only,
+        [](Tuning& t, double v) { t.filter.aiding = static_cast<ia::Aiding>(std::lround(v)); }},
+    Row{Parameter::attitude_error_frame, 0, 0, 1, whole, stopped_only,
+        [](Tuning& t, double v) {
+          t.filter.attitude_error_frame = static_cast<ia::AttitudeErrorFrame>(std::lround(v));
+        }},
+    Row{Parameter::ukf_root, 0, 0, 1, whole, stopped_only,
+        [](Tuning& t, double v) { t.filter.ukf_root = static_cast<ia::UkfRoot>(std::lround(v)); }},
+    Row{Parameter::ukf_covariance, 0, 0, 1, whole, stopped_only,
+        [](Tuning& t, double v) {
+          t.filter.ukf_covariance = static_cast<ia::UkfCovariance>(std::lround(v));
+        }},
+    Row{Parameter::fix_noise_horizontal_m, 2, 1e-3, 1e4, real, any_time,
+        [](Tuning& t, double v) { t.filter.fix_noise_horizontal = v; }},
+    Row{Parameter::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time,
+        [](Tuning& t, double v) { t.filter.fix_noise_vertical = v; }},
+    Row{Parameter::fix_bias_sigma_m, 3.1622777, 0, 1e4, real, stopped_only,
+        [](Tuning& t, double v) { t.filter.fix_bias_sigma_0 = v; }},
+    Row{Parameter::fix_bias_walk_mprts, 0, 0, 1e3, real, any_time,
+        [](Tuning& t, double v) { t.filter.fix_bias_noise_density = v; }},
+    Row{Parameter::initial_height_sigma_m, 0, 0, 1e5, real, stopped_only,
+        [](Tuning& t, double v) { t.height_sigma = v; }},
+    Row{Parameter::handover_sigma_deg, 2, 1e-3, 90, real, any_time,
+        [](Tuning& t, double v) { t.filter.handover_sigma = v * deg; }},
+    Row{Parameter::gate_nis, 30, 0, 1e9, real, any_time, [](Tuning& t, double v) { t.filter.gate_nis = v; }},
+    Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time,
+        [](Tuning& t, double v) { t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v)); }},
+    Row{Parameter::late_fixes, 1, 0, 1, whole, stopped_only,
+        [](Tuning& t, double v) { t.filter.late_fixes = static_cast<ia::LateFixes>(std::lround(v)); }},
+};
+
+struct Fix {
+  FixSource source = FixSource::ssbl;
+  ia::GeodeticPosition position;
+};
+
+std::optional<ia::Algorithm> algorithm_of(Algorithm algorithm) {
+  switch (algorithm) {
+    case Algorithm::ekf:
+      return ia::Algorithm::ekf;
+    case Algorithm::ukf:
+      return ia::Algorithm::ukf;
+    case Algorithm::sin_cos:
+      return ia::Algorithm::sin_cos;
+    default:
+      return std::nullopt;
+  }
+}
+
+// Raw values beyond the globe are no position.
+bool on_earth(double latitude_deg, double longitude_deg) {
+  return std::abs(latitude_deg) < 90 && std::abs(longitude_deg) <= 180;
+}
+
+// A limit of a signal's range, from the DBC.
+template <class Message>
+consteval double maximum(std::string_view signal) {
+  for (const SignalInfo& info : Message::info.signals)
+    if (info.name == signal) return info.maximum;
+  throw "no such signal";
+}
+
+class InflightAlignmentAdapter final : public Adapter {
+ public:
+  [[nodiscard]] Estimator estimator() const override { return Estimator::inflight_alignment; }
+
+  bool reset(Algorithm algorithm) override {
+    const auto chosen = algorithm_of(algorithm);
+    if (!chosen) return false;
+    parameters_.reset(tuning_);
+    tuning_.filter.algorithm = *chosen;
+    imu_.reset();
+    ssbl_group_.discard();
+    gps_group_.discard();
+    return true;
+  }
+
+  ParameterStatus set(Parameter parameter, double value, bool running) override {
+    return parameters_.set(tuning_, parameter, value, running);
+  }
+  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
+    return parameters_.get(parameter);
+  }
+
+  void start(const InitialState& initial) override {
+    ia::Settings& filter = tuning_.filter;
+    const double height_sigma = tuning_.height_sigma > 0 ? tuning_.height_sigma : initial.position_sigma;
+    filter.position_sigma_0 = {initial.position_sigma, initial.position_sigma, height_sigma};
+    filter.velocity_sigma_0.setConstant(initial.velocity_sigma);
+    filter.tilt_sigma_0 = initial.tilt_sigma;
+    filter.heading_sigma_0 = initial.heading_sigma;
+    state_ = ia::initial({.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
+                          .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
+                          .latitude = initial.latitude,
+                          .longitude = initial.longitude,
+                          .height = initial.height},
+                         filter);
+    start_us_ = initial.t_us;
+    history_.restart(initial.t_us);
+    imu_.start(initial.t_us, tuning_.output_interval_us);
+    pending_.clear();
+    gated_ = refused_ = 0;
+  }
+
+  Health receive(const Frame& frame, std::uint8_t counter, Context context) override {
+    switch (
+        imu_.receive(frame, counter, context, [this](const strapdown::ImuIncrement& imu, std::int64_t t_us) {
+          history_.propagate(state_, imu, t_us, tuning_.filter);
+        })) {
+      case ImuStream::Taken::stepped:
+        return on_imu(context);
+      case ImuStream::Taken::waiting:
+        return Health::good;
+      case ImuStream::Taken::fault:
+        return Health::fault;
+      case ImuStream::Taken::foreign:
+        break;
+    }
+    switch (frame.id) {
+      case SsblRelativeNE::info.id:
+        return put_ssbl<SsblRelativeNE>(frame, counter, context);
+      case SsblShipLatitude::info.id:
+        return put_ssbl<SsblShipLatitude>(frame, counter, context);
+      case SsblShipLongitude::info.id:
+        return put_ssbl<SsblShipLongitude>(frame, counter, context);
+      case SsblRelativeD::info.id:
+        return put_ssbl<SsblRelativeD>(frame, counter, context);
+      case GpsLatitude::info.id:
+        return put_gps<GpsLatitude>(frame, counter, context);
+      case GpsLongitude::info.id:
+        return put_gps<GpsLongitude>(frame, counter, context);
+      case GpsTime::info.id:
+        return put_gps<GpsTime>(frame, counter, context);
+      default:
+        return Health::good;
+    }
+  }
+
+  Health tick(Context context) override { return imu_.tick(context); }
+
+ private:
+  template <class Message>
+  Health put_ssbl(const Frame& frame, std::uint8_t counter, Context& context) {
+    return completes<Message>(ssbl_group_, frame, counter, context) ? on_ssbl(context) : Health::good;
+  }
+  template <class Message>
+  Health put_gps(const Frame& frame, std::uint8_t counter, Context& context) {
+    return completes<Message>(gps_group_, frame, counter, context) ? on_gps(context) : Health::good;
+  }
+
+  Health on_imu(Context& context) {
+    const Health health =
+        pending_.reached(imu_.now_us(), [&](const At<Fix>& fix) { return update(fix, context); });
+    const strapdown::NavState best = ia::estimate(state_).nav;
+    if (!best.v_eb_n.allFinite() || !best.C_bn.allFinite()) return numeric_fault(context);
+    if (imu_.answer_is_due(tuning_.output_interval_us)) imu_.answer(best, context.answers);
+    return health;
+  }
+
+  // The ship's position and the vehicle's relative to it.
+  Health on_ssbl(Context& context) {
+    const auto& horizontal = ssbl_group_.get<SsblRelativeNE>();
+    const auto& latitude = ssbl_group_.get<SsblShipLatitude>();
+    const auto& longitude = ssbl_group_.get<SsblShipLongitude>();
+    const auto& vertical = ssbl_group_.get<SsblRelativeD>();
+    const bool valid = horizontal.position_validity == Validity::valid &&
+                       on_earth(latitude.latitude_deg, longitude.longitude_deg) &&
+                       std::abs(horizontal.relative_north_m) <= maximum<SsblRelativeNE>("relative_north_m") &&
+                       std::abs(horizontal.relative_east_m) <= maximum<SsblRelativeNE>("relative_east_m") &&
+                       std::abs(vertical.relative_down_m) <= maximum<SsblRelativeD>("relative_down_m");
+    const double ship_latitude = latitude.latitude_deg * deg;
+    const strapdown::LocalEarth earth = strapdown::local_earth(ship_latitude, latitude.height_m);
+    const double parallel_radius = (earth.transverse_radius + latitude.height_m) * earth.cos_latitude;
+    const Fix fix{.source = FixSource::ssbl,
+                  .position = {ship_latitude +
+                                   horizontal.relative_north_m / (earth.meridian_radius + latitude.height_m),
+                               longitude.longitude_deg * deg + horizontal.relative_east_m / parallel_radius,
+                               latitude.height_m - vertical.relative_down_m}};
+    const std::int64_t t_us = unwrap_us(vertical.time_of_validity_us, context.now_us);
+    return on_fix({t_us, ssbl_group_.counter(), fix}, valid, context);
+  }
+
+  Health on_gps(Context& context) {
+    const auto& latitude = gps_group_.get<GpsLatitude>();
+    const auto& longitude = gps_group_.get<GpsLongitude>();
+    const bool valid = longitude.position_validity == Validity::valid &&
+                       on_earth(latitude.latitude_deg, longitude.longitude_deg);
+    const Fix fix{
+        .source = FixSource::gps,
+        .position = {latitude.latitude_deg * deg, longitude.longitude_deg * deg, latitude.height_m}};
+    const std::int64_t t_us = unwrap_us(gps_group_.get<GpsTime>().time_of_validity_us, context.now_us);
+    return on_fix({t_us, gps_group_.counter(), fix}, valid, context);
+  }
+
+  // Every whole group is answered: with what it did to the filter, or with why it did nothing.
+  Health on_fix(const At<Fix>& fix, bool valid, Context& context) {
+    const FixSource chosen = tuning_.filter.aiding == ia::Aiding::gps ? FixSource::gps : FixSource::ssbl;
+    if (fix.value.source != chosen) return refuse(fix, FixOutcome::wrong_source, context);
+    if (!valid) {
+      drop_group(context);
+      return refuse(fix, FixOutcome::invalid, context);
+    }
+    if (fix.t_us < start_us_) return refuse(fix, FixOutcome::before_start, context);
+    if (fix.t_us <= imu_.now_us()) return update(fix, context);
+    if (fix.t_us - imu_.now_us() <= fix_lead_limit_us && pending_.push(fix)) return Health::good;
+    drop_group(context);
+    return refuse(fix, FixOutcome::future, context);
+  }
+
+  Health update(const At<Fix>& fix, Context& context) {
+    const ia::UpdateResult result = history_.update(state_, fix.value.position, fix.t_us, tuning_.filter);
+    switch (result.outcome) {
+      case ia::Outcome::ok:
+        answer(fix, result.gate_opened ? FixOutcome::recovered : FixOutcome::accepted, result,
+               context.answers);
+        return Health::good;
+      case ia::Outcome::gated:
+        ++gated_;
+        answer(fix, FixOutcome::gated, result, context.answers);
+        return Health::good;
+      case ia::Outcome::non_finite:
+      case ia::Outcome::not_positive_definite:
+        refuse(fix, FixOutcome::numeric, context);
+        return numeric_fault(context);
+      case ia::Outcome::older_than_history:
+        ++context.losses.late;
+        return refuse(fix, FixOutcome::late, context);
+      case ia::Outcome::no_interval:
+      case ia::Outcome::out_of_order:
+      case ia::Outcome::not_reached:
+        break;
+    }
+    ++context.losses.late;
+    return refuse(fix, FixOutcome::out_of_order, context);
+  }
+
+  Health refuse(const At<Fix>& fix, FixOutcome why, Context& context) {
+    ++refused_;
+    const strapdown::NavState now = ia::estimate(state_).nav;
+    ia::UpdateResult nothing;
+    nothing.position = {now.latitude, now.longitude, now.height};
+    answer(fix, why, nothing, context.answers);
+    return Health::good;
+  }
+
+  void answer(const At<Fix>& fix, FixOutcome outcome, const ia::UpdateResult& result, Answers& answers) {
+    const ia::Estimate best = ia::estimate(state_);
+    const ia::Uncertainty sigma = ia::uncertainty(state_);
+    const Eigen::Vector3d attitude = sigma.attitude.diagonal().cwiseMax(0).cwiseSqrt() / deg;
+    answers.send(FixInnovation{.innovation_north_m = result.innovation.x(),
+                               .innovation_east_m = result.innovation.y(),
+                               .innovation_down_m = result.innovation.z()});
+    answers.send(FixPositionLatitude{.latitude_deg = result.position.latitude / deg,
+                                     .height_m = result.position.height});
+    answers.send(FixPositionLongitude{.longitude_deg = result.position.longitude / deg});
+    answers.send(FixAttitudeSigma{.tilt_sigma_north_deg = attitude.x(),
+                                  .tilt_sigma_east_deg = attitude.y(),
+                                  .heading_sigma_deg = attitude.z()});
+    answers.send(FixVelocitySigma{.velocity_sigma_north_mps = sigma.velocity.x(),
+                                  .velocity_sigma_east_mps = sigma.velocity.y(),
+                                  .velocity_sigma_down_mps = sigma.velocity.z()});
+    answers.send(FixPositionSigma{.position_sigma_north_m = sigma.position.x(),
+                                  .position_sigma_east_m = sigma.position.y(),
+                                  .position_sigma_down_m = sigma.position.z()});
+    answers.send(FixGyroBias{.gyro_bias_x_degph = best.gyro_bias.x() / degph,
+                             .gyro_bias_y_degph = best.gyro_bias.y() / degph,
+                             .gyro_bias_z_degph = best.gyro_bias.z() / degph});
+    answers.send(FixGyroBiasSigma{.gyro_bias_sigma_x_degph = sigma.gyro_bias.x() / degph,
+                                  .gyro_bias_sigma_y_degph = sigma.gyro_bias.y() / degph,
+                                  .gyro_bias_sigma_z_degph = sigma.gyro_bias.z() / degph});
+    answers.send(FixAccelBias{.accel_bias_x_ug = best.accel_bias.x() / ug,
+                              .accel_bias_y_ug = best.accel_bias.y() / ug,
+                              .accel_bias_z_ug = best.accel_bias.z() / ug});
+    answers.send(FixAccelBiasSigma{.accel_bias_sigma_x_ug = sigma.accel_bias.x() / ug,
+                                   .accel_bias_sigma_y_ug = sigma.accel_bias.y() / ug,
+                                   .accel_bias_sigma_z_ug = sigma.accel_bias.z() / ug});
+    answers.send(FixBias{.fix_bias_north_m = best.fix_bias.x(),
+                         .fix_bias_east_m = best.fix_bias.y(),
+                         .fix_bias_down_m = best.fix_bias.z()});
+    answers.send(FixBiasSigma{.fix_bias_sigma_north_m = sigma.fix_bias.x(),
+                              .fix_bias_sigma_east_m = sigma.fix_bias.y(),
+                              .fix_bias_sigma_down_m = sigma.fix_bias.z()});
+    answers.send(FixStatus{.outcome = outcome,
+                           .source = fix.value.source,
+                           .handed_over = static_cast<std::uint8_t>(state_.handed_over),
+                           .repairs = static_cast<std::uint16_t>(std::min(state_.repairs, 65535U)),
+                           .gated = static_cast<std::uint16_t>(std::min(gated_, 16383U)),
+                           .refused = static_cast<std::uint16_t>(std::min(refused_, 16383U))});
+    answers.send(
+        FixUpdate{.cause_time_us = wrap_us(fix.t_us), .cause_counter = fix.counter, .nis = result.nis});
+  }
+
+  ParameterTable<Tuning> parameters_{rows};
+  Tuning tuning_;
+  ImuStream imu_;
+  SampleGroup<SsblRelativeNE, SsblShipLatitude, SsblShipLongitude, SsblRelativeD> ssbl_group_;
+  SampleGroup<GpsLatitude, GpsLongitude, GpsTime> gps_group_;
+  ia::State state_;
+  ia::History<history_length> history_{0};
+  FixQueue<Fix, pending_limit> pending_;  // fixes ahead of the INS
+  std::int64_t start_us_ = 0;
+  std::uint32_t gated_ = 0, refused_ = 0;  // fixes, since the start
+};
+
+}  // namespace
+
+std::unique_ptr<Adapter> make_inflight_alignment_adapter() {
+  return std::make_unique<InflightAlignmentAdapter>();
+}
+
+}  // namespace canhil::target

@@ -1,0 +1,148 @@
+#pragma once
+// Aiding that arrives late: the last increments with the part of the state that an increment changes before
+// each, so that a measurement valid at an earlier epoch is applied at that epoch, and the increments since
+// are run again. The result is that of a measurement in time, bit for bit.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace canhil::filtering {
+
+/// Keeps the last `Capacity` increments. Epochs are the ends of increments, in integer microseconds of the
+/// measurements' time base. Every step and update of a State goes through its History. The Model says how:
+///   types State (with a member `ins`: what an increment changes), Increment, Measurement, Settings,
+///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
+///     older_than_history, ...)
+///   step(state, increment, settings)
+///   update(state, earlier, share, measurement, settings): of a measurement valid at the state's epoch less
+///     `share` of the increment that began with the ins `earlier` (null: at the epoch)
+///   keep_refusal(state, tried): what an update that was refused leaves behind
+///   applied_at(t_us, now_us, settings): the epoch at which one valid at t_us is to be applied
+/// A filter that predicts by itself between measurements (Predictions > 0: how many of them the increments
+/// kept may span) adds
+///   prediction_is_due(state, settings), predict(state, settings)
+template <class Model, std::size_t Capacity, std::size_t Predictions = 0>
+class History {
+ public:
+  using State = typename Model::State;
+  using Settings = typename Model::Settings;
+  using Increment = typename Model::Increment;
+  using Measurement = typename Model::Measurement;
+  using UpdateResult = typename Model::UpdateResult;
+  using Outcome = typename Model::Outcome;
+
+  explicit History(std::int64_t start_us) { restart(start_us); }
+
+  /// Empty, with the state's epoch at start_us.
+  void restart(std::int64_t start_us) {
+    first_ = count_ = prediction_count_ = 0;
+    now_us_ = last_update_us_ = start_us;
+    forgotten_us_ = std::numeric_limits<std::int64_t>::min();
+  }
+
+  /// A step over an increment that ends at t_us, remembered.
+  void propagate(State& state, const Increment& increment, std::int64_t t_us, const Settings& settings) {
+    if (count_ == Capacity) {
+      first_ = (first_ + 1) % Capacity;
+    } else {
+      ++count_;
+    }
+    at(count_ - 1) = {state.ins, increment, now_us_};
+    now_us_ = t_us;
+    step(state, increment, t_us, settings);
+  }
+
+  /// The update of a measurement valid at valid_us: at that epoch, or, between two epochs, at the later one
+  /// with what is compared interpolated linearly. Refused, with the state untouched: not_reached,
+  /// out_of_order (before the last update), older_than_history.
+  UpdateResult update(State& state, const Measurement& measurement, std::int64_t valid_us,
+                      const Settings& settings) {
+    if (valid_us > now_us_) return refused(Outcome::not_reached);
+    const std::int64_t t_us = Model::applied_at(valid_us, now_us_, settings);
+    if (t_us < last_update_us_) return refused(Outcome::out_of_order);
+    std::size_t epoch = count_;  // epoch i < count_ is the start of increment i; epoch count_ is now
+    while (epoch > 0 && epoch_us(epoch - 1) >= t_us) --epoch;
+    const bool between = epoch_us(epoch) != t_us;
+    if ((between && epoch == 0) || epoch_us(epoch) < forgotten_us_)
+      return refused(Outcome::older_than_history);
+
+    State then = state_at(state, epoch);
+    const double share = between ? static_cast<double>(epoch_us(epoch) - t_us) /
+                                       static_cast<double>(epoch_us(epoch) - epoch_us(epoch - 1))
+                                 : 0;
+    const UpdateResult result =
+        Model::update(then, between ? &at(epoch - 1).before : nullptr, share, measurement, settings);
+    if (result.outcome != Outcome::ok) {
+      Model::keep_refusal(state, then);
+      return result;
+    }
+    last_update_us_ = epoch_us(epoch);
+    prediction_count_ = 0;  // those before the update are out of reach, those after are made anew
+    for (std::size_t i = epoch; i < count_; ++i) {
+      at(i).before = then.ins;
+      step(then, at(i).increment, epoch_us(i + 1), settings);
+    }
+    state = then;
+    return result;
+  }
+
+  [[nodiscard]] std::int64_t now_us() const { return now_us_; }
+
+ private:
+  struct Entry {
+    decltype(State::ins) before;
+    Increment increment;
+    std::int64_t before_us = 0;
+  };
+  struct Prediction {
+    State before;
+    std::int64_t t_us = 0;
+  };
+
+  static UpdateResult refused(Outcome outcome) {
+    UpdateResult result;
+    result.outcome = outcome;
+    return result;
+  }
+  Entry& at(std::size_t i) { return entries_[(first_ + i) % Capacity]; }
+  std::int64_t epoch_us(std::size_t i) { return i < count_ ? at(i).before_us : now_us_; }
+
+  void step(State& state, const Increment& increment, std::int64_t t_us, const Settings& settings) {
+    Model::step(state, increment, settings);
+    if constexpr (Predictions > 0) {
+      if (!Model::prediction_is_due(state, settings)) return;
+      remember_prediction(state, t_us);
+      Model::predict(state, settings);
+    }
+  }
+
+  // The state before the filter predicts at t_us; the oldest is forgotten, and with it the epochs before it.
+  void remember_prediction(const State& state, std::int64_t t_us) {
+    if (prediction_count_ == Predictions) {
+      forgotten_us_ = predictions_.front().t_us;
+      for (std::size_t i = 1; i < prediction_count_; ++i) predictions_[i - 1] = predictions_[i];
+      --prediction_count_;
+    }
+    predictions_[prediction_count_++] = {state, t_us};
+  }
+
+  // The state with the ins of an epoch, and for the rest as it was before the first prediction after it.
+  State state_at(const State& now, std::size_t epoch) {
+    const State* then = &now;
+    for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)
+      then = &predictions_[i - 1].before;
+    State state = *then;
+    state.ins = epoch < count_ ? at(epoch).before : now.ins;
+    Model::keep_refusal(state, now);
+    return state;
+  }
+
+  std::array<Entry, Capacity> entries_;
+  std::array<Prediction, Predictions> predictions_;
+  std::size_t first_ = 0, count_ = 0, prediction_count_ = 0;
+  std::int64_t now_us_ = 0, last_update_us_ = 0;
+  std::int64_t forgotten_us_ = 0;  // before this epoch the filter's state is not known any more
+};
+
+}  // namespace canhil::filtering

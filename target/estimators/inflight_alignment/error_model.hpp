@@ -1,0 +1,96 @@
+#pragma once
+// What the filters of the in-flight alignment have in common: errors of the INS (INS - true), NED in the
+// computer frame c, over an interval T between fixes.
+//   dR+ = dR + (dV + dV+) T/2 - w_en x dR T
+//   dV+ = dV + (force term) - (2 w_ie + w_en) x dV T + dg T      (Kang, Kim, Park 2006, eq. (9), corrected:
+//   attitude by each filter; biases of sensors and fix constant          gravity error dg for an open loop)
+// States: dR dV | attitude: psi (3) or tilts, sin, 1 - cos (4) | accelerometer, gyro [, fix] bias: 15 or 18,
+// and 16 or 19.
+#include <Eigen/Core>
+
+#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/inflight_alignment/settings.hpp"
+#include "target/estimators/strapdown/interval.hpp"
+
+namespace canhil::inflight_alignment {
+
+using filtering::Matrix;
+using filtering::Vector;
+using strapdown::Interval;
+
+/// Where the states are in a filter of N.
+template <int N>
+struct Layout {
+  static_assert(N == 15 || N == 16 || N == 18 || N == 19);
+  static constexpr bool has_fix_bias = N >= 18;
+  static constexpr int attitude_count = N % 3 == 0 ? 3 : 4;
+  static constexpr int position = 0, velocity = 3, attitude = 6;
+  static constexpr int moving = 6 + attitude_count;  // the states that change in time
+  static constexpr int accel_bias = moving, gyro_bias = moving + 3, fix_bias = moving + 6;
+};
+
+template <int N>
+struct Errors {
+  Vector<N> x = Vector<N>::Zero();
+  Matrix<N, N> P = Matrix<N, N>::Zero();
+};
+
+/// dg = this o dR [m/s^2]: free fall of an INS that is off by dR.
+inline Eigen::Vector3d gravity_error_per_m() {
+  constexpr double rate = standard_gravity / 6378137;
+  return {-rate, -rate, 2 * rate};
+}
+
+/// G = dx+/dx - I of the moving states, by the blocks that are not zero; its position rows follow from the
+/// velocity rows.
+template <int A>
+struct Transition {
+  double T = 0;
+  Eigen::Matrix3d transport, coriolis;  // -[w_en x] T, -[(2 w_ie + w_en) x] T
+  Matrix<3, A> velocity_attitude;
+  Eigen::Matrix3d velocity_accel;
+  Matrix<A, A> attitude_attitude;
+  Matrix<A, 3> attitude_gyro;
+};
+
+/// The blocks that do not depend on the attitude.
+template <int A>
+Transition<A> kinematic_transition(const Interval& interval);
+
+/// M G' [Rows x moving] of M [Rows x N].
+template <int N, int Rows, int A>
+Matrix<Rows, 6 + A> times_transposed(const Matrix<Rows, N>& M, const Transition<A>& G) {
+  using At = Layout<N>;
+  const double T = G.T;
+  Matrix<Rows, 6 + A> out;
+  auto position = out.template middleCols<3>(At::position);
+  auto velocity = out.template middleCols<3>(At::velocity);
+  auto attitude = out.template middleCols<A>(At::attitude);
+  const auto M_R = M.template middleCols<3>(At::position);
+  const auto M_V = M.template middleCols<3>(At::velocity);
+  const auto M_att = M.template middleCols<A>(At::attitude);
+  const auto M_acc = M.template middleCols<3>(At::accel_bias);
+  const auto M_gyr = M.template middleCols<3>(At::gyro_bias);
+  velocity.noalias() = M_att.lazyProduct(G.velocity_attitude.transpose());
+  velocity.noalias() += M_acc.lazyProduct(G.velocity_accel.transpose());
+  velocity.noalias() += M_V.lazyProduct(G.coriolis.transpose());
+  velocity.noalias() += M_R * (T * gravity_error_per_m()).asDiagonal();
+  position.noalias() = M_R.lazyProduct(G.transport.transpose());
+  position += T * M_V + (T / 2) * velocity;
+  attitude.noalias() = M_att.lazyProduct(G.attitude_attitude.transpose());
+  attitude.noalias() += M_gyr.lazyProduct(G.attitude_gyro.transpose());
+  return out;
+}
+
+/// x after the interval from what the specific force adds to dV [m/s] and what is added to the attitude.
+template <int N>
+Vector<N> moved(const Vector<N>& x, const Interval& interval, const Eigen::Vector3d& force_increment,
+                const Vector<Layout<N>::attitude_count>& attitude_increment);
+
+/// Adds the white noise of accelerometers and gyros over T [s] to the velocity and attitude blocks, and the
+/// random walk of the fix bias; attitude_shape is the covariance of the attitude states for unit noise.
+template <int N>
+void add_process_noise(Matrix<N, N>& P, const Settings& settings, double T,
+                       const Matrix<Layout<N>::attitude_count, Layout<N>::attitude_count>& attitude_shape);
+
+}  // namespace canhil::inflight_alignment

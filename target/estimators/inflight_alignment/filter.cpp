@@ -1,0 +1,306 @@
+#include "target/estimators/inflight_alignment/filter.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/inflight_alignment/psi_angle.hpp"
+#include "target/estimators/inflight_alignment/sin_cos.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/strapdown/earth.hpp"
+
+namespace canhil::inflight_alignment {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr std::uint32_t orthonormalisation_period = 50;  // steps
+
+template <int N>
+constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
+
+template <int N>
+Errors<N> initial_errors(const Settings& settings) {
+  using At = Layout<N>;
+  Vector<N> sigma = Vector<N>::Zero();
+  sigma.template segment<3>(At::position) = settings.position_sigma_0;
+  sigma.template segment<3>(At::velocity) = settings.velocity_sigma_0;
+  sigma.template segment<2>(At::attitude).setConstant(settings.tilt_sigma_0);
+  sigma.template segment<3>(At::accel_bias).setConstant(settings.accel_bias_sigma_0);
+  sigma.template segment<3>(At::gyro_bias).setConstant(settings.gyro_bias_sigma_0);
+  if constexpr (!is_sin_cos<N>) sigma(At::attitude + 2) = settings.heading_sigma_0;
+  if constexpr (At::has_fix_bias)
+    sigma.template segment<3>(At::fix_bias).setConstant(settings.fix_bias_sigma_0);
+  Errors<N> errors;
+  errors.P = sigma.cwiseAbs2().asDiagonal();
+  if constexpr (is_sin_cos<N>) set_heading_prior<N>(errors, settings.heading_sigma_0);
+  return errors;
+}
+
+// Returns how often P had to be repaired.
+template <int N>
+int predict_errors(Errors<N>& errors, const Interval& interval, const Settings& settings) {
+  if (!(interval.duration > 0)) return 0;
+  if constexpr (is_sin_cos<N>) {
+    predict_sin_cos<N>(errors, interval, settings);
+  } else {
+    if (settings.algorithm == Algorithm::ukf) return predict_ukf<N>(errors, interval, settings);
+    predict_ekf<N>(errors, interval, settings);
+  }
+  return 0;
+}
+
+// z = dR - rho + noise (eq. (10)); without a fix bias z = dR + noise.
+template <int N>
+filtering::Correction<N, 3> correction(const Errors<N>& prior, const Vector3d& innovation,
+                                       const Settings& settings) {
+  const double h = settings.fix_noise_horizontal * settings.fix_noise_horizontal;
+  const double v = settings.fix_noise_vertical * settings.fix_noise_vertical;
+  const Matrix3d R = Vector3d(h, h, v).asDiagonal();
+  if constexpr (Layout<N>::has_fix_bias) {
+    return filtering::update_state_difference<Layout<N>::position, Layout<N>::fix_bias, N, 3>(prior.P, R,
+                                                                                              innovation);
+  } else {
+    return filtering::update_states<Layout<N>::position, N, 3>(prior.P, R, innovation);
+  }
+}
+
+Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition& fix) {
+  const strapdown::LocalEarth earth = strapdown::local_earth(ins.latitude, ins.height);
+  const double d_longitude = std::remainder(ins.longitude - fix.longitude, 2 * std::numbers::pi);
+  return {(ins.latitude - fix.latitude) * (earth.meridian_radius + ins.height),
+          d_longitude * (earth.transverse_radius + ins.height) * earth.cos_latitude, fix.height - ins.height};
+}
+
+GeodeticPosition position_of(const strapdown::NavState& nav) {
+  return {nav.latitude, nav.longitude, nav.height};
+}
+
+GeodeticPosition corrected(const GeodeticPosition& ins, const Vector3d& dR) {
+  const strapdown::LocalEarth earth = strapdown::local_earth(ins.latitude, ins.height);
+  const double latitude = ins.latitude - dR.x() / (earth.meridian_radius + ins.height);
+  const double parallel_radius = (earth.transverse_radius + ins.height) * std::cos(latitude);
+  return {latitude, ins.longitude - dR.y() / parallel_radius, ins.height + dR.z()};
+}
+
+// The INS less position [m] and velocity errors, and its attitude turned to the computer frame by C_pc.
+strapdown::NavState corrected(const strapdown::NavState& nav, const Vector3d& dR, const Vector3d& dV,
+                              const Matrix3d& C_pc) {
+  const GeodeticPosition position = corrected(position_of(nav), dR);
+  return {.C_bn = C_pc * nav.C_bn,
+          .v_eb_n = nav.v_eb_n - dV,
+          .latitude = position.latitude,
+          .longitude = position.longitude,
+          .height = position.height};
+}
+
+// Position, velocity and biases into the INS; their states zero.
+template <int N>
+void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc) {
+  using At = Layout<N>;
+  Vector<N>& x = errors.x;
+  state.ins.nav = corrected(state.ins.nav, x.template segment<3>(At::position),
+                            x.template segment<3>(At::velocity), C_pc);
+  state.accel_bias += x.template segment<3>(At::accel_bias);
+  state.gyro_bias += x.template segment<3>(At::gyro_bias);
+  if constexpr (At::has_fix_bias) state.fix_bias += x.template segment<3>(At::fix_bias);
+  const Vector<At::attitude_count> attitude = x.template segment<At::attitude_count>(At::attitude);
+  x.setZero();
+  x.template segment<At::attitude_count>(At::attitude) = attitude;
+}
+
+template <int N>
+void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
+  if constexpr (is_sin_cos<N>) {
+    const bool resolved = heading_is_resolved<N>(errors, settings);
+    feed_back<N>(state, errors, resolved ? tilt_and_heading<N>(errors.x) : Matrix3d::Identity());
+    if (resolved) take_out_attitude<N>(errors);
+    state.handed_over = resolved;
+  } else {
+    const Vector3d psi = errors.x.template segment<3>(6);
+    const bool platform = settings.attitude_error_frame == AttitudeErrorFrame::platform;
+    // Tilts in navigation axes come after the heading: C_pc = exp([tilt x]) Rz(psi_z), as in sin_cos.
+    const Matrix3d C_pc = platform ? platform_to_computer(psi)
+                                   : Matrix3d(strapdown::exp_rotation({psi.x(), psi.y(), 0}) *
+                                              strapdown::exp_rotation({0, 0, psi.z()}));
+    feed_back<N>(state, errors, C_pc);
+    errors.x.template segment<3>(6).setZero();
+    if (!platform) return;
+    // The errors that remain are angles of the new platform: small rotations about the axes of the old ones.
+    const Matrix3d axes = rotation_axes(psi);
+    errors.P.template middleRows<3>(6) = (axes * errors.P.template middleRows<3>(6)).eval();
+    errors.P.template middleCols<3>(6) = (errors.P.template middleCols<3>(6) * axes.transpose()).eval();
+    filtering::average_with_transpose<N>(errors.P);
+  }
+}
+
+template <int N>
+UpdateResult update_errors(State& state, const Errors<N>& before, const GeodeticPosition& ins,
+                           const Vector3d& difference, const Settings& settings) {
+  UpdateResult result;
+  Errors<N> errors = before;
+  result.repairs = predict_errors<N>(errors, state.ins.interval, settings);
+  result.innovation = difference + state.fix_bias - errors.x.template segment<3>(Layout<N>::position);
+  if constexpr (Layout<N>::has_fix_bias)
+    result.innovation += errors.x.template segment<3>(Layout<N>::fix_bias);
+
+  result.position = corrected(ins, errors.x.template segment<3>(Layout<N>::position));
+
+  const auto c = correction<N>(errors, result.innovation, settings);
+  result.innovation_covariance = c.S;
+  result.outcome = Outcome::non_finite;
+  if (!c.S.allFinite() || !result.innovation.allFinite()) return result;
+  result.outcome = Outcome::not_positive_definite;
+  if (!c.positive_definite) return result;
+  result.nis = c.nis;
+  const bool beyond_gate = settings.gate_nis > 0 && c.nis > settings.gate_nis;
+  if (beyond_gate && state.rejected < settings.gate_recovery) {
+    result.outcome = Outcome::gated;
+    ++state.rejected;
+    return result;
+  }
+  errors.x += c.dx;
+  errors.P = c.P;
+  result.outcome = Outcome::non_finite;
+  // One that is not finite makes the sum so.
+  if (!std::isfinite(errors.x.sum()) || !std::isfinite(errors.P.sum())) return result;
+  result.outcome = Outcome::not_positive_definite;
+  if (!(errors.P.diagonal().minCoeff() >= 0)) return result;
+
+  result.outcome = Outcome::ok;
+  result.gate_opened = beyond_gate;
+  result.position = corrected(ins, errors.x.template segment<3>(Layout<N>::position));
+  if constexpr (!is_sin_cos<N>) errors.x(8) = std::remainder(errors.x(8), 2 * std::numbers::pi);
+  if (is_sin_cos<N> || settings.closed_loop) close_loop<N>(state, errors, settings);
+  state.errors = errors;
+  state.ins.interval = Interval{};
+  state.updated_at = state.ins.steps;
+  state.rejected = 0;
+  state.repairs += static_cast<std::uint32_t>(result.repairs);
+  return result;
+}
+
+template <int N>
+Vector<N> errors_now(const Errors<N>& errors, const Interval& interval) {
+  if (!(interval.duration > 0)) return errors.x;
+  if constexpr (is_sin_cos<N>) {
+    return predicted_sin_cos<N>(errors.x, interval);
+  } else {
+    return predicted<N>(errors.x, interval);
+  }
+}
+
+template <class Visitor>
+auto with_errors(const State& state, const Visitor& visitor) {
+  return std::visit([&]<int N>(const Errors<N>& errors) { return visitor.template operator()<N>(errors); },
+                    state.errors);
+}
+
+}  // namespace
+
+State initial(const strapdown::NavState& nav, const Settings& settings) {
+  State state;
+  state.ins.nav = nav;
+  const bool ssbl = settings.aiding == Aiding::ssbl;
+  if (settings.algorithm == Algorithm::sin_cos) {
+    if (ssbl) {
+      state.errors = initial_errors<19>(settings);
+    } else {
+      state.errors = initial_errors<16>(settings);
+    }
+  } else if (ssbl) {
+    state.errors = initial_errors<18>(settings);
+  } else {
+    state.errors = initial_errors<15>(settings);
+  }
+  return state;
+}
+
+void mechanise(State& state, const strapdown::ImuIncrement& imu) {
+  Ins& ins = state.ins;
+  const strapdown::MechanizationStep step = strapdown::mechanize_one_sample(
+      ins.nav, strapdown::without_bias(imu, state.gyro_bias, state.accel_bias));
+  ins.nav = step.nav;
+  if (++ins.steps % orthonormalisation_period == 0) ins.nav.C_bn = strapdown::reorthonormalised(ins.nav.C_bn);
+  strapdown::extend(ins.interval, step, imu.dt);
+}
+
+bool prediction_is_due(const State& state, const Settings& settings) {
+  return state.ins.interval.duration >= settings.longest_interval;
+}
+
+void predict(State& state, const Settings& settings) {
+  const int repairs = std::visit(
+      [&]<int N>(Errors<N>& errors) { return predict_errors<N>(errors, state.ins.interval, settings); },
+      state.errors);
+  state.repairs += static_cast<std::uint32_t>(repairs);
+  state.ins.interval = Interval{};
+}
+
+void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings) {
+  mechanise(state, imu);
+  if (prediction_is_due(state, settings)) predict(state, settings);
+}
+
+UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& settings) {
+  return update(state, position_of(state.ins.nav), fix, settings);
+}
+
+UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
+                    const Settings& settings) {
+  UpdateResult result;
+  if (state.ins.steps == state.updated_at) return result;
+  result.outcome = Outcome::non_finite;
+  const Vector3d difference = position_difference(ins, fix);
+  if (!difference.allFinite()) return result;
+  return std::visit(
+      [&]<int N>(const Errors<N>& errors) {
+        return update_errors<N>(state, errors, ins, difference, settings);
+      },
+      state.errors);
+}
+
+Estimate estimate(const State& state) {
+  return with_errors(state, [&]<int N>(const Errors<N>& errors) {
+    using At = Layout<N>;
+    const Vector<N> x = errors_now<N>(errors, state.ins.interval);
+    Matrix3d C_pc;
+    if constexpr (is_sin_cos<N>) {
+      C_pc = tilt_and_heading<N>(x);
+    } else {
+      C_pc = platform_to_computer(x.template segment<3>(At::attitude));
+    }
+    Estimate best;
+    best.nav = corrected(state.ins.nav, x.template segment<3>(At::position),
+                         x.template segment<3>(At::velocity), C_pc);
+    best.accel_bias = state.accel_bias + x.template segment<3>(At::accel_bias);
+    best.gyro_bias = state.gyro_bias + x.template segment<3>(At::gyro_bias);
+    best.fix_bias = state.fix_bias;
+    if constexpr (At::has_fix_bias) best.fix_bias += x.template segment<3>(At::fix_bias);
+    return best;
+  });
+}
+
+Uncertainty uncertainty(const State& state) {
+  return with_errors(state, []<int N>(const Errors<N>& errors) {
+    using At = Layout<N>;
+    Matrix<3, At::attitude_count> angles;
+    if constexpr (is_sin_cos<N>) {
+      angles = angles_of_states<N>(errors.x);
+    } else {
+      angles = rotation_axes(errors.x.template segment<3>(At::attitude));
+    }
+    const auto P_attitude = errors.P.template block<At::attitude_count, At::attitude_count>(6, 6);
+    const Vector<N> sigma = errors.P.diagonal().cwiseMax(0).cwiseSqrt();
+    Uncertainty u{.position = sigma.template segment<3>(At::position),
+                  .velocity = sigma.template segment<3>(At::velocity),
+                  .attitude = angles * P_attitude * angles.transpose(),
+                  .accel_bias = sigma.template segment<3>(At::accel_bias),
+                  .gyro_bias = sigma.template segment<3>(At::gyro_bias)};
+    if constexpr (At::has_fix_bias) u.fix_bias = sigma.template segment<3>(At::fix_bias);
+    return u;
+  });
+}
+
+}  // namespace canhil::inflight_alignment

@@ -1,0 +1,98 @@
+#pragma once
+// In-flight alignment of an INS by position fixes from an SSBL or GPS, whatever the heading error (Kang, Kim,
+// Park 2006, and a filter that is linear in it). initial() once, propagate() at IMU rate, update() at each
+// fix.
+#include <Eigen/Core>
+#include <cstdint>
+#include <variant>
+
+#include "target/estimators/inflight_alignment/error_model.hpp"
+#include "target/estimators/strapdown/imu_increment.hpp"
+#include "target/estimators/strapdown/mechanization.hpp"
+
+namespace canhil::inflight_alignment {
+
+/// All that an IMU sample changes between two predictions of the filter.
+struct Ins {
+  strapdown::NavState nav;
+  Interval interval;        // since the last prediction
+  std::uint32_t steps = 0;  // since the start
+};
+
+struct GeodeticPosition {
+  double latitude = 0, longitude = 0;  // [rad]
+  double height = 0;                   // above the ellipsoid [m]
+};
+
+struct State {
+  Ins ins;
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();                 // estimates, taken from IMU [m/s^2],
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();                  // [rad/s]
+  Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();                   // and fixes, NED [m]
+  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of what the INS says; the filter
+  std::uint32_t updated_at = 0;                                         // step of the last update
+  std::uint32_t rejected = 0;                                           // fixes gated in a row
+  std::uint32_t repairs = 0;  // how often P lost its positive definiteness
+  bool handed_over = false;   // sin_cos: tilt and heading were fed back at the last fix
+};
+
+enum class Outcome : std::uint8_t {
+  ok,
+  gated,                  // NIS above the gate
+  no_interval,            // no IMU sample since the last update
+  non_finite,             // a NaN or infinity in the fix or in the result
+  not_positive_definite,  // of the innovation covariance or of P's diagonal
+  not_reached,            // History: valid after the newest IMU epoch
+  out_of_order,           // History: valid before the last update
+  older_than_history,     // History: valid before the oldest epoch kept
+};
+
+/// An update's answer. Unless outcome is ok the state is as before the call, but for the count of fixes
+/// gated.
+struct UpdateResult {
+  Outcome outcome = Outcome::no_interval;
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();             // INS - fix less its estimate, NED [m]
+  Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [m^2]
+  double nis = 0;                                                   // chi-square of 3 if consistent
+  GeodeticPosition position;  // best estimate at the fix's time of validity
+  bool gate_opened = false;   // ok in spite of its NIS
+  int repairs = 0;            // of P, in this call
+};
+
+/// The state at the start of an alignment from the INS's own navigation state; P0 from the settings.
+State initial(const strapdown::NavState& nav, const Settings& settings);
+
+/// One IMU increment (dt > 0): mechanisation with the estimated biases removed, and the filter's prediction
+/// once the interval without a fix has grown to the settings' longest.
+void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
+
+/// The parts of propagate(): mechanisation alone; whether the filter is to predict now; its prediction.
+void mechanise(State& state, const strapdown::ImuIncrement& imu);
+bool prediction_is_due(const State& state, const Settings& settings);
+void predict(State& state, const Settings& settings);
+
+/// A fix valid at the last IMU epoch: prediction over the interval, measurement update, and in a closed loop
+/// the correction of the INS.
+UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& settings);
+
+/// The same with the INS's position at the fix's time of validity, for a caller who has interpolated it.
+UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
+                    const Settings& settings);
+
+/// What is known best now: the INS less its estimated errors, predicted to the last IMU epoch.
+struct Estimate {
+  strapdown::NavState nav;
+  Eigen::Vector3d accel_bias, gyro_bias, fix_bias;  // [m/s^2], [rad/s], NED [m]
+};
+Estimate estimate(const State& state);
+
+/// How well, as of the last update.
+struct Uncertainty {
+  Eigen::Vector3d position, velocity;                  // sigmas, NED [m], [m/s]
+  Eigen::Matrix3d attitude;                            // covariance, small rotations about NED [rad^2]
+  Eigen::Vector3d accel_bias, gyro_bias;               // sigmas, body [m/s^2], [rad/s]
+  Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();  // sigmas, NED [m]
+};
+Uncertainty uncertainty(const State& state);
+
+}  // namespace canhil::inflight_alignment

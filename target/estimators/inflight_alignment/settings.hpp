@@ -1,0 +1,59 @@
+#pragma once
+// What a user may choose of the in-flight alignment. Defaults: the recommended filter with the sensors of
+// Kang, Kim, Park 2006 and an SSBL (target/estimators/inflight_alignment/NOTES.md).
+#include <Eigen/Core>
+#include <cstdint>
+#include <numbers>
+
+namespace canhil::inflight_alignment {
+
+inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+inline constexpr double rad_per_deg = std::numbers::pi / 180;
+
+/// sin_cos: the heading error as sine and cosine, linear in it, so any start heading will do. ekf, ukf: the
+/// paper's, on the psi angles.
+enum class Algorithm : std::uint8_t { ekf, ukf, sin_cos };
+
+/// ssbl: a fix has a constant bias, three states more.
+enum class Aiding : std::uint8_t { ssbl, gps };
+
+/// In which axes the tilts of ekf and ukf live when a closed loop feeds them back: platform rotates their
+/// rows of P by the heading correction, navigation does not. An open loop is the paper's, in platform axes.
+enum class AttitudeErrorFrame : std::uint8_t { platform, navigation };
+
+enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
+
+/// about_central: about the transformed central point; positive semi-definite whatever the weights.
+enum class UkfCovariance : std::uint8_t { about_mean, about_central };
+
+enum class LateFixes : std::uint8_t { at_arrival, at_validity };
+
+struct Settings {
+  Algorithm algorithm = Algorithm::sin_cos;
+  Aiding aiding = Aiding::ssbl;
+  bool closed_loop = false;  // of ekf and ukf; sin_cos always feeds back
+  AttitudeErrorFrame attitude_error_frame = AttitudeErrorFrame::platform;
+  UkfRoot ukf_root = UkfRoot::lower_cholesky;
+  UkfCovariance ukf_covariance = UkfCovariance::about_mean;
+  LateFixes late_fixes = LateFixes::at_validity;
+
+  double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]
+  double gyro_noise_density = 0.3 * rad_per_deg / 60;     // [rad/s/sqrt(Hz)]
+  double fix_noise_horizontal = 2;                        // each of north and east, 1-sigma [m]
+  double fix_noise_vertical = 2;                          // [m]
+  double fix_bias_noise_density = 0;                      // random walk of the bias [m/sqrt(s)]
+  double handover_sigma = 2 * rad_per_deg;  // sin_cos: heading sigma below which attitude is fed back
+  double longest_interval = 1.5;            // without a fix: the filter then predicts by itself [s]
+  double gate_nis = 0;                      // a fix with a larger NIS is refused; 0: none is
+  std::uint32_t gate_recovery = 5;          // ... but not more than this many in a row
+
+  Eigen::Vector3d position_sigma_0 = Eigen::Vector3d::Constant(5);    // NED [m]
+  Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(0.1);  // NED [m/s]
+  double tilt_sigma_0 = rad_per_deg;                                  // each of two [rad]
+  double heading_sigma_0 = 90 * rad_per_deg;                          // [rad]
+  double accel_bias_sigma_0 = 1000e-6 * standard_gravity;             // each axis [m/s^2]
+  double gyro_bias_sigma_0 = 1 * rad_per_deg / 3600;                  // each axis [rad/s]
+  double fix_bias_sigma_0 = 3.1622776601683795;                       // sqrt(1 + 3^2): SSBL, ship [m]
+};
+
+}  // namespace canhil::inflight_alignment

@@ -1,0 +1,158 @@
+#include "target/estimators/inflight_alignment/sin_cos.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "target/estimators/filtering/block_transition.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+
+namespace canhil::inflight_alignment {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int sine = 8, cosine = 9;       // states s and k
+constexpr double smallest_radius = 0.01;  // of (s, 1 - k), which a heading without any information may have
+constexpr double circle_tolerance = 0.4;  // a resolved heading has |(s, 1 - k)| near 1
+
+// sin and cos of the heading, and the interval seen from p turned by it.
+struct Turned {
+  double s, c;
+  Vector3d force;  // Rz S
+  Vector3d wT;     // Rz (w_ie + w_en) T
+  Matrix3d A;      // Rz A
+
+  template <int N>
+  Turned(const Vector<N>& x, const Interval& interval)
+      : s(std::sin(heading_error<N>(x))), c(std::cos(heading_error<N>(x))) {
+    Matrix3d Rz;
+    Rz << c, -s, 0, s, c, 0, 0, 0, 1;
+    force = Rz * interval.delta_v_n;
+    wT = Rz * (interval.omega_ie_n + interval.omega_en_n) * interval.duration;
+    A = Rz * interval.C_bn_integral;
+  }
+};
+
+}  // namespace
+
+template <int N>
+double heading_error(const Vector<N>& x) {
+  return std::atan2(x(sine), 1 - x(cosine));
+}
+
+template <int N>
+Matrix3d tilt_and_heading(const Vector<N>& x) {
+  return strapdown::exp_rotation({x(6), x(7), 0}) * strapdown::exp_rotation({0, 0, heading_error<N>(x)});
+}
+
+template <int N>
+Matrix<3, 4> angles_of_states(const Vector<N>& x) {
+  const double psi = heading_error<N>(x);
+  const double radius = std::max(std::hypot(x(sine), 1 - x(cosine)), smallest_radius);
+  Matrix<3, 4> J;
+  J << 1, 0, 0, 0,  //
+      0, 1, 0, 0,   //
+      0, 0, std::cos(psi) / radius, std::sin(psi) / radius;
+  return J;
+}
+
+template <int N>
+void set_heading_prior(Errors<N>& errors, double sigma) {
+  const double half = std::exp(-sigma * sigma / 2);
+  errors.x(sine) = 0;
+  errors.x(cosine) = 1 - half;
+  errors.P(sine, sine) = (1 - half * half * half * half) / 2;
+  errors.P(cosine, cosine) = (1 - half * half) * (1 - half * half) / 2;
+  errors.P(sine, cosine) = errors.P(cosine, sine) = 0;
+}
+
+template <int N>
+Vector<N> predicted_sin_cos(const Vector<N>& x, const Interval& interval) {
+  using At = Layout<N>;
+  const Turned turned(x, interval);
+  const double s = x(sine), k = x(cosine);
+  const Vector3d phi(x(6), x(7), 0);
+  const Vector3d& S = interval.delta_v_n;
+  const Vector3d wT = (interval.omega_ie_n + interval.omega_en_n) * interval.duration;
+  const Vector3d drift = turned.A * x.template segment<3>(At::gyro_bias);
+  const Vector3d force = Vector3d(k * S.x() + s * S.y(), k * S.y() - s * S.x(), 0) - phi.cross(turned.force) +
+                         turned.A * x.template segment<3>(At::accel_bias);
+  const Vector3d tilted = phi.cross(turned.wT);
+  const double turn = turned.wT.y() * phi.x() - turned.wT.x() * phi.y() - drift.z();
+  const Vector<4> attitude(tilted.x() - k * wT.x() - s * wT.y() - drift.x(),
+                           tilted.y() - k * wT.y() + s * wT.x() - drift.y(), turned.c * turn,
+                           turned.s * turn);
+  return moved<N>(x, interval, force, attitude);
+}
+
+template <int N>
+Transition<4> transition_sin_cos(const Vector<N>& x, const Interval& interval) {
+  const Turned turned(x, interval);
+  const Vector3d& S = interval.delta_v_n;
+  const Vector3d& f = turned.force;
+  const Vector3d& t = turned.wT;
+  const Vector3d wT = (interval.omega_ie_n + interval.omega_en_n) * interval.duration;
+  Transition<4> G = kinematic_transition<4>(interval);
+  G.velocity_attitude << 0, -f.z(), S.y(), S.x(),  // columns: f x e_x, f x e_y, s, k
+      f.z(), 0, -S.x(), S.y(),                     //
+      -f.y(), f.x(), 0, 0;
+  G.velocity_accel = turned.A;
+  const Eigen::RowVector2d turn(t.y(), -t.x());
+  G.attitude_attitude << 0, t.z(), -wT.y(), -wT.x(),  //
+      -t.z(), 0, wT.x(), -wT.y(),                     //
+      turned.c * turn, 0, 0,                          //
+      turned.s * turn, 0, 0;
+  G.attitude_gyro << -turned.A.topRows<2>(), -turned.c * turned.A.row(2), -turned.s * turned.A.row(2);
+  return G;
+}
+
+template <int N>
+void predict_sin_cos(Errors<N>& errors, const Interval& interval, const Settings& settings) {
+  const Transition<4> G = transition_sin_cos<N>(errors.x, interval);
+  const double psi = heading_error<N>(errors.x);
+  const Vector<4> heading(0, 0, std::cos(psi), std::sin(psi));
+  Matrix<4, 4> shape = heading * heading.transpose();
+  shape(0, 0) = shape(1, 1) = 1;
+  errors.P = filtering::propagate_covariance_moving<10, N>(errors.P, [&](const auto& M) {
+    return times_transposed<N, std::decay_t<decltype(M)>::RowsAtCompileTime>(M, G);
+  });
+  errors.x = predicted_sin_cos<N>(errors.x, interval);
+  add_process_noise<N>(errors.P, settings, interval.duration, shape);
+}
+
+template <int N>
+bool heading_is_resolved(const Errors<N>& errors, const Settings& settings) {
+  const Vector<4> J = angles_of_states<N>(errors.x).row(2).transpose();
+  const double variance = J.dot(errors.P.template block<4, 4>(6, 6) * J);
+  const double off_circle = std::abs(std::hypot(errors.x(sine), 1 - errors.x(cosine)) - 1);
+  return variance < settings.handover_sigma * settings.handover_sigma && off_circle < circle_tolerance;
+}
+
+template <int N>
+void take_out_attitude(Errors<N>& errors) {
+  const double psi = heading_error<N>(errors.x);
+  Matrix<N, N>& P = errors.P;
+  P.row(sine) = (std::cos(psi) * P.row(sine) + std::sin(psi) * P.row(cosine)).eval();
+  P.col(sine) = (std::cos(psi) * P.col(sine) + std::sin(psi) * P.col(cosine)).eval();
+  P.row(cosine).setZero();
+  P.col(cosine).setZero();
+  errors.x.template segment<4>(6).setZero();
+}
+
+#define CANHIL_INSTANTIATE(N)                                                      \
+  template double heading_error<N>(const Vector<N>&);                              \
+  template Matrix3d tilt_and_heading<N>(const Vector<N>&);                         \
+  template Matrix<3, 4> angles_of_states<N>(const Vector<N>&);                     \
+  template void set_heading_prior<N>(Errors<N>&, double);                          \
+  template Vector<N> predicted_sin_cos<N>(const Vector<N>&, const Interval&);      \
+  template Transition<4> transition_sin_cos<N>(const Vector<N>&, const Interval&); \
+  template void predict_sin_cos<N>(Errors<N>&, const Interval&, const Settings&);  \
+  template bool heading_is_resolved<N>(const Errors<N>&, const Settings&);         \
+  template void take_out_attitude<N>(Errors<N>&);
+CANHIL_INSTANTIATE(16)
+CANHIL_INSTANTIATE(19)
+#undef CANHIL_INSTANTIATE
+
+}  // namespace canhil::inflight_alignment

@@ -1,0 +1,254 @@
+#include "target/estimators/los_rate/filter.hpp"
+
+#include <cmath>
+
+namespace canhil::los_rate {
+namespace {
+
+Plane angle(const Planes<double>& planes) { return {planes.yaw, planes.pitch}; }
+Plane acceleration(const Planes<double>& planes) { return {planes.yaw, -planes.pitch}; }
+
+bool finite(Plane value) { return std::isfinite(value.real()) && std::isfinite(value.imag()); }
+bool finite(const Covariance& P) {
+  return std::isfinite(P.ee + P.ew + P.ea + P.ww + P.wa + P.aa) && P.ee >= 0 && P.ww >= 0 && P.aa >= 0;
+}
+bool finite(const State& state) {
+  return finite(state.error) && finite(state.rate) && finite(state.acceleration) &&
+         (!state.covariance || (finite(state.P.pitch) && finite(state.P.yaw)));
+}
+
+Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
+
+// function(plane) of pitch, and of yaw only where its noise differs; `plane` picks a member of a pair.
+template <class Function>
+auto of_planes(const Design& design, Function function) {
+  auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
+  return Planes<decltype(pitch)>{
+      pitch, design.equal_noise ? pitch : function([](auto& pair) -> auto& { return pair.yaw; })};
+}
+
+// What a sample lacks, and its inputs in the complex plane.
+struct Sample {
+  Plane error, antenna_increment, missile_acceleration;
+  bool error_ok, antenna_ok, acceleration_ok;
+  Fault fault;  // the first
+};
+
+Sample judged(const Measurement& m, const Settings& settings) {
+  Sample s{
+      .error = angle(m.error),
+      .antenna_increment = angle(m.antenna_increment),
+      .missile_acceleration = acceleration(m.missile_acceleration),
+      .error_ok = m.error_valid && finite(angle(m.error)),
+      .antenna_ok = m.antenna_valid && finite(angle(m.antenna_increment)) && std::isfinite(m.roll_increment),
+      .acceleration_ok = m.acceleration_valid && finite(acceleration(m.missile_acceleration)),
+      .fault = Fault::none};
+  if (!s.error_ok) {
+    s.fault = Fault::error_angle;
+  } else if (!(std::norm(s.error) <= settings.field_of_view * settings.field_of_view)) {
+    s.error_ok = false;
+    s.fault = Fault::field_of_view;
+  } else if (!s.antenna_ok) {
+    s.fault = Fault::antenna;
+  } else if (!s.acceleration_ok) {
+    s.fault = Fault::acceleration;
+  }
+  return s;
+}
+
+Geometry clamped(Geometry now, const Settings& settings, bool& blind) {
+  const double least = least_range(settings, now.closing_speed);
+  blind = now.range < least;
+  return {blind ? least : now.range, now.closing_speed};
+}
+
+void start(State& state, Plane error, const Design& design, UpdateResult& result) {
+  const Settings& settings = design.settings;
+  const double w = settings.rate_sigma_0, a = settings.acceleration_sigma_0;
+  state.error = error;
+  state.P = of_planes(design, [&](auto plane) {
+    return Covariance{
+        .ee = sample_variance(plane(settings.noise), result.used.range), .ww = w * w, .aa = a * a};
+  });
+  state.started = state.covariance = true;
+  const bool no_start_up =
+      settings.algorithm == Algorithm::kalman || settings.algorithm == Algorithm::low_pass;
+  state.start_up_s = no_start_up ? 0 : settings.start_up;
+  result.outcome = Outcome::started;
+}
+
+// P of the step; what was not measured widens it: an unknown antenna rotation e, an unknown acceleration w.
+void predict_covariance(State& state, Geometry end, double dt, const Sample& sample, const Design& design) {
+  const Settings& settings = design.settings;
+  const double turn = sample.antenna_ok ? 0 : settings.antenna_rate_sigma * dt;
+  const double pull = sample.acceleration_ok ? 0 : settings.missile_acceleration_sigma * dt / end.range;
+  state.P = of_planes(design, [&](auto plane) {
+    Covariance P = predicted(plane(state.P), end, dt, settings.jerk_density);
+    P.ee += turn * turn;
+    P.ww += pull * pull;
+    return P;
+  });
+}
+
+double normalised(Plane innovation, const Planes<double>& S) {
+  return innovation.imag() * innovation.imag() / S.pitch + innovation.real() * innovation.real() / S.yaw;
+}
+
+void update_kalman(State& state, Plane innovation, const Design& design, UpdateResult& result) {
+  const Planes<double> R = of_planes(
+      design, [&](auto plane) { return sample_variance(plane(design.settings.noise), result.used.range); });
+  const Planes<Gain> K = of_planes(design, [&](auto plane) { return kalman_gain(plane(state.P), plane(R)); });
+  result.nis = normalised(innovation, {state.P.pitch.ee + R.pitch, state.P.yaw.ee + R.yaw});
+  correct(state, innovation, K);
+  state.P = of_planes(design, [&](auto plane) { return updated(plane(state.P), plane(K)); });
+}
+
+void update_closed(State& state, Plane innovation, const Design& design, UpdateResult& result) {
+  const Settings& settings = design.settings;
+  struct Closed {
+    ClosedGain gain;
+    double S;
+  };
+  const Planes<Closed> closed = of_planes(design, [&](auto plane) -> Closed {
+    const double R = sample_variance(plane(settings.noise), result.used.range);
+    if (settings.algorithm == Algorithm::low_pass) {
+      const ClosedGain gain = closed_gain(design.low_pass, R, settings.sample_period);
+      return {gain, R + gain.sigma.error * gain.sigma.error};
+    }
+    const ClosedGain gain = settings.algorithm == Algorithm::switched_table
+                                ? closed_gain(plane(design.p_bar), settings, result.used)
+                                : closed_gain(plane(design.combined), result.used);
+    return {gain, R / (1 - gain.K.e)};  // K1 = P_ee/(P_ee + R)
+  });
+  result.nis = normalised(innovation, {closed.pitch.S, closed.yaw.S});
+  correct(state, innovation, {closed.pitch.gain.K, closed.yaw.gain.K});
+  state.covariance = false;
+  result.sigma = {closed.pitch.gain.sigma, closed.yaw.gain.sigma};
+}
+
+void update(State& state, Plane measured, double dt, const Design& design, UpdateResult& result) {
+  const Plane innovation = measured - state.error;
+  result.innovation = {.pitch = innovation.imag(), .yaw = innovation.real()};
+  state.coasted_s = 0;
+  if (design.settings.algorithm == Algorithm::kalman || state.start_up_s > 0) {
+    result.outcome = state.start_up_s > 0 ? Outcome::start_up : Outcome::updated;
+    state.start_up_s -= dt;
+    update_kalman(state, innovation, design, result);
+  } else {
+    result.outcome = Outcome::updated;
+    update_closed(state, innovation, design, result);
+  }
+}
+
+// A closed gain cannot serve an estimate that is much worse than its steady one: the Kalman filter starts up.
+void coast(State& state, double dt, const Sample& sample, const Settings& settings, UpdateResult& result) {
+  result.outcome = Outcome::coasting;
+  state.coasted_s += dt;
+  const bool moved_unseen = !sample.antenna_ok || !sample.acceleration_ok;
+  const bool has_closed_gain =
+      settings.algorithm == Algorithm::combined || settings.algorithm == Algorithm::switched_table;
+  if (has_closed_gain && (moved_unseen || state.coasted_s > settings.gap_limit))
+    state.start_up_s = settings.start_up;
+}
+
+// e + w dt less the antenna increment: the classical filter follows the LOS angle itself.
+void predict_low_pass(State& state, double dt, Plane antenna_increment, double roll_increment) {
+  const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
+  state.error = (state.error + state.rate * dt) * whole - antenna_increment * half;
+  state.rate *= whole;
+}
+
+void advance(State& state, const Measurement& m, const Sample& sample, bool range_ok, const Design& design,
+             UpdateResult& result) {
+  const Settings& settings = design.settings;
+  const bool low_pass = settings.algorithm == Algorithm::low_pass;  // has no use for range and acceleration
+  const bool measured =
+      sample.error_ok && sample.antenna_ok && (low_pass || (sample.acceleration_ok && range_ok));
+  if (!state.covariance && (!measured || state.start_up_s > 0)) {
+    state.P = of_planes(
+        design, [&](auto plane) { return steady_covariance(settings, plane(settings.noise), result.used); });
+    state.covariance = true;
+  }
+  // Reckoned on and on at the clamped range, 2 vc/r would grow without bound.
+  const Geometry end{result.used.range, result.blind && !measured ? 0 : result.used.closing_speed};
+  const double roll = sample.antenna_ok ? m.roll_increment : 0;
+  const Plane antenna = sample.antenna_ok ? sample.antenna_increment : state.rate * m.dt;  // as if tracking
+  if (sample.acceleration_ok) state.missile_acceleration = sample.missile_acceleration;
+  if (low_pass) {
+    predict_low_pass(state, m.dt, antenna, roll);
+  } else {
+    predict(state, end, m.dt, antenna, state.missile_acceleration, roll);
+  }
+  const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0;
+  if (!measured || kalman) predict_covariance(state, end, m.dt, sample, design);
+  if (measured) {
+    update(state, sample.error, m.dt, design, result);
+  } else {
+    coast(state, m.dt, sample, settings, result);
+  }
+}
+
+}  // namespace
+
+State initial() { return {}; }
+
+void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
+             double roll_increment) {
+  const Transition phi = transition(end, dt);
+  // c' = j p c: the states turn by the whole roll; in the axes before it, inputs are turned back by half.
+  const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
+  antenna_increment *= std::conj(half);
+  missile_acceleration *= std::conj(half);
+  const Plane difference = state.acceleration - missile_acceleration;
+  state.error = whole * (state.error + phi.ew * state.rate + phi.ea * difference - antenna_increment);
+  state.rate = whole * (phi.ww * state.rate + phi.wa * difference);
+  state.acceleration *= whole;
+}
+
+void correct(State& state, Plane innovation, const Planes<Gain>& gain) {
+  const auto weighted = [innovation](double pitch, double yaw) -> Plane {
+    return {yaw * innovation.real(), pitch * innovation.imag()};
+  };
+  state.error += weighted(gain.pitch.e, gain.yaw.e);
+  state.rate += weighted(gain.pitch.w, gain.yaw.w);
+  state.acceleration += weighted(gain.pitch.a, gain.yaw.a);
+}
+
+UpdateResult step(State& state, const Measurement& m, const Design& design) {
+  const Settings& settings = design.settings;
+  UpdateResult result;
+  if (!(m.dt > 0 && m.dt <= settings.longest_step)) return result;
+  State next = state;
+  const Sample sample = judged(m, settings);
+  const Fault range_fault = follow(next.track, m.range, m.dt, settings);
+  const bool range_ok = range_fault == Fault::none;
+  result.fault = sample.fault == Fault::none ? range_fault : sample.fault;
+  result.used = clamped(next.track.now, settings, result.blind);
+  if (next.started) {
+    advance(next, m, sample, range_ok, design, result);
+  } else if (sample.error_ok && range_ok) {
+    start(next, sample.error, design, result);
+  } else {
+    result.outcome = Outcome::waiting;
+  }
+  if (!finite(next) || !std::isfinite(result.nis)) {
+    result.outcome = Outcome::non_finite;
+    return result;
+  }
+  if (!next.started) {
+    const Sigma unknown{settings.field_of_view, settings.rate_sigma_0, settings.acceleration_sigma_0};
+    result.sigma = {unknown, unknown};
+  } else if (next.covariance) {
+    result.sigma = of_planes(design, [&](auto plane) { return sigma_of(plane(next.P)); });
+  }
+  state = next;
+  return result;
+}
+
+Estimate estimate(const State& state) {
+  return {{state.error.imag(), state.error.real()},
+          {state.rate.imag(), state.rate.real()},
+          {-state.acceleration.imag(), state.acceleration.real()}};
+}
+
+}  // namespace canhil::los_rate

@@ -1,0 +1,27 @@
+#pragma once
+// The strapdown solution over a filter's interval, as integrals, so that a step of the specific force need
+// not fall on an update.
+#include <Eigen/Core>
+
+#include "target/estimators/strapdown/mechanization.hpp"
+
+namespace canhil::strapdown {
+
+struct Interval {
+  double duration = 0;                                      // [s]
+  Eigen::Vector3d delta_v_n = Eigen::Vector3d::Zero();      // integral of C_bn f_ib_b [m/s]
+  Eigen::Matrix3d C_bn_integral = Eigen::Matrix3d::Zero();  // integral of C_bn [s]
+  Eigen::Vector3d omega_ie_n = Eigen::Vector3d::Zero();     // of the last sample [rad/s]
+  Eigen::Vector3d omega_en_n = Eigen::Vector3d::Zero();
+};
+
+/// The interval and one more mechanisation step of dt [s].
+inline void extend(Interval& interval, const MechanizationStep& step, double dt) {
+  interval.duration += dt;
+  interval.delta_v_n += step.delta_v_n;
+  interval.C_bn_integral += step.C_bn_mean * dt;
+  interval.omega_ie_n = step.omega_ie_n;
+  interval.omega_en_n = step.omega_en_n;
+}
+
+}  // namespace canhil::strapdown

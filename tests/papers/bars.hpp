@@ -1,0 +1,54 @@
+// A campaign's bars as a test.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+
+#include "bench/campaign/evaluate.hpp"
+#include "bench/campaign/execute.hpp"
+
+namespace canhil::papers {
+
+/// Flies a campaign file of tests/papers and expects every bar to be met, and that there are `bars` of them.
+/// Gives the answers.
+inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, std::size_t bars) {
+  const auto campaign = campaign::read_campaign(SOURCE_DIR "/tests/papers/" + file);
+  if (!campaign) {
+    ADD_FAILURE() << campaign.error().message;
+    return {};
+  }
+  const std::filesystem::path results =
+      std::filesystem::path(testing::TempDir()) /
+      (std::filesystem::path(file).parent_path().filename().string() + ".sqlite");
+  std::filesystem::remove(results);
+  const std::atomic<bool> stop = false;
+  campaign::Options options;
+  options.file = results;
+  const auto ended = campaign::execute(*campaign, options, stop);
+  if (!ended) {
+    ADD_FAILURE() << ended.error().message;
+    return {};
+  }
+  const auto store = campaign::Store::open(results);
+  if (!store) {
+    ADD_FAILURE() << store.error().message;
+    return {};
+  }
+  const auto evaluation = campaign::evaluate(*campaign, *store);
+  if (!evaluation) {
+    ADD_FAILURE() << evaluation.error().message;
+    return {};
+  }
+  EXPECT_EQ(evaluation->answers.size(), bars);
+  for (const campaign::Answer& answer : evaluation->answers) {
+    EXPECT_TRUE(answer.passed.value_or(false))
+        << answer.requirement << ": " << answer.metric << " (" << answer.variant << "): " << answer.measured
+        << ", expected " << answer.expected;
+  }
+  return evaluation->answers;
+}
+
+}  // namespace canhil::papers

@@ -1,0 +1,128 @@
+// The unscented transform, the Cholesky factors that it starts from, and the repair of what it breaks.
+#include "target/estimators/filtering/unscented.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <limits>
+#include <random>
+
+#include "target/estimators/filtering/block_transition.hpp"
+#include "target/estimators/filtering/positive_definite.hpp"
+#include "tests/unit/target/estimators/random_matrix.hpp"
+
+namespace canhil::filtering {
+namespace {
+
+template <int N, int K>
+void expect_columns_of_the_factor() {
+  std::mt19937_64 engine(N);
+  const Matrix<N, N> P = random_covariance<N>(engine);
+  const Matrix<N, N> L = Eigen::LLT<Matrix<N, N>>(P).matrixL();
+  Matrix<even_rows(N), K> columns;
+  ASSERT_TRUE((cholesky_columns<K, N>(P, columns)));
+  EXPECT_LT((columns.template topRows<N>() - L.template leftCols<K>()).norm(), 1e-13);
+  const Matrix<N - K, N - K> corner = L.template bottomRightCorner<N - K, N - K>();
+  const Matrix<N - K, N - K> rest = cholesky_rest<K, N>(P, columns);
+  EXPECT_LT((rest - corner * corner.transpose()).norm(), 1e-12);
+}
+
+TEST(Cholesky, ItsFirstColumnsAndWhatTheyLeave) {
+  expect_columns_of_the_factor<15, 9>();
+  expect_columns_of_the_factor<18, 9>();
+  expect_columns_of_the_factor<6, 2>();
+  expect_columns_of_the_factor<7, 4>();
+}
+
+TEST(Cholesky, FindsWhatIsNotPositiveDefinite) {
+  std::mt19937_64 engine(1);
+  const Matrix<7, 7> P = random_covariance<7>(engine);
+  EXPECT_TRUE(is_positive_definite<7>(P));
+  for (int row = 0; row < 7; ++row) {
+    for (int column = 0; column <= row; ++column) {
+      for (const double bad :
+           {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1e3}) {
+        Matrix<7, 7> broken = P;
+        broken(row, column) = bad;
+        EXPECT_FALSE(is_positive_definite<7>(broken)) << row << ' ' << column << ' ' << bad;
+      }
+    }
+  }
+}
+
+// f(x, c) = (x0^2, x1 + c0 x0, c1): moments of a normal distribution known in closed form to second order.
+TEST(Unscented, MeanOfASquareIsItsVariance) {
+  constexpr int N = 3, K = 2;
+  std::mt19937_64 engine(2);
+  const Matrix<N, N> P = random_covariance<N>(engine);
+  const Vector<N> x(0.5, -1, 2);
+  const auto f = [](const Vector<N>& at) { return Vector<K>(at(0) * at(0), at(1) + at(2) * at(0)); };
+  const auto parts = [&](const Vector<N>& d) {
+    const Vector<K> plus = f(x + d), minus = f(x - d);
+    return Parts<K>{0.5 * (plus + minus) - f(x), 0.5 * (plus - minus)};
+  };
+  const auto moments = unscented_moments<K, N>(padded(symmetric_root<N>(P)), 3.0, parts);
+  EXPECT_NEAR(moments.shift(0), P(0, 0), 1e-12);  // E x0^2 = x0^2 + var
+  EXPECT_NEAR(moments.shift(1), P(0, 2), 1e-12);
+  // cov(c, f) = P_c. grad f, exactly, for a function of second degree.
+  const Vector<2> gradient_0(2 * x(0), 0);
+  EXPECT_NEAR(moments.about_central(2, 0), P(2, 0) * gradient_0(0), 1e-12);
+  EXPECT_NEAR(moments.about_central(2, 1), P(2, 1) + P(2, 0) * x(2) + P(2, 2) * x(0), 1e-12);
+}
+
+TEST(Unscented, SymmetricRootIsSymmetricAndARoot) {
+  std::mt19937_64 engine(4);
+  const Matrix<6, 6> P = random_covariance<6>(engine), root = symmetric_root<6>(P);
+  EXPECT_LT((root - root.transpose()).norm(), 1e-13);
+  EXPECT_LT((root * root - P).norm(), 1e-12);
+}
+
+TEST(PositiveDefinite, RepairMendsAndLeavesAloneWhatIsWhole) {
+  std::mt19937_64 engine(5);
+  const Vector<5> scale(1e3, 1, 1e-3, 1e-6, 10);
+  Matrix<5, 5> P = scale.asDiagonal() * random_covariance<5>(engine) * scale.asDiagonal();
+  const Matrix<5, 5> whole = P;
+  EXPECT_FALSE(repair<5>(P));
+  EXPECT_EQ(P, whole);
+  P(1, 0) = P(0, 1) = 1.5 * std::sqrt(P(0, 0) * P(1, 1));  // a correlation beyond 1
+  EXPECT_TRUE(repair<5>(P));
+  EXPECT_TRUE(is_positive_definite<5>(P));
+  EXPECT_LT(std::abs(P(1, 0)), std::sqrt(P(0, 0) * P(1, 1)));
+  EXPECT_NEAR(P(3, 3) / whole(3, 3), 1, 0.3) << "small variances keep their scale";
+  P.row(2).setZero();
+  P.col(2).setZero();
+  P(4, 4) = -1;
+  EXPECT_TRUE(repair<5>(P));
+  EXPECT_TRUE(is_positive_definite<5>(P));
+}
+
+TEST(BlockTransition, MovingStatesAloneGiveTheDenseRecursion) {
+  std::mt19937_64 engine(6);
+  constexpr int N = 7, K = 5;
+  const Matrix<N, N> P = random_covariance<N>(engine);
+  Matrix<N, N> G = Matrix<N, N>::Zero();
+  G.topRows<K>() = random_matrix<K, N>(engine);
+  const Matrix<N, N> Phi = Matrix<N, N>::Identity() + G;
+  const Matrix<N, N> next = propagate_covariance_moving<K, N>(
+      P, [&](const auto& M) { return (M * G.topRows<K>().transpose()).eval(); });
+  EXPECT_LT((next - Phi * P * Phi.transpose()).norm(), 1e-12);
+  EXPECT_EQ(next, next.transpose());
+}
+
+TEST(Kalman, UpdateByADifferenceOfStatesIsTheUpdateByItsH) {
+  std::mt19937_64 engine(7);
+  const Matrix<7, 7> P = random_covariance<7>(engine);
+  const Matrix<2, 2> R = random_covariance<2>(engine);
+  const Vector<2> innovation = random_matrix<2, 1>(engine);
+  Matrix<2, 7> H = Matrix<2, 7>::Zero();
+  H.middleCols<2>(1).setIdentity();
+  H.middleCols<2>(5) = -Matrix<2, 2>::Identity();
+  const auto expected = update<7, 2>(P, H, R, innovation);
+  const auto got = update_state_difference<1, 5, 7, 2>(P, R, innovation);
+  EXPECT_LT((got.P - expected.P).norm(), 1e-13);
+  EXPECT_LT((got.dx - expected.dx).norm(), 1e-13);
+  EXPECT_NEAR(got.nis, expected.nis, 1e-13);
+}
+
+}  // namespace
+}  // namespace canhil::filtering

@@ -1,0 +1,187 @@
+// The error models against what they are models of: a real INS with errors beside one without; and their
+// Jacobians against differences.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "target/estimators/inflight_alignment/psi_angle.hpp"
+#include "target/estimators/inflight_alignment/sin_cos.hpp"
+#include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/strapdown/earth.hpp"
+#include "tests/unit/target/estimators/inflight_alignment/dense.hpp"
+#include "tests/unit/target/estimators/inflight_alignment/recorded_run.hpp"
+
+namespace canhil::inflight_alignment {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using strapdown::NavState;
+
+// From the paper's eq. (8) the first row lacks its minus sign: not a rotation.
+TEST(PsiAngle, PlatformToComputerIsTheRotationByRollPitchYaw) {
+  const Vector3d psi(0.3, -0.2, 1.2);
+  const Matrix3d C = platform_to_computer(psi);
+  EXPECT_LT((C - strapdown::dcm_from_euler({psi.x(), psi.y(), psi.z()})).norm(), 1e-15);
+  const Matrix3d turned = platform_to_computer({0, 0, 0.1});
+  EXPECT_NEAR(turned(0, 1), -std::sin(0.1), 1e-16);
+}
+
+TEST(PsiAngle, RotationAxesAreThoseOfItsDerivatives) {
+  const Vector3d psi(0.3, -0.2, 1.2), v(1, 2, 3);
+  const double step = 1e-6;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d change = (platform_to_computer(psi + step * Vector3d::Unit(i)) * v -
+                             platform_to_computer(psi - step * Vector3d::Unit(i)) * v) /
+                            (2 * step);
+    EXPECT_LT((change - rotation_axes(psi).col(i).cross(platform_to_computer(psi) * v)).norm(), 1e-9) << i;
+  }
+}
+
+Matrix3d C_ne(const NavState& nav) {
+  return (Eigen::AngleAxisd(nav.longitude, Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(-nav.latitude - std::numbers::pi / 2, Vector3d::UnitY()))
+      .toRotationMatrix();
+}
+
+Vector3d r_eb_e(const NavState& nav) {
+  const strapdown::LocalEarth earth = strapdown::local_earth(nav.latitude, nav.height);
+  const double across = (earth.transverse_radius + nav.height) * earth.cos_latitude;
+  const double up = earth.transverse_radius * (1 - strapdown::eccentricity_squared) + nav.height;
+  return {across * std::cos(nav.longitude), across * std::sin(nav.longitude), up * earth.sin_latitude};
+}
+
+// The errors of an INS: C_pc, and position and velocity in the computer frame.
+struct Truth {
+  Matrix3d C_pc;
+  Vector3d dR, dV;
+};
+
+Truth errors_of(const NavState& ins, const NavState& truth) {
+  const Matrix3d C_tc = C_ne(ins).transpose() * C_ne(truth);
+  return {C_tc * truth.C_bn * ins.C_bn.transpose(), C_ne(ins).transpose() * (r_eb_e(ins) - r_eb_e(truth)),
+          ins.v_eb_n - C_tc * truth.v_eb_n};
+}
+
+// A tenth of a second of a turning vehicle: an INS without errors, and one that starts with each of them.
+struct Flight {
+  Vector3d accel_bias{0.05, -0.03, 0.04};   // [m/s^2]
+  Vector3d gyro_bias{2e-4, -3e-4, 1.5e-4};  // [rad/s]
+  Vector3d psi;                             // [rad]
+  Truth start, end;
+  Interval interval;
+
+  explicit Flight(double tilt) : psi(tilt, -1.5 * tilt, 1.3) {
+    State ins, truth;
+    truth.ins.nav.C_bn = strapdown::dcm_from_euler({0.05, -0.04, 0.6});
+    truth.ins.nav.latitude = 0.61;
+    truth.ins.nav.height = -20;
+    truth.ins.nav.v_eb_n << 40, -30, 3;
+    ins = truth;
+    ins.ins.nav.latitude += 300 / 6.36e6;
+    ins.ins.nav.longitude -= 500 / 5.2e6;
+    ins.ins.nav.height += 400;
+    ins.ins.nav.v_eb_n += Vector3d(50, 70, -40);
+    // C_pc such that psi is as told, for the INS's own frame.
+    const Matrix3d C_tc = C_ne(ins.ins.nav).transpose() * C_ne(truth.ins.nav);
+    ins.ins.nav.C_bn = platform_to_computer(psi).transpose() * C_tc * truth.ins.nav.C_bn;
+    start = errors_of(ins.ins.nav, truth.ins.nav);
+    constexpr int samples = 100;
+    constexpr double dt = 0.1 / samples;
+    for (int k = 0; k < samples; ++k) {
+      const strapdown::ImuIncrement imu{Vector3d(0.02, -0.01, 0.15) * dt, Vector3d(0.8, 0.5, -9.7) * dt, dt};
+      mechanise(truth, imu);
+      mechanise(ins, {imu.delta_theta + gyro_bias * dt, imu.delta_v + accel_bias * dt, dt});
+    }
+    end = errors_of(ins.ins.nav, truth.ins.nav);
+    interval = ins.ins.interval;
+  }
+};
+
+// Tolerances: the model is of first order in T. What each term of it adds here is larger: Coriolis 1e-3 m/s,
+// gravity error 8e-5 m/s, turning of the frame 7e-4 m, earth's rate seen through C_pc 7e-6 rad, E 1e-7 rad.
+TEST(PsiAngle, PredictsTheErrorsOfAnIns) {
+  const Flight flight(0.01);
+  Vector<15> x;
+  x << flight.start.dR, flight.start.dV, flight.psi, flight.accel_bias, flight.gyro_bias;
+  const Vector<15> next = predicted<15>(x, flight.interval);
+  EXPECT_LT((next.segment<3>(0) - flight.end.dR).norm(), 1e-4);
+  EXPECT_LT((next.segment<3>(3) - flight.end.dV).norm(), 4e-5);
+  const Matrix3d off = platform_to_computer(next.segment<3>(6)) * flight.end.C_pc.transpose();
+  EXPECT_LT(strapdown::log_rotation(off).norm(), 1e-8);
+}
+
+TEST(SinCos, PredictsTheErrorsOfAnIns) {
+  const Flight flight(0.001);  // of first order in the tilts
+  // C_pc = exp([phi x]) Rz(psi_z): heading from its own first column, tilts from what remains.
+  const auto states = [](const Matrix3d& C_pc) {
+    const double psi = std::atan2(C_pc(1, 0) - C_pc(0, 1), C_pc(0, 0) + C_pc(1, 1));
+    const Vector3d phi = strapdown::log_rotation(C_pc * strapdown::exp_rotation({0, 0, -psi}));
+    return Vector<4>(phi.x(), phi.y(), std::sin(psi), 1 - std::cos(psi));
+  };
+  Vector<16> x;
+  x << flight.start.dR, flight.start.dV, states(flight.start.C_pc), flight.accel_bias, flight.gyro_bias;
+  const Vector<16> next = predicted_sin_cos<16>(x, flight.interval);
+  EXPECT_LT((next.segment<3>(0) - flight.end.dR).norm(), 1e-4);
+  EXPECT_LT((next.segment<3>(3) - flight.end.dV).norm(), 4e-5);
+  EXPECT_LT((next.segment<4>(6) - states(flight.end.C_pc)).norm(), 1e-7);
+}
+
+template <int N>
+Matrix<N, N> central_differences(const std::function<Vector<N>(const Vector<N>&)>& map, const Vector<N>& x) {
+  Matrix<N, N> J;
+  const double step = 1e-5;
+  for (int i = 0; i < N; ++i)
+    J.col(i) = (map(x + step * Vector<N>::Unit(i)) - map(x - step * Vector<N>::Unit(i))) / (2 * step);
+  return J;
+}
+
+TEST(PsiAngle, JacobianIsThatOfCentralDifferences) {
+  const Flight flight(0.01);
+  Vector<18> x;
+  x << flight.start.dR, flight.start.dV, flight.psi, flight.accel_bias, flight.gyro_bias, 1, -2, 3;
+  // With E = I, as the filter takes it: the Euler rates are turned back into rotation rates.
+  const auto without_E = [&](const Vector<18>& at) {
+    Vector<18> next = predicted<18>(at, flight.interval);
+    const Vector3d psi = at.segment<3>(6), rates = next.segment<3>(6) - psi;
+    // rate in p: C_pc' (axes rates), the axes being in c
+    next.segment<3>(6) = psi + platform_to_computer(psi).transpose() * rotation_axes(psi) * rates;
+    return next;
+  };
+  const Matrix<18, 18> expected = central_differences<18>(without_E, x) - Matrix<18, 18>::Identity();
+  const Matrix<18, 18> G = dense<18>(transition<18>(x, flight.interval));
+  EXPECT_LT((G - expected).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+// Of first order: exact where tilts and biases are zero, at any heading.
+TEST(SinCos, JacobianIsThatOfCentralDifferences) {
+  const Flight flight(0.01);
+  Vector<19> x;
+  x << flight.start.dR, flight.start.dV, 0, 0, 0.7, 0.4, Vector<6>::Zero(), 1, -2, 3;
+  const Matrix<19, 19> expected =
+      central_differences<19>(
+          [&](const Vector<19>& at) { return predicted_sin_cos<19>(at, flight.interval); }, x) -
+      Matrix<19, 19>::Identity();
+  const Matrix<19, 19> G = dense<19>(transition_sin_cos<19>(x, flight.interval));
+  EXPECT_LT((G - expected).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(SinCos, PriorHasTheMomentsOfANormalHeading) {
+  for (const double sigma : {0.1, 1.0, 10.0}) {
+    Errors<16> errors;
+    set_heading_prior<16>(errors, sigma);
+    double s2 = 0, k = 0, k2 = 0, weight = 0;
+    for (int i = -40000; i <= 40000; ++i) {
+      const double psi = sigma * i * 2e-4, w = std::exp(-psi * psi / (2 * sigma * sigma));
+      weight += w, s2 += w * std::sin(psi) * std::sin(psi), k += w * (1 - std::cos(psi));
+      k2 += w * (1 - std::cos(psi)) * (1 - std::cos(psi));
+    }
+    EXPECT_NEAR(errors.x(9), k / weight, 1e-6) << sigma;
+    EXPECT_NEAR(errors.P(8, 8), s2 / weight, 1e-6);
+    EXPECT_NEAR(errors.P(9, 9), k2 / weight - k * k / weight / weight, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace canhil::inflight_alignment
