@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include "bench/commands/bus.hpp"
@@ -13,14 +14,18 @@
 #include "bench/commands/run.hpp"
 #include "messages/canhil.hpp"
 
-int main(int argc, char** argv) {
-  using canhil::commands::ExitCode;
+namespace {
+
+using canhil::commands::ExitCode;
+
+int run(int argc, char** argv) {
   CLI::App app{
       "A hardware-in-the-loop bench over CAN for navigation and guidance estimators.\n"
       "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured."};
   app.require_subcommand(1);
-  app.set_version_flag("--version",
-                       fmt::format("hil-bench {} · DBC {:016x}", CANHIL_VERSION, canhil::messages::dbc_hash));
+  app.set_version_flag("--version", [] {
+    return fmt::format("hil-bench {} · DBC {:016x}", CANHIL_VERSION, canhil::messages::dbc_hash);
+  });
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file at its size limit is an error of write(), with a line that names the file
   int code = 0;
@@ -37,4 +42,15 @@ int main(int argc, char** argv) {
     return static_cast<int>(ExitCode::usage);
   }
   return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {  // no memory, for one
+    std::fprintf(stderr, "hil-bench: %s\n", error.what());
+    return static_cast<int>(ExitCode::usage);
+  }
 }

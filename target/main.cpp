@@ -5,6 +5,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <string>
 
 #include "messages/canhil.hpp"
@@ -24,13 +25,12 @@ int complain(const canhil::Error& error) {
   return exit_usage;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"The device under test: navigation and guidance estimators behind a CAN interface."};
-  app.set_version_flag("--version",
-                       fmt::format("hil-target {}.{} · DBC {:016x}", canhil::target::version_major,
-                                   canhil::target::version_minor, canhil::messages::dbc_hash));
+  app.set_version_flag("--version", [] {
+    return fmt::format("hil-target {}.{} · DBC {:016x}", canhil::target::version_major,
+                       canhil::target::version_minor, canhil::messages::dbc_hash);
+  });
   std::string bus;
   std::string log;
   auto* bus_option =
@@ -55,4 +55,15 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, request_stop);
   const auto served = canhil::target::serve(bus, stop_requested);
   return served ? 0 : complain(served.error());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {  // no memory, for one
+    std::fprintf(stderr, "hil-target: %s\n", error.what());
+    return exit_usage;
+  }
 }

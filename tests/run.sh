@@ -2,7 +2,7 @@
 # Builds and runs every test of the project; the last line is "N passed, N failed", the exit code 0 only when none failed.
 #   bash tests/run.sh                 everything
 #   bash tests/run.sh --quick         the optimised build and its tests, no sanitizers, no static checks
-#   bash tests/run.sh --tidy          everything, and clang-tidy on every source: about an hour more on two cores
+#   bash tests/run.sh --tidy          everything, and clang's static analyser on every source: about an hour more on two cores
 #   bash tests/run.sh --fuzz          everything, and a short run of each fuzzer: what it finds need not be of the last change
 #   bash tests/run.sh --only REGEX    the CTest cases whose name matches, in every configuration
 # Counted: each CTest case in each configuration, each static check, and each build that fails.
@@ -153,10 +153,11 @@ if [[ $quick == no ]]; then
     echo "not run: the fuzzers; bash tests/run.sh --fuzz runs them"
   fi
 fi
+if [[ $static == yes ]]; then stage "clang-tidy" one_check python3 tests/static/tidy.py build/default; fi
 if [[ $tidy == yes ]]; then
-  stage "clang-tidy" one_check python3 tests/static/tidy.py build/default
+  stage "clang static analyser" one_check python3 tests/static/tidy.py --each build/default
 elif [[ $static == yes ]]; then
-  echo "not run: clang-tidy, half a minute a source; bash tests/run.sh --tidy runs it"
+  echo "not run: clang's static analyser, half a minute a source; bash tests/run.sh --tidy runs it"
 fi
 if [[ -n "$only" ]] && ((!passed && !failed)); then failure "no test matches '$only'"; fi
 finish

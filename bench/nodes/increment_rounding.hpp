@@ -20,7 +20,7 @@ class IncrementRounding {
   /// sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the signal.
   world::Vector3 round(const world::Vector3& increment) {
     const world::Vector3 wanted = increment + remainder_;
-    const world::Vector3 sent =
+    world::Vector3 sent =
         wanted.unaryExpr([this](double x) { return std::clamp(nearest(x), minimum_, maximum_); });
     remainder_ = wanted - sent;
     return sent;

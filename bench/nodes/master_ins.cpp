@@ -11,7 +11,7 @@ MasterIns::MasterIns(const world::FlightRecord& flight, const scenario::MasterIn
                      world::Stream stream)
     : flight_(flight),
       errors_(config.errors),
-      stream_(std::move(stream)),
+      stream_(stream),
       sampling_(config.schedule.period_us.value_or(messages::MasterInsVelocityD::info.cycle_time_us),
                 config.schedule.latency_us, flight.end_us()) {}
 

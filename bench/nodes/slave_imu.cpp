@@ -17,8 +17,8 @@ constexpr std::int8_t temperature_degc = 25;  // the error model knows no temper
 SlaveImu::SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& config, world::Stream stream,
                    world::Stream losses)
     : flight_(flight),
-      imu_(config.errors, std::move(stream)),
-      losses_(std::move(losses)),
+      imu_(config.errors, stream),
+      losses_(losses),
       loss_probability_(config.loss_probability),
       sampling_(flight.interval_us(), config.schedule.latency_us, flight.end_us()),
       theta_rounding_(SlaveImuDeltaTheta::info.signals[0]),

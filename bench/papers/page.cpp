@@ -84,9 +84,9 @@ std::string html(const Table& table) {
 }
 
 Result<std::string> html(const Figure& figure) {
-  const auto wide = draw(figure, Width::desktop);
+  auto wide = draw(figure, Width::desktop);
   if (!wide) return wide;
-  const auto narrow = draw(figure, Width::phone);
+  auto narrow = draw(figure, Width::phone);
   if (!narrow) return narrow;
   return fmt::format(
       "<figure id=\"{}\"><h3>{}</h3>\n<div class=\"wide\" role=\"img\" aria-label=\"{}\">{}</div>\n"
@@ -135,7 +135,7 @@ Result<std::string> html(const Page& page) {
       out += fmt::format("<p>{}</p>\n", escaped(paragraph));
     for (const Table& table : section.tables) out += html(table);
     for (const Figure& figure : section.figures) {
-      const auto drawn = html(figure);
+      auto drawn = html(figure);
       if (!drawn) return drawn;
       out += *drawn;
     }

@@ -1,11 +1,11 @@
 #include "bench/run/target_process.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <string.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
+#include <cstring>
 
 #include <utility>
 

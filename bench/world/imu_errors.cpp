@@ -1,14 +1,11 @@
 #include "bench/world/imu_errors.hpp"
 
 #include <cmath>
-#include <utility>
 
 namespace canhil::world {
 
 ErroneousImu::ErroneousImu(const ImuErrorModel& model, Stream stream)
-    : stream_(std::move(stream)),
-      gyro_(draw_triad(model.gyro, stream_)),
-      accel_(draw_triad(model.accel, stream_)) {}
+    : stream_(stream), gyro_(draw_triad(model.gyro, stream_)), accel_(draw_triad(model.accel, stream_)) {}
 
 ImuIncrement ErroneousImu::measure(const ImuIncrement& exact) {
   const double dt = 1e-6 * static_cast<double>(exact.interval_us);

@@ -1,13 +1,20 @@
-"""Runs clang-tidy on every source of a build folder, in parallel: tidy.py BUILD_FOLDER [NAME_PART...]
+"""Runs clang-tidy on every source of a build folder: tidy.py [--each] BUILD_FOLDER [NAME_PART...]
 
-A file that was clean is not checked again until its text, a header it includes, its flags or the rules change:
-BUILD_FOLDER/tidy/ holds one empty file for each such state, named by its hash. What a file includes is what Ninja recorded.
+Most of its time goes into headers (Eigen, Boost), half a minute for a source of ten lines. So the sources of one part of the
+tree are joined, included by one file, and the headers are read once for all of them. A source that does not compile behind
+the others (it has a name of its own that theirs have too) is left for the next such file. The static analyser looks into no
+joined sources: --each takes every source by itself, and the analyser with it.
+
+A source that was clean is not checked again until its text, a header it includes, its flags or the rules change:
+BUILD_FOLDER/tidy/ holds one empty file for each such state, named by its hash. What it includes is what Ninja recorded.
 """
 
 import concurrent.futures
 import hashlib
 import json
 import os
+import re
+import shlex
 import subprocess
 import sys
 import time
@@ -15,6 +22,37 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 LONGEST_S = 900
+PARTS = ("bench/", "dbc/", "target/", "tests/unit/", "tests/")  # a source is of the first that its name begins with
+ANALYSER = {True: "clang-analyzer-*", False: "-clang-analyzer-*"}
+
+
+class Source:
+    def __init__(self, entry):
+        self.file = entry["file"]
+        self.name = os.path.relpath(self.file, ROOT)
+        self.twin = "generated_exact" in entry["command"]  # the same sources again, on the twin of the contract
+        self.object = None
+        self.flags = []  # each a tuple of one word or two
+        words = iter(shlex.split(entry["command"]))
+        for word in words:
+            if word == "-o":
+                self.object = next(words)
+            elif word in ("-I", "-isystem"):
+                self.flags.append((word, next(words)))
+            elif word.startswith("-") and word not in ("-c", "-Werror"):
+                self.flags.append((word,))
+        self.macros = {flag[0].partition("=")[0]: flag for flag in self.flags if flag[0].startswith("-D")}
+
+
+def sources_of(build):
+    """Each once; those of the project only, nothing generated."""
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        source = Source(entry)
+        file = Path(source.file)
+        if file.is_relative_to(ROOT) and not file.is_relative_to(build) and (source.file not in found or not source.twin):
+            found[source.file] = source
+    return list(found.values())
 
 
 def recorded_includes(build):
@@ -28,66 +66,131 @@ def recorded_includes(build):
     return found
 
 
-def main():
-    build = Path(sys.argv[1]).resolve()
-    parts = sys.argv[2:]
-    cache = build / "tidy"
-    cache.mkdir(exist_ok=True)
-    commands = []
-    for entry in json.loads((build / "compile_commands.json").read_text()):
-        file = Path(entry["file"])
-        if file.is_relative_to(ROOT) and not file.is_relative_to(build):
-            commands.append(entry)
-    if not commands:
-        sys.exit(f"tidy.py: {build}/compile_commands.json names no source of the project, expected all of them")
+class Cache:
+    """What was clean."""
 
-    rules = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
-    rules += (ROOT / ".clang-tidy").read_bytes()
-    includes = recorded_includes(build)
-    hashes = {}
+    def __init__(self, build, each):
+        self.folder = build / "tidy"
+        self.folder.mkdir(exist_ok=True)
+        self.rules = subprocess.run(["clang-tidy", "--version"], capture_output=True, check=True).stdout
+        self.rules += (ROOT / ".clang-tidy").read_bytes() + ANALYSER[each].encode()
+        self.includes = recorded_includes(build)
+        self.hashes = {}
 
-    def hash_of(path):
-        if path not in hashes:
-            hashes[path] = hashlib.sha256(Path(path).read_bytes()).digest()
-        return hashes[path]
+    def hash_of(self, path):
+        if path not in self.hashes:
+            self.hashes[path] = hashlib.sha256(Path(path).read_bytes()).digest()
+        return self.hashes[path]
 
-    def state_of(entry):
-        files = includes.get(entry.get("output"))
+    def state_of(self, source):
+        """A file that is there when the source, as it is, was clean; None: not built, so nothing is known."""
+        files = self.includes.get(source.object)
         if files is None:
-            return None  # not built: nothing known, always checked
-        digest = hashlib.sha256(rules + entry["command"].encode())
-        for path in [entry["file"], *sorted(files)]:
+            return None
+        digest = hashlib.sha256(self.rules + repr(source.flags).encode())
+        for path in [source.file, *sorted(files)]:
             if os.path.isfile(path):
-                digest.update(hash_of(path))
-        return cache / digest.hexdigest()
+                digest.update(self.hash_of(path))
+        return self.folder / digest.hexdigest()
 
-    def tidy(entry):
-        name = os.path.relpath(entry["file"], ROOT)
-        state = state_of(entry)
-        if state and state.exists():
-            return name, 0.0, True, ""
-        start = time.monotonic()
-        try:
-            run = subprocess.run(["clang-tidy", "-p", build, "--quiet", entry["file"]], capture_output=True, text=True,
-                                 cwd=ROOT, timeout=LONGEST_S)
-            clean, output = run.returncode == 0, run.stdout + run.stderr
-        except subprocess.TimeoutExpired:
-            clean, output = False, f"not done after {LONGEST_S} s"
-        if clean and state:
+    def holds(self, source):
+        state = self.state_of(source)
+        return state is not None and state.exists()
+
+    def keep(self, source):
+        state = self.state_of(source)
+        if state:
             state.touch()
-        return name, time.monotonic() - start, clean, output
 
-    chosen = [c for c in commands if not parts or any(p in c["file"] for p in parts)]
-    checked, unclean = 0, []
+
+def run(*command):
+    try:
+        ended = subprocess.run(command, capture_output=True, text=True, cwd=ROOT, timeout=LONGEST_S)
+        return ended.returncode == 0, ended.stdout + ended.stderr
+    except subprocess.TimeoutExpired:
+        return False, f"{command[0]}: not done after {LONGEST_S} s"
+
+
+def flags_of(sources):
+    return [word for flag in dict.fromkeys(f for source in sources for f in source.flags) for word in flag]
+
+
+def write_joined(file, sources):
+    """Three lines a source: programs have a main() each, which may not be there twice."""
+    text, mains = "", 0
+    for source in sources:
+        mains += re.search(r"^int main\(", Path(source.file).read_text(), re.MULTILINE) is not None
+        text += f"#define main main_{mains}\n" if mains > 1 else "\n"
+        text += f'#include "{source.file}"  // NOLINT\n'
+        text += "#undef main\n"
+    file.write_text(text)
+
+
+def wrong_ones(file, sources, output):
+    """The sources that compiler errors are in, or in what they were the first to include."""
+    found, number = set(), None
+    for line in output.splitlines():
+        stack = re.match(rf"In file included from {re.escape(str(file))}:(\d+):", line)
+        if stack:  # named again only when it changes
+            number = int(stack[1]) // 3
+        elif number is not None and re.search(r": (fatal )?error: ", line):
+            found.add(sources[number].file)
+    return found
+
+
+def join(file, sources):
+    """Writes the file that includes those of the sources that can stand together; gives them."""
+    held, macros = [], {}
+    for source in sources:
+        if all(macros.setdefault(name, flag) == flag for name, flag in source.macros.items()):
+            held.append(source)
+    while True:
+        write_joined(file, held)
+        compiles, output = run("clang++", "-fsyntax-only", "-w", "-ferror-limit=0", *flags_of(held), file)
+        wrong = wrong_ones(file, held, output)
+        rest = [source for source in held if source.file not in wrong] or held[:1]
+        if compiles or len(rest) == len(held):
+            return held  # what does not compile by itself, clang-tidy says
+        held = rest
+
+
+def main():
+    arguments = [word for word in sys.argv[1:] if word != "--each"]
+    each = len(arguments) < len(sys.argv) - 1
+    build = Path(arguments[0]).resolve()
+    chosen = [s for s in sources_of(build) if not arguments[1:] or any(part in s.name for part in arguments[1:])]
+    if not chosen:
+        sys.exit(f"tidy.py: {build}/compile_commands.json names no such source of the project, expected some")
+    cache = Cache(build, each)
+    open_ = [source for source in chosen if not cache.holds(source)]
+    unclean = []
+
+    def tidy(file, sources):
+        start = time.monotonic()
+        clean, output = run("clang-tidy", "--quiet", f"--checks={ANALYSER[each]}", file, "--", *flags_of(sources))
+        what = sources[0].name if len(sources) == 1 else f"{len(sources)} sources like {sources[0].name}"
+        print(f"{what}: {time.monotonic() - start:.0f} s", flush=True)
+        if clean:
+            for source in sources:
+                cache.keep(source)
+        else:
+            unclean.append(what)
+            print(output, flush=True)
+
+    def tidy_part(part):
+        left = [s for s in open_ if next(p for p in (*PARTS, "") if s.name.startswith(p)) == part]
+        while left:
+            file = cache.folder / f"{part.replace('/', '_')}.cpp"
+            held = join(file, left)
+            tidy(file, held)
+            left = [source for source in left if source not in held]
+
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for done, (name, seconds, clean, output) in enumerate(pool.map(tidy, chosen), 1):
-            if seconds:
-                checked += 1
-                print(f"[{done}/{len(chosen)}] {name} {seconds:.1f} s", flush=True)
-            if not clean:
-                unclean.append(name)
-                print(output, flush=True)
-    print(f"clang-tidy: {len(chosen)} files, {checked} checked now, {len(unclean)} not clean: {' '.join(unclean) or 'none'}")
+        if each:
+            list(pool.map(lambda source: tidy(source.file, [source]), open_))
+        else:
+            list(pool.map(tidy_part, (*PARTS, "")))
+    print(f"clang-tidy: {len(chosen)} sources, {len(open_)} checked now, not clean: {'; '.join(unclean) or 'none'}")
     sys.exit(bool(unclean))
 
 

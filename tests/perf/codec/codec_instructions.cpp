@@ -11,6 +11,7 @@ using perf_messages::FourSignals;
 using perf_messages::FourSignalsBig;
 
 extern "C" {
+// NOLINTBEGIN(bugprone-macro-parentheses): a type
 #define CANHIL_COUNTED(Message)                                                                    \
   [[gnu::noinline]] void unpack_##Message(Message& message, const std::uint8_t* bytes) {           \
     message = Message::unpack(std::span<const std::uint8_t, Message::size>(bytes, Message::size)); \
@@ -18,6 +19,7 @@ extern "C" {
   [[gnu::noinline]] void pack_##Message(const Message& message, std::uint8_t* bytes) {             \
     message.pack(std::span<std::uint8_t, Message::size>(bytes, Message::size));                    \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 CANHIL_COUNTED(SlaveImuDeltaTheta)
 CANHIL_COUNTED(FourSignals)
 CANHIL_COUNTED(FourSignalsBig)

@@ -60,7 +60,7 @@ void late_update(benchmark::State& bench) {
   const WarmFilter warm = warm_filter(Algorithm::robust_h2, Mechanization::two_sample);
   History<32> history(0);
   State state = warm.state;
-  for (int k = 1; k <= 30; ++k) history.propagate(state, warm.imu, k * 10'000, warm.settings);
+  for (int k = 1; k <= 30; ++k) history.propagate(state, warm.imu, k * 10'000L, warm.settings);
   for (auto _ : bench) {
     State late = state;
     History<32> copy = history;

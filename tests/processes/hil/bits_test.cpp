@@ -10,7 +10,7 @@ namespace {
 
 std::string record(const std::string& name, const std::string& options,
                    const std::string& file = "transfer_alignment_quick") {
-  const std::string log = scratch(name);
+  std::string log = scratch(name);
   const Ended ended = hil_bench(fmt::format("run {} {} --log {}", scenario(file), options, log));
   EXPECT_NE(ended.code, 2) << ended.err;
   return log;

@@ -136,9 +136,9 @@ TEST(PairedFraction, AllBetterIsBoundedBelowOnly) {
 
 TEST(Consistency, HasTheBoundsOfChiSquareForTheMeanOverRuns) {
   std::vector<RunSeries> runs(10, run_with(0, {0, 0}));
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    runs[i].samples[0].nis = 3;
-    runs[i].samples[1].nis = 9;
+  for (RunSeries& run : runs) {
+    run.samples[0].nis = 3;
+    run.samples[1].nis = 9;
   }
   const auto found = consistency(runs, Quantity::nis, 0, 1'000'000, 0.95);
   EXPECT_DOUBLE_EQ(found.mean, 6);

@@ -39,14 +39,14 @@ std::vector<Frame> session(messages::Algorithm algorithm) {
   bench.command(Command::start);
   for (int k = 1; k <= 200; ++k) {
     if (k % 37 == 0) {
-      bench.lose_imu(k * 10'000);
+      bench.lose_imu(k * 10'000L);
     } else {
-      bench.imu(k * 10'000);
+      bench.imu(k * 10'000L);
     }
-    if (k % 10 == 5) bench.master((k - 5) * 10'000, BenchSide::speed + 0.1);
-    bench.sync(k * 10'000, k > 100);
+    if (k % 10 == 5) bench.master((k - 5) * 10'000L, BenchSide::speed + 0.1);
+    bench.sync(k * 10'000L, k > 100);
   }
-  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000);  // the IMU falls silent: fault
+  for (int k = 201; k <= 260; ++k) bench.sync(k * 10'000L);  // the IMU falls silent: fault
   return bench.fed();
 }
 

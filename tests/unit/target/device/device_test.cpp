@@ -98,14 +98,14 @@ TEST(Device, AnswersEachImuGroupNamingItsCause) {
 TEST(Device, AnswersFasterImuGroupsAtTheOutputInterval) {
   BenchSide bench;
   bench.start();
-  for (int k = 1; k <= 20; ++k) bench.imu(k * 5'000, 5'000);
+  for (int k = 1; k <= 20; ++k) bench.imu(k * 5'000L, 5'000);
   EXPECT_EQ(bench.all<AlignVelocityD>().size(), 10U);
 }
 
 TEST(Device, AnswersEachMasterGroupWithSigmasAndInnovation) {
   BenchSide bench;
   bench.start();
-  for (int k = 1; k <= 10; ++k) bench.imu(k * 10'000);
+  for (int k = 1; k <= 10; ++k) bench.imu(k * 10'000L);
   bench.master(100'000, BenchSide::speed - 0.5);
   const auto update = bench.last<AlignUpdate>();
   ASSERT_TRUE(update);
@@ -123,9 +123,9 @@ TEST(Device, AppliesALateFixAtItsTimeOfValidity) {
     BenchSide bench;
     bench.start();
     for (int k = 1; k <= 60; ++k) {
-      bench.imu(k * 10'000);
+      bench.imu(k * 10'000L);
       const int valid = k - delay_samples;
-      if (valid > 0 && valid % 10 == 0 && valid <= 50) bench.master(valid * 10'000, BenchSide::speed - 0.3);
+      if (valid > 0 && valid % 10 == 0 && valid <= 50) bench.master(valid * 10'000L, BenchSide::speed - 0.3);
     }
     return std::tuple(bench.last<AlignVelocityNE>()->velocity_north_mps,
                       bench.last<AlignAttitude>()->pitch_deg, bench.last<TargetHeartbeat>()->state);
@@ -149,9 +149,9 @@ TEST(Device, EveryFixThatIsAheadOfASlowImuWaits) {
   BenchSide bench;
   bench.start();
   for (int k = 1; k <= 30; ++k) {
-    if (k % 2 == 0) bench.master(k * 10'000);
-    if (k > 5) bench.imu((k - 5) * 10'000);
-    bench.sync(k * 10'000);
+    if (k % 2 == 0) bench.master(k * 10'000L);
+    if (k > 5) bench.imu((k - 5) * 10'000L);
+    bench.sync(k * 10'000L);
   }
   std::vector<std::uint32_t> applied;
   for (const auto& update : bench.all<AlignUpdate>()) applied.push_back(update.cause_time_us);
@@ -164,7 +164,7 @@ TEST(Device, FixesThatWaitedForOneImuSampleAreAllAnswered) {
   BenchSide bench;
   bench.start();
   bench.imu(10'000);
-  for (int k = 2; k <= 10; ++k) bench.master(k * 10'000);  // one more than may wait
+  for (int k = 2; k <= 10; ++k) bench.master(k * 10'000L);  // one more than may wait
   EXPECT_FALSE(bench.last<AlignUpdate>());
   bench.imu(150'000);  // the gap is bridged
   bench.sync(150'000);
@@ -177,7 +177,7 @@ TEST(Device, FixesThatWaitedForOneImuSampleAreAllAnswered) {
 TEST(Device, CountsAFixOlderThanItsHistoryAsLate) {
   BenchSide bench;
   bench.start();
-  for (int k = 1; k <= 100; ++k) bench.imu(k * 10'000);
+  for (int k = 1; k <= 100; ++k) bench.imu(k * 10'000L);
   bench.master(10'000);
   bench.sync(1'000'000);
   EXPECT_FALSE(bench.last<AlignUpdate>());
@@ -205,8 +205,8 @@ TEST(Device, BeatsEveryHundredMillisecondsOfTheTimeBase) {
   bench.start();
   bench.forget();
   for (int k = 0; k <= 40; ++k) {
-    bench.sync(k * 10'000);
-    bench.imu((k + 1) * 10'000);
+    bench.sync(k * 10'000L);
+    bench.imu((k + 1) * 10'000L);
   }
   EXPECT_EQ(bench.all<TargetHeartbeat>().size(), 5U);
   EXPECT_EQ(bench.all<TargetCounters>().size(), 5U);
@@ -215,7 +215,7 @@ TEST(Device, BeatsEveryHundredMillisecondsOfTheTimeBase) {
 TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
   BenchSide used;
   used.start();
-  for (int k = 1; k <= 30; ++k) used.imu(k * 10'000);
+  for (int k = 1; k <= 30; ++k) used.imu(k * 10'000L);
   used.master(300'000);
 
   const auto session = [](BenchSide& bench) {
@@ -223,9 +223,9 @@ TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
     bench.start();
     bench.sync(0);
     for (int k = 1; k <= 30; ++k) {
-      bench.imu(k * 10'000);
-      if (k % 10 == 0) bench.master(k * 10'000);
-      bench.sync(k * 10'000);
+      bench.imu(k * 10'000L);
+      if (k % 10 == 0) bench.master(k * 10'000L);
+      bench.sync(k * 10'000L);
     }
     return bench.answers();
   };
@@ -247,9 +247,9 @@ TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
 std::vector<Frame> flight_after(BenchSide& bench) {
   bench.forget();
   for (int k = 1; k <= 30; ++k) {
-    bench.imu(k * 10'000);
-    if (k % 10 == 0) bench.master(k * 10'000);
-    bench.sync(k * 10'000);
+    bench.imu(k * 10'000L);
+    if (k % 10 == 0) bench.master(k * 10'000L);
+    bench.sync(k * 10'000L);
   }
   return bench.answers();
 }
@@ -282,7 +282,7 @@ TEST(Device, HeartbeatsBeforeTheStartLeaveNoTraceInTheRun) {
 TEST(Device, AStartInMidRunIsAnErrorAndChangesNothing) {
   BenchSide bench;
   bench.start();
-  for (int k = 1; k <= 10; ++k) bench.imu(k * 10'000);
+  for (int k = 1; k <= 10; ++k) bench.imu(k * 10'000L);
   bench.command(Command::start);
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_command, 1);
   bench.imu(110'000);

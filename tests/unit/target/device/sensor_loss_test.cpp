@@ -111,7 +111,7 @@ TEST(SensorLoss, AnInvalidGroupIsBridgedAndCounted) {
 TEST(SensorLoss, AGroupOutOfOrderIsLateNotUsed) {
   BenchSide bench;
   bench.start();
-  for (int k = 1; k <= 5; ++k) bench.imu(k * 10'000);
+  for (int k = 1; k <= 5; ++k) bench.imu(k * 10'000L);
   bench.imu(30'000);
   bench.sync(50'000);
   EXPECT_EQ(bench.all<AlignVelocityD>().size(), 5U);
@@ -122,7 +122,7 @@ TEST(SensorLoss, AnImuThatStaysAwayIsNamed) {
   BenchSide bench;
   bench.start();
   bench.imu(10'000);
-  for (int k = 1; k <= 51; ++k) bench.sync(k * 10'000);
+  for (int k = 1; k <= 51; ++k) bench.sync(k * 10'000L);
   EXPECT_EQ(bench.device().state(), TargetState::running);
   bench.sync(520'000);
   EXPECT_EQ(bench.device().state(), TargetState::fault);
@@ -143,7 +143,7 @@ TEST(SensorLoss, AFixFromTheFutureIsDropped) {
   bench.start();
   bench.imu(10'000);
   bench.master(2'000'000);
-  for (int k = 2; k <= 20; ++k) bench.imu(k * 10'000);
+  for (int k = 2; k <= 20; ++k) bench.imu(k * 10'000L);
   bench.sync(200'000);
   EXPECT_FALSE(bench.last<AlignUpdate>());
   EXPECT_EQ(bench.last<TargetCounters>()->bad_group, 1);
@@ -163,8 +163,8 @@ TEST(SensorLoss, TimeOfValidityMayWrap) {
   bench.send(TargetInitVelocityD{.time_of_validity_us = wrap_us(start_us)});
   bench.command(Command::start);
   for (int k = 1; k <= 20; ++k) {
-    bench.imu(start_us + k * 10'000);
-    bench.sync(start_us + k * 10'000);
+    bench.imu(start_us + k * 10'000L);
+    bench.sync(start_us + k * 10'000L);
   }
   EXPECT_EQ(bench.all<AlignVelocityD>().size(), 20U);
   EXPECT_EQ(bench.last<AlignVelocityD>()->cause_time_us, wrap_us(start_us + 200'000));

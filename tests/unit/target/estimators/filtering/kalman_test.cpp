@@ -74,7 +74,7 @@ TEST(Kalman, BlockPredictionIsTheDenseOne) {
   std::mt19937_64 engine(4);
   const Matrix<9, 9> P = random_covariance<9>(engine);
   Matrix<9, 9> G = Matrix<9, 9>::Zero();
-  for (const Block b : pattern) G.block<3, 3>(3 * b.row, 3 * b.column) = random_matrix<3, 3>(engine);
+  for (const Block b : pattern) G.block<3, 3>(3L * b.row, 3L * b.column) = random_matrix<3, 3>(engine);
   const Matrix<9, 9> dense = propagate_covariance<9>(P, Matrix<9, 9>::Identity() + G, Matrix<9, 9>::Zero());
   const Matrix<9, 9> blocks = propagate_covariance_blocks<pattern, 9>(P, G);
   EXPECT_LT((dense - blocks).cwiseAbs().maxCoeff(), 1e-12);

@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Mechanizations, BothKinds,
                          testing::Values(Mechanization::reference, Mechanization::two_sample));
 
 TEST_P(BothKinds, StaysAtRest) {
-  const Matrix3d C = dcm_from_euler({0.3, -0.2, 2.0});
+  Matrix3d C = dcm_from_euler({0.3, -0.2, 2.0});
   const Motion rest{[&](double) { return C; }, still, still, still};
   const Errors errors = fly(rest, GetParam(), 60, 0.01);
   EXPECT_LT(errors.attitude, 1e-12);             // 6000 roundings
