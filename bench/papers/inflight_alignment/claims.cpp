@@ -122,31 +122,31 @@ Section claims(const Results& results) {
                 gps = results.heading("starts", "gps_sincos_180");
   const Section other_paths = paths(results);
   const auto reversed = std::ranges::count(other_paths.tables.front().rows, Mark::no, &Row::mark);
-  return {.id = "claims",
-          .title = "What reproduces, and what does not",
-          .paragraphs =
-              {fmt::format("With SSBL from 90 deg the UKF ends with a median of {:.2g} deg and the EKF with "
-                           "{:.2g}; by RMS it is "
-                           "{:.3g} against {:.3g} deg, and 100 runs, as many as the paper flew, give "
-                           "anything from {:.2g} to {:.2g} "
-                           "and from {:.2g} to {:.2g}: a few runs that stay stuck carry the RMS. 100 runs "
-                           "and an RMS cannot tell "
-                           "the two apart; medians can.",
-                           ukf.median, ekf.median, ukf.rms, ekf.rms, ukf.rms_low, ukf.rms_high, ekf.rms_low,
-                           ekf.rms_high),
-               fmt::format(
-                   "The order by RMS is not a property of the filters but of the path too: on {} of {} other "
-                   "combinations of path and aid it is the other way round.",
-                   reversed, other_paths.tables.front().rows.size()),
-               fmt::format("A filter whose heading states are its sine and cosine does not care where it "
-                           "starts: {:.2g} deg from "
-                           "90, {:.2g} deg from 180 deg with SSBL, {:.2g} deg from 180 deg with GPS, all "
-                           "RMS. It costs one "
-                           "state and no sigma points. It is what this product recommends; EKF and UKF are "
-                           "the paper's baseline.",
-                           sin_cos.rms, far.rms, gps.rms)},
-          .tables = {claim_table(results), bar_table(results)},
-          .figures = {}};
+  return {
+      .id = "claims",
+      .title = "What reproduces, and what does not",
+      .paragraphs =
+          {fmt::format("With SSBL from 90 deg the UKF ends with a median of {:.2g} deg and the EKF with "
+                       "{:.2g}; by RMS it is "
+                       "{:.3g} against {:.3g} deg, and 100 runs, as many as the paper flew, give "
+                       "anything from {:.2g} to {:.2g} "
+                       "and from {:.2g} to {:.2g}: a few runs that stay stuck carry the RMS. 100 runs "
+                       "and an RMS cannot tell "
+                       "the two apart; medians can.",
+                       ukf.median, ekf.median, ukf.rms, ekf.rms, ukf.rms_low, ukf.rms_high, ekf.rms_low,
+                       ekf.rms_high),
+           fmt::format("The order by RMS is not a property of the filters but of the path too: on {} of {} "
+                       "combinations of path and aid it is the other way round.",
+                       reversed, other_paths.tables.front().rows.size()),
+           fmt::format("A filter whose heading states are its sine and cosine does not care where it "
+                       "starts: {:.2g} deg from "
+                       "90, {:.2g} deg from 180 deg with SSBL, {:.2g} deg from 180 deg with GPS, all "
+                       "RMS. It costs one "
+                       "state and no sigma points. It is what this product recommends; EKF and UKF are "
+                       "the paper's baseline.",
+                       sin_cos.rms, far.rms, gps.rms)},
+      .tables = {claim_table(results), bar_table(results)},
+      .figures = {}};
 }
 
 Section settings(const Results& results) {
