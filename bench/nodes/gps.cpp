@@ -19,7 +19,7 @@ constexpr std::uint8_t satellites = 9;  // the error model knows no constellatio
 Gps::Gps(const world::FlightRecord& flight, const scenario::Gps& config, world::Stream stream)
     : flight_(flight),
       config_(config),
-      stream_(std::move(stream)),
+      stream_(stream),
       bias_(draw(config.bias, stream_)),
       sampling_(config.schedule.period_us.value_or(messages::GpsTime::info.cycle_time_us),
                 config.schedule.latency_us, flight.end_us()) {}

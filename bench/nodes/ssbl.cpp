@@ -12,7 +12,7 @@ using world::units::deg;
 Ssbl::Ssbl(const world::FlightRecord& flight, const scenario::Ssbl& config, world::Stream stream)
     : flight_(flight),
       config_(config),
-      stream_(std::move(stream)),
+      stream_(stream),
       ship_error_(draw(config.ship_error, stream_)),
       bias_(draw(config.bias, stream_)),
       sampling_(config.schedule.period_us.value_or(messages::SsblRelativeD::info.cycle_time_us),

@@ -32,6 +32,7 @@ Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);
   if (found != papers.end()) return *found;
   std::vector<std::string_view> names;
+  names.reserve(papers.size());
   for (const Paper& paper : papers) names.push_back(paper.name);
   return failure(fmt::format("paper '{}' is unknown, expected {}", name, fmt::join(names, " or ")));
 }

@@ -8,6 +8,7 @@ namespace {
 template <class E>
 std::vector<std::string> names() {
   std::vector<std::string> all;
+  all.reserve(messages::enumerators<E>.size());
   for (const E value : messages::enumerators<E>) all.emplace_back(name_of(value));
   return all;
 }

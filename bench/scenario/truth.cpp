@@ -124,6 +124,7 @@ world::Flight read_truth(Section& section) {
                   .longitude = section.number("longitude_deg", Limits::between(-180, 180)),
                   .height = section.number("height_m", Limits::between(-1000, 50'000))};
   std::vector<std::string> names;
+  names.reserve(motion_readers.size());
   for (const MotionReader& reader : motion_readers) names.emplace_back(reader.name);
   const std::string name = section.one_of("trajectory", names);
   for (const MotionReader& reader : motion_readers) {
