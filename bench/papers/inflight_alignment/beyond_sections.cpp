@@ -130,7 +130,7 @@ Section paths(const Results& results) {
          {std::pair{"50_33", "±50 deg in 33 s"}, std::pair{"30_33", "±30 deg in 33 s"},
           std::pair{"30_100", "±30 deg in 100 s"}, std::pair{"60_40", "±60 deg in 40 s"},
           std::pair{"60_100", "±60 deg in 100 s"}, std::pair{"90_100", "±90 deg in 100 s"}}) {
-      const auto of = [&](const char* filter) {
+      const auto of = [&, aid = aid, stem = stem](const char* filter) {
         return results.heading("paths", fmt::format("{}_{}_{}", aid, filter, stem));
       };
       const bool ahead = of("ukf").rms < of("ekf").rms;
