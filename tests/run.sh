@@ -2,7 +2,8 @@
 # Builds and runs every test of the project; the last line is "N passed, N failed", the exit code 0 only when none failed.
 #   bash tests/run.sh                 everything
 #   bash tests/run.sh --quick         the optimised build and its tests, no sanitizers, no static checks
-#   bash tests/run.sh --tidy          everything, and clang's static analyser on every source: about an hour more on two cores
+#   bash tests/run.sh --tidy          everything, and clang-tidy on every source: about ten minutes more on two cores
+#   bash tests/run.sh --analyse       everything, and clang's static analyser on every source: about an hour more
 #   bash tests/run.sh --fuzz          everything, and a short run of each fuzzer: what it finds need not be of the last change
 #   bash tests/run.sh --only REGEX    the CTest cases whose name matches, in every configuration
 # Counted: each CTest case in each configuration, each static check, and each build that fails.
@@ -13,18 +14,19 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
 root=$PWD
 results=$root/build/results
 
-quick=no tidy=no fuzz=no only=
+quick=no tidy=no analyse=no fuzz=no only=
 while (($#)); do
   case "$1" in
     --quick) quick=yes ;;
     --tidy) tidy=yes ;;
+    --analyse) analyse=yes ;;
     --fuzz) fuzz=yes ;;
     --only)
       only=${2:-}
       if [[ -z "$only" ]]; then echo "tests/run.sh: --only: expected a regular expression" >&2; exit 2; fi
       shift ;;
     -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/run.sh; exit ;;
-    *) echo "tests/run.sh: unknown option '$1': expected --quick, --tidy, --fuzz or --only REGEX" >&2; exit 2 ;;
+    *) echo "tests/run.sh: unknown option '$1': expected --quick, --tidy, --analyse, --fuzz or --only REGEX" >&2; exit 2 ;;
   esac
   shift
 done
@@ -153,11 +155,16 @@ if [[ $quick == no ]]; then
     echo "not run: the fuzzers; bash tests/run.sh --fuzz runs them"
   fi
 fi
-if [[ $static == yes ]]; then stage "clang-tidy" one_check python3 tests/static/tidy.py build/default; fi
+# With clang-tidy a first run on two cores would take longer than the 45 minutes that it may.
 if [[ $tidy == yes ]]; then
+  stage "clang-tidy" one_check python3 tests/static/tidy.py build/default
+elif [[ $static == yes ]]; then
+  echo "not run: clang-tidy; bash tests/run.sh --tidy runs it"
+fi
+if [[ $analyse == yes ]]; then
   stage "clang static analyser" one_check python3 tests/static/tidy.py --each build/default
 elif [[ $static == yes ]]; then
-  echo "not run: clang's static analyser, half a minute a source; bash tests/run.sh --tidy runs it"
+  echo "not run: clang's static analyser; bash tests/run.sh --analyse runs it"
 fi
 if [[ -n "$only" ]] && ((!passed && !failed)); then failure "no test matches '$only'"; fi
 finish
