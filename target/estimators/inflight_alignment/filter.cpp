@@ -115,7 +115,7 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
   if constexpr (is_sin_cos<N>) {
     const bool resolved = heading_is_resolved<N>(errors, settings);
     feed_back<N>(state, errors, resolved ? tilt_and_heading<N>(errors.x) : Matrix3d::Identity());
-    if (resolved) take_out_attitude<N>(errors);
+    if (resolved) take_out_attitude<N>(errors, settings.handover_tilts);
     state.handed_over = resolved;
   } else {
     const Vector3d psi = errors.x.template segment<3>(6);

@@ -26,6 +26,10 @@ enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 /// about_central: about the transformed central point; positive semi-definite whatever the weights.
 enum class UkfCovariance : std::uint8_t { about_mean, about_central };
 
+/// How sin_cos carries P over when it feeds the attitude back: published leaves the tilts as they are, turned
+/// turns the tilt that was taken out with the heading error that remains (sin_cos.hpp, take_out_attitude).
+enum class HandoverTilts : std::uint8_t { published, turned };
+
 enum class LateFixes : std::uint8_t { at_arrival, at_validity };
 
 struct Settings {
@@ -35,6 +39,7 @@ struct Settings {
   AttitudeErrorFrame attitude_error_frame = AttitudeErrorFrame::platform;
   UkfRoot ukf_root = UkfRoot::lower_cholesky;
   UkfCovariance ukf_covariance = UkfCovariance::about_mean;
+  HandoverTilts handover_tilts = HandoverTilts::turned;
   LateFixes late_fixes = LateFixes::at_validity;
 
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]

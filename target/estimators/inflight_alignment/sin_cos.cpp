@@ -131,13 +131,19 @@ bool heading_is_resolved(const Errors<N>& errors, const Settings& settings) {
 }
 
 template <int N>
-void take_out_attitude(Errors<N>& errors) {
+void take_out_attitude(Errors<N>& errors, HandoverTilts tilts) {
   const double psi = heading_error<N>(errors.x);
+  Matrix<4, 4> J = Matrix<4, 4>::Zero();
+  J.topLeftCorner<2, 2>().setIdentity();
+  J.row(2) << 0, 0, std::cos(psi), std::sin(psi);  // dpsi
+  if (tilts == HandoverTilts::turned) {
+    J.row(0) += errors.x(7) * J.row(2);
+    J.row(1) -= errors.x(6) * J.row(2);
+  }
   Matrix<N, N>& P = errors.P;
-  P.row(sine) = (std::cos(psi) * P.row(sine) + std::sin(psi) * P.row(cosine)).eval();
-  P.col(sine) = (std::cos(psi) * P.col(sine) + std::sin(psi) * P.col(cosine)).eval();
-  P.row(cosine).setZero();
-  P.col(cosine).setZero();
+  P.template middleRows<4>(6) = (J * P.template middleRows<4>(6)).eval();
+  P.template middleCols<4>(6) = (P.template middleCols<4>(6) * J.transpose()).eval();
+  filtering::average_with_transpose<N>(P);
   errors.x.template segment<4>(6).setZero();
 }
 
@@ -150,7 +156,7 @@ void take_out_attitude(Errors<N>& errors) {
   template Transition<4> transition_sin_cos<N>(const Vector<N>&, const Interval&); \
   template void predict_sin_cos<N>(Errors<N>&, const Interval&, const Settings&);  \
   template bool heading_is_resolved<N>(const Errors<N>&, const Settings&);         \
-  template void take_out_attitude<N>(Errors<N>&);
+  template void take_out_attitude<N>(Errors<N>&, HandoverTilts);
 CANHIL_INSTANTIATE(16)
 CANHIL_INSTANTIATE(19)
 #undef CANHIL_INSTANTIATE

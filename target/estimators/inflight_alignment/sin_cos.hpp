@@ -40,8 +40,10 @@ template <int N>
 bool heading_is_resolved(const Errors<N>& errors, const Settings& settings);
 
 /// Tilts and heading taken out of x, and their covariance mapped: s <- c s + s k, k <- 0, for k is not
-/// independent of s any more.
+/// independent of s any more. What remains of exp([phi x]) Rz(psi) after the estimates are taken out of it,
+///   exp([phi x]) Rz(dpsi) exp([-phi_hat x]) = exp([phi' x]) Rz(dpsi),   phi' = phi - Rz(dpsi) phi_hat,
+/// so that with HandoverTilts::turned dphi' = dphi - dpsi e_z x phi_hat: of first order, for phi_hat is.
 template <int N>
-void take_out_attitude(Errors<N>& errors);
+void take_out_attitude(Errors<N>& errors, HandoverTilts tilts);
 
 }  // namespace canhil::inflight_alignment
