@@ -11,7 +11,6 @@ using Eigen::Vector3d;
 
 constexpr double us = 1e-6;
 constexpr double theta_interval_most = 0.1;  // a longer gap counts as this [s]
-constexpr double theta_lambda_most = 0.9;    // P~ exists below 1
 
 double squared(double value) { return value * value; }
 
@@ -19,13 +18,6 @@ Observation observation(const Navigation& n) {
   Observation y;
   y << n.v_eb_n, n.omega, n.attitude;
   return y;
-}
-
-Observation noise_variance(const Settings& s) {
-  Observation R;
-  R << Vector3d::Constant(squared(s.velocity_sigma)), Vector3d::Constant(squared(s.rate_sigma)),
-      Vector3d::Constant(squared(s.attitude_sigma));
-  return R;
 }
 
 Fault judged(const Navigation& n, const Observation& y, const Design& design) {
@@ -44,14 +36,6 @@ bool is_stale(State& state, const Observation& y, double gap, const Settings& se
   state.unchanged_s = y == state.last ? state.unchanged_s + gap : 0;
   state.last = y;
   return state.unchanged_s > settings.stale_limit;
-}
-
-Densities raised(Densities density, const Densities& least) {
-  density.air_velocity = std::max(density.air_velocity, least.air_velocity);
-  density.rate = std::max(density.rate, least.rate);
-  density.attitude = std::max(density.attitude, least.attitude);
-  density.wind = std::max(density.wind, least.wind);
-  return density;
 }
 
 // The filter starts again: of the past only the wind is kept.
@@ -92,30 +76,43 @@ void note_fins(const ActingFins& acting, const Settings& settings, Flags& flags)
   flags.fins_not_physical |= acting.not_physical;
 }
 
-// From state.t_us to t_us in parts, each with the deflections that acted over it.
-void advance(State& state, std::int64_t t_us, const FinHistory& fins, const Design& design, Flags& flags) {
-  const Settings& settings = design.settings;
+// Altitude after dt, for the parts of a gap and for coasting: height falls with the velocity down of C_bn
+// v_a.
+double reckoned_altitude(const State& state, double dt) {
+  const double down = C_bn(state.x.segment<3>(attitude_at)).row(2).dot(state.x.segment<3>(air_velocity_at)) +
+                      state.x(wind_at + 2);
+  return state.altitude - down * dt;
+}
+
+// One part of a step, with the deflections that acted over it.
+void advance(State& state, double dt, const ActingFins& acting, const Design& design, Flags& flags) {
+  const Range& range = design.airframe.altitude;
+  RangeFlags outside;
+  outside.altitude = !(state.altitude >= range.least && state.altitude <= range.most);
+  const Inputs inputs{acting.mean, standard_atmosphere(std::clamp(state.altitude, range.least, range.most))};
+  Densities density = design.settings.density;
+  density.rate *= std::sqrt(state.rate_noise_factor);
+  if (flags.fins_missing) density = raised(density, design.settings.degraded);
+  predict(state.x, state.P, dt, inputs, density, design, outside);
+  flags.outside |= outside;
+}
+
+// From state.t_us to t_us in parts; `reckon`: no altitude comes at its end.
+void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fins, const Design& design,
+             Flags& flags) {
   const std::int64_t begin = *state.t_us, gap_us = t_us - begin;
-  const auto longest_us = static_cast<std::int64_t>(std::max(settings.longest_prediction, 1e-3) / us + 0.5);
+  const auto longest_us =
+      static_cast<std::int64_t>(std::max(design.settings.longest_prediction, 1e-3) / us + 0.5);
   const std::int64_t parts = (gap_us + longest_us - 1) / longest_us;
   for (std::int64_t i = 0; i < parts; ++i) {
     const std::int64_t from = begin + gap_us * i / parts, to = begin + gap_us * (i + 1) / parts;
     const double dt = us * static_cast<double>(to - from);
     const ActingFins acting = fins.over(from, to);
-    note_fins(acting, settings, flags);
-    const Range& range = design.airframe.altitude;
-    RangeFlags outside;
-    outside.altitude = !(state.altitude >= range.least && state.altitude <= range.most);
-    flags.outside |= outside;
-    const Inputs inputs{acting.mean,
-                        standard_atmosphere(std::clamp(state.altitude, range.least, range.most))};
-    Densities density = settings.density;
-    density.rate *= std::sqrt(state.rate_noise_factor);
-    const Vector3d v_eb_n = ground_velocity(state.x).C_v_a + state.x.segment<3>(wind_at);
-    // Outside the model's range at the end of the last part, or without fins: its noise says so.
-    if (flags.degraded()) density = raised(density, settings.degraded);
-    predict(state.x, state.P, dt, inputs, density, design, flags.outside);
-    state.altitude -= v_eb_n.z() * dt;
+    note_fins(acting, design.settings, flags);
+    const bool last = i + 1 == parts;
+    const double altitude = !last || reckon ? reckoned_altitude(state, dt) : state.altitude;
+    advance(state, dt, acting, design, flags);
+    state.altitude = altitude;
   }
   state.t_us = t_us;
   state.sample_used = false;
@@ -141,7 +138,8 @@ bool jumped(const Observation& innovation, const Settings& settings) {
 // An update with a usable sample, or its refusal as a jump.
 void use(State& state, const Navigation& n, const Observation& y, double gap, const Settings& settings,
          const Design& design, UpdateResult& result) {
-  result.innovation = innovation_of(y, state.x, ground_velocity(state.x));
+  const GroundVelocity at = ground_velocity(state.x);
+  result.innovation = innovation_of(y, state.x, at);
   if (jumped(result.innovation, settings)) {
     result.fault = Fault::jump;
     if (++state.jumps < settings.jumps_limit) {
@@ -159,7 +157,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
   state.jumps = 0;
   const double interval =
       gap > 0 ? std::min(gap, theta_interval_most) : settings.sample_period;  // the first sample: at release
-  const Answer answer = update(state.x, state.P, y, interval, design);
+  const Answer answer = update(state.x, state.P, result.innovation, at, interval, design);
   result.nis = answer.nis;
   result.theta = answer.theta;
   result.flags.theta_capped = answer.theta_capped;
@@ -179,7 +177,7 @@ void follow(State& state, const Navigation& n, const FinHistory& fins, const Des
   const bool usable = result.fault == Fault::none;
   if (state.started && state.coasted_s + gap > settings.coast_limit) forget(state);
   if (state.started) {
-    advance(state, n.t_us, fins, design, result.flags);
+    advance(state, n.t_us, !usable, fins, design, result.flags);
     if (usable) {
       use(state, n, y, gap, settings, design, result);
     } else {
@@ -249,51 +247,6 @@ UpdateResult step(State& state, const Navigation& navigation, const FinHistory& 
   forget(state);
   state.t_us = navigation.t_us;
   return result;
-}
-
-void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, const Densities& density,
-             const Design& design, RangeFlags& outside) {
-  const Linearisation at = linearise(x, inputs, design, outside);
-  const Matrix3d C_nb = C_bn(x.segment<3>(attitude_at)).transpose();
-  x = predicted(x, at.f, dt, inputs, design, outside);
-  P = predicted(P, at.A, dt);
-  const double q_wind = squared(density.wind) * dt;
-  StateVector Q;
-  Q << Vector3d::Constant(squared(density.air_velocity) * dt), Vector3d::Constant(squared(density.rate) * dt),
-      Vector3d::Constant(squared(density.attitude) * dt), Vector3d::Constant(q_wind);
-  if (design.settings.process_noise == ProcessNoise::correlated) {
-    // v_a' has -C_nb v_w': Q_aa += C_nb q C_bn = q I, Q_aw = -C_nb q
-    Q.segment<3>(air_velocity_at).array() += q_wind;
-    P.block<3, 3>(air_velocity_at, wind_at) -= q_wind * C_nb;
-    P.block<3, 3>(wind_at, air_velocity_at) -= q_wind * C_nb.transpose();
-  }
-  P.diagonal() += Q;
-}
-
-Observation innovation_of(const Observation& y, const StateVector& x, const GroundVelocity& at) {
-  Observation nu;
-  nu.head<3>() = y.head<3>() - at.C_v_a - x.segment<3>(wind_at);
-  nu.tail<6>() = y.tail<6>() - x.segment<6>(rate_at);
-  for (int i = 6; i < 9; ++i) nu(i) = wrapped(nu(i));
-  return nu;
-}
-
-Answer update(StateVector& x, Covariance& P, const Observation& y, double interval, const Design& design) {
-  const Settings& settings = design.settings;
-  const GroundVelocity at = ground_velocity(x);
-  Answer answer{.innovation = innovation_of(y, x, at)};
-  Correction c = corrected(P, answer.innovation, at, noise_variance(settings));
-  answer.nis = c.nis;
-  if (settings.algorithm == Algorithm::h_infinity) {
-    const double theta = settings.theta_per_s * interval;
-    const double cap = std::min(settings.theta_cap_per_s * interval, theta_lambda_most);
-    answer.theta = capped_theta(theta, cap, c.P, settings.rate_weight);
-    answer.theta_capped = answer.theta < theta;
-    inflate(c, answer.theta, settings.rate_weight);
-  }
-  x += c.dx;
-  P = c.P;
-  return answer;
 }
 
 }  // namespace canhil::wind

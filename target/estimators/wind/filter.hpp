@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "target/estimators/wind/correction.hpp"
 #include "target/estimators/wind/estimate.hpp"
 #include "target/estimators/wind/fin_history.hpp"
+#include "target/estimators/wind/recursion.hpp"
 
 namespace canhil::wind {
 
@@ -96,21 +96,5 @@ UpdateResult step(State& state, const Navigation& navigation, const FinHistory& 
 
 inline Estimate estimate(const State& state) { return estimate(state.x); }
 inline Uncertainty uncertainty(const State& state) { return uncertainty(state.x, state.P); }
-
-/// x and P after dt with inputs held; `density` is the process noise. The parts of step(), for replays.
-void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, const Densities& density,
-             const Design& design, RangeFlags& outside);
-
-/// Innovation of an observation at x, angles within +-pi.
-Observation innovation_of(const Observation& y, const StateVector& x, const GroundVelocity& at);
-
-/// x and P after an observation; `interval` [s] is what theta is made of. P becomes theta-inflated for
-/// Algorithm::h_infinity.
-struct Answer {
-  Observation innovation;
-  double nis = 0, theta = 0;
-  bool theta_capped = false;
-};
-Answer update(StateVector& x, Covariance& P, const Observation& y, double interval, const Design& design);
 
 }  // namespace canhil::wind

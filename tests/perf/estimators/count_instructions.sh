@@ -14,3 +14,4 @@ count() { # count PROGRAM CALL...
 folder=$1/tests/perf/estimators
 count "$folder/estimators_instructions" imu_step_reference imu_step_two_sample update_kalman update_robust_h2
 count "$folder/los_rate_instructions" step_switched_thermal step_switched_glint step_combined step_kalman step_low_pass
+count "$folder/wind_instructions" step_ekf step_h_infinity step_adaptive_q

@@ -88,7 +88,7 @@ TEST(WindBadInput, StaleNavigation) {
     n.t_us = t_us;
   });
   expect_sound(flown);
-  EXPECT_EQ(flown.results[bad_from + 5].outcome, Outcome::updated);  // 0.1 s may be chance
+  EXPECT_EQ(flown.results[bad_from + 4].outcome, Outcome::updated);  // may be chance
   for (std::size_t k = bad_from + 6; k < bad_to; ++k) {
     ASSERT_EQ(flown.results[k].outcome, Outcome::coasting) << k;
     ASSERT_EQ(flown.results[k].fault, Fault::stale) << k;
@@ -256,6 +256,21 @@ TEST(WindBadInput, AirVelocityOutsideTheTable) {
       }
     }
   }
+}
+
+TEST(WindBadInput, NoiseIsRaisedWhereTheModelEnds) {
+  const Design design = make_design(Settings());
+  const auto rate_variance = [&design](double u) {
+    StateVector x = StateVector::Zero();
+    x(0) = u;
+    Covariance P = 1e-12 * Covariance::Identity();
+    RangeFlags outside;
+    predict(x, P, 0.02, {{}, standard_atmosphere(9000)}, design.settings.density, design, outside);
+    EXPECT_EQ(outside.speed, u < 60);
+    return P(rate_at, rate_at);
+  };
+  EXPECT_NEAR(rate_variance(61), std::pow(0.5 * rad_per_deg, 2) * 0.02, 1e-9);
+  EXPECT_NEAR(rate_variance(59), std::pow(10 * rad_per_deg, 2) * 0.02, 1e-9);
 }
 
 TEST(WindBadInput, BrokenStateStartsAgain) {
