@@ -134,9 +134,7 @@ TEST(WindModel, ObservationJacobianIsThatOfCentralDifferences) {
 // printed -omega x (v_a + v_w), a force not divided by the mass, or a sum of body and NED vectors fail.
 TEST(WindModel, Eq3And16GroundAccelerationIsForcePerMassAndGravity) {
   const Inputs inputs = at_altitude(9000);
-  const auto v_eb_n = [](const StateVector& x) -> Vector3d {
-    return attitude_of(x) * x.head<3>() + x.tail<3>();
-  };
+  const auto v_eb_n = [](const StateVector& x) -> Vector3d { return ground_velocity(x).C_v_a + x.tail<3>(); };
   const Flow f = flow(banked.head<3>(), banked.segment<3>(rate_at), inputs.air, airframe_table);
   const Loads load = loads(f, coefficients(f, some_fins, airframe_table), inputs.air, airframe_table);
   const Vector3d expected = attitude_of(banked) * load.specific_force + Vector3d(0, 0, 9.80665);
