@@ -140,12 +140,12 @@ TEST(WindBadInput, LongOutageStartsAgainWithTheWindThatWasKnown) {
     n.valid = k < 400 || k >= 600;  // 4 s
   });
   expect_sound(flown);
-  EXPECT_EQ(flown.results[499].outcome, Outcome::coasting);
-  EXPECT_EQ(flown.results[500].outcome, Outcome::waiting);
+  EXPECT_EQ(flown.results[498].outcome, Outcome::coasting);
+  EXPECT_EQ(flown.results[501].outcome, Outcome::waiting);
   EXPECT_FALSE(flown.states[599].started);
   EXPECT_EQ(flown.results[600].outcome, Outcome::started);
   EXPECT_EQ(flown.results[601].outcome, Outcome::updated);
-  EXPECT_GT(flown.states[599].P(wind_at, wind_at), flown.states[500].P(wind_at, wind_at) + 0.15);
+  EXPECT_GT(flown.states[599].P(wind_at, wind_at), flown.states[501].P(wind_at, wind_at) + 0.15);
   expect_recovered(flown, 1.0);
 }
 
@@ -251,7 +251,9 @@ TEST(WindBadInput, AirVelocityOutsideTheTable) {
         const UpdateResult result = step(state, n, fins, design);
         ASSERT_TRUE(result.outcome == Outcome::updated || result.outcome == Outcome::started)
             << c.v_a.transpose() << " at " << k;
-        if (k == 1) EXPECT_TRUE(result.flags.outside.*c.flag) << c.v_a.transpose();
+        if (k == 1) {
+          EXPECT_TRUE(result.flags.outside.*c.flag) << c.v_a.transpose();
+        }
         ASSERT_TRUE(state.x.allFinite() && state.P.allFinite()) << c.v_a.transpose();
       }
     }

@@ -13,7 +13,7 @@ constexpr double limit = 0.35;
 FinHistory elevator_at(std::initializer_list<std::pair<std::int64_t, double>> samples) {
   FinHistory fins;
   for (const auto& [t_us, elevator] : samples)
-    EXPECT_EQ(fins.push(t_us, {elevator, -elevator, 2 * elevator}, limit), FinOutcome::kept);
+    EXPECT_EQ(fins.push(t_us, {elevator, -elevator, elevator / 2}, limit), FinOutcome::kept);
   return fins;
 }
 
@@ -22,7 +22,7 @@ TEST(FinHistory, MeanOfTheSamplesJoinedByLines) {
   const ActingFins acting = fins.over(0, 20'000);
   EXPECT_NEAR(acting.mean.elevator, (0.05 + 0.075) / 2, 1e-15);
   EXPECT_NEAR(acting.mean.aileron, -0.0625, 1e-15);
-  EXPECT_NEAR(acting.mean.rudder, 0.125, 1e-15);
+  EXPECT_NEAR(acting.mean.rudder, 0.03125, 1e-15);
   EXPECT_EQ(acting.gap_us, 10'000);
   EXPECT_NEAR(fins.over(5'000, 15'000).mean.elevator, (0.075 + 0.0875) / 2, 1e-15);
   EXPECT_NEAR(fins.over(12'000, 14'000).mean.elevator, 0.085, 1e-15);
