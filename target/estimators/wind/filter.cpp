@@ -118,9 +118,10 @@ void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fin
   state.sample_used = false;
 }
 
-// Grows or shrinks the noise of the rates until the innovation statistic is what it should be.
+// Grows or shrinks the noise of the rates until the innovation statistic is what it should be: within a few
+// samples where it is grossly off, as at release, slowly where it only scatters.
 void adapt(State& state, double nis, double gap, const Settings& settings) {
-  const double excess = std::clamp(nis / 9 - 1, -1.0, 4.0);
+  const double excess = std::clamp(nis / 9 - 1, -1.0, 50.0);
   state.rate_noise_factor =
       std::clamp(state.rate_noise_factor * std::exp(excess * gap / settings.adaptation_time), 1.0,
                  settings.adaptation_limit);

@@ -41,7 +41,7 @@ struct Settings {
   double theta_cap_per_s = 2;  // bound of theta lambda_max over the same interval [1/s]
   double rate_weight = 1;      // of the rates in S, beside 1 of the air velocity [(m/s)^2/(rad/s)^2]
 
-  double adaptation_time = 1;     // of the rate noise, the statistic being 1 too large [s]
+  double adaptation_time = 0.3;   // of the rate noise, the statistic being 1 too large [s]
   double adaptation_limit = 1e4;  // of the factor on the variance of the rate noise
 
   double air_velocity_sigma_0 = 1;              // known at the start [m/s]
