@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <new>
@@ -10,6 +11,7 @@
 #include "target/estimators/inflight_alignment/history.hpp"
 #include "target/estimators/los_rate/filter.hpp"
 #include "target/estimators/transfer_alignment/history.hpp"
+#include "target/estimators/wind/filter.hpp"
 #include "tests/unit/target/estimators/flight.hpp"
 #include "tests/unit/target/estimators/los_rate/engagement.hpp"
 
@@ -140,3 +142,48 @@ TEST(Allocation, LosRateAllocatesNothing) {
 
 }  // namespace
 }  // namespace canhil::los_rate
+
+namespace canhil::wind {
+namespace {
+
+TEST(Allocation, WindAllocatesNothing) {
+  for (const Algorithm algorithm : {Algorithm::ekf, Algorithm::h_infinity, Algorithm::adaptive_q}) {
+    Settings settings;
+    settings.algorithm = algorithm;
+    settings.theta_per_s = 10;  // capped at times
+    const Design design = make_design(settings);
+    Start start;
+    start.air_velocity << 250, 0, 2;
+    start.v_eb_n << 255, 60, 2;
+    start.omega.setZero();
+    start.attitude.setZero();
+    start.altitude = 10'000;
+    State state = initial(start, design);
+    FinHistory fins;
+    int outcomes[7] = {};
+    Eigen::internal::set_is_malloc_allowed(false);
+    const std::size_t before = allocations;
+    for (int k = 0; k <= 500; ++k) {
+      fins.push(k * 20'000, {0, 0, 0.3 * (k % 2)}, 0.2);  // every other one refused
+      const Navigation sample{.t_us = k % 50 == 0 ? 0 : k * 20'000,
+                              .v_eb_n = start.v_eb_n + Eigen::Vector3d(0.01 * (k % 3), 0, 0),
+                              .omega = start.omega,
+                              .attitude = start.attitude,
+                              .altitude = start.altitude,
+                              .valid = k % 20 < 18 && k % 300 < 180};
+      ++outcomes[static_cast<int>(step(state, sample, fins, design).outcome)];
+      if (k == 450) state.x(0) = std::nan("");
+      const Uncertainty sigma = uncertainty(state);
+      if (sigma.along_track < 0 || estimate(state).wind_speed < 0) std::abort();
+    }
+    const std::size_t made = allocations - before;
+    Eigen::internal::set_is_malloc_allowed(true);
+    EXPECT_EQ(made, 0);
+    for (const Outcome outcome : {Outcome::waiting, Outcome::started, Outcome::updated, Outcome::coasting,
+                                  Outcome::out_of_order, Outcome::non_finite})
+      EXPECT_GT(outcomes[static_cast<int>(outcome)], 0) << static_cast<int>(outcome);
+  }
+}
+
+}  // namespace
+}  // namespace canhil::wind

@@ -1,0 +1,52 @@
+#pragma once
+// Aerodynamic force and moment from the table: stability axes and body side force (Park and Park 2019, eq.
+// (7); corrected: the paper mixes stability and wind axes and has the sign of S sin(beta) wrong).
+#include <Eigen/Core>
+
+#include "target/estimators/wind/airframe.hpp"
+#include "target/estimators/wind/atmosphere.hpp"
+
+namespace canhil::wind {
+
+/// What lies outside the model's range.
+struct RangeFlags {
+  bool alpha = false, beta = false, speed = false, mach = false, altitude = false, pitch = false;
+  bool any() const { return alpha || beta || speed || mach || altitude || pitch; }
+  RangeFlags& operator|=(const RangeFlags& other);
+  bool operator==(const RangeFlags&) const = default;
+};
+
+/// The flow the table is entered with, held at the ends of its range.
+struct Flow {
+  double speed = 0, alpha = 0, beta = 0, mach = 0;  // V = |v_a|, atan2(w, u), asin(v/V), V/a
+  double sin_alpha = 0, cos_alpha = 1;
+  double compressibility = 1;
+  Eigen::Vector3d rates;  // p b/2V, q c/2V, r b/2V
+  RangeFlags outside;
+};
+
+struct Coefficients {
+  double lift = 0, drag = 0, side = 0, roll = 0, pitch = 0, yaw = 0;
+};
+
+/// Force per unit mass [m/s^2] and moment about the centre of gravity [N m], body axes.
+struct Loads {
+  Eigen::Vector3d specific_force, moment;
+};
+
+/// Derivatives by air velocity [m/s] and rates [rad/s]; zero along what is held at the end of its range.
+struct LoadsJacobian {
+  Eigen::Matrix3d force_v_a, force_omega, moment_v_a, moment_omega;
+};
+
+Flow flow(const Eigen::Vector3d& v_a, const Eigen::Vector3d& omega, const Air& air, const Airframe& airframe);
+
+Coefficients coefficients(const Flow& flow, const Deflection& fins, const Airframe& airframe);
+
+Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airframe& airframe);
+
+/// v_a is the velocity `flow` was made of.
+LoadsJacobian loads_jacobian(const Flow& flow, const Coefficients& c, const Eigen::Vector3d& v_a,
+                             const Air& air, const Airframe& airframe);
+
+}  // namespace canhil::wind

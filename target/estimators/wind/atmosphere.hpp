@@ -1,0 +1,17 @@
+#pragma once
+// The international standard atmosphere, -2 to 20 km.
+
+namespace canhil::wind {
+
+inline constexpr double gravity = 9.80665;  // [m/s^2]
+
+struct Air {
+  double density = 0;         // [kg/m^3]
+  double speed_of_sound = 0;  // [m/s]
+};
+
+/// Density and speed of sound of the standard atmosphere at an altitude [m]: 6.5 K/km to 11 km, isothermal
+/// above; held at the ends of its range (ISO 2533).
+Air standard_atmosphere(double altitude);
+
+}  // namespace canhil::wind

@@ -1,0 +1,73 @@
+#include "target/estimators/wind/correction.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "target/estimators/filtering/robust_h2.hpp"
+
+namespace canhil::wind {
+namespace {
+
+using Matrix6 = filtering::Matrix<6, 6>;
+
+// One scalar measurement h x: Ph = P h', S = h P h' + R, residual = its innovation less h dx.
+void absorb(Correction& c, const StateVector& Ph, double S, double residual) {
+  const double scale = 1 / std::sqrt(S);
+  const StateVector q = scale * Ph;  // of both factors, so that P stays symmetric to the last bit
+  const double normalised = scale * residual;
+  c.P.noalias() -= q.lazyProduct(q.transpose());
+  c.dx += normalised * q;
+  c.nis += normalised * normalised;
+}
+
+}  // namespace
+
+Correction corrected(const Covariance& P, const Observation& innovation, const GroundVelocity& at,
+                     const Observation& noise_variance) {
+  Correction c;
+  c.P = P;
+  for (int i = 3; i < 9; ++i) {  // rates and Euler angles are states themselves
+    const StateVector Ph = c.P.col(i);
+    absorb(c, Ph, Ph(i) + noise_variance(i), innovation(i) - c.dx(i));
+  }
+  for (int i = 0; i < 3; ++i) {  // ground velocity: row i of [C_bn 0 d(C_bn v_a)/dPhi I]
+    const auto by_v_a = at.C_bn.row(i).transpose();
+    const auto by_attitude = at.by_attitude.row(i).transpose();
+    const auto times_h = [&](const StateVector& x) {
+      return by_v_a.dot(x.segment<3>(air_velocity_at)) + by_attitude.dot(x.segment<3>(attitude_at)) +
+             x(wind_at + i);
+    };
+    StateVector Ph = c.P.col(wind_at + i);
+    Ph.noalias() += c.P.middleCols<3>(air_velocity_at).lazyProduct(by_v_a);
+    Ph.noalias() += c.P.middleCols<3>(attitude_at).lazyProduct(by_attitude);
+    absorb(c, Ph, times_h(Ph) + noise_variance(i), innovation(i) - times_h(c.dx));
+  }
+  return c;
+}
+
+double capped_theta(double theta, double cap, const Covariance& P, double rate_weight) {
+  if (!(theta > 0)) return 0;
+  filtering::Vector<6> root_S;
+  root_S << 1, 1, 1, filtering::Vector<3>::Constant(std::sqrt(rate_weight));
+  const Matrix6 B = root_S.asDiagonal() * P.topLeftCorner<6, 6>() * root_S.asDiagonal();
+  // A Cholesky factor of (cap/theta) I - B exists if and only if theta lambda_max < cap: no eigenvalues then.
+  const Matrix6 margin = (cap / theta) * Matrix6::Identity() - B;
+  if (Eigen::LLT<Matrix6>(margin).info() == Eigen::Success) return theta;
+  return cap / filtering::largest_eigenvalue<6>(B);
+}
+
+void inflate(Correction& c, double theta, double rate_weight) {
+  for (int j = 0; j < 6; ++j) {
+    const double weight = theta * (j < 3 ? 1 : rate_weight);
+    if (!(weight > 0)) continue;
+    // S = P_jj - 1/weight < 0: the update with the roots' signs taken out.
+    const StateVector p = c.P.col(j);
+    const double scale = 1 / std::sqrt(1 / weight - p(j));
+    const StateVector q = scale * p;
+    const double pulled = scale * c.dx(j);
+    c.P.noalias() += q.lazyProduct(q.transpose());
+    c.dx += pulled * q;
+  }
+}
+
+}  // namespace canhil::wind

@@ -1,0 +1,18 @@
+#pragma once
+// Settings and airframe, and what follows from them once.
+#include <Eigen/Core>
+
+#include "target/estimators/wind/airframe_table.hpp"
+#include "target/estimators/wind/settings.hpp"
+
+namespace canhil::wind {
+
+struct Design {
+  Settings settings;
+  Airframe airframe;
+  Eigen::Matrix3d inertia, inertia_inverse;  // [kg m^2], -Ixz off the diagonal
+};
+
+Design make_design(const Settings& settings, const Airframe& airframe = airframe_table);
+
+}  // namespace canhil::wind

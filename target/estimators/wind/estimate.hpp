@@ -1,0 +1,29 @@
+#pragma once
+// What is reported: the states, the wind as speed and direction, and how well.
+#include "target/estimators/wind/model.hpp"
+
+namespace canhil::wind {
+
+struct Estimate {
+  Eigen::Vector3d air_velocity;    // body [m/s]
+  Eigen::Vector3d rate, attitude;  // [rad/s]; roll, pitch, heading [rad]
+  Eigen::Vector3d wind;            // towards, NED [m/s]
+  double wind_speed = 0;           // horizontal [m/s]
+  double wind_from = 0;            // direction it blows from, clockwise from north, 0 to 2 pi [rad]
+  double air_speed = 0;            // [m/s]
+  double alpha = 0, beta = 0;      // [rad]
+};
+
+/// 1 sigma each. Along and cross track: the horizontal wind along the horizontal air velocity, where nearly
+/// all of the error lies, and to the right of it.
+struct Uncertainty {
+  StateVector state;
+  double wind_speed = 0, wind_from = 0;     // [m/s], [rad]; a direction not known at all: pi/sqrt(3)
+  double along_track = 0, cross_track = 0;  // [m/s]
+};
+
+Estimate estimate(const StateVector& x);
+
+Uncertainty uncertainty(const StateVector& x, const Covariance& P);
+
+}  // namespace canhil::wind

@@ -1,0 +1,67 @@
+#pragma once
+// The 12 states and their equations (Park and Park 2019, eqs. (3)-(16), corrected as NOTES.md says):
+//   v_a'   = -omega x v_a + F/m + C_nb g - C_nb v_w'       air velocity, body [m/s]
+//   omega' = I^-1 (M - omega x I omega)                    rates, body [rad/s]
+//   Phi'   = E(Phi) omega                                  Euler angles roll, pitch, heading [rad]
+//   v_w'   = noise                                         wind, NED [m/s]
+//   y      = [C_bn v_a + v_w, omega, Phi]                  ground velocity, NED [m/s], rates, Euler angles
+#include <Eigen/Core>
+
+#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/wind/aerodynamics.hpp"
+#include "target/estimators/wind/design.hpp"
+
+namespace canhil::wind {
+
+using StateVector = filtering::Vector<12>;
+using Covariance = filtering::Matrix<12, 12>;
+using Observation = filtering::Vector<9>;
+
+inline constexpr int air_velocity_at = 0, rate_at = 3, attitude_at = 6, wind_at = 9;
+
+/// What acts over a step.
+struct Inputs {
+  Deflection fins;
+  Air air;
+};
+
+/// x' without noise; `outside` gains what lies outside the model's range.
+StateVector derivative(const StateVector& x, const Inputs& inputs, const Design& design, RangeFlags& outside);
+
+/// d(derivative)/dx by blocks of 3; those not named are zero.
+struct Jacobian {
+  Eigen::Matrix3d aa, ao, ap;  // of v_a' by v_a, omega, Phi
+  Eigen::Matrix3d oa, oo;      // of omega'
+  Eigen::Matrix3d po, pp;      // of Phi'
+};
+
+struct Linearisation {
+  StateVector f;
+  Jacobian A;
+};
+
+/// x' and its analytic Jacobian at x.
+Linearisation linearise(const StateVector& x, const Inputs& inputs, const Design& design,
+                        RangeFlags& outside);
+
+/// x after dt by one Runge-Kutta step of fourth order, `f` being x' at its start.
+StateVector predicted(const StateVector& x, const StateVector& f, double dt, const Inputs& inputs,
+                      const Design& design, RangeFlags& outside);
+
+/// (I + G) P (I + G)', G = A dt + (A dt)^2/2; Q is the caller's.
+Covariance predicted(const Covariance& P, const Jacobian& A, double dt);
+
+/// C_bn v_a, C_bn and d(C_bn v_a)/dPhi.
+struct GroundVelocity {
+  Eigen::Vector3d C_v_a;
+  Eigen::Matrix3d C_bn, by_attitude;
+};
+GroundVelocity ground_velocity(const StateVector& x);
+
+/// C_bn of Euler angles roll, pitch, heading [rad].
+Eigen::Matrix3d C_bn(const Eigen::Vector3d& attitude);
+
+/// The angle within +-pi.
+double wrapped(double angle);
+
+}  // namespace canhil::wind

@@ -1,0 +1,28 @@
+// Under callgrind: every measured call goes through a function of its own, called once, whose cost is
+// collected.
+#include <cstdio>
+#include <memory>
+
+#include "tests/perf/estimators/warm_glider.hpp"
+
+using namespace canhil::wind;
+
+#define MEASURED extern "C" [[gnu::noinline]]
+
+MEASURED UpdateResult step_ekf(WarmGlider& g) { return step(g.state, g.navigation, g.fins, g.design); }
+MEASURED UpdateResult step_h_infinity(WarmGlider& g) { return step(g.state, g.navigation, g.fins, g.design); }
+MEASURED UpdateResult step_adaptive_q(WarmGlider& g) { return step(g.state, g.navigation, g.fins, g.design); }
+
+namespace {
+std::unique_ptr<WarmGlider> warm(Algorithm algorithm) {
+  return std::make_unique<WarmGlider>(warm_glider(algorithm));
+}
+}  // namespace
+
+int main() {
+  const auto ekf = warm(Algorithm::ekf), h_infinity = warm(Algorithm::h_infinity);
+  const auto adaptive_q = warm(Algorithm::adaptive_q);
+  const double nis = step_ekf(*ekf).nis + step_h_infinity(*h_infinity).nis + step_adaptive_q(*adaptive_q).nis;
+  std::printf("NIS %g\n", nis);
+  return 0;
+}

@@ -1,0 +1,203 @@
+// Scalar updates against the textbook's matrices, along the published run.
+#include "target/estimators/wind/correction.hpp"
+#include "target/estimators/filtering/cholesky.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "tests/unit/target/estimators/wind/recorded_run.hpp"
+
+namespace canhil::wind {
+namespace {
+
+using H9 = filtering::Matrix<9, 12>;
+using Gain = filtering::Matrix<12, 9>;
+using R9 = filtering::Matrix<9, 9>;
+
+H9 dense_H(const StateVector& x) {
+  const GroundVelocity at = ground_velocity(x);
+  H9 H = H9::Zero();
+  H.block<3, 3>(0, air_velocity_at) = at.C_bn;
+  H.block<3, 3>(0, attitude_at) = at.by_attitude;
+  H.block<3, 3>(0, wind_at).setIdentity();
+  H.block<6, 6>(3, rate_at).setIdentity();
+  return H;
+}
+
+R9 dense_R(const Settings& s) {
+  Observation sigma;
+  sigma << Eigen::Vector3d::Constant(s.velocity_sigma), Eigen::Vector3d::Constant(s.rate_sigma),
+      Eigen::Vector3d::Constant(s.attitude_sigma);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+// The largest error of entry (i, j), on the scale of the sigmas of its row and column.
+double scaled_miss(const Covariance& P, const Covariance& expected) {
+  const StateVector weight = expected.diagonal().cwiseSqrt().cwiseInverse();
+  return (weight.asDiagonal() * (P - expected) * weight.asDiagonal()).cwiseAbs().maxCoeff();
+}
+
+struct Misses {
+  double x = 0, P = 0, nis = 0;
+  double asymmetry = 0;
+};
+
+// Runs the vector and compares each update with expected(x_prior, P_prior, innovation) -> {dx, P}.
+template <class Expected>
+Misses compared(const RecordedRun& run, const Settings& settings, const Expected& expected) {
+  Misses worst;
+  run.run(make_design(settings),
+          [&](std::size_t, const StateVector& x, const Covariance& P, const Answer& answer,
+              const StateVector& x_prior, const Covariance& P_prior) {
+            const H9 H = dense_H(x_prior);
+            const auto [dx, P_expected] = expected(H, P_prior, answer.innovation);
+            const StateVector sigma = P_expected.diagonal().cwiseSqrt();
+            worst.x = std::max(worst.x, (x - x_prior - dx).cwiseQuotient(sigma).cwiseAbs().maxCoeff());
+            worst.P = std::max(worst.P, scaled_miss(P, P_expected));
+            worst.asymmetry = std::max(worst.asymmetry, (P - P.transpose()).cwiseAbs().maxCoeff());
+            const R9 S = H * P_prior * H.transpose() + dense_R(settings);
+            const double nis = answer.innovation.dot(S.inverse() * answer.innovation);
+            worst.nis = std::max(worst.nis, std::abs(answer.nis - nis) / nis);
+            EXPECT_TRUE(filtering::is_positive_definite<12>(P));
+          });
+  return worst;
+}
+
+struct Posterior {
+  StateVector dx;
+  Covariance P;
+};
+
+Posterior kalman(const H9& H, const Covariance& P, const Observation& innovation, const R9& R) {
+  const R9 S = H * P * H.transpose() + R;
+  const Gain K = P * H.transpose() * S.inverse();
+  return {K * innovation, P - K * H * P};
+}
+
+TEST(WindCorrection, ScalarUpdatesAreTheKalmanUpdate) {
+  const RecordedRun run;
+  const R9 R = dense_R(run.settings);
+  const Misses worst =
+      compared(run, run.settings, [&](const H9& H, const Covariance& P, const Observation& innovation) {
+        return kalman(H, P, innovation, R);
+      });
+  EXPECT_LT(worst.x, 1e-9);
+  EXPECT_LT(worst.P, 1e-9);
+  EXPECT_LT(worst.nis, 1e-9);
+  EXPECT_EQ(worst.asymmetry, 0);
+}
+
+// P~ = Pu + Pu L' S^1/2 [I/theta - B]^-1 S^1/2 L Pu, K = P~ H' R^-1, with rates of weight 3 in S.
+TEST(WindCorrection, HInfinityIsTheFormWithoutInverseOfP) {
+  const RecordedRun run;
+  Settings settings = run.settings;
+  settings.algorithm = Algorithm::h_infinity;
+  settings.rate_weight = 3;
+  const R9 R = dense_R(settings);
+  const Misses worst =
+      compared(run, settings, [&](const H9& H, const Covariance& P, const Observation& innovation) {
+        const Covariance Pu = kalman(H, P, innovation, R).P;
+        filtering::Matrix<6, 12> SL = filtering::Matrix<6, 12>::Zero();
+        SL.leftCols<6>().diagonal() << 1, 1, 1, std::sqrt(3.0), std::sqrt(3.0), std::sqrt(3.0);
+        const filtering::Matrix<6, 6> margin =
+            filtering::Matrix<6, 6>::Identity() / 0.03 - SL * Pu * SL.transpose();
+        const Covariance inflated = Pu + Pu * SL.transpose() * margin.inverse() * SL * Pu;
+        const StateVector dx = inflated * H.transpose() * R.inverse() * innovation;
+        return Posterior{dx, inflated};
+      });
+  EXPECT_LT(worst.x, 1e-8);
+  EXPECT_LT(worst.P, 1e-9);
+  EXPECT_EQ(worst.asymmetry, 0);
+}
+
+// Eqs. (24)-(27) as printed: P~^-1 = P^-1 - theta L' S L + H' R^-1 H, K = P~ H' R^-1.
+TEST(WindCorrection, Eq24To27PrintedRecursionMatches) {
+  const RecordedRun run;
+  Settings settings = run.settings;
+  settings.algorithm = Algorithm::h_infinity;
+  const R9 R = dense_R(settings);
+  const Misses worst =
+      compared(run, settings, [&](const H9& H, const Covariance& P, const Observation& innovation) {
+        Covariance S_bar = Covariance::Zero();
+        S_bar.diagonal().head<6>().setOnes();
+        const Covariance information = P.inverse() - 0.03 * S_bar + H.transpose() * R.inverse() * H;
+        const Covariance inflated = information.inverse();
+        const StateVector dx = inflated * H.transpose() * R.inverse() * innovation;
+        return Posterior{dx, inflated};
+      });
+  EXPECT_LT(worst.x, 1e-6);
+  EXPECT_LT(worst.P, 1e-6);
+}
+
+TEST(WindCorrection, ThetaOfZeroIsTheEkf) {
+  const RecordedRun run;
+  Settings settings = run.settings;
+  std::vector<StateVector> ekf;
+  run.run(make_design(settings), [&](std::size_t, const StateVector& x, const Covariance&, const Answer&,
+                                     const StateVector&, const Covariance&) { ekf.push_back(x); });
+  settings.algorithm = Algorithm::h_infinity;
+  for (const double theta : {0.0, 1e-18}) {
+    settings.theta_per_s = theta / settings.sample_period;
+    double worst = 0;
+    run.run(make_design(settings),
+            [&](std::size_t k, const StateVector& x, const Covariance&, const Answer&, const StateVector&,
+                const Covariance&) { worst = std::max(worst, (x - ekf[k]).cwiseAbs().maxCoeff()); });
+    EXPECT_LT(worst, 1e-12) << theta;
+  }
+}
+
+// theta lambda_max(B) stays at the cap, exactly where it would exceed it.
+TEST(WindCorrection, ThetaIsLoweredToTheCap) {
+  const RecordedRun run;
+  Settings settings = run.settings;
+  settings.algorithm = Algorithm::h_infinity;
+  settings.theta_per_s = 0.1 / settings.sample_period;
+  const R9 R = dense_R(settings);
+  int capped = 0;
+  run.run(make_design(settings),
+          [&](std::size_t k, const StateVector&, const Covariance& P, const Answer& answer,
+              const StateVector& x_prior, const Covariance& P_prior) {
+            const Covariance Pu = kalman(dense_H(x_prior), P_prior, answer.innovation, R).P;
+            const double lambda = Eigen::SelfAdjointEigenSolver<filtering::Matrix<6, 6>>(
+                                      filtering::Matrix<6, 6>(Pu.topLeftCorner<6, 6>()))
+                                      .eigenvalues()
+                                      .maxCoeff();
+            EXPECT_EQ(answer.theta_capped, 0.1 * lambda > 0.04) << k;
+            EXPECT_NEAR(answer.theta, std::min(0.1, 0.04 / lambda), 1e-9) << k;
+            EXPECT_TRUE(filtering::is_positive_definite<12>(P));
+            if (answer.theta_capped) ++capped;
+          });
+  EXPECT_GT(capped, 5);
+  EXPECT_LT(capped, 900);
+}
+
+TEST(WindCorrection, ThetaIsProportionalToTheInterval) {
+  const RecordedRun run;
+  Settings settings = run.settings;
+  settings.algorithm = Algorithm::h_infinity;
+  settings.theta_per_s = 0.05;
+  const Design design = make_design(settings);
+  for (const double interval : {0.01, 0.02, 0.1}) {
+    StateVector x = run.x0;
+    Covariance P = run.P0;
+    EXPECT_DOUBLE_EQ(update(x, P, run.y[0], interval, design).theta, 0.05 * interval);
+  }
+}
+
+// A cap that would let theta lambda_max reach 1 is bounded: P~ would not exist.
+TEST(WindCorrection, NoSettingMakesTheInflationSingular) {
+  const RecordedRun run;
+  Settings settings = run.settings;
+  settings.algorithm = Algorithm::h_infinity;
+  settings.theta_per_s = 1e6;
+  settings.theta_cap_per_s = 1e6;
+  StateVector x = run.x0;
+  Covariance P = run.P0;
+  EXPECT_TRUE(update(x, P, run.y[0], 0.02, make_design(settings)).theta_capped);
+  EXPECT_TRUE(filtering::is_positive_definite<12>(P));
+}
+
+}  // namespace
+}  // namespace canhil::wind

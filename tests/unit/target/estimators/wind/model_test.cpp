@@ -1,0 +1,260 @@
+// The model's equations, each against what it must mean: a corrected equation put in as printed fails the
+// test that names it.
+#include "target/estimators/wind/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/wind/filter.hpp"
+
+namespace canhil::wind {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+StateVector state(const Vector3d& v_a, const Vector3d& omega, const Vector3d& attitude,
+                  const Vector3d& wind) {
+  StateVector x;
+  x << v_a, omega, attitude, wind;
+  return x;
+}
+
+const Design& design() {
+  static const Design design = make_design({});
+  return design;
+}
+
+const StateVector banked = state({200, 9, 14}, {0.2, -0.1, 0.15}, {0.6, -0.3, 2.1}, {10, -40, 1});
+constexpr Deflection some_fins{0.05, -0.03, 0.08};
+
+Inputs at_altitude(double altitude, const Deflection& fins = some_fins) {
+  return {fins, standard_atmosphere(altitude)};
+}
+Inputs vacuum() { return {some_fins, {0, 300}}; }
+
+StateVector rate_of(const StateVector& x, const Inputs& inputs, const Design& d = design()) {
+  RangeFlags outside;
+  return derivative(x, inputs, d, outside);
+}
+
+// Derivative of a function of the state along its motion, by central differences.
+template <class Function>
+auto along_motion(const StateVector& x, const Inputs& inputs, const Function& function) {
+  const double h = 1e-5;
+  const StateVector f = rate_of(x, inputs);
+  return ((function(StateVector(x + h * f)) - function(StateVector(x - h * f))) / (2 * h)).eval();
+}
+
+Matrix3d attitude_of(const StateVector& x) {
+  return strapdown::dcm_from_euler({x(attitude_at), x(attitude_at + 1), x(attitude_at + 2)});
+}
+
+Covariance dense(const Jacobian& A) {
+  Covariance M = Covariance::Zero();
+  M.block<3, 3>(0, 0) = A.aa;
+  M.block<3, 3>(0, 3) = A.ao;
+  M.block<3, 3>(0, 6) = A.ap;
+  M.block<3, 3>(3, 0) = A.oa;
+  M.block<3, 3>(3, 3) = A.oo;
+  M.block<3, 3>(6, 3) = A.po;
+  M.block<3, 3>(6, 6) = A.pp;
+  return M;
+}
+
+double jacobian_miss(const StateVector& x, const Inputs& inputs) {
+  RangeFlags outside;
+  const Covariance A = dense(linearise(x, inputs, design(), outside).A);
+  Covariance differences;
+  for (int j = 0; j < 12; ++j) {
+    const double h = 3e-6 * std::max(1.0, std::abs(x(j)));
+    StateVector up = x, down = x;
+    up(j) += h;
+    down(j) -= h;
+    differences.col(j) = (rate_of(up, inputs) - rate_of(down, inputs)) / (up(j) - down(j));
+  }
+  return (A - differences).cwiseAbs().maxCoeff() / A.cwiseAbs().maxCoeff();
+}
+
+TEST(WindModel, JacobianIsThatOfCentralDifferences) {
+  const std::array states{banked, state({252, -2.5, 0.4}, {0, 0, 0}, {-0.003, 0, -0.001}, {4, 60, 0}),
+                          state({165, 20, -10}, {1, 0.5, -0.7}, {-2.5, 1.2, -3}, {0, 0, 0}),
+                          state({290, 0, 10}, {0.1, 0.1, 0.1}, {0, -1.4, 0}, {0, 0, 0})};  // in the drag rise
+  for (const StateVector& x : states)
+    for (const double altitude : {0.0, 9000.0, 15'000.0})
+      EXPECT_LT(jacobian_miss(x, at_altitude(altitude)), 1e-6) << x.transpose() << " at " << altitude;
+}
+
+// Every entry, not the largest alone: rows scaled by their own size.
+TEST(WindModel, JacobianIsRightRowByRow) {
+  RangeFlags outside;
+  const Inputs inputs = at_altitude(9000);
+  const Covariance A = dense(linearise(banked, inputs, design(), outside).A);
+  for (int j = 0; j < 9; ++j) {
+    const double h = 3e-6 * std::max(1.0, std::abs(banked(j)));
+    StateVector up = banked, down = banked;
+    up(j) += h;
+    down(j) -= h;
+    const StateVector difference = (rate_of(up, inputs) - rate_of(down, inputs)) / (up(j) - down(j));
+    for (int i = 0; i < 9; ++i)
+      EXPECT_NEAR(A(i, j), difference(i), 1e-6 * std::max(A.col(j).cwiseAbs().maxCoeff(), 1.0) * 0.1)
+          << i << ' ' << j;
+  }
+}
+
+TEST(WindModel, JacobianOfTheHeldModelIsThatOfCentralDifferences) {
+  const std::array states{state({100, 0, 60}, {0.1, 0, 0}, {0, 0, 0}, {0, 0, 0}),         // alpha
+                          state({200, 90, 5}, {0, 0.1, 0}, {0, 0, 0}, {0, 0, 0}),         // beta
+                          state({30, 1, 1}, {0, 0, 0.1}, {0, 0, 0}, {0, 0, 0}),           // too slow
+                          state({330, 1, 1}, {0.1, 0, 0}, {0, 0, 0}, {0, 0, 0}),          // Mach
+                          state({200, 1, 1}, {0.1, 0.2, 0}, {0.5, 1.53, 0}, {0, 0, 0})};  // pitch
+  for (const StateVector& x : states) {
+    RangeFlags outside;
+    linearise(x, at_altitude(9000), design(), outside);
+    EXPECT_TRUE(outside.any()) << x.transpose();
+    EXPECT_LT(jacobian_miss(x, at_altitude(9000)), 1e-6) << x.transpose();
+  }
+}
+
+TEST(WindModel, ObservationJacobianIsThatOfCentralDifferences) {
+  const GroundVelocity at = ground_velocity(banked);
+  EXPECT_LT((at.C_bn - attitude_of(banked)).cwiseAbs().maxCoeff(), 1e-15);
+  for (int j = 0; j < 3; ++j) {
+    StateVector up = banked, down = banked;
+    up(attitude_at + j) += 1e-5;
+    down(attitude_at + j) -= 1e-5;
+    const Vector3d difference = (ground_velocity(up).C_v_a - ground_velocity(down).C_v_a) / 2e-5;
+    EXPECT_LT((at.by_attitude.col(j) - difference).cwiseAbs().maxCoeff(), 1e-6);
+  }
+}
+
+// Eqs. (3), (16): whatever turns, the ground velocity C_bn v_a + v_w changes by force and gravity alone. The
+// printed -omega x (v_a + v_w), a force not divided by the mass, or a sum of body and NED vectors fail.
+TEST(WindModel, Eq3And16GroundAccelerationIsForcePerMassAndGravity) {
+  const Inputs inputs = at_altitude(9000);
+  const auto v_eb_n = [](const StateVector& x) -> Vector3d { return ground_velocity(x).C_v_a + x.tail<3>(); };
+  const Flow f = flow(banked.head<3>(), banked.segment<3>(rate_at), inputs.air, airframe_table);
+  const Loads load = loads(f, coefficients(f, some_fins, airframe_table), inputs.air, airframe_table);
+  const Vector3d expected = attitude_of(banked) * load.specific_force + Vector3d(0, 0, 9.80665);
+  EXPECT_LT((along_motion(banked, inputs, v_eb_n) - expected).norm(), 1e-6);
+
+  Airframe heavy = airframe_table;
+  heavy.mass *= 2;
+  const Loads half = loads(f, coefficients(f, some_fins, heavy), inputs.air, heavy);
+  EXPECT_LT((2 * half.specific_force - load.specific_force).norm(), 1e-12);
+}
+
+// Eq. (4): without air the angular momentum stays where it is.
+TEST(WindModel, Eq4AngularMomentumIsConservedWithoutAir) {
+  const auto momentum = [](const StateVector& x) -> Vector3d {
+    return attitude_of(x) * design().inertia * x.segment<3>(rate_at);
+  };
+  EXPECT_LT(along_motion(banked, vacuum(), momentum).norm(), 1e-7);
+  EXPECT_EQ(design().inertia(0, 2), -airframe_table.Ixz);
+}
+
+// Eq. (5): d(C_bn)/dt = C_bn [omega x]; the printed third row and a missing omega fail.
+TEST(WindModel, Eq5EulerAnglesFollowTheRates) {
+  const auto motion = along_motion(banked, at_altitude(9000), attitude_of);
+  const Matrix3d expected = attitude_of(banked) * strapdown::skew(banked.segment<3>(rate_at));
+  EXPECT_LT((motion - expected).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+// Eq. (7): lift across, drag against the flow in the plane of symmetry, side force along y; and the
+// equivalent of full wind axes, whose S is of the opposite sign in the paper.
+TEST(WindModel, Eq7ForcesAreOfStabilityAxesAndBodySideForce) {
+  const Air air = standard_atmosphere(9000);
+  const Vector3d v_a(200, 25, 30);
+  const Flow f = flow(v_a, Vector3d(0.1, 0.2, 0.3), air, airframe_table);
+  const Coefficients c = coefficients(f, some_fins, airframe_table);
+  const Vector3d specific = loads(f, c, air, airframe_table).specific_force;
+  const double force = 0.5 * air.density * v_a.squaredNorm() * airframe_table.area / airframe_table.mass;
+  const double L = force * c.lift, D = force * c.drag, Y = force * c.side;
+  const Vector3d stability_x = Vector3d(v_a.x(), 0, v_a.z()).normalized();
+  const Vector3d stability_z = stability_x.cross(Vector3d::UnitY());
+  EXPECT_NEAR(specific.dot(stability_x), -D, 1e-12);
+  EXPECT_NEAR(specific.dot(stability_z), -L, 1e-12);
+  EXPECT_NEAR(specific.y(), Y, 1e-12);
+  EXPECT_GT(c.lift, 0);
+  EXPECT_GT(f.beta, 0);
+  const Vector3d slip = loads(f, coefficients(f, {}, airframe_table), air, airframe_table).specific_force;
+  EXPECT_LT(slip.y(), 0);  // wind from the right pushes to the left
+  const double cb = std::cos(f.beta), sb = std::sin(f.beta), ca = f.cos_alpha, sa = f.sin_alpha;
+  const double D_wind = D * cb - Y * sb, S = Y * cb + D * sb;  // along and across the flow
+  EXPECT_NEAR(specific.x(), -D_wind * ca * cb - S * ca * sb + L * sa, 1e-12);
+  EXPECT_NEAR(specific.y(), -D_wind * sb + S * cb, 1e-12);
+  EXPECT_NEAR(specific.z(), -D_wind * sa * cb - S * sa * sb - L * ca, 1e-12);
+}
+
+// Eq. (8): gravity has no moment about the centre of gravity.
+TEST(WindModel, Eq8GravityGivesNoMoment) {
+  StateVector x = banked;
+  x.segment<3>(rate_at).setZero();
+  EXPECT_EQ(rate_of(x, vacuum()).segment<3>(rate_at), Vector3d::Zero());
+}
+
+// Eqs. (9)-(14): the table of the airframe, by hand: alpha = 0.1, beta = 0.05 at Mach 0.6.
+TEST(WindModel, Eq9To14CoefficientsAreThoseOfTheTable) {
+  Flow f;
+  f.alpha = 0.1;
+  f.beta = 0.05;
+  f.mach = 0.6;
+  f.compressibility = 1 + 0.3 * 0.36;
+  f.rates = {0.01, 0.002, -0.004};
+  const Coefficients c = coefficients(f, {0.1, 0.2, -0.1}, airframe_table);
+  EXPECT_NEAR(c.lift, 1.108 * (0.1 + 0.55 + 0.04) + 0.012, 1e-15);
+  EXPECT_NEAR(c.side, 1.108 * (-0.045 - 0.025) - 0.0014, 1e-15);
+  EXPECT_NEAR(c.roll, 1.108 * (-0.0025 + 0.016 - 0.001) - 0.005 - 0.0004, 1e-15);
+  EXPECT_NEAR(c.pitch, 1.108 * (0.06 - 0.15 - 0.18) - 0.054, 1e-15);
+  EXPECT_NEAR(c.yaw, 1.108 * (0.004 - 0.001 + 0.01) - 0.0003 + 0.001, 1e-15);
+  const double wave = 0.03 * (1 + std::tanh((0.6 - 0.92) / 0.04));
+  EXPECT_NEAR(c.drag, 0.07 + 0.05 * c.lift * c.lift + 0.5 * 0.0025 + 0.3 * 0.06 + wave, 1e-15);
+}
+
+TEST(WindModel, AtmosphereIsTheStandardOne) {
+  EXPECT_NEAR(standard_atmosphere(0).density, 1.2250, 5e-5);
+  EXPECT_NEAR(standard_atmosphere(0).speed_of_sound, 340.294, 5e-4);
+  EXPECT_NEAR(standard_atmosphere(5000).density, 0.73612, 5e-5);
+  EXPECT_NEAR(standard_atmosphere(11'000).density, 0.36392, 5e-5);
+  EXPECT_NEAR(standard_atmosphere(20'000).density, 0.08803, 5e-5);
+  EXPECT_NEAR(standard_atmosphere(20'000).speed_of_sound, 295.07, 5e-3);
+  EXPECT_EQ(standard_atmosphere(1e6).density, standard_atmosphere(20'000).density);
+}
+
+// Eq. (3)'s noise: the wind's noise reaches the air velocity, so that it does not move the ground velocity.
+TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
+  Settings settings;
+  settings.density = {0, 0, 0, 0.3};
+  const auto added = [&](ProcessNoise noise) {
+    settings.process_noise = noise;
+    StateVector x = banked;
+    Covariance P = Covariance::Zero();
+    RangeFlags outside;
+    predict(x, P, 0.02, at_altitude(9000), settings.density, make_design(settings), outside);
+    filtering::Matrix<3, 12> H = filtering::Matrix<3, 12>::Zero();
+    H.leftCols<3>() = attitude_of(banked);
+    H.rightCols<3>().setIdentity();
+    EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-18);
+    EXPECT_NEAR(P(wind_at, wind_at), 0.09 * 0.02, 1e-15);
+    return (H * P * H.transpose()).eval();
+  };
+  EXPECT_LT(added(ProcessNoise::correlated).cwiseAbs().maxCoeff(), 1e-17);
+  EXPECT_NEAR(added(ProcessNoise::block_diagonal)(0, 0), 0.09 * 0.02, 1e-15);
+}
+
+// F = I + A dt + (A dt)^2/2 in full, by dense products.
+TEST(WindModel, CovariancePredictionIsThatOfTheDenseTransition) {
+  RangeFlags outside;
+  const Jacobian A = linearise(banked, at_altitude(9000), design(), outside).A;
+  Covariance root;
+  for (int i = 0; i < 144; ++i) root(i) = std::sin(1.7 * i + 0.3 * i * i);
+  const Covariance P = root * root.transpose(), Adt = 0.02 * dense(A);
+  const Covariance F = Covariance::Identity() + Adt + Adt * Adt / 2;
+  const Covariance expected = F * P * F.transpose();
+  EXPECT_LT((predicted(P, A, 0.02) - expected).cwiseAbs().maxCoeff(), 1e-12 * expected.cwiseAbs().maxCoeff());
+}
+
+}  // namespace
+}  // namespace canhil::wind

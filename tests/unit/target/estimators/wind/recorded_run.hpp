@@ -1,0 +1,95 @@
+#pragma once
+// The published run: 20 s at 50 Hz, coefficients wrong by 20 % anew every 50 ms; a reference EKF's and
+// H-infinity filter's states and variances after each update.
+#include <Eigen/Core>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "target/estimators/wind/filter.hpp"
+#include "tests/unit/target/estimators/csv.hpp"
+
+namespace canhil::wind {
+
+struct RecordedRun {
+  Settings settings;
+  StateVector x0;
+  Covariance P0;
+  std::vector<Observation> y;
+  std::vector<Inputs> inputs;
+  std::vector<double> altitude;
+  Csv csv{std::string(TEST_DATA_DIR) + "/wind/wind_v2_20pct_diagQ.csv"};
+
+  RecordedRun() {
+    const auto json =
+        nlohmann::json::parse(std::ifstream(std::string(TEST_DATA_DIR) + "/wind/settings.json"));
+    settings.sample_period = json["dt"];
+    settings.velocity_sigma = json["sig"]["vg"];
+    settings.rate_sigma = json["sig"]["om"];
+    settings.attitude_sigma = json["sig"]["att"];
+    settings.density = {json["Q"]["va"], json["Q"]["om"], json["Q"]["att"], json["Q"]["vw"]};
+    settings.theta_per_s = json["theta_hinf"].get<double>() / settings.sample_period;
+    settings.theta_cap_per_s = json["cap"].get<double>() / settings.sample_period;
+    settings.rate_weight = json["s_om"];
+    const auto& vector = json["vectors"]["wind_v2_20pct_diagQ"];
+    for (std::size_t i = 0; i < 12; ++i) {
+      x0(static_cast<int>(i)) = vector["x0"][i];
+      for (std::size_t j = 0; j < 12; ++j) P0(static_cast<int>(i), static_cast<int>(j)) = vector["P0"][i][j];
+    }
+    filtering::mirror_lower<12>(P0);  // symmetric to 5e-20 as published
+    for (std::size_t k = 0; k < csv.rows(); ++k) {
+      y.push_back(Eigen::Map<const Observation>(csv.from(k, "y_vn")));
+      altitude.push_back(csv.at(k, "h"));
+      inputs.push_back(
+          {{csv.at(k, "u_de"), csv.at(k, "u_da"), csv.at(k, "u_dr")}, standard_atmosphere(altitude.back())});
+    }
+  }
+
+  StateVector published(std::size_t k, const std::string& column) const {
+    return Eigen::Map<const StateVector>(csv.from(k, column));
+  }
+  Eigen::Vector3d true_wind(std::size_t k) const {
+    return Eigen::Map<const Eigen::Vector3d>(csv.from(k, "true_wn"));
+  }
+
+  /// Row k as the bus would bring it.
+  static std::int64_t t_us(std::size_t k) { return static_cast<std::int64_t>(k) * 20'000; }
+  Navigation navigation(std::size_t k) const {
+    return {.t_us = t_us(k),
+            .v_eb_n = y[k].head<3>(),
+            .omega = y[k].segment<3>(3),
+            .attitude = y[k].tail<3>(),
+            .altitude = altitude[k],
+            .valid = true};
+  }
+  /// The published start, ready for row 0.
+  State release() const {
+    State state;
+    state.x = x0;
+    state.P = P0;
+    state.started = true;
+    state.t_us = 0;
+    state.altitude = altitude[0];
+    return state;
+  }
+
+  /// Runs the recorded inputs in the published order: update with the row, inspect(k, x, P, answer, prior P),
+  /// predict with the row.
+  template <class Inspect>
+  void run(const Design& design, Inspect inspect) const {
+    StateVector x = x0;
+    Covariance P = P0;
+    const double dt = design.settings.sample_period;
+    for (std::size_t k = 0; k < y.size(); ++k) {
+      const StateVector x_prior = x;
+      const Covariance P_prior = P;
+      const Answer answer = update(x, P, y[k], dt, design);
+      inspect(k, x, P, answer, x_prior, P_prior);
+      RangeFlags outside;
+      predict(x, P, dt, inputs[k], design.settings.density, design, outside);
+    }
+  }
+};
+
+}  // namespace canhil::wind
