@@ -57,7 +57,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
 
   fmt::format_to(out, "\n  heading error for good within");
   for (const BandEntry& entry : summary.heading_entries) {
-    fmt::format_to(out, "  {:g} mrad: {}", entry.within_mrad,
+    fmt::format_to(out, "  {:g} {}: {}", entry.within_rad / entry.unit.factor, entry.unit.name,
                    entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
   }
   if (summary.final_error_rad) {

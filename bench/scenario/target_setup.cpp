@@ -39,6 +39,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
   target.algorithm = section.one_of("algorithm", contract.algorithms);
+  target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
   target.initial_sigma = read_initial_sigma(section.table("initial_sigma"));
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract);

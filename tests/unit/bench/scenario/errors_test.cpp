@@ -236,6 +236,11 @@ INSTANTIATE_TEST_SUITE_P(
               "17: key 'ssbl.outlier_percent': is given alone, expected outlier_percent and outlier_m, both "
               "above "
               "0"},
+        Wrong{"[[check]]", "[gps]\noutlier_percent = 1\noutlier_m = 1e9\n[[check]]",
+              "18: key 'gps.outlier_m': 1000000000 is out of range, expected a number from 0 to 50000"},
+        Wrong{"[[check]]", "[initial_error]\nheading_sigma_deg = 5\nheading_magnitude_deg = 90\n[[check]]",
+              "18: key 'initial_error.heading_magnitude_deg': is given beside 'heading_sigma_deg', expected "
+              "only one of the two"},
         Wrong{"[[check]]", "[gps]\nloss_percent = 101\n[[check]]",
               "17: key 'gps.loss_percent': 101 is out of range, expected a number from 0 to 100"},
         Wrong{"[[check]]", "[gps]\nnoise = 10\n[[check]]",
