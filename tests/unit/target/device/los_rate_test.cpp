@@ -142,7 +142,7 @@ TEST(LosRate, NeedsNoNavigationState) {
     return missile.answers();
   };
   EXPECT_EQ(flight(0, 0), flight(60, 100));
-  EXPECT_EQ(flight(0, 0).size(), 311U) << "and 5 heartbeats and counters";
+  EXPECT_EQ(flight(0, 0).size(), 312U) << "and 6 heartbeats with their counters";
 }
 
 TEST(LosRate, StartsWithTheFirstUsableSample) {

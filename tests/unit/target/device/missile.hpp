@@ -83,7 +83,7 @@ class Missile : public BenchSide {
     lose(sample.range);
   }
   void fly_until(double time_to_go) {
-    while (truth().time_to_go > time_to_go) fly();
+    while (t_us_ == 0 || truth().time_to_go > time_to_go) fly();  // there is no truth before the first
   }
 
   [[nodiscard]] std::int64_t t_us() const { return t_us_; }
