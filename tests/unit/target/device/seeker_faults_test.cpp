@@ -137,7 +137,7 @@ TEST(SeekerLoss, TheStepIsAsLongAsTheTimesOfValiditySay) {
   setup.settings.sample_period = 0.01;
   Missile missile(Algorithm::combined, {{.parameter = Parameter::sample_period_ms, .value = 10}}, setup);
   std::int64_t t_us = 0;
-  while (missile.truth().time_to_go > 2) {
+  do {
     SeekerSample sample = missile.next();
     t_us += 10'000;
     sample.angles.interval_us = 10'000;
@@ -145,7 +145,7 @@ TEST(SeekerLoss, TheStepIsAsLongAsTheTimesOfValiditySay) {
     missile.sync(t_us);
     missile.transmit(sample);
     ASSERT_EQ(missile.estimate().fault, LosRateFault::none);
-  }
+  } while (missile.truth().time_to_go > 2);
   EXPECT_LT(missile.rate_error(), 3e-4);
 }
 
