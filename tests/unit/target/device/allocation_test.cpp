@@ -129,7 +129,7 @@ std::vector<Frame> wind_session(messages::Algorithm algorithm) {
     if (k < 200 || k > 350) {  // 3 s of silence
       bench.send(GliderNavVelocityNE{
           .velocity_north_mps = BenchSide::speed + (k % 90 == 0 ? 100 : 0.1 * (k % 3)), .height_m = 5000});
-      bench.send(GliderNavAttitude{.pitch_deg = k % 80 == 0 ? 89 : 2,
+      bench.send(GliderNavAttitude{.pitch_deg = k % 80 == 0 ? 89.0 : 2.0,
                                    .navigation_validity = k % 50 == 0 ? Validity::invalid : Validity::valid});
       if (k % 70 != 0) bench.send(GliderNavRates{});
       bench.send(GliderNavVelocityD{.time_of_validity_us = wrap_us(k == 500 ? 0 : t_us)});

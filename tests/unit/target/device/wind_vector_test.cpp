@@ -44,7 +44,7 @@ Misses replayed(Algorithm algorithm, const std::string& name) {
   const auto sigmas = bench.all<WindSigma>();
   const auto updates = bench.all<WindUpdate>();
   EXPECT_EQ(winds.size(), rows);
-  if (winds.size() != rows) return {};
+  if (winds.size() != rows) return {1, 1, 1, 1};
   Misses worst;
   const auto note = [](double& most, const Eigen::Vector3d& miss) {
     most = std::max(most, miss.cwiseAbs().maxCoeff());
@@ -64,12 +64,19 @@ Misses replayed(Algorithm algorithm, const std::string& name) {
                                            sigmas[k].wind_sigma_down_mps) -
                                variance.tail<3>().cwiseSqrt());
   }
-  std::printf("%s: air %.3g att %.3g wind %.3g sigma %.3g\n", name.c_str(), worst.air_velocity,
-              worst.attitude_deg, worst.wind, worst.wind_sigma);
   return worst;
 }
 
-void expect_within(const Misses& worst) { EXPECT_LT(worst.wind, 1); }
+// A steady elevator off by half a step, 0.01 deg, is 0.3 % of the lift and so 0.16 % of 250 m/s: the filter
+// of this run believes its model. On the twin what is left is the share of a row's change above.
+constexpr Misses allowed = exact ? Misses{1e-4, 1e-4, 1e-4, 1e-5} : Misses{0.4, 0.01, 0.4, 0.005};
+
+void expect_within(const Misses& worst) {
+  EXPECT_LT(worst.air_velocity, allowed.air_velocity);
+  EXPECT_LT(worst.attitude_deg, allowed.attitude_deg);
+  EXPECT_LT(worst.wind, allowed.wind);
+  EXPECT_LT(worst.wind_sigma, allowed.wind_sigma);
+}
 
 TEST(WindVectorOnTheBus, EkfReplays) { expect_within(replayed(Algorithm::ekf, "ekf")); }
 
