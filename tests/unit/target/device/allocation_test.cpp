@@ -131,7 +131,11 @@ std::vector<Frame> wind_session(messages::Algorithm algorithm) {
           .velocity_north_mps = BenchSide::speed + (k % 90 == 0 ? 100 : 0.1 * (k % 3)), .height_m = 5000});
       bench.send(GliderNavAttitude{.pitch_deg = k % 80 == 0 ? 89.0 : 2.0,
                                    .navigation_validity = k % 50 == 0 ? Validity::invalid : Validity::valid});
-      if (k % 70 != 0) bench.send(GliderNavRates{});
+      if (k % 70 != 0) {
+        bench.send(GliderNavRates{});
+      } else {
+        bench.lose(GliderNavRates{});
+      }
       bench.send(GliderNavVelocityD{.time_of_validity_us = wrap_us(k == 500 ? 0 : t_us)});
     }
     bench.send(ParamSet{.parameter = Parameter::theta_per_s, .value = static_cast<float>(k % 4)});

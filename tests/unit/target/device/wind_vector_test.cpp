@@ -9,11 +9,9 @@ namespace {
 
 using namespace messages;
 
-constexpr bool exact = WindVector::info.fd;  // the twin's
-
 // The published run holds the fins of a row until the next; the target draws lines between samples. A second
 // sample just before the next row makes of the lines a hold, but for this share of the row's change.
-constexpr std::int64_t before_next_us = exact ? 1 : 10;
+constexpr std::int64_t before_next_us = 10;
 
 struct Misses {
   double air_velocity = 0, attitude_deg = 0, wind = 0, wind_sigma = 0;
@@ -68,8 +66,8 @@ Misses replayed(Algorithm algorithm, const std::string& name) {
 }
 
 // A steady elevator off by half a step, 0.01 deg, is 0.3 % of the lift and so 0.16 % of 250 m/s: the filter
-// of this run believes its model. On the twin what is left is the share of a row's change above.
-constexpr Misses allowed = exact ? Misses{1e-4, 1e-4, 1e-4, 1e-5} : Misses{0.4, 0.01, 0.4, 0.005};
+// of this run believes its model.
+constexpr Misses allowed{.air_velocity = 0.4, .attitude_deg = 0.01, .wind = 0.4, .wind_sigma = 0.005};
 
 void expect_within(const Misses& worst) {
   EXPECT_LT(worst.air_velocity, allowed.air_velocity);
