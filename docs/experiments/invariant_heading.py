@@ -1,0 +1,307 @@
+#!/usr/bin/env python3
+"""In-flight alignment: a left-invariant EKF on SE2(3) against the product's sin/cos filter, on the frames of the same runs.
+
+Packages: python3-numpy python3-canmatrix. From the root of the tree, with a built hil-bench:
+
+    docs/experiments/invariant_heading.py build/default/hil-bench --runs 100 --jobs 2 --work /tmp/invariant
+
+Flies runs 0..N-1 of the sin/cos variants of bench/campaigns/paper_inflight/starts.toml with `campaign replay --log`, decodes the
+log with dbc/canhil.dbc, and gives the IMU, the fixes and the initial state to the invariant filter. The sin/cos filter's heading and
+sigma are those that the target answered in the same log. Decoded runs are kept in --work: a second call only filters.
+The equations stand in invariant_heading.md.
+"""
+import argparse
+import functools
+import multiprocessing
+import os
+import pathlib
+import re
+import subprocess
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+import canmatrix.formats  # noqa: E402
+import numpy as np  # noqa: E402
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CAMPAIGN = ROOT / "bench/campaigns/paper_inflight/starts.toml"
+STARTS = (30, 90, 150, 180)
+DEG, UG = np.pi / 180, 9.80665e-6
+A, E2, EARTH_RATE = 6378137.0, 6.69437999014e-3, 7.292115e-5
+SAMPLES = 50  # of the IMU between two fixes, at 20 ms
+DT = 0.02
+T = SAMPLES * DT
+
+# What both filters are told; ssbl_path.toml, gps_path.toml.
+GYRO_NOISE, ACCEL_NOISE = 0.3 * DEG / 60, 50 * UG
+GYRO_BIAS, ACCEL_BIAS = 1 * DEG / 3600, 1000 * UG
+AIDS = {
+    "ssbl": dict(position=(5, 5, 5), fix=(2, 2, 2), bias=3.1622777),
+    "gps": dict(position=(10, 10, 15), fix=(10, 10, 15), bias=0.0),
+}
+
+
+def truth_heading(t):
+    """Of s_path in the scenarios [rad]."""
+    return (40 + 50 * np.sin(2 * np.pi * t / 33)) * DEG
+
+
+# ---------------------------------------------------------------------------------------------- frames of one run
+@functools.lru_cache
+def decoder():
+    return canmatrix.formats.loadp_flat(str(ROOT / "dbc/canhil.dbc"))
+
+
+def decoded(matrix, log, message):
+    """All frames of a message: {signal: values}."""
+    frame = matrix.frame_by_name(message)
+    found = re.findall(b" %03X#([0-9A-F]{16}) " % frame.arbitration_id.id, log)
+    raw = np.frombuffer(bytes.fromhex(b"".join(found).decode()), "<u8")
+    values = {}
+    for s in frame.signals:
+        field = ((raw >> np.uint64(s.get_startbit())) & np.uint64((1 << s.size) - 1)).astype(np.int64)
+        if s.is_signed:
+            field = np.where(field >> (s.size - 1) == 1, field - (1 << s.size), field)
+        values[s.name] = field * float(s.factor) + float(s.offset)
+    return values
+
+
+def axes(values, *names):
+    return np.stack([values[n] for n in names], -1)
+
+
+def fly(job):
+    """Replays a run; keeps the increments, the fixes, the initial state and the target's answers."""
+    bench, work, aid, start, run = job
+    kept = work / f"{aid}_{start}_{run}.npz"
+    if kept.exists():
+        return
+    log_file = work / f"{aid}_{start}_{run}.log"
+    said = subprocess.run([bench, "campaign", "replay", CAMPAIGN, str(run), "--variant", f"{aid}_sincos_{start}", "--log", log_file],
+                          capture_output=True, text=True).stdout
+    log, m = log_file.read_bytes(), decoder()
+    log_file.unlink()
+    theta, velocity, status = (decoded(m, log, n) for n in ("SlaveImuDeltaTheta", "SlaveImuDeltaV", "SlaveImuStatus"))
+    assert np.array_equal(status["time_of_validity_us"], 20000 * np.arange(1, 15001))
+    if aid == "gps":
+        latitude, longitude, time = (decoded(m, log, n) for n in ("GpsLatitude", "GpsLongitude", "GpsTime"))
+        fix = np.stack([latitude["latitude_deg"] * DEG, longitude["longitude_deg"] * DEG, latitude["height_m"]], -1)
+    else:
+        flat, latitude, longitude, time = (decoded(m, log, n) for n in
+                                           ("SsblRelativeNE", "SsblShipLatitude", "SsblShipLongitude", "SsblRelativeD"))
+        lat, h = latitude["latitude_deg"] * DEG, latitude["height_m"]
+        meridian, transverse = radii(lat)
+        fix = np.stack([lat + flat["relative_north_m"] / (meridian + h),
+                        longitude["longitude_deg"] * DEG + flat["relative_east_m"] / ((transverse + h) * np.cos(lat)),
+                        h - time["relative_down_m"]], -1)
+    assert np.array_equal(time["time_of_validity_us"], 1e6 * np.arange(1, 301))
+    at, over, v, euler, down = (decoded(m, log, "TargetInit" + n) for n in ("Latitude", "Longitude", "VelocityNE", "Attitude", "VelocityD"))
+    answer_t = decoded(m, log, "AlignVelocityD")["cause_time_us"] / 1e6
+    answer = decoded(m, log, "AlignAttitude")["heading_deg"] * DEG
+    error = wrapped(answer - truth_heading(answer_t))
+    end_mrad = float(re.search(r"error at the end .* heading ([-+.\d]+) mrad", said)[1])
+    assert abs(error[-1] * 1e3 - end_mrad) < 0.03, "formula of the truth and the bench's report: half a quantum is 0.026 mrad"
+    first = np.searchsorted(answer_t, np.arange(1, 300))  # the first answer that knows of the fix, as the campaign takes it
+    np.savez(kept, fix=fix,
+             dtheta=axes(theta, *(f"delta_theta_{a}_rad" for a in "xyz")), dv=axes(velocity, *(f"delta_v_{a}_mps" for a in "xyz")),
+             euler=axes(euler, "roll_deg", "pitch_deg", "heading_deg")[-1] * DEG,
+             v=[v["velocity_north_mps"][-1], v["velocity_east_mps"][-1], down["velocity_down_mps"][-1]],
+             position=[at["latitude_deg"][-1] * DEG, over["longitude_deg"][-1] * DEG, at["height_m"][-1]],
+             error=error[first], sigma=decoded(m, log, "FixAttitudeSigma")["heading_sigma_deg"][:299] * DEG)
+
+
+# ---------------------------------------------------------------------------------------------------- mathematics
+def wrapped(angle):
+    return (angle + np.pi) % (2 * np.pi) - np.pi
+
+
+def radii(lat):
+    d = 1 - E2 * np.sin(lat) ** 2
+    return A * (1 - E2) / (d * np.sqrt(d)), A / np.sqrt(d)
+
+
+def t_(M):
+    return np.swapaxes(M, -1, -2)
+
+
+def times(M, v):
+    return (M @ v[..., None])[..., 0]
+
+
+def skew(v):
+    S = np.zeros(v.shape + (3,))
+    S[..., 2, 1], S[..., 0, 2], S[..., 1, 0] = v[..., 0], v[..., 1], v[..., 2]
+    return S - t_(S)
+
+
+def exp_and_left_jacobian(v):
+    """exp([v x]) and J with exp of (v, u) on SE(3): translation J u."""
+    angle = np.maximum(np.linalg.norm(v, axis=-1), 1e-9)[..., None, None]
+    S, I = skew(v), np.eye(3)
+    SS = S @ S
+    one = 2 * np.sin(angle / 2) ** 2 / angle**2
+    return (I + np.sin(angle) / angle * S + one * SS, I + one * S + np.where(angle < 1e-3, 1 / 6, (angle - np.sin(angle)) / angle**3) * SS)
+
+
+def from_euler(e):
+    c, s, z, o = np.cos(e), np.sin(e), np.zeros(e.shape[:-1]), np.ones(e.shape[:-1])
+    rows = lambda *r: np.stack(r, -1).reshape(e.shape[:-1] + (3, 3))  # noqa: E731
+    yaw = rows(c[..., 2], -s[..., 2], z, s[..., 2], c[..., 2], z, z, z, o)
+    pitch = rows(c[..., 1], z, s[..., 1], z, o, z, -s[..., 1], z, c[..., 1])
+    roll = rows(o, z, z, z, c[..., 0], -s[..., 0], z, s[..., 0], c[..., 0])
+    return yaw @ pitch @ roll
+
+
+def ecef(p):
+    lat, lon, h = p[..., 0], p[..., 1], p[..., 2]
+    n = radii(lat)[1]
+    return np.stack([(n + h) * np.cos(lat) * np.cos(lon), (n + h) * np.cos(lat) * np.sin(lon), (n * (1 - E2) + h) * np.sin(lat)], -1)
+
+
+def preintegrated(dtheta, dv):
+    """Increments of each second in the body axes at its start: rotation, velocity, position, and d of each by the biases.
+    dtheta, dv: runs x seconds x SAMPLES x 3."""
+    shape = dtheta.shape[:2]
+    C, v, p = np.broadcast_to(np.eye(3), shape + (3, 3)), np.zeros(shape + (3,)), np.zeros(shape + (3,))
+    C_g, v_g, p_g, v_a, p_a = (np.zeros(shape + (3, 3)) for _ in range(5))
+    for i in range(SAMPLES):
+        turn, force = dtheta[:, :, i], dv[:, :, i] + 0.5 * np.cross(dtheta[:, :, i], dv[:, :, i])
+        step = times(C, force)
+        step_g = -C @ skew(force) @ C_g  # d of C force; C_g: right-handed, C exp(C_g dbg)
+        p, p_g, p_a = p + (v + step / 2) * DT, p_g + (v_g + step_g / 2) * DT, p_a + (v_a - C * DT / 2) * DT
+        v, v_g, v_a = v + step, v_g + step_g, v_a - C * DT
+        turned = exp_and_left_jacobian(turn)[0]
+        C, C_g = C @ turned, t_(turned) @ C_g - np.eye(3) * DT
+    return dict(C=C, v=v, p=p, C_g=C_g, v_g=v_g, p_g=p_g, v_a=v_a, p_a=p_a)
+
+
+# ---------------------------------------------------------------------------------------------- the invariant EKF
+R, V, P, G, B, F = (slice(3 * i, 3 * i + 3) for i in range(6))  # xi_R xi_v xi_p, gyro bias, accelerometer bias, xi of the fix bias
+
+
+def invariant(data, aid, heading_sigma, iterations=1, reset=False):
+    """Heading error and sigma [rad] after each fix: runs x fixes."""
+    told, n = AIDS[aid], len(data["v"])
+    lat, lon = data["position"][:, 0], data["position"][:, 1]
+    # Local tangent plane at the INS's start: no transport rate; earth rate and gravity are known inputs.
+    to_plane = from_euler(np.stack([0 * lat, -np.pi / 2 - lat, 0 * lat], -1))
+    to_plane = t_(from_euler(np.stack([0 * lat, 0 * lat, lon], -1)) @ to_plane)
+    fixes = times(to_plane[:, None], ecef(data["fix"]) - ecef(data["position"])[:, None])
+    earth = EARTH_RATE * np.stack([np.cos(lat), 0 * lat, -np.sin(lat)], -1)
+    s2 = np.sin(lat) ** 2
+    gravity = 9.7803253359 * (1 + 0.00193185265241 * s2) / np.sqrt(1 - E2 * s2) * (1 - 2 * data["position"][:, 2] / A)
+    turned, half = exp_and_left_jacobian(-earth * T)[0], exp_and_left_jacobian(-earth * T / 2)[0]
+    noise = np.diag(np.square(np.array(told["fix"], float)))
+    Q = np.zeros(18)
+    Q[R], Q[V] = GYRO_NOISE**2 * T, ACCEL_NOISE**2 * T
+
+    C, v, p, rho = from_euler(data["euler"]), data["v"].astype(float), np.zeros((n, 3)), np.zeros((n, 3))
+    bg, ba = np.zeros((n, 3)), np.zeros((n, 3))
+    cov = np.zeros((n, 18, 18))
+    in_body = lambda variances: t_(C) @ (variances[..., None] * C)  # noqa: E731
+    tilt = np.full(n, DEG) ** 2
+    cov[:, R, R] = in_body(np.stack([tilt, tilt, heading_sigma**2], -1))
+    cov[:, V, V] = 0.1**2 * np.eye(3)
+    cov[:, P, P] = in_body(np.tile(np.square(np.array(told["position"], float)), (n, 1)))
+    cov[:, G, G], cov[:, B, B], cov[:, F, F] = GYRO_BIAS**2 * np.eye(3), ACCEL_BIAS**2 * np.eye(3), told["bias"] ** 2 * np.eye(3)
+
+    errors, sigmas, nis = np.zeros((n, 299)), np.zeros((n, 299)), np.zeros((n, 299))
+    for k in range(299):
+        U = {name: value[:, k] for name, value in data["second"].items()}
+        dv = U["v"] + times(U["v_g"], bg) + times(U["v_a"], ba)
+        dp = U["p"] + times(U["p_g"], bg) + times(U["p_a"], ba)
+        dC = U["C"] @ exp_and_left_jacobian(times(U["C_g"], bg))[0]
+        g = np.stack([-p[:, 0], -p[:, 1], 2 * p[:, 2]], -1) * (gravity / A)[:, None]
+        g[:, 2] += gravity
+        g = times(half, g)
+        p = times(turned, p + v * T + times(C, dp)) + g * T * T / 2
+        v = times(turned, v + times(C, dv)) + g * T
+        C = turned @ C @ dC
+        D, M = t_(dC), np.zeros((n, 18, 18))
+        M[:, R, R] = M[:, V, V] = M[:, P, P] = M[:, F, F] = D
+        M[:, V, R], M[:, P, R], M[:, P, V] = -D @ skew(dv), -D @ skew(dp), D * T
+        M[:, R, G], M[:, V, G], M[:, P, G] = U["C_g"], D @ U["v_g"], D @ U["p_g"]
+        M[:, V, B], M[:, P, B] = D @ U["v_a"], D @ U["p_a"]
+        M[:, G, G] = M[:, B, B] = np.eye(3)
+        cov = M @ cov @ t_(M) + np.diag(Q)
+
+        z, N = times(t_(C), fixes[:, k] - p - rho), t_(C) @ noise @ C
+        xi = np.zeros((n, 18))
+        for i in range(iterations):  # one: the invariant EKF; more: Gauss-Newton on z = J(xi_R) (xi_p + xi_rho)
+            J = exp_and_left_jacobian(xi[:, R])[1]
+            H = np.zeros((n, 3, 18))
+            H[:, :, P] = H[:, :, F] = J
+            if i:  # d(J u)/d xi_R by differences
+                for axis in range(3):
+                    moved = xi[:, R] + 1e-6 * np.eye(3)[axis]
+                    H[:, :, axis] = times(exp_and_left_jacobian(moved)[1] - J, xi[:, P] + xi[:, F]) / 1e-6
+            S = H @ cov @ t_(H) + N
+            K = t_(np.linalg.solve(S, H @ cov))
+            residual = z - times(J, xi[:, P] + xi[:, F])
+            if i == 0:
+                nis[:, k] = np.einsum("ni,ni->n", z, np.linalg.solve(S, z[..., None])[..., 0])
+            xi = times(K, residual + times(H, xi))
+        keep = np.eye(18) - K @ H
+        cov = keep @ cov @ t_(keep) + K @ N @ t_(K)
+        turn, J = exp_and_left_jacobian(xi[:, R])
+        p, v, rho = p + times(C, times(J, xi[:, P])), v + times(C, times(J, xi[:, V])), rho + times(C, times(J, xi[:, F]))
+        C, bg, ba = C @ turn, bg + xi[:, G], ba + xi[:, B]
+        if reset:  # the covariance follows to the new estimate: exp(xi)^-1 exp(xi + d) = exp(J(-xi) d), attitude alone
+            cov[:, R] = exp_and_left_jacobian(-xi[:, R])[1] @ cov[:, R]
+            cov[:, :, R] = cov[:, :, R] @ t_(exp_and_left_jacobian(-xi[:, R])[1])
+        cov = (cov + t_(cov)) / 2
+        heading = np.arctan2(C[:, 1, 0], C[:, 0, 0]) + p[:, 1] / A * np.tan(lat)  # the meridians converge
+        errors[:, k] = wrapped(heading - truth_heading(k + 1.0))
+        sigmas[:, k] = np.sqrt((C[:, 2:] @ cov[:, R, R] @ t_(C)[:, :, 2:])[:, 0, 0])
+    return errors, sigmas, nis
+
+
+# ----------------------------------------------------------------------------------------------------------- report
+def row(name, error, sigma):
+    e = np.abs(error) / DEG
+    rms = lambda x: np.sqrt(np.mean(np.square(x)))  # noqa: E731
+    return (f"| {name} | {rms(e):.2f} | {np.median(e):.2f} | {np.quantile(e, 0.9):.2f} | {100 * np.mean(e < 10):.0f} % "
+            f"| {rms(error / sigma):.2f} |")
+
+
+def cell(job):
+    """One aid and start: both filters at a few times, and the forms of the invariant one at the end."""
+    work, aid, start, runs, forms = job
+    loaded = [dict(np.load(work / f"{aid}_{start}_{run}.npz")) for run in range(runs)]
+    data = {name: np.stack([one[name] for one in loaded]) for name in loaded[0]}
+    by_second = lambda x: x.reshape(runs, 300, SAMPLES, 3)  # noqa: E731
+    data["second"] = preintegrated(by_second(data["dtheta"]), by_second(data["dv"]))
+    told = np.full(runs, {30: 30, 90: 90}.get(start, 120) * DEG)
+    lines, end = [], 298
+    errors, sigmas, nis = invariant(data, aid, told)
+    for t in (30, 60, 120, 299):
+        lines += [row(f"{aid} {start}, {t} s: sin/cos", data["error"][:, t - 1], data["sigma"][:, t - 1]),
+                  row(f"{aid} {start}, {t} s: invariant", errors[:, t - 1], sigmas[:, t - 1])]
+    better = np.mean(np.abs(errors[:, end]) < np.abs(data["error"][:, end]))
+    lines.append(f"{aid} {start}: invariant closer in {100 * better:.0f} % of runs; mean NIS after 10 s {nis[:, 9:].mean():.2f}")
+    for name, extra in (("5 iterations", dict(iterations=5)), ("reset of P", dict(reset=True))) if forms else ():
+        e, s, _ = invariant(data, aid, told, **extra)
+        lines.append(row(f"{aid} {start}: invariant, {name}", e[:, end], s[:, end]))
+    for sigma in ((60, 180) if forms and start >= 90 else ()):
+        e, s, _ = invariant(data, aid, 0 * told + sigma * DEG)
+        lines.append(row(f"{aid} {start}: invariant, told {sigma} deg", e[:, end], s[:, end]))
+    return "\n".join(lines)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("bench")
+    parser.add_argument("--runs", type=int, default=100)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--work", type=pathlib.Path, required=True)
+    parser.add_argument("--forms", action="store_true", help="also the variations of the invariant filter")
+    a = parser.parse_args()
+    a.work.mkdir(parents=True, exist_ok=True)
+    cells = [(aid, start) for aid in AIDS for start in STARTS]
+    with multiprocessing.Pool(a.jobs) as pool:
+        pool.map(fly, [(a.bench, a.work, aid, start, run) for run in range(a.runs) for aid, start in cells], chunksize=1)
+        for text in pool.imap(cell, [(a.work, aid, start, a.runs, a.forms) for aid, start in cells]):
+            print(text, flush=True)
+
+
+if __name__ == "__main__":
+    main()
