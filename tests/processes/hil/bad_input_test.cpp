@@ -72,6 +72,25 @@ TEST(BadInput, ValueThatTheBusCannotCarry) {
       "'slave_imu.gyro_bias_sigma_degph' (largest part): an IMU increment of up to 290.888 rad does not fit");
 }
 
+TEST(BadInput, AnEngagementThatCannotBeFlown) {
+  const auto with = [](std::string_view from, std::string_view to) {
+    std::string text = read(scenario("los_closed_loop"));
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos);
+    std::ofstream(scratch("los.toml")) << text.replace(at, from.size(), to);
+    return hil_bench("run " + scratch("los.toml"));
+  };
+  expect_one_line(with("manoeuvre = \"step\"", "manoeuvre = \"stop\""),
+                  "key 'engagement.manoeuvre': 'stop' is unknown, expected 'step'");
+  expect_one_line(with("guidance_delay_ms = 10.0", "guidance_delay_ms = 1.0"),
+                  "key 'engagement.guidance_delay_ms': 1 is less than the bus takes in lockstep, expected at "
+                  "least 10, the cycle of Sync");
+  expect_one_line(with("period_ms = 5\nthermal", "period_ms = 4.005\nthermal"),
+                  "seeker interval 4005 us does not fit into SeekerAngles.interval_us");
+  expect_one_line(with("[seeker]", "[gps]\n[seeker]"),
+                  "key 'gps': has nothing to go by, expected a table [truth] beside it");
+}
+
 TEST(BadInput, UnknownOption) {
   expect_one_line(hil_bench("run --colour x.toml"), "--colour");
   expect_one_line(hil_target("--bus x --speed 3"), "--speed");
