@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <sstream>
@@ -22,6 +23,32 @@ std::optional<Node> read_node(Section& root, std::string_view key, bool needed, 
   std::optional<Section> section = needed ? root.table(key) : root.optional_table(key);
   if (!section) return std::nullopt;
   return read(*section);
+}
+
+/// The truth of what navigates. A scenario of something else may do without.
+void read_navigation_truth(Section& root, Scenario& scenario) {
+  constexpr std::array of_navigation{"initial_error", "master_ins", "slave_imu", "ssbl", "gps"};
+  const bool wanted = scenario.target.estimator.ends_with("_alignment") || !root.has("glide") ||
+                      std::ranges::any_of(of_navigation, [&](const char* key) { return root.has(key); });
+  if (auto truth = wanted ? root.table("truth") : root.optional_table("truth"))
+    scenario.truth = read_truth(*truth);
+  if (auto initial_error = root.optional_table("initial_error"))
+    scenario.initial_error = read_initial_error(*initial_error);
+}
+
+/// The glider's truth and nodes: all of them are there, or none is.
+void read_glider(Section& root, Scenario& scenario) {
+  constexpr std::array parts{"glide", "wind", "airframe", "glider_nav", "fins"};
+  const bool wanted = scenario.target.estimator == "wind" ||
+                      std::ranges::any_of(parts, [&](const char* key) { return root.has(key); });
+  if (!wanted) {
+    for (const char* key : parts) root.optional(key);
+    return;
+  }
+  Section glide = root.table("glide");
+  scenario.glide = read_glide(root, glide);
+  scenario.glider_nav = read_node<GliderNav>(root, "glider_nav", true, read_glider_nav);
+  scenario.fins = read_node<Fins>(root, "fins", true, read_fins);
 }
 
 std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract) {
@@ -58,17 +85,14 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
   Section target = root.table("target");
   scenario.target = read_target(target, contract);
-  Section truth = root.table("truth");
-  scenario.truth = read_truth(truth);
-  if (auto initial_error = root.optional_table("initial_error")) {
-    scenario.initial_error = read_initial_error(*initial_error);
-  }
+  read_navigation_truth(root, scenario);
   const bool transfer = scenario.target.estimator == "transfer_alignment";
   scenario.master_ins = read_node<MasterIns>(root, "master_ins", transfer, read_master_ins);
   const bool inflight = scenario.target.estimator == "inflight_alignment";
   scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer || inflight, read_slave_imu);
   scenario.ssbl = read_node<Ssbl>(root, "ssbl", false, read_ssbl);
   scenario.gps = read_node<Gps>(root, "gps", false, read_gps);
+  read_glider(root, scenario);
   if (inflight && !scenario.ssbl && !scenario.gps) {
     root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
   }

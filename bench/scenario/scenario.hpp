@@ -17,6 +17,9 @@
 
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/contract.hpp"
+#include "bench/scenario/fins.hpp"
+#include "bench/scenario/glide.hpp"
+#include "bench/scenario/glider_nav.hpp"
 #include "bench/scenario/gps.hpp"
 #include "bench/scenario/master_ins.hpp"
 #include "bench/scenario/setting.hpp"
@@ -37,12 +40,15 @@ struct Scenario {
   std::uint64_t seed = 0;
 
   TargetSetup target;
-  world::Flight truth;
+  world::Flight truth;                     ///< at rest if the scenario has none
   world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start
   std::optional<MasterIns> master_ins;     ///< absent: not on the bus
   std::optional<SlaveImu> slave_imu;
   std::optional<Ssbl> ssbl;
   std::optional<Gps> gps;
+  std::optional<Glide> glide;  ///< the truth of a glider, beside the navigation's
+  std::optional<GliderNav> glider_nav;
+  std::optional<Fins> fins;
   std::vector<Check> checks;
 };
 
