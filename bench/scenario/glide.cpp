@@ -60,7 +60,8 @@ ReleaseError read_release(Section section) {
   const ReleaseError error{
       .air_velocity = section.number("air_velocity_sigma_mps", Limits::between(0, 50), 0),
       .velocity = section.number("velocity_sigma_mps", Limits::between(0, 50), 0),
-      .attitude = section.number("attitude_sigma_deg", Limits::between(0, 30), 0)};
+      .attitude = section.number("attitude_sigma_deg", Limits::between(0, 30), 0),
+      .rate = section.number("rate_sigma_degps", Limits::between(0, 30), 0)};
   section.finish();
   return error;
 }

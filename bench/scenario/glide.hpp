@@ -12,6 +12,7 @@ struct ReleaseError {
   double air_velocity = 0;  ///< body [m/s]
   double velocity = 0;      ///< NED [m/s]
   double attitude = 0;      ///< roll, pitch, heading [rad]
+  double rate = 0;          ///< body [rad/s]
 };
 
 struct Glide {
