@@ -9,14 +9,13 @@
 #include "bench/checks/finding.hpp"
 #include "bench/checks/fixes.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/checks/wind.hpp"
 
 namespace canhil::checks {
 namespace {
 
 using messages::AlignUpdate;
 using messages::AlignVelocityD;
-
-constexpr double degrees_of_freedom = 3;
 
 // The bench must keep its own deadlines to judge those of the target: a host that keeps the bench waiting for
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
@@ -101,7 +100,7 @@ class Judge {
     const auto [low, high] = interval(rule, part.size());
     const std::string expected =
         fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(rule.window));
-    if (auto gap = unanswered_updates(part, rule.window); !gap.empty())
+    if (auto gap = unanswered_updates(part, rule); !gap.empty())
       return {Outcome::fail, std::move(gap), expected};
     const double sum = std::accumulate(part.begin(), part.end(), 0.0,
                                        [](double s, const Normalised& n) { return s + n.value; });
@@ -171,6 +170,10 @@ class Judge {
   }
   Finding operator()(const scenario::Fixes& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::Coasting& rule) const { return checks::judge(rule, evidence_.seen); }
+  Finding operator()(const scenario::WindError& rule) const {
+    return checks::judge(rule, evidence_.seen, evidence_.glide);
+  }
+  Finding operator()(const scenario::WindAnswers& rule) const { return checks::judge(rule, evidence_.seen); }
 
   Finding operator()(const scenario::Heartbeat& rule) const {
     const std::string expected =
@@ -220,16 +223,23 @@ class Judge {
 
   // Fixes may be lost on purpose: what the bench did not send needs no answer.
   [[nodiscard]] std::string unanswered_updates(const std::vector<Normalised>& part,
-                                               const scenario::Window& window) const {
+                                               const scenario::Consistency& rule) const {
     if (part.empty()) return "no answers";
-    return evidence_.seen.fixes.empty() ? unanswered(part, window, AlignUpdate::info.name)
-                                        : unanswered_fixes(evidence_.seen, window);
+    if (rule.statistic == scenario::Statistic::wind_nis || rule.statistic == scenario::Statistic::wind_nees)
+      return unanswered(part, rule.window, messages::WindUpdate::info.name);
+    return evidence_.seen.fixes.empty() ? unanswered(part, rule.window, AlignUpdate::info.name)
+                                        : unanswered_fixes(evidence_.seen, rule.window);
   }
 
   [[nodiscard]] std::vector<Normalised> series_of(scenario::Statistic statistic) const {
     switch (statistic) {
       case scenario::Statistic::nis:
         return nis(evidence_.seen);
+      case scenario::Statistic::wind_nis:
+        return wind_nis(evidence_.seen);
+      case scenario::Statistic::wind_nees:
+        return evidence_.glide == nullptr ? std::vector<Normalised>()
+                                          : wind_nees(evidence_.seen, *evidence_.glide);
       case scenario::Statistic::heading_nees:
         return heading_nees(evidence_.seen, errors_);
       case scenario::Statistic::attitude_nees:
@@ -244,6 +254,7 @@ class Judge {
       return {between->low, between->high};
     const double probability = std::get<scenario::Probability>(rule.bound).value;
     const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
+    const double degrees_of_freedom = rule.statistic == scenario::Statistic::wind_nis ? 9 : 3;
     const boost::math::chi_squared chi_squared(n * degrees_of_freedom);
     return {boost::math::quantile(chi_squared, (1 - probability) / 2) / n,
             boost::math::quantile(chi_squared, (1 + probability) / 2) / n};

@@ -15,7 +15,10 @@ namespace {
 constexpr std::array<std::string_view, 3> attitude_axes{"roll", "pitch", "heading"};
 constexpr std::array<std::string_view, 4> velocity_axes{"north", "east", "down", "norm"};
 constexpr std::array<std::string_view, 5> position_axes{"north", "east", "down", "horizontal", "norm"};
-constexpr std::array<std::string_view, 3> statistics{"attitude_nees", "nis", "heading_nees"};
+constexpr std::array<std::string_view, 5> statistics{"attitude_nees", "nis", "heading_nees", "wind_nis",
+                                                     "wind_nees"};
+constexpr std::array<std::string_view, 4> wind_axes{"along_track", "cross_track", "down", "norm"};
+constexpr std::array<std::string_view, 2> wind_statistics{"mean", "max"};
 
 /// What the readers of all kinds need to know of the scenario.
 struct Context {
@@ -81,8 +84,8 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
     section.reject("mean_between", "is given beside probability", "one of the two");
   // Errors of one run are correlated in time, so the mean of their NEES is not chi-square; innovations are
   // white.
-  if (rule.statistic != Statistic::nis)
-    section.reject("probability", "is for nis only", "mean_between = [low, high]");
+  if (rule.statistic != Statistic::nis && rule.statistic != Statistic::wind_nis)
+    section.reject("probability", "is for nis and wind_nis only", "mean_between = [low, high]");
   rule.bound = Probability{.value = section.number("probability", Limits::between(0.5, 0.999999))};
   section.optional("mean_between");
   return rule;
@@ -158,7 +161,56 @@ Coasting read(Section& section, const Context& context, Coasting rule) {
   return rule;
 }
 
+WindError read(Section& section, const Context& context, WindError rule) {
+  rule.axis = read_enum<WindAxis>(section, "axis", wind_axes, WindAxis::norm);
+  rule.statistic = read_enum<WindStatistic>(section, "statistic", wind_statistics, WindStatistic::max);
+  rule.window = read_window(section, context.duration_us);
+  rule.below = section.number("below_mps", Limits::above(0));
+  return rule;
+}
+
+WindAnswers read(Section& section, const Context& context, WindAnswers rule) {
+  rule.window = read_window(section, context.duration_us);
+  const auto read_count = [&](const std::string& name, bool is_flag) {
+    WindAnswers::Count count{.name = name,
+                             .is_flag = is_flag,
+                             .at_least = section.optional_integer(name + "_at_least", 0),
+                             .at_most = section.optional_integer(name + "_at_most", 0)};
+    if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
+  };
+  for (const std::string& outcome : context.contract.wind_outcomes) read_count(outcome, false);
+  for (const std::string_view flag : wind_flags) read_count(std::string(flag), true);
+  if (rule.counts.empty())
+    section.reject("updated_at_least", "is missing, as are all its like", "at least one limit");
+  return rule;
+}
+
 using Rule = decltype(Check::rule);
+
+/// What a rule holds answers against.
+enum class Needs : std::uint8_t { nothing, navigation, glide };
+
+template <class R>
+constexpr Needs needs(const R& rule) {
+  if constexpr (std::is_same_v<R, WindError>) return Needs::glide;
+  if constexpr (std::is_same_v<R, Consistency>) {
+    if (rule.statistic == Statistic::wind_nees) return Needs::glide;
+    const bool of_attitude =
+        rule.statistic == Statistic::attitude_nees || rule.statistic == Statistic::heading_nees;
+    return of_attitude ? Needs::navigation : Needs::nothing;
+  }
+  constexpr bool navigation = std::is_same_v<R, AttitudeError> || std::is_same_v<R, Convergence> ||
+                              std::is_same_v<R, VelocityError> || std::is_same_v<R, PositionError>;
+  return navigation ? Needs::navigation : Needs::nothing;
+}
+
+void expect_truth(Section& section, const Rule& rule, const Truths& truths) {
+  const Needs needed = std::visit([](const auto& one) { return needs(one); }, rule);
+  if (needed == Needs::navigation && !truths.navigation)
+    section.reject("kind", "has nothing to be judged against", "a table [truth] in the scenario");
+  if (needed == Needs::glide && !truths.glide)
+    section.reject("kind", "has nothing to be judged against", "a table [glide] in the scenario");
+}
 
 /// What a rule looks at, if a scenario may well have several of its kind.
 std::string subject(const AttitudeError& rule) { return fmt::format(" {}", name(rule.axis)); }
@@ -172,6 +224,10 @@ std::string subject(const Heartbeat& /*rule*/) { return {}; }
 std::string subject(const PositionError& rule) { return fmt::format(" {}", name(rule.axis)); }
 std::string subject(const Fixes& /*rule*/) { return {}; }
 std::string subject(const Coasting& /*rule*/) { return {}; }
+std::string subject(const WindError& rule) {
+  return fmt::format(" {} {}", name(rule.axis), name(rule.statistic));
+}
+std::string subject(const WindAnswers& /*rule*/) { return {}; }
 
 }  // namespace
 
@@ -180,15 +236,21 @@ std::string_view name(VelocityAxis axis) { return velocity_axes[static_cast<std:
 std::string_view name(PositionAxis axis) { return position_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(Statistic statistic) { return statistics[static_cast<std::size_t>(statistic)]; }
 
+std::string_view name(WindAxis axis) { return wind_axes[static_cast<std::size_t>(axis)]; }
+std::string_view name(WindStatistic statistic) {
+  return wind_statistics[static_cast<std::size_t>(statistic)];
+}
+
 std::string_view kind(const Check& check) { return kind_of(check.rule); }
 
-Check read_check(Section& section, std::int64_t duration_us, const Contract& contract) {
+Check read_check(Section& section, std::int64_t duration_us, const Contract& contract, const Truths& truths) {
   Check check;
   check.line = section.line();
   const std::string wanted = section.one_of("kind", kinds<Rule>());
   check.requirement = section.text("requirement", "");
   const Context context{.duration_us = duration_us, .contract = contract};
   check.rule = read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
+  expect_truth(section, check.rule, truths);
   const std::string by_default = fmt::format(
       "{}{}", kind(check), std::visit([](const auto& rule) { return subject(rule); }, check.rule));
   check.name = section.text("name", by_default);

@@ -51,10 +51,11 @@ void read_glider(Section& root, Scenario& scenario) {
   scenario.fins = read_node<Fins>(root, "fins", true, read_fins);
 }
 
-std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract) {
+std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract,
+                               const Truths& truths) {
   std::vector<Check> checks;
   for (Section& section : root.tables("check")) {
-    Check check = read_check(section, duration_us, contract);
+    Check check = read_check(section, duration_us, contract, truths);
     const auto same = std::ranges::find(checks, check.name, &Check::name);
     if (same != checks.end()) {
       section.reject("name",
@@ -96,7 +97,8 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   if (inflight && !scenario.ssbl && !scenario.gps) {
     root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
   }
-  scenario.checks = read_checks(root, scenario.duration_us, contract);
+  const Truths truths{.navigation = root.has("truth"), .glide = scenario.glide.has_value()};
+  scenario.checks = read_checks(root, scenario.duration_us, contract, truths);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
   return scenario;
