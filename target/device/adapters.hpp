@@ -10,12 +10,14 @@ namespace canhil::target {
 
 std::unique_ptr<Adapter> make_transfer_alignment_adapter();
 std::unique_ptr<Adapter> make_inflight_alignment_adapter();
+std::unique_ptr<Adapter> make_wind_adapter();
 
 /// One of each: the list that a new estimator joins.
 inline std::vector<std::unique_ptr<Adapter>> make_adapters() {
   std::vector<std::unique_ptr<Adapter>> adapters;
   adapters.push_back(make_transfer_alignment_adapter());
   adapters.push_back(make_inflight_alignment_adapter());
+  adapters.push_back(make_wind_adapter());
   return adapters;
 }
 
