@@ -162,6 +162,31 @@ WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity qua
   return statistics;
 }
 
+RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+                   std::int64_t to_us) {
+  std::vector<double> means;
+  for (const RunSeries& run : runs) {
+    const auto from = std::ranges::lower_bound(run.samples, from_us, {}, &Sample::t_us);
+    const auto to = std::ranges::upper_bound(run.samples, to_us, {}, &Sample::t_us);
+    double sum = 0;
+    for (auto sample = from; sample != to; ++sample) sum += std::abs(value_of(*sample, quantity));
+    const double mean = sum / static_cast<double>(to - from);  // NaN of none
+    if (run.ending.kind == run::Ending::Kind::completed && std::isfinite(mean)) means.push_back(mean);
+  }
+  RunMeans found{.missing = runs.size() - means.size()};
+  if (means.empty()) {
+    found.mean = found.standard_deviation = found.largest = nan;
+    return found;
+  }
+  const auto n = static_cast<double>(means.size());
+  for (const double mean : means) found.mean += mean / n;
+  double squares = 0;
+  for (const double mean : means) squares += (mean - found.mean) * (mean - found.mean);
+  found.standard_deviation = means.size() < 2 ? nan : std::sqrt(squares / (n - 1));
+  found.largest = *std::ranges::max_element(means);
+  return found;
+}
+
 PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b, Quantity quantity,
                                std::int64_t t_us, double confidence) {
   const std::vector<std::int64_t> a_times = update_times(a), b_times = update_times(b);

@@ -231,7 +231,7 @@ void add_campaign(CLI::App& app, int& code) {
                       "write the report as JSON to a file; -: to stdout, in place of the text");
   auto paper = std::make_shared<PaperArguments>();
   CLI::Option* name = command->add_option(
-      "--paper", paper->paper, "in place of FILE: what a paper claims, with a page of figures: transfer");
+      "--paper", paper->paper, "in place of FILE: what a paper claims, with a page of figures: transfer, inflight, wind");
   command->add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
       ->needs(name);
   name->excludes(file);

@@ -10,6 +10,7 @@
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/inflight_alignment/reproduction.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
+#include "bench/papers/wind/reproduction.hpp"
 #include "bench/report/file.hpp"
 #include "bench/run/contract.hpp"
 
@@ -26,7 +27,8 @@ struct Paper {
 };
 constexpr std::array papers{
     Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
-    Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce}};
+    Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce},
+    Paper{.name = "wind", .reproduce = wind::reproduce}};
 
 Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);
