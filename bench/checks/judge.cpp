@@ -8,6 +8,7 @@
 
 #include "bench/checks/finding.hpp"
 #include "bench/checks/fixes.hpp"
+#include "bench/checks/los.hpp"
 #include "bench/checks/timing.hpp"
 
 namespace canhil::checks {
@@ -15,8 +16,6 @@ namespace {
 
 using messages::AlignUpdate;
 using messages::AlignVelocityD;
-
-constexpr double degrees_of_freedom = 3;
 
 // The bench must keep its own deadlines to judge those of the target: a host that keeps the bench waiting for
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
@@ -101,7 +100,7 @@ class Judge {
     const auto [low, high] = interval(rule, part.size());
     const std::string expected =
         fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(rule.window));
-    if (auto gap = unanswered_updates(part, rule.window); !gap.empty())
+    if (auto gap = unanswered_updates(part, rule); !gap.empty())
       return {Outcome::fail, std::move(gap), expected};
     const double sum = std::accumulate(part.begin(), part.end(), 0.0,
                                        [](double s, const Normalised& n) { return s + n.value; });
@@ -171,6 +170,12 @@ class Judge {
   }
   Finding operator()(const scenario::Fixes& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::Coasting& rule) const { return checks::judge(rule, evidence_.seen); }
+  Finding operator()(const scenario::LosRateError& rule) const {
+    return checks::judge(rule, evidence_.seen, evidence_.engagement);
+  }
+  Finding operator()(const scenario::MissDistance& rule) const {
+    return checks::judge(rule, evidence_.engagement);
+  }
 
   Finding operator()(const scenario::Heartbeat& rule) const {
     const std::string expected =
@@ -220,16 +225,27 @@ class Judge {
 
   // Fixes may be lost on purpose: what the bench did not send needs no answer.
   [[nodiscard]] std::string unanswered_updates(const std::vector<Normalised>& part,
-                                               const scenario::Window& window) const {
+                                               const scenario::Consistency& rule) const {
     if (part.empty()) return "no answers";
-    return evidence_.seen.fixes.empty() ? unanswered(part, window, AlignUpdate::info.name)
-                                        : unanswered_fixes(evidence_.seen, window);
+    if (rule.statistic == scenario::Statistic::los_nis)
+      return unanswered(part, until_passage(rule.window), messages::LosRateTarget::info.name);
+    return evidence_.seen.fixes.empty() ? unanswered(part, rule.window, AlignUpdate::info.name)
+                                        : unanswered_fixes(evidence_.seen, rule.window);
+  }
+
+  // A seeker is silent once its missile has passed the target.
+  [[nodiscard]] scenario::Window until_passage(scenario::Window window) const {
+    if (evidence_.engagement != nullptr && evidence_.engagement->miss_n)
+      window.to_us = std::min(window.to_us, evidence_.engagement->passage_us);
+    return window;
   }
 
   [[nodiscard]] std::vector<Normalised> series_of(scenario::Statistic statistic) const {
     switch (statistic) {
       case scenario::Statistic::nis:
         return nis(evidence_.seen);
+      case scenario::Statistic::los_nis:
+        return los_nis(evidence_.seen);
       case scenario::Statistic::heading_nees:
         return heading_nees(evidence_.seen, errors_);
       case scenario::Statistic::attitude_nees:
@@ -244,6 +260,7 @@ class Judge {
       return {between->low, between->high};
     const double probability = std::get<scenario::Probability>(rule.bound).value;
     const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
+    const double degrees_of_freedom = rule.statistic == scenario::Statistic::los_nis ? 2 : 3;
     const boost::math::chi_squared chi_squared(n * degrees_of_freedom);
     return {boost::math::quantile(chi_squared, (1 - probability) / 2) / n,
             boost::math::quantile(chi_squared, (1 + probability) / 2) / n};

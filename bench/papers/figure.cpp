@@ -131,9 +131,9 @@ std::string script_of(const Figure& figure, const Layout& layout) {
                         grid_step(length, layout.x_steps));
   // gnuplot would put the names of the axes where tick labels leave room: outside, on a narrow figure.
   script += fmt::format(
-      "set label 'time [s]' at screen {:.4f},{:.4f} center\n"
+      "set label '{}' at screen {:.4f},{:.4f} center\n"
       "set label '{}' at screen {:.4f},{:.4f} center rotate by 90\n",
-      screen(layout.left + (layout.width - layout.left - layout.right) / 2, layout.width),
+      figure.x_label, screen(layout.left + (layout.width - layout.left - layout.right) / 2, layout.width),
       screen(layout.font * 3 / 5, layout.height), figure.y_label, screen(layout.font * 3 / 4, layout.width),
       screen(layout.bottom + (layout.height - layout.top - layout.bottom) / 2, layout.height));
   script += labels(figure, layout) + "plot ";

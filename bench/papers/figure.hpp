@@ -16,12 +16,13 @@ struct Curve {
   std::vector<std::pair<double, double>> points;
 };
 
-/// Curves over time, values on a logarithmic axis.
+/// Curves, over time where nothing else is said, values on a logarithmic axis.
 struct Figure {
   std::string id;  ///< of the HTML element
   std::string title;
   std::string caption;  ///< axes' meaning, settings, run count
   std::string y_label;
+  std::string x_label = "time [s]";
   std::pair<double, double> x_range{0, 20}, y_range{0.3, 300};
   std::vector<double> thresholds;  ///< horizontal lines, labelled by their value
   std::vector<Curve> curves;

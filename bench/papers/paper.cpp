@@ -9,6 +9,7 @@
 #include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/inflight_alignment/reproduction.hpp"
+#include "bench/papers/los_rate/reproduction.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/report/file.hpp"
 #include "bench/run/contract.hpp"
@@ -26,7 +27,8 @@ struct Paper {
 };
 constexpr std::array papers{
     Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
-    Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce}};
+    Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce},
+    Paper{.name = "los", .reproduce = los_rate::reproduce}};
 
 Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "bench/checks/errors.hpp"
+#include "bench/checks/los.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::report {
@@ -30,6 +32,26 @@ FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes) {
   return summary;
 }
 
+EngagementSummary engagement_summary(const checks::Observations& seen,
+                                     const world::EngagementRecord& engagement) {
+  constexpr std::array<std::pair<double, double>, 6> windows{
+      {{4.5, 3}, {3, 2}, {2, 1}, {1, 0.5}, {0.5, 0.2}, {0.2, 0.08}}};
+  EngagementSummary summary{.miss_m = {},
+                            .passage_s = static_cast<double>(engagement.passage_us) * 1e-6,
+                            .late_commands = engagement.late_commands,
+                            .rms = {},
+                            .outcomes = {}};
+  if (engagement.miss_n) summary.miss_m = engagement.miss_n->norm();
+  const auto errors = checks::los_errors(seen, engagement);
+  for (const auto& [most, least] : windows)
+    summary.rms.push_back({most, least, checks::los_rms(errors, least, most)});
+  for (const auto outcome : messages::enumerators<messages::LosRateOutcome>) {
+    const auto count = std::ranges::count(seen.los, outcome, &checks::LosAnswer::outcome);
+    if (count > 0) summary.outcomes.emplace_back(name_of(outcome), count);
+  }
+  return summary;
+}
+
 }  // namespace
 
 Summary summarise(const run::Run& run) {
@@ -49,9 +71,15 @@ Summary summarise(const run::Run& run) {
 
   if (!run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
 
+  summary.los_answers = run.seen.los.size();
+  if (run.own_truth.engagement) summary.engagement = engagement_summary(run.seen, *run.own_truth.engagement);
+
   const scenario::Window everything{0, run.truth.end_us()};
   const std::string_view update = run.seen.fixes.empty() ? AlignUpdate::info.name : FixUpdate::info.name;
-  for (const std::string_view message : {AlignVelocityD::info.name, update}) {
+  std::vector<std::string_view> closing;
+  if (!run.own_truth.engagement || !errors.empty()) closing = {AlignVelocityD::info.name, update};
+  if (run.own_truth.engagement) closing.push_back(messages::LosRateTarget::info.name);
+  for (const std::string_view message : closing) {
     summary.latencies.push_back(
         {.message = std::string(message),
          .latency_s = checks::distribution(checks::latencies_s(run.seen, message, everything)),
@@ -79,6 +107,7 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   add(scenario.master_ins, messages::MasterInsVelocityD::info);
   add(scenario.ssbl, messages::SsblRelativeD::info);
   add(scenario.gps, messages::GpsTime::info);
+  add(scenario.seeker, messages::SeekerRange::info);
   return lines;
 }
 

@@ -2,6 +2,7 @@
 
 #include "bench/nodes/gps.hpp"
 #include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/seeker.hpp"
 #include "bench/nodes/slave_imu.hpp"
 #include "bench/nodes/ssbl.hpp"
 #include "bench/nodes/time_keeper.hpp"
@@ -18,7 +19,17 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   if (scenario.slave_imu) {
     if (auto fits = check_fits(scenario.slave_imu->errors, truth); !fits) return tl::unexpected(fits.error());
   }
+  if (scenario.engagement && scenario.seeker) {
+    if (auto fits = check_fits(*scenario.engagement, *scenario.seeker); !fits)
+      return tl::unexpected(fits.error());
+  }
   return truth;
+}
+
+OwnTruth make_own_truth(const scenario::Scenario& scenario) {
+  OwnTruth own;
+  if (scenario.engagement) own.engagement.emplace();
+  return own;
 }
 
 Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
@@ -31,7 +42,7 @@ Result<InitialState> make_initial_state(const scenario::Scenario& scenario, cons
 }
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       std::uint64_t run_index, bool lockstep) {
+                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep) {
   std::vector<std::unique_ptr<nodes::Node>> sensors;
   const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
   if (scenario.slave_imu) {
@@ -43,6 +54,12 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
   }
   if (scenario.ssbl) sensors.push_back(std::make_unique<nodes::Ssbl>(truth, *scenario.ssbl, stream("ssbl")));
   if (scenario.gps) sensors.push_back(std::make_unique<nodes::Gps>(truth, *scenario.gps, stream("gps")));
+  if (own_truth.engagement && scenario.seeker) {
+    const nodes::SeekerStreams streams{
+        .engagement = stream("engagement"), .errors = stream("seeker"), .faults = stream("seeker.faults")};
+    sensors.push_back(std::make_unique<nodes::Seeker>(*scenario.engagement, *scenario.seeker, streams,
+                                                      truth.end_us(), *own_truth.engagement));
+  }
   return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep)};
 }
 

@@ -6,6 +6,7 @@
 #include "bench/run/initial_state.hpp"
 #include "bench/run/schedule.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -19,9 +20,15 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                         std::uint64_t run_index);
 
-/// The nodes of run `run_index`, in the order of precedence. `scenario` and `truth` must outlive the
-/// schedule.
+/// What a run flies by itself, because it draws it or its answers steer it. Filled while it goes on.
+struct OwnTruth {
+  std::optional<world::EngagementRecord> engagement{};  ///< none: not in the scenario
+};
+
+OwnTruth make_own_truth(const scenario::Scenario& scenario);
+
+/// The nodes of run `run_index`, in the order of precedence. All but the index must outlive the schedule.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       std::uint64_t run_index, bool lockstep);
+                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep);
 
 }  // namespace canhil::run

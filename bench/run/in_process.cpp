@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "bench/run/flight.hpp"
+#include "bench/run/ears.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/in_process_port.hpp"
 #include "bench/run/lockstep.hpp"
@@ -19,15 +19,20 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
 
   InProcessPort port;
   Link link(port);
-  Schedule schedule = make_schedule(scenario, truth, run_index, true);
+  OwnTruth own_truth = make_own_truth(scenario);
+  Schedule schedule = make_schedule(scenario, truth, own_truth, run_index, true);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
   if (auto ready = configure(link, schedule.outbox(), scenario.target, *initial, gone); !ready) {
     return tl::unexpected(ready.error());
   }
   Monitor monitor;
   const Attached attached(link, monitor);
+  Ears ears(schedule);
+  const Attached listening(link, ears);
   Ending ending = run_lockstep(link, schedule, step_limit_ns, never, [](std::int64_t) {});
-  return InProcessRun{.ending = std::move(ending), .seen = std::move(monitor.observations())};
+  return InProcessRun{.ending = std::move(ending),
+                      .seen = std::move(monitor.observations()),
+                      .own_truth = std::move(own_truth)};
 }
 
 }  // namespace canhil::run

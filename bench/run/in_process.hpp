@@ -5,6 +5,7 @@
 
 #include "bench/checks/observations.hpp"
 #include "bench/run/ending.hpp"
+#include "bench/run/flight.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/world/flight_record.hpp"
 #include "dbc/wire/result.hpp"
@@ -14,6 +15,7 @@ namespace canhil::run {
 struct InProcessRun {
   Ending ending;
   checks::Observations seen;
+  OwnTruth own_truth{};
 };
 
 /// Runs a scenario with the random numbers of (seed, run_index). A pure function: same arguments, same bits,

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/in_process_port.hpp"
@@ -68,17 +69,21 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return why ? std::optional("target: " + *why) : std::nullopt;
   };
 
-  Schedule schedule = make_schedule(scenario, *truth, options.run_index, lockstep);
+  OwnTruth own_truth = make_own_truth(scenario);
+  Schedule schedule = make_schedule(scenario, *truth, own_truth, options.run_index, lockstep);
   if (auto configured = configure(link, schedule.outbox(), scenario.target, *initial, gone); !configured) {
     return tl::unexpected(configured.error());
   }
 
   Monitor monitor;
   link.attach(monitor);
+  Ears ears(schedule);
+  link.attach(ears);
   const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
   Ending ending = lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
                            : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
+  link.detach(ears);
   link.detach(monitor);
   if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
     ending.detail += fmt::format(" (its process {})", *why);
@@ -93,6 +98,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
+                                  .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr,
                                   .duration_us = scenario.duration_us,
                                   .ended_early = ending.detail,
                                   .timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen)};
@@ -102,6 +108,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
              .ending = std::move(ending),
              .seen = std::move(seen),
              .truth = std::move(*truth),
+             .own_truth = std::move(own_truth),
              .options = options,
              .wall_s = wall_s};
 }

@@ -8,6 +8,7 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/run/ending.hpp"
+#include "bench/run/flight.hpp"
 #include "bench/run/real_time.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/wire/result.hpp"
@@ -31,6 +32,7 @@ struct Run {
   Ending ending;
   checks::Observations seen;
   world::FlightRecord truth;
+  OwnTruth own_truth{};
   Options options;
   double wall_s = 0;  ///< from the start of the estimator to the end
 };

@@ -15,7 +15,9 @@ namespace {
 constexpr std::array<std::string_view, 3> attitude_axes{"roll", "pitch", "heading"};
 constexpr std::array<std::string_view, 4> velocity_axes{"north", "east", "down", "norm"};
 constexpr std::array<std::string_view, 5> position_axes{"north", "east", "down", "horizontal", "norm"};
-constexpr std::array<std::string_view, 3> statistics{"attitude_nees", "nis", "heading_nees"};
+constexpr std::array<std::string_view, 4> statistics{"attitude_nees", "nis", "heading_nees", "los_nis"};
+constexpr std::array<std::string_view, 3> los_planes{"pitch", "yaw", "both"};
+constexpr std::array<std::string_view, 2> los_statistics{"rms", "max"};
 
 /// What the readers of all kinds need to know of the scenario.
 struct Context {
@@ -81,8 +83,8 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
     section.reject("mean_between", "is given beside probability", "one of the two");
   // Errors of one run are correlated in time, so the mean of their NEES is not chi-square; innovations are
   // white.
-  if (rule.statistic != Statistic::nis)
-    section.reject("probability", "is for nis only", "mean_between = [low, high]");
+  if (rule.statistic != Statistic::nis && rule.statistic != Statistic::los_nis)
+    section.reject("probability", "is for nis and los_nis only", "mean_between = [low, high]");
   rule.bound = Probability{.value = section.number("probability", Limits::between(0.5, 0.999999))};
   section.optional("mean_between");
   return rule;
@@ -158,7 +160,43 @@ Coasting read(Section& section, const Context& context, Coasting rule) {
   return rule;
 }
 
+LosRateError read(Section& section, const Context& /*context*/, LosRateError rule) {
+  rule.plane = read_enum<LosPlane>(section, "plane", los_planes, LosPlane::both);
+  rule.statistic = read_enum<LosStatistic>(section, "statistic", los_statistics, LosStatistic::rms);
+  std::tie(rule.least_to_go, rule.most_to_go) = section.interval("time_to_go_s", Limits::at_least(0));
+  rule.below = section.number("below_mradps", Limits::above(0));
+  return rule;
+}
+
+MissDistance read(Section& section, const Context& /*context*/, MissDistance rule) {
+  rule.below = section.number("below_m", Limits::above(0));
+  return rule;
+}
+
 using Rule = decltype(Check::rule);
+
+/// What a rule holds answers against.
+enum class Needs : std::uint8_t { nothing, navigation, engagement };
+template <class AnyRule>
+constexpr Needs needs(const AnyRule& rule) {
+  using R = std::remove_cvref_t<AnyRule>;
+  if constexpr (std::is_same_v<R, Consistency>) {
+    if (rule.statistic == Statistic::los_nis) return Needs::engagement;
+    return rule.statistic == Statistic::nis ? Needs::nothing : Needs::navigation;
+  }
+  if (std::is_same_v<R, LosRateError> || std::is_same_v<R, MissDistance>) return Needs::engagement;
+  const bool navigation = std::is_same_v<R, AttitudeError> || std::is_same_v<R, Convergence> ||
+                          std::is_same_v<R, VelocityError> || std::is_same_v<R, PositionError>;
+  return navigation ? Needs::navigation : Needs::nothing;
+}
+
+void expect_truth(Section& section, const Rule& rule, const Truths& truths) {
+  const Needs needed = std::visit([](const auto& one) { return needs(one); }, rule);
+  if (needed == Needs::navigation && !truths.navigation)
+    section.reject("kind", "has nothing to be judged against", "a table [truth] in the scenario");
+  if (needed == Needs::engagement && !truths.engagement)
+    section.reject("kind", "has nothing to be judged against", "a table [engagement] in the scenario");
+}
 
 /// What a rule looks at, if a scenario may well have several of its kind.
 std::string subject(const AttitudeError& rule) { return fmt::format(" {}", name(rule.axis)); }
@@ -172,6 +210,10 @@ std::string subject(const Heartbeat& /*rule*/) { return {}; }
 std::string subject(const PositionError& rule) { return fmt::format(" {}", name(rule.axis)); }
 std::string subject(const Fixes& /*rule*/) { return {}; }
 std::string subject(const Coasting& /*rule*/) { return {}; }
+std::string subject(const LosRateError& rule) {
+  return fmt::format(" {} {} to {:g} s to go", name(rule.plane), rule.most_to_go, rule.least_to_go);
+}
+std::string subject(const MissDistance& /*rule*/) { return {}; }
 
 }  // namespace
 
@@ -180,15 +222,18 @@ std::string_view name(VelocityAxis axis) { return velocity_axes[static_cast<std:
 std::string_view name(PositionAxis axis) { return position_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(Statistic statistic) { return statistics[static_cast<std::size_t>(statistic)]; }
 
+std::string_view name(LosPlane plane) { return los_planes[static_cast<std::size_t>(plane)]; }
+
 std::string_view kind(const Check& check) { return kind_of(check.rule); }
 
-Check read_check(Section& section, std::int64_t duration_us, const Contract& contract) {
+Check read_check(Section& section, std::int64_t duration_us, const Contract& contract, const Truths& truths) {
   Check check;
   check.line = section.line();
   const std::string wanted = section.one_of("kind", kinds<Rule>());
   check.requirement = section.text("requirement", "");
   const Context context{.duration_us = duration_us, .contract = contract};
   check.rule = read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
+  expect_truth(section, check.rule, truths);
   const std::string by_default = fmt::format(
       "{}{}", kind(check), std::visit([](const auto& rule) { return subject(rule); }, check.rule));
   check.name = section.text("name", by_default);

@@ -19,7 +19,9 @@ class Section;
 enum class AttitudeAxis : std::uint8_t { roll, pitch, heading };
 enum class VelocityAxis : std::uint8_t { north, east, down, norm };
 enum class PositionAxis : std::uint8_t { north, east, down, horizontal, norm };
-enum class Statistic : std::uint8_t { attitude_nees, nis, heading_nees };
+enum class Statistic : std::uint8_t { attitude_nees, nis, heading_nees, los_nis };
+enum class LosPlane : std::uint8_t { pitch, yaw, both };
+enum class LosStatistic : std::uint8_t { rms, max };
 
 /// The unit in which a bar was given, and is reported in.
 struct AngleUnit {
@@ -82,7 +84,22 @@ struct Fixes {
   std::optional<std::int64_t> handed_over_before_us;  ///< the heading is resolved
 };
 
-/// How many navigation answers of the window said that they bridged an input that was lost.
+/// |estimated - true| LOS rate stays below a bar, or its RMS does, over a window of the time to go.
+struct LosRateError {
+  static constexpr std::string_view kind = "los_rate_error";
+  LosPlane plane = LosPlane::both;
+  LosStatistic statistic = LosStatistic::rms;
+  double least_to_go = 0, most_to_go = 0;  ///< range over closing speed [s]
+  double below = 0;                        ///< [rad/s]
+};
+
+/// The closest approach of missile and target stays below a bar.
+struct MissDistance {
+  static constexpr std::string_view kind = "miss_distance";
+  double below = 0;  ///< [m]
+};
+
+/// How many navigation answers, or LOS rates, of the window said that they bridged an input that was lost.
 struct Coasting {
   static constexpr std::string_view kind = "coasting";
   Window window;
@@ -101,7 +118,7 @@ struct Probability {
 };
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
-  Statistic statistic = Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1
+  Statistic statistic = Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1, los_nis: of 2
   Window window;
   std::variant<MeanBetween, Probability> bound;
 };
@@ -145,7 +162,7 @@ struct Check {
   std::string requirement;  ///< id carried to the reports; may be empty
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
-               Heartbeat, PositionError, Fixes, Coasting>
+               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance>
       rule;
 };
 
@@ -154,7 +171,14 @@ std::string_view name(AttitudeAxis axis);
 std::string_view name(VelocityAxis axis);
 std::string_view name(PositionAxis axis);
 std::string_view name(Statistic statistic);
+std::string_view name(LosPlane plane);
 
-Check read_check(Section& section, std::int64_t duration_us, const Contract& contract);
+/// What a scenario has that answers can be held against.
+struct Truths {
+  bool navigation = true;
+  bool engagement = false;
+};
+
+Check read_check(Section& section, std::int64_t duration_us, const Contract& contract, const Truths& truths);
 
 }  // namespace canhil::scenario

@@ -19,10 +19,12 @@
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/gps.hpp"
 #include "bench/scenario/master_ins.hpp"
+#include "bench/scenario/seeker.hpp"
 #include "bench/scenario/setting.hpp"
 #include "bench/scenario/slave_imu.hpp"
 #include "bench/scenario/ssbl.hpp"
 #include "bench/scenario/target_setup.hpp"
+#include "bench/world/engagement/plan.hpp"
 #include "bench/world/motion.hpp"
 #include "bench/world/navigation_errors.hpp"
 #include "dbc/wire/result.hpp"
@@ -37,12 +39,14 @@ struct Scenario {
   std::uint64_t seed = 0;
 
   TargetSetup target;
-  world::Flight truth;
+  world::Flight truth;                     ///< at rest where nothing navigates
   world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start
   std::optional<MasterIns> master_ins;     ///< absent: not on the bus
   std::optional<SlaveImu> slave_imu;
   std::optional<Ssbl> ssbl;
   std::optional<Gps> gps;
+  std::optional<world::EngagementPlan> engagement;
+  std::optional<Seeker> seeker;
   std::vector<Check> checks;
 };
 
