@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace canhil::campaign {
@@ -197,6 +198,49 @@ void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& ou
                 fmt::format("at least {:g} times {}", *rule.ratio_at_least, rule.other));
 }
 
+void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const ToGoStatistics found = to_go_statistics(runs, rule.quantity, rule.least, rule.most);
+  out.measured = fmt::format("RMS {}, mean {}", with_unit(found.rms, rule.quantity),
+                             with_unit(found.mean, rule.quantity));
+  out.figures = {{figure("rms", rule.quantity), in_unit(found.rms, rule.quantity)},
+                 {figure("mean", rule.quantity), in_unit(found.mean, rule.quantity)}};
+  std::size_t missing = found.missing;
+  double ratio = std::nan("");
+  if (!rule.other.empty()) {
+    const ToGoStatistics against = to_go_statistics(other, rule.quantity, rule.least, rule.most);
+    ratio = found.rms / against.rms;
+    missing += against.missing;
+    out.measured += fmt::format(", {:.4g} times that of {}", ratio, rule.other);
+    out.figures.emplace_back("ratio", ratio);
+  }
+  out.measured += missing_note(missing);
+  Bars bars(out, missing == 0);
+  if (rule.rms_at_most)
+    bars.expect(found.rms <= *rule.rms_at_most, "RMS at most " + with_unit(*rule.rms_at_most, rule.quantity));
+  if (rule.mean_between) {
+    const auto [low, high] = *rule.mean_between;
+    bars.expect(found.mean >= low && found.mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
+  }
+  if (rule.ratio_at_most)
+    bars.expect(ratio <= *rule.ratio_at_most, fmt::format("at most {:g} times", *rule.ratio_at_most));
+  if (rule.ratio_at_least)
+    bars.expect(ratio >= *rule.ratio_at_least, fmt::format("at least {:g} times", *rule.ratio_at_least));
+}
+
+void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const auto rms_of = [&](const Runs& some) {
+    return run_distribution(some, rule.quantity, std::numeric_limits<std::int64_t>::max(), 0, 1);
+  };
+  const RunDistribution own = rms_of(runs), against = rms_of(other);
+  const double ratio = own.rms / against.rms;
+  const std::size_t missing = own.missing + against.missing;
+  out.measured = fmt::format("{} against {}: {:.4g} times{}", with_unit(own.rms, rule.quantity),
+                             with_unit(against.rms, rule.quantity), ratio, missing_note(missing));
+  out.figures = {{"ratio", ratio}};
+  if (rule.at_most)
+    Bars(out, missing == 0).expect(ratio <= *rule.at_most, fmt::format("at most {:g} times", *rule.at_most));
+}
+
 // A run without a value counts as worse than any, so nothing is missing here.
 void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
   const PairedFraction paired = paired_fraction(runs, other, rule.quantity, rule.at_us, rule.confidence);
@@ -243,15 +287,14 @@ void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answe
   if (rule.at_least) bars.expect(count >= *rule.at_least, fmt::format("at least {}", *rule.at_least));
 }
 
-// Of all that its estimator tells: what it does not tell is NaN, and no sigma makes no ratio.
-bool finite(const Sample& sample) {
-  for (std::size_t i = 0; i < quantity_names.size(); ++i) {
-    const auto quantity = static_cast<Quantity>(i);
-    if (quantity == Quantity::heading_over_sigma) continue;
-    const bool may_be_untold = quantity == Quantity::attitude_nees ||
-                               (quantity >= Quantity::p_north && quantity <= Quantity::p_down);
-    const double value = value_of(sample, quantity);
-    if (!std::isfinite(value) && !(may_be_untold && std::isnan(value))) return false;
+// Of all that its estimator tells: what it does not tell is NaN.
+bool finite(const Samples& samples) {
+  const auto columns = kept(samples.family());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      const double value = samples.values(i)[column];
+      if (!std::isfinite(value) && !(info(columns[column]).may_be_untold && std::isnan(value))) return false;
+    }
   }
   return true;
 }
@@ -263,7 +306,7 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
   for (const RunSeries& run : runs) {
     if (run.ending.kind == run::Ending::Kind::completed) {
       ++endings.completed;
-      if (!std::ranges::all_of(run.samples, finite)) ++endings.not_finite;
+      if (!finite(run.samples)) ++endings.not_finite;
     } else if (endings.first_fault.empty()) {
       endings.first_fault = fmt::format("run {}: {}", run.run, run.ending.detail);
     }

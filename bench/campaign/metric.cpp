@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <span>
+#include <tuple>
 
 #include "bench/scenario/rule.hpp"
 #include "bench/world/units.hpp"
@@ -15,8 +15,6 @@ namespace {
 using scenario::Limits;
 using scenario::Section;
 
-constexpr std::size_t error_count = 14;  // of the quantities: the normalised errors squared come last
-
 /// What the readers of all kinds need to know of the campaign.
 struct Context {
   const std::vector<std::string>& variants;
@@ -25,16 +23,21 @@ struct Context {
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
-Quantity read_quantity(Section& section, std::string_view key, std::span<const std::string_view> names) {
-  const std::vector<std::string> words(names.begin(), names.end());
+template <class Wanted>
+Quantity read_quantity(Section& section, std::string_view key, Wanted&& wanted) {
+  std::vector<std::string> words;
+  for (const QuantityInfo& one : quantities()) {
+    if (wanted(one)) words.emplace_back(one.name);
+  }
   const std::string word = section.one_of(key, words);
-  const auto found = std::ranges::find(quantity_names, word);
-  return found == quantity_names.end() ? Quantity::heading
-                                       : static_cast<Quantity>(found - quantity_names.begin());
+  const auto found = std::ranges::find(quantities(), word, &QuantityInfo::name);
+  return found == quantities().end() ? Quantity::heading
+                                     : static_cast<Quantity>(found - quantities().begin());
 }
 
 Quantity read_error(Section& section) {
-  return read_quantity(section, "quantity", std::span(quantity_names).first(error_count));
+  return read_quantity(section, "quantity",
+                       [](const QuantityInfo& one) { return one.degrees_of_freedom == 0; });
 }
 
 std::string key_of(std::string_view stem, Quantity quantity) {
@@ -128,7 +131,8 @@ Paired read(Section& section, const Context& context, Paired rule) {
 }
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
-  rule.quantity = read_quantity(section, "statistic", std::span(quantity_names).subspan(error_count));
+  rule.quantity =
+      read_quantity(section, "statistic", [](const QuantityInfo& one) { return one.degrees_of_freedom > 0; });
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
@@ -165,6 +169,32 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   return rule;
 }
 
+ToGo read(Section& section, const Context& context, ToGo rule) {
+  rule.quantity = read_quantity(section, "quantity", [](const QuantityInfo& one) {
+    return one.family == Family::los_rate && one.unit.name != "m";  // a miss has no time to go
+  });
+  std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));
+  if (section.has("other")) rule.other = section.one_of("other", context.variants);
+  section.optional("other");
+  rule.rms_at_most = optional_number(section, key_of("rms_at_most", rule.quantity), Limits::at_least(0));
+  if (section.has("mean_between")) rule.mean_between = section.interval("mean_between", Limits::at_least(0));
+  section.optional("mean_between");
+  rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::at_least(0));
+  rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::at_least(0));
+  if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "compares with nothing",
+                   "other beside it");
+  }
+  return rule;
+}
+
+RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
+  rule.quantity = read_error(section);
+  rule.other = section.one_of("other", context.variants);
+  rule.at_most = optional_number(section, "at_most", Limits::at_least(0));
+  return rule;
+}
+
 using Rule = decltype(Metric::rule);
 
 std::string in_unit(double value, Quantity quantity) {
@@ -192,15 +222,26 @@ std::string subject(const Consistency& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
 }
 std::string subject(const Diverged& rule) { return " beyond " + in_unit(rule.beyond, rule.quantity); }
+std::string subject(const ToGo& rule) {
+  const std::string window = fmt::format(" {:g} to {:g} s to go", rule.most, rule.least);
+  return rule.other.empty() ? window : fmt::format("{} against {}", window, rule.other);
+}
+std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
 
 }  // namespace
 
 std::string_view kind(const Metric& metric) { return scenario::kind_of(metric.rule); }
 
+Quantity quantity_of(const Metric& metric) {
+  return std::visit([](const auto& rule) { return rule.quantity; }, metric.rule);
+}
+
 std::string other_of(const Metric& metric) {
   if (const auto* paired = std::get_if<Paired>(&metric.rule)) return paired->other;
   if (const auto* lead = std::get_if<Lead>(&metric.rule)) return lead->other;
   if (const auto* mean = std::get_if<RunMean>(&metric.rule)) return mean->other;
+  if (const auto* to_go = std::get_if<ToGo>(&metric.rule)) return to_go->other;
+  if (const auto* ratio = std::get_if<RmsRatio>(&metric.rule)) return ratio->other;
   return {};
 }
 

@@ -81,6 +81,25 @@ struct RunMean {
   std::optional<double> ratio_at_most, ratio_at_least;  ///< of the mean to that of `other`
 };
 
+/// RMS and mean over runs and a window of the time to go, and how they compare with another variant's.
+struct ToGo {
+  static constexpr std::string_view kind = "to_go";
+  Quantity quantity = Quantity::los_rate;
+  double least = 0, most = 0;         ///< [s]
+  std::string other;                  ///< may be empty
+  std::optional<double> rms_at_most;  ///< [SI]
+  std::optional<std::pair<double, double>> mean_between;
+  std::optional<double> ratio_at_most, ratio_at_least;  ///< of the RMS to that of `other`
+};
+
+/// RMS over runs at their ends over that of `other`.
+struct RmsRatio {
+  static constexpr std::string_view kind = "rms_ratio";
+  Quantity quantity = Quantity::miss;
+  std::string other;
+  std::optional<double> at_most;
+};
+
 /// Fraction of runs in which |quantity| is smaller than that of `other` with the same random numbers.
 struct Paired {
   static constexpr std::string_view kind = "paired";
@@ -114,11 +133,12 @@ struct Metric {
   std::string requirement;            ///< id carried to the reports; may be empty
   std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
   std::variant<RmsCurve, TimeWithin, Lead, ValueAt, Distribution, WindowMoments, Paired, Consistency,
-               Diverged, RunMean>
+               Diverged, ToGo, RmsRatio, RunMean>
       rule;
 };
 
 std::string_view kind(const Metric& metric);
+Quantity quantity_of(const Metric& metric);
 /// The variant that a metric compares with, as named in the file; empty: none.
 std::string other_of(const Metric& metric);
 

@@ -1,16 +1,74 @@
 #include "bench/campaign/series.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "bench/checks/errors.hpp"
+#include "bench/checks/los.hpp"
+#include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::campaign {
 namespace {
 
-constexpr std::size_t numbers_per_sample = 17;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+constexpr Unit mrad{"mrad", "_mrad", world::units::mrad}, mps{"m/s", "_mps", 1}, m{"m", "_m", 1}, none{},
+    mradps{"mrad/s", "_mradps", world::units::mrad};
+
+// In the order of the enumeration.
+constexpr std::array infos{
+    QuantityInfo{.name = "phi_north", .family = Family::alignment, .unit = mrad},
+    QuantityInfo{.name = "phi_east", .family = Family::alignment, .unit = mrad},
+    QuantityInfo{.name = "phi_down", .family = Family::alignment, .unit = mrad},
+    QuantityInfo{.name = "roll", .family = Family::alignment, .unit = mrad},
+    QuantityInfo{.name = "pitch", .family = Family::alignment, .unit = mrad},
+    QuantityInfo{.name = "heading", .family = Family::alignment, .unit = mrad},
+    QuantityInfo{.name = "v_north", .family = Family::alignment, .unit = mps},
+    QuantityInfo{.name = "v_east", .family = Family::alignment, .unit = mps},
+    QuantityInfo{.name = "v_down", .family = Family::alignment, .unit = mps},
+    QuantityInfo{.name = "p_north", .family = Family::alignment, .unit = m, .may_be_untold = true},
+    QuantityInfo{.name = "p_east", .family = Family::alignment, .unit = m, .may_be_untold = true},
+    QuantityInfo{.name = "p_down", .family = Family::alignment, .unit = m, .may_be_untold = true},
+    QuantityInfo{.name = "heading_over_sigma", .family = Family::alignment, .unit = none},
+    QuantityInfo{.name = "repairs", .family = Family::alignment, .unit = none},
+    QuantityInfo{.name = "attitude_nees",
+                 .family = Family::alignment,
+                 .unit = none,
+                 .degrees_of_freedom = 3,
+                 .may_be_untold = true},
+    QuantityInfo{.name = "nis", .family = Family::alignment, .unit = none, .degrees_of_freedom = 3},
+    QuantityInfo{.name = "heading_sigma", .family = Family::alignment, .unit = mrad},
+    QuantityInfo{.name = "los_pitch", .family = Family::los_rate, .unit = mradps},
+    QuantityInfo{.name = "los_yaw", .family = Family::los_rate, .unit = mradps},
+    QuantityInfo{.name = "los_rate", .family = Family::los_rate, .unit = mradps},
+    QuantityInfo{.name = "los_nis", .family = Family::los_rate, .unit = none, .may_be_untold = true},
+    QuantityInfo{.name = "miss_pitch", .family = Family::los_rate, .unit = m},
+    QuantityInfo{.name = "miss_yaw", .family = Family::los_rate, .unit = m},
+    QuantityInfo{.name = "miss", .family = Family::los_rate, .unit = m},
+    QuantityInfo{.name = "wind_along", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_cross", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_down", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_norm", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_nis",
+                 .family = Family::wind,
+                 .unit = none,
+                 .degrees_of_freedom = 9,
+                 .may_be_untold = true},
+    QuantityInfo{.name = "wind_nees", .family = Family::wind, .unit = none, .degrees_of_freedom = 3},
+    QuantityInfo{.name = "wind_along_sigma", .family = Family::wind, .unit = mps}};
+static_assert(infos.size() == static_cast<std::size_t>(Quantity::wind_along_sigma) + 1);
+
+using enum Quantity;
+constexpr std::array alignment_kept{phi_north, phi_east, phi_down,      roll,          pitch, heading,
+                                    v_north,   v_east,   v_down,        attitude_nees, nis,   p_north,
+                                    p_east,    p_down,   heading_sigma, repairs};
+constexpr std::array los_kept{los_pitch, los_yaw, los_nis, miss_pitch, miss_yaw};
+constexpr std::array wind_kept{wind_along, wind_cross, wind_down, wind_nis, wind_nees, wind_along_sigma};
 
 void append(std::vector<std::uint8_t>& bytes, double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -23,125 +81,187 @@ double number_at(std::span<const std::uint8_t> bytes, std::size_t place) {
   return std::bit_cast<double>(bits);
 }
 
-}  // namespace
+/// Figures of an update beside those of the navigation answer that follows it.
+struct UpdateFigures {
+  double attitude_nees = nan;
+  world::Vector3 position = world::Vector3::Constant(nan);
+  double heading_sigma = 0;
+  double repairs = 0;
+};
 
-Unit unit_of(Quantity quantity) {
-  if (quantity <= Quantity::heading) return {"mrad", "_mrad", world::units::mrad};
-  if (quantity <= Quantity::v_down) return {"m/s", "_mps", 1.0};
-  if (quantity <= Quantity::p_down) return {"m", "_m", 1.0};
-  return {};
-}
-
-double value_of(const Sample& sample, Quantity quantity) {
-  switch (quantity) {
-    case Quantity::phi_north:
-      return sample.misalignment.x();
-    case Quantity::phi_east:
-      return sample.misalignment.y();
-    case Quantity::phi_down:
-      return sample.misalignment.z();
-    case Quantity::roll:
-      return sample.angles.roll;
-    case Quantity::pitch:
-      return sample.angles.pitch;
-    case Quantity::heading:
-      return sample.angles.heading;
-    case Quantity::v_north:
-      return sample.v_eb_n.x();
-    case Quantity::v_east:
-      return sample.v_eb_n.y();
-    case Quantity::v_down:
-      return sample.v_eb_n.z();
-    case Quantity::p_north:
-      return sample.position.x();
-    case Quantity::p_east:
-      return sample.position.y();
-    case Quantity::p_down:
-      return sample.position.z();
-    case Quantity::heading_over_sigma:
-      return sample.angles.heading / sample.heading_sigma;
-    case Quantity::repairs:
-      return sample.repairs;
-    case Quantity::attitude_nees:
-      return sample.attitude_nees;
-    case Quantity::nis:
-      break;
-  }
-  return sample.nis;
-}
-
-RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  RunSeries series{.run = run_index, .ending = finished.ending, .samples = {}};
-  const checks::Observations& seen = finished.seen;
+Samples alignment_samples(const checks::Observations& seen, const world::FlightRecord& truth) {
+  Samples samples(Family::alignment);
   const std::vector<checks::NavigationError> errors = checks::navigation_errors(seen, truth);
-  const auto add = [&](const auto& update, const Sample& figures) {
+  const auto add = [&](const auto& update, const UpdateFigures& figures) {
     const checks::NavigationError* after = checks::first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) return;
-    Sample sample = figures;
-    sample.t_us = update.cause_us;
-    sample.misalignment = after->misalignment;
-    sample.angles = after->angles;
-    sample.v_eb_n = after->v_eb_n;
-    sample.nis = update.nis;
-    series.samples.push_back(sample);
+    const auto& [t_us, angles, v, phi] = *after;
+    const world::Vector3& p = figures.position;
+    const std::array<double, alignment_kept.size()> values{
+        phi.x(),        phi.y(), phi.z(), angles.roll, angles.pitch,
+        angles.heading, v.x(),   v.y(),   v.z(),       figures.attitude_nees,
+        update.nis,     p.x(),   p.y(),   p.z(),       figures.heading_sigma,
+        figures.repairs};
+    samples.add(update.cause_us, values);
   };
   // One value an update, in order, up to the last one that a navigation answer follows.
   const std::vector<checks::Normalised> nees = checks::attitude_nees(seen, errors);
   for (std::size_t i = 0; i < nees.size(); ++i) {
     const checks::FilterAnswer& update = seen.filter[i];
-    Sample figures;
-    figures.attitude_nees = nees[i].value;
-    figures.position.setConstant(nan);
-    figures.heading_sigma = update.attitude_sigma.z();
-    add(update, figures);
+    add(update, {.attitude_nees = nees[i].value, .heading_sigma = update.attitude_sigma.z()});
   }
   for (const checks::FixAnswer& update : seen.fixes) {
     if (!checks::tells_of_its_time(update, truth)) continue;
-    Sample figures;
-    figures.attitude_nees = nan;
-    figures.position = checks::position_error(update, truth);
-    figures.heading_sigma = update.heading_sigma;
-    figures.repairs = update.repairs;
-    add(update, figures);
+    add(update, {.position = checks::position_error(update, truth),
+                 .heading_sigma = update.heading_sigma,
+                 .repairs = static_cast<double>(update.repairs)});
+  }
+  return samples;
+}
+
+/// What falls into one sample of the LOS rate.
+struct LosBin {
+  double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
+  int rates = 0, updates = 0;
+};
+
+Samples los_samples(const checks::Observations& seen, const world::EngagementRecord& engagement) {
+  std::map<std::int64_t, LosBin> bins;  // by -(time to go), in samples
+  const auto bin_of = [&](double time_to_go) -> LosBin& {
+    return bins[-static_cast<std::int64_t>(
+        std::floor(time_to_go * 1e6 / static_cast<double>(los_sample_us)))];
+  };
+  for (const checks::LosError& error : checks::los_errors(seen, engagement)) {
+    LosBin& bin = bin_of(error.time_to_go);
+    bin.pitch_squares += error.rate.pitch * error.rate.pitch;
+    bin.yaw_squares += error.rate.yaw * error.rate.yaw;
+    ++bin.rates;
+  }
+  for (const checks::Normalised& update : checks::los_nis(seen)) {
+    const world::EngagementTruth* truth = engagement.at(update.t_us);
+    if (truth == nullptr) continue;
+    LosBin& bin = bin_of(truth->time_to_go());
+    bin.nis_sum += update.value;
+    ++bin.updates;
+  }
+  const world::Vector3 miss_n = engagement.miss_n.value_or(world::Vector3::Constant(nan));
+  Samples samples(Family::los_rate);
+  for (const auto& [place, bin] : bins) {
+    if (bin.rates == 0) continue;
+    const std::array<double, los_kept.size()> values{
+        std::sqrt(bin.pitch_squares / bin.rates), std::sqrt(bin.yaw_squares / bin.rates),
+        bin.updates > 0 ? bin.nis_sum / bin.updates : nan, miss_n.z(), miss_n.y()};
+    samples.add((place - 1) * los_sample_us, values);
+  }
+  return samples;
+}
+
+Samples wind_samples(const checks::Observations& seen, const world::GlideRecord& glide) {
+  Samples samples(Family::wind);
+  const auto errors = checks::wind_errors(seen, glide);
+  const auto nees = checks::wind_nees(seen, glide);  // one for each error
+  auto answer = seen.wind.begin();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    while (!answer->started || answer->cause_us != errors[i].t_us) ++answer;
+    const bool updated = answer->outcome == messages::WindOutcome::updated;
+    const std::array<double, wind_kept.size()> values{errors[i].along_track, errors[i].cross_track,
+                                                      errors[i].error_n.z(), updated ? answer->nis : nan,
+                                                      nees[i].value,         answer->along_track_sigma};
+    samples.add(errors[i].t_us, values);
+    ++answer;
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::span<const QuantityInfo> quantities() { return infos; }
+const QuantityInfo& info(Quantity quantity) { return infos[static_cast<std::size_t>(quantity)]; }
+std::string_view name(Quantity quantity) { return info(quantity).name; }
+Unit unit_of(Quantity quantity) { return info(quantity).unit; }
+
+std::span<const Quantity> kept(Family family) {
+  switch (family) {
+    case Family::los_rate:
+      return los_kept;
+    case Family::wind:
+      return wind_kept;
+    case Family::alignment:
+      break;
+  }
+  return alignment_kept;
+}
+
+void Samples::add(std::int64_t t_us, std::span<const double> values) {
+  assert(values.size() == kept(family_).size());
+  t_us_.push_back(t_us);
+  values_.insert(values_.end(), values.begin(), values.end());
+}
+
+std::span<const double> Samples::values(std::size_t place) const {
+  const std::size_t width = kept(family_).size();
+  return std::span(values_).subspan(place * width, width);
+}
+
+double Samples::value(std::size_t place, Quantity quantity) const {
+  const auto of = [&](Quantity one) { return value(place, one); };
+  switch (quantity) {
+    case heading_over_sigma:
+      return of(heading) / of(heading_sigma);
+    case los_rate:
+      return std::sqrt((of(los_pitch) * of(los_pitch) + of(los_yaw) * of(los_yaw)) / 2);
+    case miss:
+      return std::hypot(of(miss_pitch), of(miss_yaw));
+    case wind_norm:
+      return std::hypot(of(wind_along), of(wind_cross), of(wind_down));
+    default:
+      break;
+  }
+  const auto columns = kept(family_);
+  const auto found = std::ranges::find(columns, quantity);
+  return found == columns.end() ? nan : values(place)[static_cast<std::size_t>(found - columns.begin())];
+}
+
+// By what the target is asked for: a scenario may have several truths.
+Family family_of(const scenario::Scenario& scenario) {
+  if (scenario.target.estimator == "los_rate") return Family::los_rate;
+  if (scenario.target.estimator == "wind") return Family::wind;
+  return Family::alignment;
+}
+
+RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
+                    const world::FlightRecord& truth) {
+  const checks::Observations& seen = finished.seen;
+  const auto& [engagement, glide] = finished.own_truth;
+  RunSeries series{.run = run_index, .ending = finished.ending};
+  if (glide && (!seen.wind.empty() || !engagement)) {
+    series.samples = wind_samples(seen, *glide);
+  } else if (engagement && seen.navigation.empty()) {
+    series.samples = los_samples(seen, *engagement);
+  } else {
+    series.samples = alignment_samples(seen, truth);
   }
   return series;
 }
 
-std::vector<std::uint8_t> encode(std::span<const Sample> samples) {
+std::vector<std::uint8_t> encode(const Samples& samples) {
   std::vector<std::uint8_t> bytes;
-  bytes.reserve(samples.size() * numbers_per_sample * sizeof(double));
-  for (const Sample& sample : samples) {
-    append(bytes, static_cast<double>(sample.t_us) / 1e6);
-    for (const double phi : sample.misalignment) append(bytes, phi);
-    for (const double angle : {sample.angles.roll, sample.angles.pitch, sample.angles.heading}) {
-      append(bytes, angle);
-    }
-    for (const double v : sample.v_eb_n) append(bytes, v);
-    append(bytes, sample.attitude_nees);
-    append(bytes, sample.nis);
-    for (const double p : sample.position) append(bytes, p);
-    append(bytes, sample.heading_sigma);
-    append(bytes, sample.repairs);
+  bytes.reserve(samples.size() * (1 + kept(samples.family()).size()) * sizeof(double));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    append(bytes, static_cast<double>(samples.times()[i]) / 1e6);
+    for (const double value : samples.values(i)) append(bytes, value);
   }
   return bytes;
 }
 
-std::vector<Sample> decode(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t sample_size = numbers_per_sample * sizeof(double);
-  std::vector<Sample> samples(bytes.size() / sample_size);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto number = [&](std::size_t place) { return number_at(bytes, i * numbers_per_sample + place); };
-    samples[i] = {.t_us = std::llround(number(0) * 1e6),
-                  .misalignment = {number(1), number(2), number(3)},
-                  .angles = {number(4), number(5), number(6)},
-                  .v_eb_n = {number(7), number(8), number(9)},
-                  .attitude_nees = number(10),
-                  .nis = number(11),
-                  .position = {number(12), number(13), number(14)},
-                  .heading_sigma = number(15),
-                  .repairs = number(16)};
+Samples decode(std::span<const std::uint8_t> bytes, Family family) {
+  const std::size_t width = 1 + kept(family).size();
+  Samples samples(family);
+  std::vector<double> values(width - 1);
+  for (std::size_t i = 0; i < bytes.size() / (width * sizeof(double)); ++i) {
+    for (std::size_t place = 1; place < width; ++place)
+      values[place - 1] = number_at(bytes, i * width + place);
+    samples.add(std::llround(number_at(bytes, i * width) * 1e6), values);
   }
   return samples;
 }

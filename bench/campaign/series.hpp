@@ -1,4 +1,5 @@
-// What one run of a campaign leaves behind: the errors after every filter update, from decoded frames alone.
+// What one run of a campaign leaves behind, from decoded frames and the truth alone: a series of numbers for
+// each quantity of its estimator's family.
 #pragma once
 
 #include <array>
@@ -8,88 +9,124 @@
 #include <vector>
 
 #include "bench/run/in_process.hpp"
-#include "bench/world/attitude.hpp"
 #include "bench/world/flight_record.hpp"
 
 namespace canhil::campaign {
 
-/// One filter update: a velocity update, or a fix that was used or gated. Errors of attitude and velocity are
-/// those of the first navigation answer that knew of it; all values may be NaN or infinite, as the target
-/// sent them.
-struct Sample {
-  std::int64_t t_us = 0;                                 ///< of the update: its cause's time of validity
-  world::Vector3 misalignment = world::Vector3::Zero();  ///< phi, NED [rad]
-  world::Euler angles;                                   ///< differences of the Euler angles [rad]
-  world::Vector3 v_eb_n = world::Vector3::Zero();        ///< velocity error, NED [m/s]
-  double attitude_nees = 0;  ///< 3 degrees of freedom; NaN of a fix: its answer has no covariance
-  double nis = 0;            ///< 3 degrees of freedom
-  world::Vector3 position = world::Vector3::Zero();  ///< position error, NED [m]; NaN of a velocity update
-  double heading_sigma = 0;                          ///< as the target tells it [rad]
-  double repairs = 0;                                ///< of the covariance, since the start
+/// Estimators that are asked for the same quantities. A new one is a name here, its quantities below, and
+/// what makes them of a run.
+enum class Family : std::uint8_t {
+  /// A sample is a filter update: a velocity update, or a fix that was used or gated. Errors of attitude and
+  /// velocity are those of the first navigation answer that knew of it.
+  alignment,
+  /// A sample is 20 ms of the time to go; its time is minus that at which it begins, so that the closest
+  /// approach is at 0.
+  los_rate,
+  /// A sample is a wind answer of a filter that runs.
+  wind
 };
 
-/// One run of one variant.
-struct RunSeries {
-  std::uint64_t run = 0;
-  run::Ending ending;  ///< a run that did not complete keeps the samples it gave
-  std::vector<Sample> samples;
-};
-
-/// A number of a sample: an error (signed, SI), the heading error over its sigma, a count, or a normalised
-/// error squared.
+/// A number of a sample. Errors are signed (estimated - true), in SI; of the LOS rate, RMS within the sample.
+/// Any may be NaN or infinite, as the target sent it.
 enum class Quantity : std::uint8_t {
-  phi_north,
+  phi_north,  ///< misalignment, NED
   phi_east,
   phi_down,
-  roll,
+  roll,  ///< differences of the Euler angles
   pitch,
   heading,
   v_north,
   v_east,
   v_down,
-  p_north,
+  p_north,  ///< NaN of a velocity update
   p_east,
   p_down,
-  heading_over_sigma,
-  repairs,
-  attitude_nees,
-  nis
+  heading_over_sigma,  ///< the error over what the target says of it
+  repairs,             ///< of the covariance, since the start
+  attitude_nees,       ///< 3 degrees of freedom; NaN of a fix: its answer has no covariance
+  nis,                 ///< 3 degrees of freedom
+  heading_sigma,       ///< as the target tells it
+  los_pitch,           ///< LOS rate in the antenna's axes
+  los_yaw,
+  los_rate,    ///< of both planes
+  los_nis,     ///< mean of the updates' NIS, of 2 degrees of freedom; NaN without an update
+  miss_pitch,  ///< of the whole run, as the start's axes divide it; NaN: the target was not passed
+  miss_yaw,
+  miss,
+  wind_along,  ///< wind along the horizontal air velocity, to its right, down
+  wind_cross,
+  wind_down,
+  wind_norm,        ///< of all three
+  wind_nis,         ///< 9 degrees of freedom; NaN without an update
+  wind_nees,        ///< 3 degrees of freedom
+  wind_along_sigma  ///< as the target tells it
 };
-inline constexpr std::array<std::string_view, 16> quantity_names{"phi_north",
-                                                                 "phi_east",
-                                                                 "phi_down",
-                                                                 "roll",
-                                                                 "pitch",
-                                                                 "heading",
-                                                                 "v_north",
-                                                                 "v_east",
-                                                                 "v_down",
-                                                                 "p_north",
-                                                                 "p_east",
-                                                                 "p_down",
-                                                                 "heading_over_sigma",
-                                                                 "repairs",
-                                                                 "attitude_nees",
-                                                                 "nis"};
 
-constexpr std::string_view name(Quantity quantity) {
-  return quantity_names[static_cast<std::size_t>(quantity)];
-}
 /// What reports show a quantity in.
 struct Unit {
   std::string_view name;    ///< "mrad", "m/s", "m", or empty
   std::string_view ending;  ///< of keys: "_mrad", "_mps", "_m", or empty
   double factor = 1;        ///< to SI
 };
-Unit unit_of(Quantity quantity);
-double value_of(const Sample& sample, Quantity quantity);
 
-/// The series of a finished run. `truth` is that of its variant.
+struct QuantityInfo {
+  std::string_view name;
+  Family family = Family::alignment;
+  Unit unit;
+  int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: none
+  bool may_be_untold = false;  ///< NaN tells of nothing wrong
+};
+std::span<const QuantityInfo> quantities();
+const QuantityInfo& info(Quantity quantity);
+std::string_view name(Quantity quantity);
+Unit unit_of(Quantity quantity);
+
+/// The quantities that a family keeps, in their order; the others follow from them.
+std::span<const Quantity> kept(Family family);
+
+/// Samples in order of time.
+class Samples {
+ public:
+  explicit Samples(Family family = Family::alignment) : family_(family) {}
+
+  /// `values`: of kept(family()).
+  void add(std::int64_t t_us, std::span<const double> values);
+
+  [[nodiscard]] Family family() const { return family_; }
+  [[nodiscard]] std::size_t size() const { return t_us_.size(); }
+  [[nodiscard]] bool empty() const { return t_us_.empty(); }
+  [[nodiscard]] std::span<const std::int64_t> times() const { return t_us_; }
+  /// Of a sample, by its place; NaN: not a quantity of the family.
+  [[nodiscard]] double value(std::size_t place, Quantity quantity) const;
+  /// The numbers kept of a sample.
+  [[nodiscard]] std::span<const double> values(std::size_t place) const;
+
+ private:
+  Family family_;
+  std::vector<std::int64_t> t_us_;
+  std::vector<double> values_;  // sample by sample
+};
+
+/// One run of one variant.
+struct RunSeries {
+  std::uint64_t run = 0;
+  run::Ending ending;  ///< a run that did not complete keeps the samples it gave
+  Samples samples{};
+};
+
+/// The family of a scenario's runs.
+Family family_of(const scenario::Scenario& scenario);
+
+/// Length of a sample of the LOS rate, in time to go.
+inline constexpr std::int64_t los_sample_us = 20'000;
+
+/// The series of a finished run: of family los_rate where it flew an engagement. `truth` is that of its
+/// variant.
 RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
                     const world::FlightRecord& truth);
 
-/// Samples as bytes: doubles, little endian, 17 a sample in the order of the struct, t in s.
-std::vector<std::uint8_t> encode(std::span<const Sample> samples);
-std::vector<Sample> decode(std::span<const std::uint8_t> bytes);
+/// Samples as bytes: doubles, little endian: t in s and what is kept, sample by sample.
+std::vector<std::uint8_t> encode(const Samples& samples);
+Samples decode(std::span<const std::uint8_t> bytes, Family family);
 
 }  // namespace canhil::campaign

@@ -13,7 +13,6 @@ namespace canhil::campaign {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double degrees_of_freedom = 3;
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
@@ -21,11 +20,8 @@ double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs) {
   std::vector<std::int64_t> times;
   for (const RunSeries& run : runs) {
-    std::vector<std::int64_t> own;
-    own.reserve(run.samples.size());
-    for (const Sample& sample : run.samples) own.push_back(sample.t_us);
     std::vector<std::int64_t> both;
-    std::ranges::set_union(times, own, std::back_inserter(both));
+    std::ranges::set_union(times, run.samples.times(), std::back_inserter(both));
     times = std::move(both);
   }
   return times;
@@ -40,9 +36,10 @@ std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int
 
 // NaN: the run has no update at that time, or no finite value.
 double value_at(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
-  const auto at = std::ranges::lower_bound(run.samples, t_us, {}, &Sample::t_us);
-  if (at == run.samples.end() || at->t_us != t_us) return nan;
-  const double value = value_of(*at, quantity);
+  const auto times = run.samples.times();
+  const auto at = std::ranges::lower_bound(times, t_us);
+  if (at == times.end() || *at != t_us) return nan;
+  const double value = run.samples.value(static_cast<std::size_t>(at - times.begin()), quantity);
   return std::isfinite(value) ? value : nan;
 }
 
@@ -57,9 +54,10 @@ double magnitude_at(const RunSeries& run, Quantity quantity, std::span<const std
 // |value| of a run at its own last update at or before a time; NaN: none, or it had ended by then.
 double last_magnitude(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
   const bool ended = run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
-  const auto after = std::ranges::upper_bound(run.samples, t_us, {}, &Sample::t_us);
-  if (ended || after == run.samples.begin()) return nan;
-  const double value = std::abs(value_of(*std::prev(after), quantity));
+  const auto times = run.samples.times();
+  const auto after = std::ranges::upper_bound(times, t_us) - times.begin();
+  if (ended || after == 0) return nan;
+  const double value = std::abs(run.samples.value(static_cast<std::size_t>(after - 1), quantity));
   return std::isfinite(value) ? value : nan;
 }
 
@@ -166,10 +164,12 @@ RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int6
                    std::int64_t to_us) {
   std::vector<double> means;
   for (const RunSeries& run : runs) {
-    const auto from = std::ranges::lower_bound(run.samples, from_us, {}, &Sample::t_us);
-    const auto to = std::ranges::upper_bound(run.samples, to_us, {}, &Sample::t_us);
+    const auto times = run.samples.times();
+    const auto from = std::ranges::lower_bound(times, from_us) - times.begin();
+    const auto to = std::ranges::upper_bound(times, to_us) - times.begin();
     double sum = 0;
-    for (auto sample = from; sample != to; ++sample) sum += std::abs(value_of(*sample, quantity));
+    for (auto i = from; i < to; ++i)
+      sum += std::abs(run.samples.value(static_cast<std::size_t>(i), quantity));
     const double mean = sum / static_cast<double>(to - from);  // NaN of none
     if (run.ending.kind == run::Ending::Kind::completed && std::isfinite(mean)) means.push_back(mean);
   }
@@ -185,6 +185,31 @@ RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int6
   found.standard_deviation = means.size() < 2 ? nan : std::sqrt(squares / (n - 1));
   found.largest = *std::ranges::max_element(means);
   return found;
+}
+
+ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quantity, double least,
+                                double most) {
+  ToGoStatistics statistics;
+  double sum = 0, squares = 0;
+  for (const RunSeries& run : runs) {
+    const std::size_t before = statistics.count;
+    for (std::size_t i = 0; i < run.samples.size(); ++i) {
+      const double begins = -seconds(run.samples.times()[i]);
+      constexpr double rounding = 1e-9;
+      if (begins < least + seconds(los_sample_us) - rounding || begins > most + rounding) continue;
+      const double value = run.samples.value(i, quantity);
+      if (!std::isfinite(value)) continue;
+      sum += value;
+      squares += value * value;
+      ++statistics.count;
+    }
+    const bool ended = run.ending.kind != run::Ending::Kind::completed;
+    statistics.missing += ended || statistics.count == before ? 1 : 0;
+  }
+  const auto n = static_cast<double>(statistics.count);
+  statistics.mean = statistics.count == 0 ? nan : sum / n;
+  statistics.rms = statistics.count == 0 ? nan : std::sqrt(squares / n);
+  return statistics;
 }
 
 PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b, Quantity quantity,
@@ -214,7 +239,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quan
   ConsistencyStatistics statistics;
   if (runs.empty()) return {.mean = nan};
   const auto n = static_cast<double>(runs.size());
-  const boost::math::chi_squared_distribution<double> chi_squared(degrees_of_freedom * n);
+  const boost::math::chi_squared_distribution<double> chi_squared(info(quantity).degrees_of_freedom * n);
   const double tail = (1 - probability) / 2;
   statistics.low = quantile(chi_squared, tail) / n;
   statistics.high = quantile(complement(chi_squared, tail)) / n;
@@ -247,7 +272,8 @@ Divergence divergence(std::span<const RunSeries> runs, Quantity quantity, double
   for (const RunSeries& run : runs) {
     if (run.ending.kind != run::Ending::Kind::completed) {
       ++result.faulted;
-    } else if (run.samples.empty() || !(std::abs(value_of(run.samples.back(), quantity)) <= bound)) {
+    } else if (run.samples.empty() ||
+               !(std::abs(run.samples.value(run.samples.size() - 1, quantity)) <= bound)) {
       ++result.beyond;
     }
   }

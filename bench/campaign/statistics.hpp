@@ -64,6 +64,15 @@ struct RunMeans {
 RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
                    std::int64_t to_us);
 
+/// RMS and mean over all runs and samples that lie within a window of the time to go [s]: of family los_rate.
+struct ToGoStatistics {
+  double rms = 0, mean = 0;  ///< of the finite values [SI]
+  std::size_t count = 0;     ///< finite values
+  std::size_t missing = 0;   ///< runs without one, or that ended early
+};
+ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quantity, double least,
+                                double most);
+
 /// In how many pairs of runs with the same random numbers one variant is better.
 struct PairedFraction {
   std::size_t better = 0;  ///< runs with |quantity| of `a` < that of `b`; no value is worse than any

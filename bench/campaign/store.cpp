@@ -10,16 +10,16 @@
 namespace canhil::campaign {
 namespace {
 
-constexpr int application_id = 0x43484331;  // "CHC1": canhil campaign, format 1
+constexpr int application_id = 0x43484332;  // "CHC2": canhil campaign, format 2
 
 // id is variant * runs + run: one order of rows, whoever wrote them. ending: "completed" or why not.
 constexpr std::string_view schema = R"(
 create table identity (campaign_hash text, dbc_hash text, program text, runs integer);
 create table source (kind text, name text, content text);
 create table run (id integer primary key, variant integer, run integer, ending integer, end_us integer,
-                  detail text, samples blob);
+                  detail text, family integer, samples blob);
 )";
-constexpr std::string_view run_columns = "run, ending, end_us, detail, samples";
+constexpr std::string_view run_columns = "run, ending, end_us, detail, family, samples";
 
 std::string hash_of_this_program() {
   const auto text = scenario::read_text("/proc/self/exe", "this program");
@@ -31,7 +31,7 @@ RunSeries series_in(const Statement& row) {
           .ending = {.kind = static_cast<run::Ending::Kind>(row.integer(1)),
                      .t_us = row.integer(2),
                      .detail = row.text(3)},
-          .samples = decode(row.bytes(4))};
+          .samples = decode(row.bytes(5), static_cast<Family>(row.integer(4)))};
 }
 
 auto not_results(const std::string& file) {
@@ -256,7 +256,7 @@ Result<RunSeries> Store::load(const Key& key) const {
 Result<void> Store::add(std::span<const Finished> runs) {
   Transaction transaction(database_);
   if (auto begun = transaction.begin(); !begun) return begun;
-  auto insert = database_.prepare("insert into run values (?, ?, ?, ?, ?, ?, ?)");
+  auto insert = database_.prepare("insert into run values (?, ?, ?, ?, ?, ?, ?, ?)");
   if (!insert) return tl::unexpected(insert.error());
   for (const auto& [variant, series] : runs) {
     insert->bind(1, static_cast<std::int64_t>(variant * identity_.runs + series.run))
@@ -265,7 +265,8 @@ Result<void> Store::add(std::span<const Finished> runs) {
         .bind(4, static_cast<std::int64_t>(series.ending.kind))
         .bind(5, series.ending.t_us)
         .bind(6, series.ending.detail)
-        .bind(7, encode(series.samples));
+        .bind(7, static_cast<std::int64_t>(series.samples.family()))
+        .bind(8, encode(series.samples));
     if (auto done = insert->step(); !done) return tl::unexpected(done.error());
     insert->reset();
   }

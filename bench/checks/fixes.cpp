@@ -110,9 +110,13 @@ Finding judge(const scenario::Coasting& rule, const Observations& seen) {
   const auto coasted = [&](const NavigationAnswer& answer) {
     return within(rule.window, answer.cause_us) && answer.coasting;
   };
-  judge_count(finding, "coasting answers", std::ranges::count_if(seen.navigation, coasted), rule.at_least,
-              rule.at_most);
-  if (seen.navigation.empty()) return {Outcome::fail, "no answers", finding.expected};
+  const auto coasted_los = [&](const LosAnswer& answer) {
+    return within(rule.window, answer.cause_us) && answer.outcome == messages::LosRateOutcome::coasting;
+  };
+  judge_count(finding, "coasting answers",
+              std::ranges::count_if(seen.navigation, coasted) + std::ranges::count_if(seen.los, coasted_los),
+              rule.at_least, rule.at_most);
+  if (seen.navigation.empty() && seen.los.empty()) return {Outcome::fail, "no answers", finding.expected};
   return finding;
 }
 

@@ -8,6 +8,7 @@
 
 #include "bench/checks/finding.hpp"
 #include "bench/checks/fixes.hpp"
+#include "bench/checks/los.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
 
@@ -16,6 +17,18 @@ namespace {
 
 using messages::AlignUpdate;
 using messages::AlignVelocityD;
+
+// Degrees of freedom of a white statistic.
+double dimension(scenario::Statistic statistic) {
+  switch (statistic) {
+    case scenario::Statistic::los_nis:
+      return 2;
+    case scenario::Statistic::wind_nis:
+      return 9;
+    default:
+      return 3;
+  }
+}
 
 // The bench must keep its own deadlines to judge those of the target: a host that keeps the bench waiting for
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
@@ -174,6 +187,12 @@ class Judge {
     return checks::judge(rule, evidence_.seen, evidence_.glide);
   }
   Finding operator()(const scenario::WindAnswers& rule) const { return checks::judge(rule, evidence_.seen); }
+  Finding operator()(const scenario::LosRateError& rule) const {
+    return checks::judge(rule, evidence_.seen, evidence_.engagement);
+  }
+  Finding operator()(const scenario::MissDistance& rule) const {
+    return checks::judge(rule, evidence_.engagement);
+  }
 
   Finding operator()(const scenario::Heartbeat& rule) const {
     const std::string expected =
@@ -227,8 +246,17 @@ class Judge {
     if (part.empty()) return "no answers";
     if (rule.statistic == scenario::Statistic::wind_nis || rule.statistic == scenario::Statistic::wind_nees)
       return unanswered(part, rule.window, messages::WindUpdate::info.name);
+    if (rule.statistic == scenario::Statistic::los_nis)
+      return unanswered(part, until_passage(rule.window), messages::LosRateTarget::info.name);
     return evidence_.seen.fixes.empty() ? unanswered(part, rule.window, AlignUpdate::info.name)
                                         : unanswered_fixes(evidence_.seen, rule.window);
+  }
+
+  // A seeker is silent once its missile has passed the target.
+  [[nodiscard]] scenario::Window until_passage(scenario::Window window) const {
+    if (evidence_.engagement != nullptr && evidence_.engagement->miss_n)
+      window.to_us = std::min(window.to_us, evidence_.engagement->passage_us);
+    return window;
   }
 
   [[nodiscard]] std::vector<Normalised> series_of(scenario::Statistic statistic) const {
@@ -240,6 +268,8 @@ class Judge {
       case scenario::Statistic::wind_nees:
         return evidence_.glide == nullptr ? std::vector<Normalised>()
                                           : wind_nees(evidence_.seen, *evidence_.glide);
+      case scenario::Statistic::los_nis:
+        return los_nis(evidence_.seen);
       case scenario::Statistic::heading_nees:
         return heading_nees(evidence_.seen, errors_);
       case scenario::Statistic::attitude_nees:
@@ -254,7 +284,7 @@ class Judge {
       return {between->low, between->high};
     const double probability = std::get<scenario::Probability>(rule.bound).value;
     const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
-    const double degrees_of_freedom = rule.statistic == scenario::Statistic::wind_nis ? 9 : 3;
+    const double degrees_of_freedom = dimension(rule.statistic);
     const boost::math::chi_squared chi_squared(n * degrees_of_freedom);
     return {boost::math::quantile(chi_squared, (1 - probability) / 2) / n,
             boost::math::quantile(chi_squared, (1 + probability) / 2) / n};

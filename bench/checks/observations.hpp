@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/world/earth.hpp"
+#include "bench/world/engagement/plan.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {
@@ -77,6 +78,28 @@ struct WindAnswer {
   double nis = 0;                               ///< of 9 degrees of freedom; 0: without an update
 };
 
+/// Group LosRate: the LOS rate at the time of a sample of the seeker, in its antenna's axes. SI, rad.
+struct LosAnswer {
+  std::int64_t cause_us = 0;
+  messages::LosRateOutcome outcome = messages::LosRateOutcome::waiting;
+  messages::LosRateFault fault = messages::LosRateFault::none;
+  bool blind = false;  ///< too near: guidance is to hold its command
+  world::Planes<double> rate{};
+  world::Planes<double> rate_sigma{};
+  world::Planes<double> target{};  ///< its acceleration along z (pitch) and y (yaw)
+  world::Planes<double> target_sigma{};
+  double nis = 0;  ///< of 2 degrees of freedom; 0 without an update
+};
+
+/// True if the filter was corrected by the sample, and by nothing it was told in place of one.
+constexpr bool updated(messages::LosRateOutcome outcome) {
+  return outcome == messages::LosRateOutcome::updated || outcome == messages::LosRateOutcome::start_up;
+}
+/// True if there is an estimate at all.
+constexpr bool tells_rate(messages::LosRateOutcome outcome) {
+  return updated(outcome) || outcome == messages::LosRateOutcome::coasting;
+}
+
 /// True if the filter made use of the fix.
 constexpr bool used(messages::FixOutcome outcome) {
   return outcome == messages::FixOutcome::accepted || outcome == messages::FixOutcome::recovered;
@@ -101,6 +124,7 @@ struct Observations {
   std::vector<FilterAnswer> filter;
   std::vector<FixAnswer> fixes;
   std::vector<WindAnswer> wind;
+  std::vector<LosAnswer> los;
 
   std::array<std::vector<Arrival>, messages::all_messages.size()> arrivals;  ///< by place in all_messages
   std::map<std::string_view, std::vector<Stimulus>> stimuli;  ///< by sample group, those that are answered

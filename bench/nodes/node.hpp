@@ -27,6 +27,11 @@ class Node {
   [[nodiscard]] virtual std::int64_t due_us() const = 0;
   /// Appends the frames of the transmission that is due and moves on to the next.
   virtual void transmit(Transmission& out) = 0;
+
+  /// Whether the node wants to hear what others send.
+  [[nodiscard]] virtual bool listens() const { return false; }
+  /// A frame of another node; it may be anything.
+  virtual void hear(const Frame& /*frame*/) {}
 };
 
 /// A periodic sampler with a transmission delay: sample k is valid at k*period and sent `latency` later, if

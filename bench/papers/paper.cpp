@@ -9,6 +9,7 @@
 #include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/inflight_alignment/reproduction.hpp"
+#include "bench/papers/los_rate/reproduction.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/papers/wind/reproduction.hpp"
 #include "bench/report/file.hpp"
@@ -28,6 +29,7 @@ struct Paper {
 constexpr std::array papers{
     Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
     Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce},
+    Paper{.name = "los", .reproduce = los_rate::reproduce},
     Paper{.name = "wind", .reproduce = wind::reproduce}};
 
 Result<Paper> find_paper(std::string_view name) {

@@ -14,6 +14,35 @@ Json object(const checks::Distribution& d) {
   return {{"count", d.count}, {"min", d.min}, {"p50", d.p50}, {"p99", d.p99}, {"max", d.max}};
 }
 
+Json object(const EngagementSummary& engagement) {
+  Json json{{"miss_m", engagement.miss_m ? Json(*engagement.miss_m) : Json(nullptr)},
+            {"passage_s", engagement.passage_s},
+            {"late_commands", engagement.late_commands}};
+  for (const LosRms& window : engagement.rms) {
+    json["los_rate_rms"].push_back(
+        {{"most_to_go_s", window.most_to_go_s},
+         {"least_to_go_s", window.least_to_go_s},
+         {"rms_radps", window.rms_radps ? Json(*window.rms_radps) : Json(nullptr)}});
+  }
+  for (const auto& [outcome, count] : engagement.outcomes) json["outcomes"][outcome] = count;
+  return json;
+}
+
+Json object(const WindSummary& wind) {
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  Json json{{"from_s", wind.from_s},
+            {"mean_error_mps",
+             {{"norm", or_null(wind.norm_mps)},
+              {"along_track", or_null(wind.along_mps)},
+              {"cross_track", or_null(wind.cross_mps)},
+              {"down", or_null(wind.down_mps)}}},
+            {"along_track_sigma_mps", wind.along_sigma_mps}};
+  for (const auto& [name, count] : wind.outcomes) json["outcomes"][name] = count;
+  return json;
+}
+
 }  // namespace
 
 std::string json(const scenario::Scenario& scenario, const run::Run& run) {
@@ -63,6 +92,8 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
         {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
     for (const auto& [outcome, count] : summary.fixes->outcomes) page["fixes"]["outcomes"][outcome] = count;
   }
+  if (summary.engagement) page["engagement"] = object(*summary.engagement);
+  if (summary.wind) page["wind"] = object(*summary.wind);
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {
       page["latency_s"][row.message] = object(row.latency_s);
@@ -78,6 +109,8 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
   }
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},
+                         {"los_answers", summary.los_answers},
+                         {"wind_answers", summary.wind_answers},
                          {"frames_lost", run.seen.target_frames_lost},
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "bench/checks/errors.hpp"
+#include "bench/checks/los.hpp"
+#include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::report {
@@ -30,6 +34,52 @@ FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes) {
   return summary;
 }
 
+EngagementSummary engagement_summary(const checks::Observations& seen,
+                                     const world::EngagementRecord& engagement) {
+  constexpr std::array<std::pair<double, double>, 6> windows{
+      {{4.5, 3}, {3, 2}, {2, 1}, {1, 0.5}, {0.5, 0.2}, {0.2, 0.08}}};
+  EngagementSummary summary{.miss_m = {},
+                            .passage_s = static_cast<double>(engagement.passage_us) * 1e-6,
+                            .late_commands = engagement.late_commands,
+                            .rms = {},
+                            .outcomes = {}};
+  if (engagement.miss_n) summary.miss_m = engagement.miss_n->norm();
+  const auto errors = checks::los_errors(seen, engagement);
+  for (const auto& [most, least] : windows)
+    summary.rms.push_back({most, least, checks::los_rms(errors, least, most)});
+  for (const auto outcome : messages::enumerators<messages::LosRateOutcome>) {
+    const auto count = std::ranges::count(seen.los, outcome, &checks::LosAnswer::outcome);
+    if (count > 0) summary.outcomes.emplace_back(name_of(outcome), count);
+  }
+  return summary;
+}
+
+WindSummary wind_summary(const checks::Observations& seen, const world::GlideRecord& glide) {
+  WindSummary summary;
+  const scenario::Window everything{.from_us = 0, .to_us = glide.end_us()};
+  const auto errors =
+      checks::inside(checks::wind_errors(seen, glide),
+                     {.from_us = static_cast<std::int64_t>(summary.from_s * 1e6), .to_us = glide.end_us()});
+  const auto mean = [&](scenario::WindAxis axis) -> std::optional<double> {
+    double sum = 0;
+    for (const checks::WindError& error : errors) sum += std::abs(component(error, axis));
+    return errors.empty() ? std::nullopt : std::optional(sum / static_cast<double>(errors.size()));
+  };
+  summary.along_mps = mean(scenario::WindAxis::along_track);
+  summary.cross_mps = mean(scenario::WindAxis::cross_track);
+  summary.down_mps = mean(scenario::WindAxis::down);
+  summary.norm_mps = mean(scenario::WindAxis::norm);
+  if (!seen.wind.empty()) summary.along_sigma_mps = seen.wind.back().along_track_sigma;
+  const auto add = [&](std::string_view name, std::int64_t count) {
+    if (count > 0) summary.outcomes.emplace_back(name, static_cast<std::size_t>(count));
+  };
+  for (const auto outcome : messages::enumerators<messages::WindOutcome>)
+    add(name_of(outcome), std::ranges::count(seen.wind, outcome, &checks::WindAnswer::outcome));
+  for (const std::string_view flag : scenario::wind_flags)
+    add(flag, checks::count_flag(seen, everything, flag));
+  return summary;
+}
+
 }  // namespace
 
 Summary summarise(const run::Run& run) {
@@ -49,9 +99,19 @@ Summary summarise(const run::Run& run) {
 
   if (!run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
 
+  summary.wind_answers = run.seen.wind.size();
+  if (run.own_truth.glide) summary.wind = wind_summary(run.seen, *run.own_truth.glide);
+  summary.los_answers = run.seen.los.size();
+  if (run.own_truth.engagement) summary.engagement = engagement_summary(run.seen, *run.own_truth.engagement);
+
   const scenario::Window everything{0, run.truth.end_us()};
   const std::string_view update = run.seen.fixes.empty() ? AlignUpdate::info.name : FixUpdate::info.name;
-  for (const std::string_view message : {AlignVelocityD::info.name, update}) {
+  std::vector<std::string_view> closing;
+  const bool navigates = !run.own_truth.engagement && !run.own_truth.glide;
+  if (navigates || !errors.empty()) closing = {AlignVelocityD::info.name, update};
+  if (run.own_truth.engagement) closing.push_back(messages::LosRateTarget::info.name);
+  if (run.own_truth.glide) closing.push_back(messages::WindUpdate::info.name);
+  for (const std::string_view message : closing) {
     summary.latencies.push_back(
         {.message = std::string(message),
          .latency_s = checks::distribution(checks::latencies_s(run.seen, message, everything)),
@@ -79,6 +139,9 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   add(scenario.master_ins, messages::MasterInsVelocityD::info);
   add(scenario.ssbl, messages::SsblRelativeD::info);
   add(scenario.gps, messages::GpsTime::info);
+  add(scenario.seeker, messages::SeekerRange::info);
+  add(scenario.glider_nav, messages::GliderNavVelocityD::info);
+  add(scenario.fins, messages::FinDeflections::info);
   return lines;
 }
 

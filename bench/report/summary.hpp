@@ -32,13 +32,40 @@ struct FixSummary {
   double heading_sigma_rad = 0;                               ///< at the end
 };
 
+/// RMS of the error of the LOS rate, both planes, in a window of the time to go.
+struct LosRms {
+  double most_to_go_s = 0, least_to_go_s = 0;
+  std::optional<double> rms_radps;  ///< none: no answers there
+};
+
+/// An engagement as it was flown.
+struct EngagementSummary {
+  std::optional<double> miss_m;  ///< none: the target was not passed
+  double passage_s = 0;
+  std::size_t late_commands = 0;
+  std::vector<LosRms> rms;
+  std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< of the answers, those that occurred
+};
+
+/// A wind estimate as it was judged.
+struct WindSummary {
+  double from_s = 10;                                              ///< errors count from here to the end
+  std::optional<double> along_mps, cross_mps, down_mps, norm_mps;  ///< mean |error|; none: no answers there
+  double along_sigma_mps = 0;                                      ///< at the end, as the target tells it
+  std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< of the answers, and flags, that occurred
+};
+
 struct Summary {
   std::vector<BandEntry> heading_entries;
   std::optional<world::Euler> final_error_rad;  ///< of the last navigation answer
   double final_velocity_error_mps = 0;
   std::size_t navigation_answers = 0;
   std::size_t filter_answers = 0;
-  std::optional<FixSummary> fixes;        ///< none: the target answered no fix
+  std::optional<FixSummary> fixes;  ///< none: the target answered no fix
+  std::optional<EngagementSummary> engagement;
+  std::size_t los_answers = 0;
+  std::optional<WindSummary> wind;
+  std::size_t wind_answers = 0;
   std::vector<MessageLatency> latencies;  ///< of the closing message of each group
   checks::Distribution lateness_s;        ///< of the bench's own transmissions
   std::string stamp_source;               ///< what the latencies were measured with

@@ -33,6 +33,61 @@ std::string words(const FixSummary& fixes) {
                      fixes.heading_sigma_rad / world::units::deg);
 }
 
+std::string navigation_words(const Summary& summary) {
+  std::string lines = "  heading error for good within";
+  auto out = std::back_inserter(lines);
+  for (const BandEntry& entry : summary.heading_entries) {
+    fmt::format_to(out, "  {:g} mrad: {}", entry.within_mrad,
+                   entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
+  }
+  if (summary.final_error_rad) {
+    fmt::format_to(out,
+                   "\n  error at the end              roll {:+.3f}  pitch {:+.3f}  heading {:+.3f} mrad  "
+                   "velocity {:.4f} m/s\n",
+                   summary.final_error_rad->roll / mrad, summary.final_error_rad->pitch / mrad,
+                   summary.final_error_rad->heading / mrad, summary.final_velocity_error_mps);
+  } else {
+    fmt::format_to(out, "\n  the target gave no navigation answers\n");
+  }
+  return lines;
+}
+
+std::string words(const EngagementSummary& engagement) {
+  std::string lines = engagement.miss_m
+                          ? fmt::format("  miss                          {:.3f} m at {:.3f} s",
+                                        *engagement.miss_m, engagement.passage_s)
+                          : std::string("  miss                          the target was not passed");
+  auto out = std::back_inserter(lines);
+  if (engagement.late_commands > 0)
+    fmt::format_to(out, "; {} answers too late to guide", engagement.late_commands);
+  fmt::format_to(out, "\n  LOS rate error by s to go, RMS");
+  for (const LosRms& window : engagement.rms) {
+    fmt::format_to(out, "{} {:g}-{:g}: {}", &window == engagement.rms.data() ? "" : " ", window.most_to_go_s,
+                   window.least_to_go_s,
+                   window.rms_radps ? fmt::format("{:.2f}", *window.rms_radps / mrad) : "-");
+  }
+  fmt::format_to(out, " mrad/s\n  LOS rate answers              ");
+  for (const auto& [outcome, count] : engagement.outcomes) fmt::format_to(out, "{} {}  ", outcome, count);
+  while (lines.ends_with(' ')) lines.pop_back();
+  return lines + '\n';
+}
+
+std::string words(const WindSummary& wind) {
+  std::string lines = "  the target gave no wind answers\n";
+  if (wind.norm_mps) {
+    lines = fmt::format(
+        "  wind error from {:g} s on        mean {:.3f} m/s: along track {:.3f} (sigma told {:.3f}), across "
+        "{:.3f}, "
+        "down {:.3f}\n",
+        wind.from_s, *wind.norm_mps, *wind.along_mps, wind.along_sigma_mps, *wind.cross_mps, *wind.down_mps);
+  }
+  if (wind.outcomes.empty()) return lines;
+  lines += "  wind answers                  ";
+  for (const auto& [name, count] : wind.outcomes) lines += fmt::format("{} {}  ", name, count);
+  while (lines.ends_with(' ')) lines.pop_back();
+  return lines + '\n';
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
@@ -55,20 +110,11 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                    check.measured, check.expected);
   }
 
-  fmt::format_to(out, "\n  heading error for good within");
-  for (const BandEntry& entry : summary.heading_entries) {
-    fmt::format_to(out, "  {:g} mrad: {}", entry.within_mrad,
-                   entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
-  }
-  if (summary.final_error_rad) {
-    fmt::format_to(out,
-                   "\n  error at the end              roll {:+.3f}  pitch {:+.3f}  heading {:+.3f} mrad  "
-                   "velocity {:.4f} m/s\n",
-                   summary.final_error_rad->roll / mrad, summary.final_error_rad->pitch / mrad,
-                   summary.final_error_rad->heading / mrad, summary.final_velocity_error_mps);
-  } else {
-    fmt::format_to(out, "\n  the target gave no navigation answers\n");
-  }
+  page += '\n';
+  if (summary.engagement) page += words(*summary.engagement);
+  if (summary.wind) page += words(*summary.wind);
+  const bool navigates = !summary.engagement && !summary.wind;
+  if (navigates || summary.final_error_rad) page += navigation_words(summary);
   if (summary.fixes) fmt::format_to(out, "  fixes                         {}\n", words(*summary.fixes));
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {

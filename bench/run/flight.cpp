@@ -6,6 +6,7 @@
 #include "bench/nodes/glider_nav.hpp"
 #include "bench/nodes/gps.hpp"
 #include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/seeker.hpp"
 #include "bench/nodes/slave_imu.hpp"
 #include "bench/nodes/ssbl.hpp"
 #include "bench/nodes/time_keeper.hpp"
@@ -43,6 +44,10 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   if (scenario.slave_imu) {
     if (auto fits = check_fits(scenario.slave_imu->errors, truth); !fits) return tl::unexpected(fits.error());
   }
+  if (scenario.engagement && scenario.seeker) {
+    if (auto fits = check_fits(*scenario.engagement, *scenario.seeker); !fits)
+      return tl::unexpected(fits.error());
+  }
   return truth;
 }
 
@@ -60,6 +65,7 @@ Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_
                       run_index, missing_s, own.glide->epochs().back().height));
     }
   }
+  if (scenario.engagement) own.engagement.emplace();
   return own;
 }
 
@@ -97,6 +103,12 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
     sensors.push_back(std::make_unique<nodes::GliderNav>(*own_truth.glide, *scenario.glider_nav,
                                                          stream("glider_nav"), stream("glider_nav.loss"),
                                                          truth.end_us()));
+  }
+  if (own_truth.engagement && scenario.seeker) {
+    const nodes::SeekerStreams streams{
+        .engagement = stream("engagement"), .errors = stream("seeker"), .faults = stream("seeker.faults")};
+    sensors.push_back(std::make_unique<nodes::Seeker>(*scenario.engagement, *scenario.seeker, streams,
+                                                      truth.end_us(), *own_truth.engagement));
   }
   return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep)};
 }

@@ -7,6 +7,7 @@
 #include "bench/run/initial_state.hpp"
 #include "bench/run/schedule.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
 #include "dbc/wire/result.hpp"
@@ -18,7 +19,8 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 
 /// What a run flies by itself, because it draws it or its answers steer it.
 struct OwnTruth {
-  std::optional<world::GlideRecord> glide;  ///< none: not in the scenario
+  std::optional<world::EngagementRecord> engagement{};  ///< none: not in the scenario; filled as it goes on
+  std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
 };
 
 /// Flies what run `run_index` flies by itself. Error: one line, if the flight ends before the run.

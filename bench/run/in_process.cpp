@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "bench/run/flight.hpp"
+#include "bench/run/ears.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/in_process_port.hpp"
 #include "bench/run/lockstep.hpp"
@@ -28,6 +28,8 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
   }
   Monitor monitor;
   const Attached attached(link, monitor);
+  Ears ears(schedule);
+  const Attached listening(link, ears);
   Ending ending = run_lockstep(link, schedule, step_limit_ns, never, [](std::int64_t) {});
   return InProcessRun{.ending = std::move(ending),
                       .seen = std::move(monitor.observations()),

@@ -15,7 +15,7 @@ namespace canhil::run {
 struct InProcessRun {
   Ending ending;
   checks::Observations seen;
-  OwnTruth own_truth;
+  OwnTruth own_truth{};
 };
 
 /// Runs a scenario with the random numbers of (seed, run_index). A pure function: same arguments, same bits,

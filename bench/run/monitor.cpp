@@ -125,6 +125,7 @@ void Monitor::decode(const Frame& frame, std::uint8_t counter) {
   if (put(filter_, frame, counter)) on_filter();
   if (put(fix_, frame, counter)) on_fix();
   if (put(wind_, frame, counter)) on_wind();
+  if (put(los_, frame, counter)) on_los();
 }
 
 // Puts a frame into the group if it is one of its messages; true: the group is whole now.
@@ -265,6 +266,25 @@ void Monitor::on_wind() {
        .v_a = {air.air_velocity_x_mps, air.air_velocity_y_mps, air.air_velocity_z_mps},
        .nis = update.nis});
   attribute(wind_, cause_us, WindUpdate::info.answers.front());
+}
+
+void Monitor::on_los() {
+  const auto& estimate = los_.get<LosRateEstimate>();
+  const auto& sigma = los_.get<LosRateSigma>();
+  const auto& target = los_.get<LosRateTarget>();
+  const std::int64_t cause_us = unwrap_us(target.cause_time_us, now_us_);
+  seen_.los.push_back(
+      {.cause_us = cause_us,
+       .outcome = estimate.outcome,
+       .fault = estimate.fault,
+       .blind = estimate.blind != 0,
+       .rate = {.pitch = estimate.los_rate_pitch_radps, .yaw = estimate.los_rate_yaw_radps},
+       .rate_sigma = {.pitch = sigma.los_rate_sigma_pitch_radps, .yaw = sigma.los_rate_sigma_yaw_radps},
+       .target = {.pitch = target.target_acceleration_z_mps2, .yaw = target.target_acceleration_y_mps2},
+       .target_sigma = {.pitch = sigma.target_acceleration_sigma_z_mps2,
+                        .yaw = sigma.target_acceleration_sigma_y_mps2},
+       .nis = sigma.nis});
+  attribute(los_, cause_us, LosRateTarget::info.answers.front());
 }
 
 }  // namespace canhil::run

@@ -27,6 +27,7 @@ class Monitor final : public Observer {
   void on_filter();
   void on_fix();
   void on_wind();
+  void on_los();
   template <class... Messages>
   static bool put(SampleGroup<Messages...>& group, const Frame& frame, std::uint8_t counter);
   template <class... Messages>
@@ -49,6 +50,7 @@ class Monitor final : public Observer {
               messages::WindTrackSigma, messages::WindAirVelocity, messages::WindAttitude,
               messages::WindInnovation, messages::WindUpdate>
       wind_;
+  SampleGroup<messages::LosRateEstimate, messages::LosRateSigma, messages::LosRateTarget> los_;
   std::int64_t now_us_ = 0;  // last Sync
 };
 

@@ -17,7 +17,10 @@ class Schedule {
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper)
       : nodes_(std::move(sensors)) {
     nodes_.push_back(std::move(keeper));
-    for (const auto& node : nodes_) due_us_.push_back(node->due_us());
+    for (const auto& node : nodes_) {
+      due_us_.push_back(node->due_us());
+      if (node->listens()) listeners_.push_back(node.get());
+    }
     find_next();
   }
 
@@ -33,6 +36,11 @@ class Schedule {
     return out_.frames();
   }
 
+  /// Lets the nodes that listen hear a frame of the bus.
+  void hear(const Frame& frame) {
+    for (nodes::Node* node : listeners_) node->hear(frame);
+  }
+
   /// Counters of the bench's own messages live in the same outbox.
   nodes::Transmission& outbox() { return out_; }
 
@@ -44,6 +52,7 @@ class Schedule {
 
   std::vector<std::unique_ptr<nodes::Node>> nodes_;
   std::vector<std::int64_t> due_us_;  // of each node
+  std::vector<nodes::Node*> listeners_;
   std::size_t next_ = 0;
   nodes::Transmission out_;
 };

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/in_process_port.hpp"
@@ -77,10 +78,13 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   Monitor monitor;
   link.attach(monitor);
+  Ears ears(schedule);
+  link.attach(ears);
   const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
   Ending ending = lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
                            : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
+  link.detach(ears);
   link.detach(monitor);
   if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
     ending.detail += fmt::format(" (its process {})", *why);
@@ -96,6 +100,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
                                   .glide = own_truth->glide ? &*own_truth->glide : nullptr,
+                                  .engagement = own_truth->engagement ? &*own_truth->engagement : nullptr,
                                   .duration_us = scenario.duration_us,
                                   .ended_early = ending.detail,
                                   .timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen)};

@@ -32,7 +32,7 @@ struct Run {
   Ending ending;
   checks::Observations seen;
   world::FlightRecord truth;
-  OwnTruth own_truth;
+  OwnTruth own_truth{};
   Options options;
   double wall_s = 0;  ///< from the start of the estimator to the end
 };

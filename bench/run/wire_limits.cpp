@@ -31,6 +31,20 @@ void check(const Message& message, std::string& wrong) {
   });
 }
 
+// The interval that a message tells: its one signal of that name, in whole steps.
+template <class Message>
+Result<void> check_interval(std::string_view what, std::int64_t interval_us) {
+  const auto interval = static_cast<double>(interval_us);
+  for (const SignalInfo& signal : Message::info.signals) {
+    if (signal.name != "interval_us") continue;
+    const double lsb = wire::lsb(signal);
+    const bool between_steps = lsb != 0 && interval / lsb != std::nearbyint(interval / lsb);
+    if (interval > signal.maximum || between_steps)
+      return failure(complaint(what, interval, Message::info, signal));
+  }
+  return {};
+}
+
 // What a sample of one axis is made of, in the order of `parts_of`: names for messages.
 using Names = std::array<std::string_view, 7>;
 constexpr Names gyro_parts{"the flight",
@@ -96,21 +110,25 @@ Result<void> check_fits(const InitialState& state) {
 }
 
 Result<void> check_fits_imu_interval(std::int64_t interval_us) {
-  using messages::SlaveImuStatus;
-  const auto interval = static_cast<double>(interval_us);
-  const SlaveImuStatus status{.interval_us = interval};
-  std::string wrong;
-  SlaveImuStatus::visit(status, [&](const SignalInfo& signal, const auto& member) {
-    if constexpr (std::same_as<std::remove_cvref_t<decltype(member)>, double>) {
-      const double lsb = wire::lsb(signal);
-      const bool between_steps = lsb != 0 && member / lsb != std::nearbyint(member / lsb);
-      if (member > signal.maximum || between_steps) {
-        wrong = complaint("IMU interval", member, SlaveImuStatus::info, signal);
-      }
-    }
-  });
-  if (wrong.empty()) return {};
-  return failure(std::move(wrong));
+  return check_interval<messages::SlaveImuStatus>("IMU interval", interval_us);
+}
+
+Result<void> check_fits(const world::EngagementPlan& engagement, const scenario::Seeker& seeker) {
+  using messages::SeekerAntenna;
+  const std::int64_t interval_us =
+      seeker.schedule.period_us.value_or(messages::SeekerRange::info.cycle_time_us);
+  if (auto fits = check_interval<messages::SeekerAngles>("seeker interval", interval_us); !fits) return fits;
+  const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
+  const SignalInfo& signal = SeekerAntenna::info.signals[0];
+  if (roll > signal.maximum) return failure(complaint("roll increment", roll, SeekerAntenna::info, signal));
+  const std::int64_t least_us = messages::Sync::info.cycle_time_us;
+  if (engagement.guidance == world::Guidance::target && engagement.guidance_delay_us < least_us) {
+    return failure(fmt::format(
+        "key 'engagement.guidance_delay_ms': {:g} is less than the bus takes in "
+        "lockstep, expected at least {:g}, the cycle of Sync",
+        1e-3 * static_cast<double>(engagement.guidance_delay_us), 1e-3 * static_cast<double>(least_us)));
+  }
+  return {};
 }
 
 Result<void> check_fits(const world::ImuErrorModel& imu, const world::FlightRecord& truth) {

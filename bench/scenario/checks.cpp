@@ -15,10 +15,12 @@ namespace {
 constexpr std::array<std::string_view, 3> attitude_axes{"roll", "pitch", "heading"};
 constexpr std::array<std::string_view, 4> velocity_axes{"north", "east", "down", "norm"};
 constexpr std::array<std::string_view, 5> position_axes{"north", "east", "down", "horizontal", "norm"};
-constexpr std::array<std::string_view, 5> statistics{"attitude_nees", "nis", "heading_nees", "wind_nis",
-                                                     "wind_nees"};
+constexpr std::array<std::string_view, 6> statistics{"attitude_nees", "nis",      "heading_nees",
+                                                     "los_nis",       "wind_nis", "wind_nees"};
 constexpr std::array<std::string_view, 4> wind_axes{"along_track", "cross_track", "down", "norm"};
 constexpr std::array<std::string_view, 2> wind_statistics{"mean", "max"};
+constexpr std::array<std::string_view, 3> los_planes{"pitch", "yaw", "both"};
+constexpr std::array<std::string_view, 2> los_statistics{"rms", "max"};
 
 /// What the readers of all kinds need to know of the scenario.
 struct Context {
@@ -84,8 +86,10 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
     section.reject("mean_between", "is given beside probability", "one of the two");
   // Errors of one run are correlated in time, so the mean of their NEES is not chi-square; innovations are
   // white.
-  if (rule.statistic != Statistic::nis && rule.statistic != Statistic::wind_nis)
-    section.reject("probability", "is for nis and wind_nis only", "mean_between = [low, high]");
+  const bool white = rule.statistic == Statistic::nis || rule.statistic == Statistic::los_nis ||
+                     rule.statistic == Statistic::wind_nis;
+  if (!white)
+    section.reject("probability", "is for nis, los_nis and wind_nis only", "mean_between = [low, high]");
   rule.bound = Probability{.value = section.number("probability", Limits::between(0.5, 0.999999))};
   section.optional("mean_between");
   return rule;
@@ -185,22 +189,45 @@ WindAnswers read(Section& section, const Context& context, WindAnswers rule) {
   return rule;
 }
 
+LosRateError read(Section& section, const Context& /*context*/, LosRateError rule) {
+  rule.plane = read_enum<LosPlane>(section, "plane", los_planes, LosPlane::both);
+  rule.statistic = read_enum<LosStatistic>(section, "statistic", los_statistics, LosStatistic::rms);
+  std::tie(rule.least_to_go, rule.most_to_go) = section.interval("time_to_go_s", Limits::at_least(0));
+  rule.below = section.number("below_mradps", Limits::above(0));
+  return rule;
+}
+
+MissDistance read(Section& section, const Context& /*context*/, MissDistance rule) {
+  rule.below = section.number("below_m", Limits::above(0));
+  return rule;
+}
+
 using Rule = decltype(Check::rule);
 
 /// What a rule holds answers against.
-enum class Needs : std::uint8_t { nothing, navigation, glide };
-
-template <class R>
-constexpr Needs needs(const R& rule) {
-  if constexpr (std::is_same_v<R, WindError>) return Needs::glide;
+enum class Needs : std::uint8_t { nothing, navigation, engagement, glide };
+template <class AnyRule>
+constexpr Needs needs(const AnyRule& rule) {
+  using R = std::remove_cvref_t<AnyRule>;
   if constexpr (std::is_same_v<R, Consistency>) {
-    if (rule.statistic == Statistic::wind_nees) return Needs::glide;
-    const bool of_attitude =
-        rule.statistic == Statistic::attitude_nees || rule.statistic == Statistic::heading_nees;
-    return of_attitude ? Needs::navigation : Needs::nothing;
+    switch (rule.statistic) {
+      case Statistic::nis:
+      case Statistic::wind_nis:
+        return Needs::nothing;
+      case Statistic::los_nis:
+        return Needs::engagement;
+      case Statistic::wind_nees:
+        return Needs::glide;
+      case Statistic::attitude_nees:
+      case Statistic::heading_nees:
+        break;
+    }
+    return Needs::navigation;
   }
-  constexpr bool navigation = std::is_same_v<R, AttitudeError> || std::is_same_v<R, Convergence> ||
-                              std::is_same_v<R, VelocityError> || std::is_same_v<R, PositionError>;
+  if (std::is_same_v<R, LosRateError> || std::is_same_v<R, MissDistance>) return Needs::engagement;
+  if (std::is_same_v<R, WindError>) return Needs::glide;
+  const bool navigation = std::is_same_v<R, AttitudeError> || std::is_same_v<R, Convergence> ||
+                          std::is_same_v<R, VelocityError> || std::is_same_v<R, PositionError>;
   return navigation ? Needs::navigation : Needs::nothing;
 }
 
@@ -210,6 +237,8 @@ void expect_truth(Section& section, const Rule& rule, const Truths& truths) {
     section.reject("kind", "has nothing to be judged against", "a table [truth] in the scenario");
   if (needed == Needs::glide && !truths.glide)
     section.reject("kind", "has nothing to be judged against", "a table [glide] in the scenario");
+  if (needed == Needs::engagement && !truths.engagement)
+    section.reject("kind", "has nothing to be judged against", "a table [engagement] in the scenario");
 }
 
 /// What a rule looks at, if a scenario may well have several of its kind.
@@ -228,6 +257,10 @@ std::string subject(const WindError& rule) {
   return fmt::format(" {} {}", name(rule.axis), name(rule.statistic));
 }
 std::string subject(const WindAnswers& /*rule*/) { return {}; }
+std::string subject(const LosRateError& rule) {
+  return fmt::format(" {} {} to {:g} s to go", name(rule.plane), rule.most_to_go, rule.least_to_go);
+}
+std::string subject(const MissDistance& /*rule*/) { return {}; }
 
 }  // namespace
 
@@ -240,6 +273,7 @@ std::string_view name(WindAxis axis) { return wind_axes[static_cast<std::size_t>
 std::string_view name(WindStatistic statistic) {
   return wind_statistics[static_cast<std::size_t>(statistic)];
 }
+std::string_view name(LosPlane plane) { return los_planes[static_cast<std::size_t>(plane)]; }
 
 std::string_view kind(const Check& check) { return kind_of(check.rule); }
 

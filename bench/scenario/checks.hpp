@@ -20,9 +20,11 @@ class Section;
 enum class AttitudeAxis : std::uint8_t { roll, pitch, heading };
 enum class VelocityAxis : std::uint8_t { north, east, down, norm };
 enum class PositionAxis : std::uint8_t { north, east, down, horizontal, norm };
-enum class Statistic : std::uint8_t { attitude_nees, nis, heading_nees, wind_nis, wind_nees };
+enum class Statistic : std::uint8_t { attitude_nees, nis, heading_nees, los_nis, wind_nis, wind_nees };
 enum class WindAxis : std::uint8_t { along_track, cross_track, down, norm };
 enum class WindStatistic : std::uint8_t { mean, max };
+enum class LosPlane : std::uint8_t { pitch, yaw, both };
+enum class LosStatistic : std::uint8_t { rms, max };
 
 /// The unit in which a bar was given, and is reported in.
 struct AngleUnit {
@@ -85,7 +87,22 @@ struct Fixes {
   std::optional<std::int64_t> handed_over_before_us;  ///< the heading is resolved
 };
 
-/// How many navigation answers of the window said that they bridged an input that was lost.
+/// |estimated - true| LOS rate stays below a bar, or its RMS does, over a window of the time to go.
+struct LosRateError {
+  static constexpr std::string_view kind = "los_rate_error";
+  LosPlane plane = LosPlane::both;
+  LosStatistic statistic = LosStatistic::rms;
+  double least_to_go = 0, most_to_go = 0;  ///< range over closing speed [s]
+  double below = 0;                        ///< [rad/s]
+};
+
+/// The closest approach of missile and target stays below a bar.
+struct MissDistance {
+  static constexpr std::string_view kind = "miss_distance";
+  double below = 0;  ///< [m]
+};
+
+/// How many navigation answers, or LOS rates, of the window said that they bridged an input that was lost.
 struct Coasting {
   static constexpr std::string_view kind = "coasting";
   Window window;
@@ -127,7 +144,8 @@ struct Probability {
 };
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
-  Statistic statistic = Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1, wind_nis: of 9
+  Statistic statistic =
+      Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1, los_nis: of 2, wind_nis: of 9
   Window window;
   std::variant<MeanBetween, Probability> bound;
 };
@@ -171,7 +189,7 @@ struct Check {
   std::string requirement;  ///< id carried to the reports; may be empty
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
-               Heartbeat, PositionError, Fixes, Coasting, WindError, WindAnswers>
+               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers>
       rule;
 };
 
@@ -182,10 +200,12 @@ std::string_view name(PositionAxis axis);
 std::string_view name(Statistic statistic);
 std::string_view name(WindAxis axis);
 std::string_view name(WindStatistic statistic);
+std::string_view name(LosPlane plane);
 
 /// What a scenario has that answers can be held against.
 struct Truths {
   bool navigation = true;
+  bool engagement = false;
   bool glide = false;
 };
 

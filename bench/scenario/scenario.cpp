@@ -9,6 +9,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "bench/scenario/engagement.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/scenario/truth.hpp"
@@ -23,17 +24,6 @@ std::optional<Node> read_node(Section& root, std::string_view key, bool needed, 
   std::optional<Section> section = needed ? root.table(key) : root.optional_table(key);
   if (!section) return std::nullopt;
   return read(*section);
-}
-
-/// The truth of what navigates. A scenario of something else may do without.
-void read_navigation_truth(Section& root, Scenario& scenario) {
-  constexpr std::array of_navigation{"initial_error", "master_ins", "slave_imu", "ssbl", "gps"};
-  const bool wanted = scenario.target.estimator.ends_with("_alignment") || !root.has("glide") ||
-                      std::ranges::any_of(of_navigation, [&](const char* key) { return root.has(key); });
-  if (auto truth = wanted ? root.table("truth") : root.optional_table("truth"))
-    scenario.truth = read_truth(*truth);
-  if (auto initial_error = root.optional_table("initial_error"))
-    scenario.initial_error = read_initial_error(*initial_error);
 }
 
 /// The glider's truth and nodes: all of them are there, or none is.
@@ -67,6 +57,24 @@ std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Co
   return checks;
 }
 
+/// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
+/// may be.
+Truths read_navigation(Section& root, Scenario& scenario) {
+  const Truths truths{.navigation = root.has("truth") || !(scenario.engagement || scenario.glide),
+                      .engagement = scenario.engagement.has_value(),
+                      .glide = scenario.glide.has_value()};
+  if (truths.navigation) {
+    Section truth = root.table("truth");
+    scenario.truth = read_truth(truth);
+    return truths;
+  }
+  root.optional("truth");
+  for (const std::string_view key : {"initial_error", "master_ins", "slave_imu", "ssbl", "gps"}) {
+    if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
+  }
+  return truths;
+}
+
 std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) {
   std::string all(text);
   for (const Setting& setting : settings) all += fmt::format("{} = {}\n", setting.key, setting.value);
@@ -86,18 +94,28 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
   Section target = root.table("target");
   scenario.target = read_target(target, contract);
-  read_navigation_truth(root, scenario);
-  const bool transfer = scenario.target.estimator == "transfer_alignment";
+  if (auto engagement = root.optional_table("engagement")) {
+    scenario.engagement = read_engagement(*engagement);
+  }
+  read_glider(root, scenario);
+  const Truths truths = read_navigation(root, scenario);
+  if (auto initial_error = root.optional_table("initial_error")) {
+    scenario.initial_error = read_initial_error(*initial_error);
+  }
+  const auto target_is = [&](std::string_view estimator) { return scenario.target.estimator == estimator; };
+  const bool transfer = target_is("transfer_alignment");
   scenario.master_ins = read_node<MasterIns>(root, "master_ins", transfer, read_master_ins);
-  const bool inflight = scenario.target.estimator == "inflight_alignment";
+  const bool inflight = target_is("inflight_alignment");
   scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer || inflight, read_slave_imu);
   scenario.ssbl = read_node<Ssbl>(root, "ssbl", false, read_ssbl);
   scenario.gps = read_node<Gps>(root, "gps", false, read_gps);
-  read_glider(root, scenario);
   if (inflight && !scenario.ssbl && !scenario.gps) {
     root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
   }
-  const Truths truths{.navigation = root.has("truth"), .glide = scenario.glide.has_value()};
+  scenario.seeker =
+      read_node<Seeker>(root, "seeker", scenario.engagement || target_is("los_rate"), read_seeker);
+  if (scenario.seeker && !scenario.engagement)
+    root.reject("engagement", "is missing", "a table beside [seeker]");
   scenario.checks = read_checks(root, scenario.duration_us, contract, truths);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);

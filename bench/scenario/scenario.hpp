@@ -22,10 +22,12 @@
 #include "bench/scenario/glider_nav.hpp"
 #include "bench/scenario/gps.hpp"
 #include "bench/scenario/master_ins.hpp"
+#include "bench/scenario/seeker.hpp"
 #include "bench/scenario/setting.hpp"
 #include "bench/scenario/slave_imu.hpp"
 #include "bench/scenario/ssbl.hpp"
 #include "bench/scenario/target_setup.hpp"
+#include "bench/world/engagement/plan.hpp"
 #include "bench/world/motion.hpp"
 #include "bench/world/navigation_errors.hpp"
 #include "dbc/wire/result.hpp"
@@ -40,7 +42,7 @@ struct Scenario {
   std::uint64_t seed = 0;
 
   TargetSetup target;
-  world::Flight truth;                     ///< at rest if the scenario has none
+  world::Flight truth;                     ///< at rest where nothing navigates
   world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start
   std::optional<MasterIns> master_ins;     ///< absent: not on the bus
   std::optional<SlaveImu> slave_imu;
@@ -49,6 +51,8 @@ struct Scenario {
   std::optional<Glide> glide;  ///< the truth of a glider, beside the navigation's
   std::optional<GliderNav> glider_nav;
   std::optional<Fins> fins;
+  std::optional<world::EngagementPlan> engagement;
+  std::optional<Seeker> seeker;
   std::vector<Check> checks;
 };
 

@@ -39,7 +39,11 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
   target.algorithm = section.one_of("algorithm", contract.algorithms);
-  target.initial_sigma = read_initial_sigma(section.table("initial_sigma"));
+  // Told at every start; an estimator that does not navigate makes nothing of it.
+  const bool navigates = target.estimator != "los_rate";
+  if (navigates || section.has("initial_sigma"))
+    target.initial_sigma = read_initial_sigma(section.table("initial_sigma"));
+  section.optional("initial_sigma");
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract);
   }

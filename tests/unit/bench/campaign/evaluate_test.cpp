@@ -109,7 +109,7 @@ TEST(Distribution, AFractionNeedsABound) {
 TEST(Bars, AreNotMetWhileARunIsMissing) {
   const auto one_faulted = [](std::size_t variant) -> Result<std::vector<RunSeries>> {
     auto runs = runs_of(variant);
-    runs[1].samples.pop_back();
+    runs[1] = run_with(1, variant == 0 ? std::vector{9e-3, 2e-3} : std::vector{9e-3, 8e-3});
     runs[1].ending = {.kind = run::Ending::Kind::target_fault, .t_us = 250'000, .detail = "input_silent"};
     return runs;
   };

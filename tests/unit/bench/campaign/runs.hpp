@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -15,15 +16,20 @@
 
 namespace canhil::campaign {
 
-/// A run with these heading errors [rad] at 0.1 s, 0.2 s ...
-inline RunSeries run_with(std::uint64_t run, const std::vector<double>& headings) {
-  RunSeries series{.run = run, .ending = {}, .samples = {}};
-  for (std::size_t i = 0; i < headings.size(); ++i) {
-    Sample sample;
-    sample.t_us = 100'000 * static_cast<std::int64_t>(i + 1);
-    sample.angles.heading = headings[i];
-    series.samples.push_back(sample);
-  }
+/// Adds a sample that has these numbers, and 0 for whatever else its family keeps.
+inline void add(Samples& samples, std::int64_t t_us, const std::map<Quantity, double>& given) {
+  std::vector<double> values;
+  for (const Quantity quantity : kept(samples.family()))
+    values.push_back(given.contains(quantity) ? given.at(quantity) : 0);
+  samples.add(t_us, values);
+}
+
+/// A run with these values of a quantity at 0.1 s, 0.2 s ...
+inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
+                          Quantity quantity = Quantity::heading) {
+  RunSeries series{.run = run, .ending = {}, .samples = Samples(info(quantity).family)};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    add(series.samples, 100'000 * static_cast<std::int64_t>(i + 1), {{quantity, values[i]}});
   return series;
 }
 

@@ -14,10 +14,9 @@ namespace canhil::campaign {
 namespace {
 
 TEST(Series, BytesAreDoublesLittleEndian) {
-  Sample sample;
-  sample.t_us = 1'000'000;
-  sample.repairs = -2;
-  const auto bytes = encode(std::vector{sample});
+  Samples samples;
+  add(samples, 1'000'000, {{Quantity::repairs, -2}});
+  const auto bytes = encode(samples);
   ASSERT_EQ(bytes.size(), 17U * 8);
   const std::vector<std::uint8_t> one{0, 0, 0, 0, 0, 0, 0xF0, 0x3F}, minus_two{0, 0, 0, 0, 0, 0, 0, 0xC0};
   EXPECT_EQ(std::vector(bytes.begin(), bytes.begin() + 8), one);
@@ -25,29 +24,91 @@ TEST(Series, BytesAreDoublesLittleEndian) {
 }
 
 TEST(Series, ComesBackAsItWas) {
-  Sample sample{.t_us = 86'399'999'999,
-                .misalignment = {1, 2, 3},
-                .angles = {.roll = 4, .pitch = 5, .heading = 6},
-                .v_eb_n = {7, 8, 9},
-                .attitude_nees = std::numeric_limits<double>::infinity(),
-                .nis = std::nan(""),
-                .position = {10, 11, 12},
-                .heading_sigma = 0.5,
-                .repairs = 14};
-  const auto back = decode(encode(std::vector{sample, Sample{}}));
-  ASSERT_EQ(back.size(), 2U);
-  EXPECT_EQ(back[0].t_us, sample.t_us);
-  for (std::size_t i = 0; i < 9; ++i) {
-    const auto quantity = static_cast<Quantity>(i);
-    EXPECT_EQ(value_of(back[0], quantity), static_cast<double>(i + 1)) << name(quantity);
+  for (const Family family : {Family::alignment, Family::los_rate}) {
+    std::map<Quantity, double> values;
+    for (const Quantity quantity : kept(family))
+      values[quantity] = 1.5 * static_cast<double>(values.size() + 1);
+    values.begin()->second = std::numeric_limits<double>::infinity();
+    std::next(values.begin())->second = std::nan("");
+    Samples samples(family);
+    add(samples, -5'540'000, values);
+    add(samples, 86'399'999'999, {});
+    const Samples back = decode(encode(samples), family);
+    ASSERT_EQ(back.size(), 2U);
+    EXPECT_EQ(back.family(), family);
+    EXPECT_EQ(back.times()[0], -5'540'000);
+    EXPECT_EQ(back.times()[1], 86'399'999'999);
+    for (const auto& [quantity, value] : values) {
+      const double found = back.value(0, quantity);
+      EXPECT_TRUE(found == value || (std::isnan(found) && std::isnan(value))) << name(quantity);
+    }
+    EXPECT_EQ(encode(back), encode(samples));
   }
-  EXPECT_EQ(value_of(back[0], Quantity::p_north), 10);
-  EXPECT_EQ(value_of(back[0], Quantity::p_east), 11);
-  EXPECT_EQ(value_of(back[0], Quantity::p_down), 12);
-  EXPECT_EQ(value_of(back[0], Quantity::heading_over_sigma), 12);
-  EXPECT_EQ(value_of(back[0], Quantity::repairs), 14);
-  EXPECT_EQ(value_of(back[0], Quantity::attitude_nees), sample.attitude_nees);
-  EXPECT_TRUE(std::isnan(back[0].nis));
+}
+
+TEST(Series, QuantitiesThatFollowFromOthers) {
+  Samples alignment;
+  add(alignment, 0, {{Quantity::heading, 6}, {Quantity::heading_sigma, 0.5}});
+  EXPECT_EQ(alignment.value(0, Quantity::heading_over_sigma), 12);
+  EXPECT_TRUE(std::isnan(alignment.value(0, Quantity::los_pitch))) << "of another family";
+  Samples los(Family::los_rate);
+  add(los, 0,
+      {{Quantity::los_pitch, 3},
+       {Quantity::los_yaw, 4},
+       {Quantity::miss_pitch, 3},
+       {Quantity::miss_yaw, -4}});
+  EXPECT_DOUBLE_EQ(los.value(0, Quantity::los_rate), std::sqrt(12.5));
+  EXPECT_DOUBLE_EQ(los.value(0, Quantity::miss), 5);
+  EXPECT_TRUE(std::isnan(los.value(0, Quantity::heading)));
+}
+
+TEST(Series, EveryQuantityHasItsNameAndEveryFamilyItsOwn) {
+  EXPECT_EQ(name(Quantity::phi_north), "phi_north");
+  EXPECT_EQ(name(Quantity::nis), "nis");
+  EXPECT_EQ(name(Quantity::heading_sigma), "heading_sigma");
+  EXPECT_EQ(name(Quantity::los_pitch), "los_pitch");
+  EXPECT_EQ(name(Quantity::los_nis), "los_nis");
+  EXPECT_EQ(name(Quantity::miss), "miss");
+  for (const Family family : {Family::alignment, Family::los_rate}) {
+    for (const Quantity quantity : kept(family)) EXPECT_EQ(info(quantity).family, family) << name(quantity);
+  }
+}
+
+TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
+  run::InProcessRun flown{.ending = {}, .seen = {}};
+  world::EngagementRecord record;
+  // 100 Hz, 1000 m/s: two answers a sample; errors of 3 and 4 mrad/s in pitch, 1 in yaw.
+  for (std::int64_t t_us = 10'000; t_us <= 90'000; t_us += 10'000) {
+    world::EngagementTruth epoch;
+    epoch.t_us = t_us;
+    epoch.range = 100.5 - 1e-3 * static_cast<double>(t_us);
+    epoch.closing_speed = 1000;
+    record.epochs.push_back(epoch);
+    checks::LosAnswer answer;
+    answer.cause_us = t_us;
+    answer.outcome = messages::LosRateOutcome::updated;
+    answer.rate = {.pitch = t_us % 20'000 == 0 ? 4e-3 : -3e-3, .yaw = 1e-3};
+    answer.nis = t_us % 20'000 == 0 ? 1 : 2;
+    flown.seen.los.push_back(answer);
+  }
+  flown.seen.los[0].outcome = messages::LosRateOutcome::coasting;  // told, but no update
+  flown.seen.los[1].outcome = messages::LosRateOutcome::waiting;
+  record.miss_n = world::Vector3(0, 0.3, -0.4);
+  flown.own_truth.engagement = record;
+  const RunSeries series =
+      series_of(7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000));
+  ASSERT_EQ(series.samples.family(), Family::los_rate);
+  // To go: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 | 10.5 ms.
+  ASSERT_EQ(series.samples.size(), 5U);
+  EXPECT_EQ(series.samples.times()[0], -100'000) << "begins at 100 ms to go";
+  EXPECT_EQ(series.samples.times()[4], -20'000);
+  EXPECT_DOUBLE_EQ(series.samples.value(0, Quantity::los_pitch), 3e-3);
+  EXPECT_TRUE(std::isnan(series.samples.value(0, Quantity::los_nis)));
+  EXPECT_DOUBLE_EQ(series.samples.value(1, Quantity::los_pitch), std::sqrt(12.5) * 1e-3);
+  EXPECT_DOUBLE_EQ(series.samples.value(1, Quantity::los_yaw), 1e-3);
+  EXPECT_DOUBLE_EQ(series.samples.value(1, Quantity::los_nis), 1.5);
+  EXPECT_DOUBLE_EQ(series.samples.value(2, Quantity::miss_pitch), -0.4);
+  EXPECT_DOUBLE_EQ(series.samples.value(2, Quantity::miss), 0.5);
 }
 
 TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
@@ -62,15 +123,21 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   // 10 Hz for 3 s; the last update is followed by no answer.
   ASSERT_EQ(series.samples.size(), 29U);
   const auto errors = checks::navigation_errors(flown->seen, *truth);
-  for (const Sample& sample : series.samples) {
-    const auto same_time = [&](const auto& error) { return error.t_us == sample.t_us + 10'000; };
+  for (std::size_t i = 0; i < series.samples.size(); ++i) {
+    const auto same_time = [&](const auto& error) {
+      return error.t_us == series.samples.times()[i] + 10'000;
+    };
     const auto after = std::ranges::find_if(errors, same_time);
     ASSERT_NE(after, errors.end());
-    EXPECT_EQ(sample.angles.heading, after->angles.heading);
-    EXPECT_EQ(sample.v_eb_n, after->v_eb_n);
-    EXPECT_EQ(sample.misalignment, after->misalignment);
+    const auto value = [&](Quantity quantity) { return series.samples.value(i, quantity); };
+    EXPECT_EQ(value(Quantity::heading), after->angles.heading);
+    EXPECT_EQ(value(Quantity::roll), after->angles.roll);
+    EXPECT_EQ(value(Quantity::v_east), after->v_eb_n.y());
+    EXPECT_EQ(value(Quantity::v_down), after->v_eb_n.z());
+    EXPECT_EQ(value(Quantity::phi_north), after->misalignment.x());
+    EXPECT_TRUE(std::isnan(value(Quantity::p_north)));
   }
-  EXPECT_EQ(series.samples[4].nis, flown->seen.filter[4].nis);
+  EXPECT_EQ(series.samples.value(4, Quantity::nis), flown->seen.filter[4].nis);
 }
 
 TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
@@ -89,14 +156,15 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   flown.seen.fixes.push_back(fix);
   const RunSeries series = series_of(5, flown, truth);
   ASSERT_EQ(series.samples.size(), 1U) << "only of fixes that were considered";
-  const Sample& sample = series.samples[0];
-  EXPECT_EQ(sample.t_us, 500'000);
-  EXPECT_DOUBLE_EQ(sample.angles.heading, 1.5) << "the first answer that knew of a late fix";
-  EXPECT_LT((sample.position - world::Vector3(1, 2, 3)).norm(), 1e-6);
-  EXPECT_DOUBLE_EQ(value_of(sample, Quantity::heading_over_sigma), 3);
-  EXPECT_EQ(sample.repairs, 6);
-  EXPECT_EQ(sample.nis, 4);
-  EXPECT_TRUE(std::isnan(sample.attitude_nees));
+  const auto value = [&](Quantity quantity) { return series.samples.value(0, quantity); };
+  EXPECT_EQ(series.samples.times()[0], 500'000);
+  EXPECT_DOUBLE_EQ(value(Quantity::heading), 1.5) << "the first answer that knew of a late fix";
+  EXPECT_NEAR(value(Quantity::p_north), 1, 1e-6);
+  EXPECT_NEAR(value(Quantity::p_down), 3, 1e-6);
+  EXPECT_DOUBLE_EQ(value(Quantity::heading_over_sigma), 3);
+  EXPECT_EQ(value(Quantity::repairs), 6);
+  EXPECT_EQ(value(Quantity::nis), 4);
+  EXPECT_TRUE(std::isnan(value(Quantity::attitude_nees)));
 }
 
 }  // namespace

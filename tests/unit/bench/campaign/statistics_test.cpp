@@ -60,8 +60,7 @@ TEST(RunDistribution, IsOfEachRunsLastUpdateAtOrBeforeTheTime) {
   for (std::uint64_t run = 0; run < 10; ++run)
     runs.push_back(
         run_with(run, {99, run % 2 == 0 ? static_cast<double>(run + 1) : -static_cast<double>(run + 1), 99}));
-  runs[3].samples.erase(runs[3].samples.begin() + 1);  // its fix was lost: the one before counts
-  runs[3].samples[0].angles.heading = 4;
+  runs[3] = run_with(3, {4});  // its fix was lost: the one before counts
   const auto found = run_distribution(runs, heading, 250'000, 5, 100);
   EXPECT_EQ(found.missing, 0U);
   EXPECT_DOUBLE_EQ(found.rms, std::sqrt(38.5));
@@ -135,20 +134,41 @@ TEST(PairedFraction, AllBetterIsBoundedBelowOnly) {
 }
 
 TEST(Consistency, HasTheBoundsOfChiSquareForTheMeanOverRuns) {
-  std::vector<RunSeries> runs(10, run_with(0, {0, 0}));
-  for (RunSeries& run : runs) {
-    run.samples[0].nis = 3;
-    run.samples[1].nis = 9;
-  }
+  std::vector<RunSeries> runs(10, run_with(0, {3, 9}, Quantity::nis));
   const auto found = consistency(runs, Quantity::nis, 0, 1'000'000, 0.95);
   EXPECT_DOUBLE_EQ(found.mean, 6);
   EXPECT_NEAR(found.low, 1.6791, 1e-4);   // chi2(30) at 2.5 %: 16.791
   EXPECT_NEAR(found.high, 4.6979, 1e-4);  // at 97.5 %: 46.979
   EXPECT_EQ(found.updates, 2U);
   EXPECT_DOUBLE_EQ(found.inside, 0.5);
-  runs[3].samples[0].nis = nan;
+  runs[3] = run_with(3, {nan, 9}, Quantity::nis);
   EXPECT_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).missing, 1U);
   EXPECT_DOUBLE_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).inside, 0);
+}
+
+RunSeries engagement(std::uint64_t run, const std::map<std::int64_t, double>& pitch_by_ms_to_go) {
+  RunSeries series{.run = run, .ending = {}, .samples = Samples(Family::los_rate)};
+  for (const auto& [ms, pitch] : pitch_by_ms_to_go)
+    add(series.samples, -1000 * ms, {{Quantity::los_pitch, pitch}});
+  return series;
+}
+
+TEST(ToGo, TakesTheSamplesThatLieWithinTheWindow) {
+  std::map<std::int64_t, double> values{{-1000, 9}, {-520, 5}, {-500, 3}, {-220, 4}, {-200, 7}};
+  std::map<std::int64_t, double> to_go;
+  for (const auto& [ms, value] : values) to_go[-ms] = value;
+  std::vector<RunSeries> runs{engagement(0, to_go), engagement(1, to_go)};
+  const auto found = to_go_statistics(runs, Quantity::los_pitch, 0.2, 0.5);
+  EXPECT_EQ(found.count, 4U) << "that from 0.5 s on, and that down to 0.2 s, of both";
+  EXPECT_DOUBLE_EQ(found.mean, 3.5);
+  EXPECT_DOUBLE_EQ(found.rms, std::sqrt(12.5));
+  EXPECT_EQ(found.missing, 0U);
+  EXPECT_DOUBLE_EQ(to_go_statistics(runs, Quantity::los_rate, 0.2, 0.5).rms, std::sqrt(12.5 / 2))
+      << "yaw is 0";
+  runs[1] = engagement(1, {{1000, 9}});
+  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0.2, 0.5).missing, 1U);
+  runs[0].ending.kind = run::Ending::Kind::target_fault;
+  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0.2, 0.5).missing, 2U);
 }
 
 TEST(Divergence, CountsFaultsAndWhatIsBeyondAtTheEnd) {

@@ -88,6 +88,42 @@ class Watched : public testing::Test {
   Outbox<1> target_;
 };
 
+TEST_F(Watched, ALosRateGroupIsOneAnswerOfItsSeekerSample) {
+  sync(0);
+  transmit(SeekerRange{.time_of_validity_us = 5000}, 5'100'000);
+  receive(LosRateEstimate{.los_rate_pitch_radps = 0.01,
+                          .los_rate_yaw_radps = -0.02,
+                          .outcome = LosRateOutcome::start_up,
+                          .fault = LosRateFault::range_invalid,
+                          .blind = 1},
+          5'300'000);
+  receive(LosRateSigma{.los_rate_sigma_pitch_radps = 0.001,
+                       .los_rate_sigma_yaw_radps = 0.002,
+                       .target_acceleration_sigma_y_mps2 = 4,
+                       .target_acceleration_sigma_z_mps2 = 6,
+                       .nis = 2.5},
+          5'400'000);
+  receive(
+      LosRateTarget{
+          .target_acceleration_y_mps2 = 10, .target_acceleration_z_mps2 = -20, .cause_time_us = 5000},
+      5'500'000);
+  ASSERT_EQ(seen().los.size(), 1U);
+  const checks::LosAnswer& answer = seen().los[0];
+  EXPECT_EQ(answer.cause_us, 5000);
+  EXPECT_EQ(answer.outcome, LosRateOutcome::start_up);
+  EXPECT_EQ(answer.fault, LosRateFault::range_invalid);
+  EXPECT_TRUE(answer.blind);
+  EXPECT_NEAR(answer.rate.pitch, 0.01, 1e-9);
+  EXPECT_NEAR(answer.rate.yaw, -0.02, 1e-9);
+  EXPECT_NEAR(answer.rate_sigma.pitch, 0.001, 1e-9);
+  EXPECT_NEAR(answer.rate_sigma.yaw, 0.002, 1e-9);
+  EXPECT_EQ(answer.target, (world::Planes<double>{.pitch = -20, .yaw = 10})) << "z in pitch, y in yaw";
+  EXPECT_EQ(answer.target_sigma, (world::Planes<double>{.pitch = 6, .yaw = 4}));
+  EXPECT_NEAR(answer.nis, 2.5, 1e-9);
+  EXPECT_THAT(checks::latencies_s(seen(), "LosRateTarget", everything),
+              ElementsAre(testing::DoubleNear(4e-4, 1e-12)));
+}
+
 TEST_F(Watched, ANavigationGroupIsOneAnswerInSiUnits) {
   answer(10'000);
   ASSERT_EQ(seen().navigation.size(), 1U);

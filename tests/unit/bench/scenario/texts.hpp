@@ -10,7 +10,7 @@
 
 namespace canhil::scenario {
 
-inline const Contract contract{.estimators = {"transfer_alignment", "inflight_alignment"},
+inline const Contract contract{.estimators = {"transfer_alignment", "inflight_alignment", "los_rate"},
                                .algorithms = {"kalman", "robust_h2"},
                                .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
                                .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},

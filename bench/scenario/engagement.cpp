@@ -1,0 +1,71 @@
+#include "bench/scenario/engagement.hpp"
+
+#include <array>
+#include <string>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+using world::Manoeuvre;
+
+template <class Enum, std::size_t n>
+Enum read_enum(Section& section, std::string_view key, const std::array<std::string, n>& names,
+               const std::optional<std::string>& fallback) {
+  const std::string word = section.one_of(key, names, fallback);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (names[i] == word) return static_cast<Enum>(i);
+  }
+  return Enum{};
+}
+
+// A step or a weave begins at a time, or at a time to go.
+Manoeuvre read_manoeuvre(Section& section) {
+  static const std::array<std::string, 3> kinds{"none", "step", "weave"};
+  Manoeuvre manoeuvre;
+  manoeuvre.kind = read_enum<Manoeuvre::Kind>(section, "manoeuvre", kinds, "step");
+  if (manoeuvre.kind == Manoeuvre::Kind::none) {
+    manoeuvre.acceleration = 0;
+    return manoeuvre;
+  }
+  manoeuvre.acceleration = section.number("manoeuvre_g", Limits::between(0, 20), 4);
+  if (manoeuvre.kind == Manoeuvre::Kind::weave)
+    manoeuvre.period = section.number("manoeuvre_period_s", Limits::above(0), manoeuvre.period);
+  const bool at_time = section.has("manoeuvre_from_s");
+  if (at_time && section.has("manoeuvre_at_to_go_s"))
+    section.reject("manoeuvre_at_to_go_s", "is given beside manoeuvre_from_s", "one of the two");
+  if (at_time) manoeuvre.at_time_to_go.reset();
+  manoeuvre.from_s = section.number("manoeuvre_from_s", Limits::at_least(0), 0);
+  const double to_go = section.number("manoeuvre_at_to_go_s", Limits::above(0), 1);
+  if (!at_time) manoeuvre.at_time_to_go = to_go;
+  return manoeuvre;
+}
+
+}  // namespace
+
+world::EngagementPlan read_engagement(Section& section) {
+  static const std::array<std::string, 2> guidances{"truth", "target"};
+  static const std::array<std::string, 3> planes{"both", "pitch", "yaw"};
+  const Limits sigma = Limits::at_least(0);
+  world::EngagementPlan plan;
+  plan.range = section.number("range_m", Limits::between(100, 26'000), 5000);
+  plan.missile_speed = section.number("missile_speed_mps", Limits::above(0, 3000), 600);
+  plan.target_speed = section.number("target_speed_mps", Limits::above(0, 1000), 300);
+  plan.heading_error = section.number("heading_error_deg", Limits::between(-45, 45), 0);
+  plan.heading_error_sigma = section.number("heading_error_sigma_deg", Limits::between(0, 15), 3);
+  plan.pointing_error_sigma = section.number("pointing_error_sigma_mrad", Limits::between(0, 100), 5);
+  plan.planes = read_enum<world::ActivePlanes>(section, "planes", planes, "both");
+  plan.manoeuvre = read_manoeuvre(section);
+  plan.navigation_constant = section.number("navigation_constant", sigma, 4);
+  plan.autopilot_lag = section.number("autopilot_lag_s", Limits::between(0.01, 10), 0.15);
+  plan.acceleration_limit = section.number("acceleration_limit_g", Limits::above(0, 100), 35);
+  plan.servo_gain = section.number("antenna_servo_per_s", Limits::between(0, 200), 12);
+  plan.roll_rate = section.number("roll_rate_radps", Limits::between(-20, 20), 0);
+  plan.guidance = read_enum<world::Guidance>(section, "guidance", guidances, {});
+  plan.guidance_delay_us = section.time_us("guidance_delay_ms", Limits::between(0, 1000), 10);
+  section.finish();
+  return plan;
+}
+
+}  // namespace canhil::scenario

@@ -1,0 +1,277 @@
+// LOS rate behind the bus: group Seeker in, group LosRate out. Every whole group is answered.
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "dbc/wire/time_base.hpp"
+#include "target/device/adapters.hpp"
+#include "target/device/group_intake.hpp"
+#include "target/device/parameter_table.hpp"
+#include "target/estimators/los_rate/filter.hpp"
+
+namespace canhil::target {
+namespace {
+
+namespace los = los_rate;
+using namespace messages;
+
+constexpr double us = 1e-6, ms = 1e-3;
+constexpr std::int64_t lead_limit_us = 100'000;  // a group valid further ahead of the time base is nonsense
+constexpr std::int64_t silence_limit_us = 500'000;  // a seeker that stays away this long is named
+
+// Parameters in the unit of their name; defaults are those of the estimator. The design is made of them at
+// the start, so none may change while it runs. Within the ranges every design and its gains are finite.
+using Tuning = los::Settings;
+using Row = ParameterTable<Tuning>::Row;
+constexpr bool whole = true;
+constexpr bool real = false;
+constexpr bool stopped_only = false;
+constexpr Tuning standard;
+constexpr std::array rows{
+    Row{Parameter::jerk_density_m2ps5, standard.jerk_density, 1e-3, 1e6, real, stopped_only,
+        [](Tuning& t, double v) { t.jerk_density = v; }},
+    Row{Parameter::thermal_noise_pitch_radpm2, standard.noise.pitch.thermal, 1e-14, 1e-6, real, stopped_only,
+        [](Tuning& t, double v) { t.noise.pitch.thermal = v; }},
+    Row{Parameter::thermal_noise_yaw_radpm2, standard.noise.yaw.thermal, 1e-14, 1e-6, real, stopped_only,
+        [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
+    Row{Parameter::glint_noise_pitch_m, standard.noise.pitch.glint, 1e-3, 100, real, stopped_only,
+        [](Tuning& t, double v) { t.noise.pitch.glint = v; }},
+    Row{Parameter::glint_noise_yaw_m, standard.noise.yaw.glint, 1e-3, 100, real, stopped_only,
+        [](Tuning& t, double v) { t.noise.yaw.glint = v; }},
+    Row{Parameter::constant_noise_pitch_rad, standard.noise.pitch.constant, 0, 0.1, real, stopped_only,
+        [](Tuning& t, double v) { t.noise.pitch.constant = v; }},
+    Row{Parameter::constant_noise_yaw_rad, standard.noise.yaw.constant, 0, 0.1, real, stopped_only,
+        [](Tuning& t, double v) { t.noise.yaw.constant = v; }},
+    Row{Parameter::sample_period_ms, standard.sample_period / ms, 0.5, 50, real, stopped_only,
+        [](Tuning& t, double v) { t.sample_period = v * ms; }},
+    Row{Parameter::los_rate_sigma_radps, standard.rate_sigma_0, 1e-6, 10, real, stopped_only,
+        [](Tuning& t, double v) { t.rate_sigma_0 = v; }},
+    Row{Parameter::target_acceleration_sigma_mps2, standard.acceleration_sigma_0, 1e-3, 1e4, real,
+        stopped_only, [](Tuning& t, double v) { t.acceleration_sigma_0 = v; }},
+    Row{Parameter::start_up_s, standard.start_up, 0, 100, real, stopped_only,
+        [](Tuning& t, double v) { t.start_up = v; }},
+    Row{Parameter::gap_limit_ms, standard.gap_limit / ms, 0, 1e4, real, stopped_only,
+        [](Tuning& t, double v) { t.gap_limit = v * ms; }},
+    Row{Parameter::low_pass_bandwidth_radps, standard.low_pass_bandwidth, 0.1, 200, real, stopped_only,
+        [](Tuning& t, double v) { t.low_pass_bandwidth = v; }},
+    Row{Parameter::low_pass_damping, standard.low_pass_damping, 0.1, 5, real, stopped_only,
+        [](Tuning& t, double v) { t.low_pass_damping = v; }},
+    Row{Parameter::range_max_m, standard.range_max, 100, 1e5, real, stopped_only,
+        [](Tuning& t, double v) { t.range_max = v; }},
+    Row{Parameter::closing_speed_max_mps, standard.closing_speed_max, 10, 1e4, real, stopped_only,
+        [](Tuning& t, double v) { t.closing_speed_max = v; }},
+    Row{Parameter::blind_range_m, standard.blind_range, 0, 1e4, real, stopped_only,
+        [](Tuning& t, double v) { t.blind_range = v; }},
+    Row{Parameter::range_sigma_m, standard.range_sigma, 0, 1e3, real, stopped_only,
+        [](Tuning& t, double v) { t.range_sigma = v; }},
+    Row{Parameter::range_gate_m, standard.range_gate, 1, 1e5, real, stopped_only,
+        [](Tuning& t, double v) { t.range_gate = v; }},
+    Row{Parameter::closing_speed_gate_mps, standard.closing_speed_gate, 1, 1e4, real, stopped_only,
+        [](Tuning& t, double v) { t.closing_speed_gate = v; }},
+    Row{Parameter::relock_samples, static_cast<double>(standard.relock_samples), 1, 1e4, whole, stopped_only,
+        [](Tuning& t, double v) { t.relock_samples = static_cast<int>(std::lround(v)); }},
+    Row{Parameter::range_unchanged_limit_ms, standard.range_unchanged_limit / ms, 0, 1e4, real, stopped_only,
+        [](Tuning& t, double v) { t.range_unchanged_limit = v * ms; }},
+    // Below the largest angle that the bus carries, so that an angle which saturates there is refused.
+    Row{Parameter::field_of_view_rad, standard.field_of_view, 1e-3, 0.6, real, stopped_only,
+        [](Tuning& t, double v) { t.field_of_view = v; }},
+    Row{Parameter::antenna_rate_sigma_radps, standard.antenna_rate_sigma, 0, 100, real, stopped_only,
+        [](Tuning& t, double v) { t.antenna_rate_sigma = v; }},
+    Row{Parameter::missile_acceleration_sigma_mps2, standard.missile_acceleration_sigma, 0, 1e4, real,
+        stopped_only, [](Tuning& t, double v) { t.missile_acceleration_sigma = v; }},
+};
+
+std::optional<los::Algorithm> algorithm_of(Algorithm algorithm) {
+  switch (algorithm) {
+    case Algorithm::switched_table:
+      return los::Algorithm::switched_table;
+    case Algorithm::combined:
+      return los::Algorithm::combined;
+    case Algorithm::kalman:
+      return los::Algorithm::kalman;
+    case Algorithm::low_pass:
+      return los::Algorithm::low_pass;
+    default:
+      return std::nullopt;
+  }
+}
+
+// Outcomes and faults have the same numbers on the bus.
+constexpr LosRateOutcome on_bus(los::Outcome outcome) { return static_cast<LosRateOutcome>(outcome); }
+constexpr LosRateFault on_bus(los::Fault fault) { return static_cast<LosRateFault>(fault); }
+static_assert(on_bus(los::Outcome::waiting) == LosRateOutcome::waiting);
+static_assert(on_bus(los::Outcome::started) == LosRateOutcome::started);
+static_assert(on_bus(los::Outcome::updated) == LosRateOutcome::updated);
+static_assert(on_bus(los::Outcome::start_up) == LosRateOutcome::start_up);
+static_assert(on_bus(los::Outcome::coasting) == LosRateOutcome::coasting);
+static_assert(on_bus(los::Outcome::bad_step) == LosRateOutcome::bad_step);
+static_assert(on_bus(los::Outcome::non_finite) == LosRateOutcome::non_finite);
+static_assert(on_bus(los::Fault::none) == LosRateFault::none);
+static_assert(on_bus(los::Fault::error_angle) == LosRateFault::error_angle);
+static_assert(on_bus(los::Fault::field_of_view) == LosRateFault::field_of_view);
+static_assert(on_bus(los::Fault::antenna) == LosRateFault::antenna);
+static_assert(on_bus(los::Fault::acceleration) == LosRateFault::acceleration);
+static_assert(on_bus(los::Fault::range_invalid) == LosRateFault::range_invalid);
+static_assert(on_bus(los::Fault::range_stale) == LosRateFault::range_stale);
+static_assert(on_bus(los::Fault::range_jump) == LosRateFault::range_jump);
+static_assert(on_bus(los::Fault::closing_speed_invalid) == LosRateFault::closing_speed_invalid);
+
+class LosRateAdapter final : public Adapter {
+ public:
+  [[nodiscard]] Estimator estimator() const override { return Estimator::los_rate; }
+
+  bool reset(Algorithm algorithm) override {
+    const auto chosen = algorithm_of(algorithm);
+    if (!chosen) return false;
+    parameters_.reset(settings_);
+    settings_.algorithm = *chosen;
+    return true;
+  }
+
+  ParameterStatus set(Parameter parameter, double value, bool running) override {
+    return parameters_.set(settings_, parameter, value, running);
+  }
+  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
+    return parameters_.get(parameter);
+  }
+
+  // The first usable sample starts the estimate; of the initial state only the time counts, for silence.
+  void start(const InitialState& initial) override {
+    design_ = los::make_design(settings_);
+    acquire();
+    now_us_ = initial.t_us;
+    group_.discard();
+  }
+
+  Health receive(const Frame& frame, std::uint8_t counter, Context context) override {
+    switch (frame.id) {
+      case SeekerAntenna::info.id:
+        return put<SeekerAntenna>(frame, counter, context);
+      case SeekerAngles::info.id:
+        return put<SeekerAngles>(frame, counter, context);
+      case SeekerMotion::info.id:
+        return put<SeekerMotion>(frame, counter, context);
+      case SeekerRange::info.id:
+        return put<SeekerRange>(frame, counter, context);
+      default:
+        return Health::good;
+    }
+  }
+
+  // No fault: whenever the seeker comes back, the target is acquired anew.
+  Health tick(Context context) override {
+    if (context.now_us - now_us_ > silence_limit_us) context.errors.input_silent = true;
+    return Health::good;
+  }
+
+ private:
+  template <class Message>
+  Health put(const Frame& frame, std::uint8_t counter, Context& context) {
+    return completes<Message>(group_, frame, counter, context) ? on_group(context) : Health::good;
+  }
+
+  void acquire() {
+    state_ = los::initial();
+    last_ = {};
+    last_.sigma.pitch.rate = last_.sigma.yaw.rate = settings_.rate_sigma_0;
+    last_.sigma.pitch.acceleration = last_.sigma.yaw.acceleration = settings_.acceleration_sigma_0;
+    tracking_ = false;
+  }
+
+  Health on_group(Context& context) {
+    const std::int64_t t_us = unwrap_us(group_.get<SeekerRange>().time_of_validity_us, context.now_us);
+    if (t_us - context.now_us > lead_limit_us) {
+      drop_group(context);
+      return refuse(t_us, context);
+    }
+    if (tracking_ && t_us <= now_us_) {
+      ++context.losses.late;
+      return refuse(t_us, context);
+    }
+    if (tracking_ && static_cast<double>(t_us - now_us_) * us > design_.settings.longest_step) {
+      context.errors.input_silent = true;
+      acquire();
+    }
+    const los::UpdateResult result = los::step(state_, measured(t_us), design_);
+    if (result.fault != los::Fault::none) context.errors.input_lost = true;
+    if (result.outcome == los::Outcome::non_finite) {
+      refuse(t_us, context, result.outcome);
+      context.errors.numeric = true;
+      return Health::fault;
+    }
+    tracking_ = true;
+    now_us_ = t_us;
+    last_ = result;
+    answer(t_us, result, context.answers);
+    return Health::good;
+  }
+
+  // A group whose interval does not begin where the last one ended leaves antenna increments out: they are
+  // not those of the step. The first one has no step before it.
+  los::Measurement measured(std::int64_t t_us) const {
+    const auto& antenna = group_.get<SeekerAntenna>();
+    const auto& angles = group_.get<SeekerAngles>();
+    const auto& motion = group_.get<SeekerMotion>();
+    const auto& range = group_.get<SeekerRange>();
+    const auto interval_us = static_cast<std::int64_t>(angles.interval_us);
+    const std::int64_t missing_us = t_us - interval_us - now_us_;
+    const bool continuous = !tracking_ || std::abs(missing_us) < interval_us / 2;
+    const auto valid = [](Validity validity) { return validity == Validity::valid; };
+    return {.dt = tracking_ ? static_cast<double>(t_us - now_us_) * us : design_.settings.sample_period,
+            .error = {.pitch = angles.error_pitch_rad, .yaw = angles.error_yaw_rad},
+            .antenna_increment = {.pitch = antenna.antenna_increment_pitch_rad,
+                                  .yaw = antenna.antenna_increment_yaw_rad},
+            .roll_increment = antenna.antenna_increment_roll_rad,
+            .missile_acceleration = {.pitch = motion.missile_acceleration_z_mps2,
+                                     .yaw = motion.missile_acceleration_y_mps2},
+            .range = {range.range_m, motion.closing_speed_mps, valid(range.range_validity),
+                      valid(motion.closing_speed_validity)},
+            .error_valid = valid(angles.error_validity),
+            .antenna_valid = valid(antenna.antenna_validity) && continuous,
+            .acceleration_valid = valid(motion.acceleration_validity)};
+  }
+
+  // Answers a group that does nothing with what is known.
+  Health refuse(std::int64_t t_us, Context& context, los::Outcome why = los::Outcome::bad_step) {
+    los::UpdateResult nothing;
+    nothing.outcome = why;
+    nothing.blind = last_.blind;
+    nothing.sigma = last_.sigma;
+    answer(t_us, nothing, context.answers);
+    return Health::good;
+  }
+
+  void answer(std::int64_t t_us, const los::UpdateResult& result, Answers& answers) const {
+    const los::Estimate best = los::estimate(state_);
+    answers.send(LosRateEstimate{.los_rate_pitch_radps = best.rate.pitch,
+                                 .los_rate_yaw_radps = best.rate.yaw,
+                                 .cause_counter = group_.counter(),
+                                 .outcome = on_bus(result.outcome),
+                                 .fault = on_bus(result.fault),
+                                 .blind = static_cast<std::uint8_t>(result.blind)});
+    answers.send(LosRateSigma{.los_rate_sigma_pitch_radps = result.sigma.pitch.rate,
+                              .los_rate_sigma_yaw_radps = result.sigma.yaw.rate,
+                              .target_acceleration_sigma_y_mps2 = result.sigma.yaw.acceleration,
+                              .target_acceleration_sigma_z_mps2 = result.sigma.pitch.acceleration,
+                              .nis = result.nis});
+    answers.send(LosRateTarget{.target_acceleration_y_mps2 = best.acceleration.yaw,
+                               .target_acceleration_z_mps2 = best.acceleration.pitch,
+                               .cause_time_us = wrap_us(t_us)});
+  }
+
+  ParameterTable<Tuning> parameters_{rows};
+  los::Settings settings_;
+  los::Design design_;
+  los::State state_;
+  los::UpdateResult last_;
+  SampleGroup<SeekerAntenna, SeekerAngles, SeekerMotion, SeekerRange> group_;
+  std::int64_t now_us_ = 0;  // validity of the last step, or the start
+  bool tracking_ = false;    // a step was made since
+};
+
+}  // namespace
+
+std::unique_ptr<Adapter> make_los_rate_adapter() { return std::make_unique<LosRateAdapter>(); }
+
+}  // namespace canhil::target

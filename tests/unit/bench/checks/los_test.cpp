@@ -1,0 +1,136 @@
+// LOS rates, their consistency and the miss against an engagement.
+#include "bench/checks/los.hpp"
+
+#include <gmock/gmock.h>
+
+#include "bench/checks/judge.hpp"
+#include "bench/world/motion/rest.hpp"
+
+namespace canhil::checks {
+namespace {
+
+using messages::LosRateOutcome;
+using testing::HasSubstr;
+
+constexpr std::int64_t duration_us = 6'000'000;
+
+// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; tests spoil it.
+class Engaged : public testing::Test {
+ protected:
+  Engaged() {
+    for (std::int64_t t_us = 10'000; t_us < 5'000'000; t_us += 10'000) {
+      world::EngagementTruth epoch;
+      epoch.t_us = t_us;
+      epoch.range = 5000 - 1e-3 * static_cast<double>(t_us);
+      epoch.closing_speed = 1000;
+      epoch.los_rate = {.pitch = 0.01, .yaw = -0.02};
+      engagement_.epochs.push_back(epoch);
+      LosAnswer answer;
+      answer.cause_us = t_us;
+      answer.outcome = LosRateOutcome::updated;
+      answer.rate = epoch.los_rate;
+      answer.nis = 2;
+      seen_.los.push_back(answer);
+      seen_.stimuli["Seeker"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+    }
+    engagement_.miss_n = world::Vector3(0, 0.3, 0.4);
+    engagement_.passage_us = 5'000'000;
+  }
+  template <class Rule>
+  CheckResult judge(const Rule& rule) {
+    scenario::Scenario scenario;
+    scenario.checks.push_back({.name = "it", .requirement = "", .rule = rule});
+    return checks::judge(scenario, {.seen = seen_,
+                                    .truth = truth_,
+                                    .engagement = present_ ? &engagement_ : nullptr,
+                                    .duration_us = duration_us,
+                                    .ended_early = "",
+                                    .timing_unfit = ""})
+        .checks.at(0);
+  }
+  LosAnswer& answer_at(double to_go) {
+    return seen_.los.at(static_cast<std::size_t>(std::lround((5 - to_go) * 100)) - 1);
+  }
+
+  bool present_ = true;
+  world::EngagementRecord engagement_;
+  world::FlightRecord truth_{{.start = {}, .motion = world::Rest{}}, duration_us, 10'000};
+  Observations seen_;
+};
+
+scenario::LosRateError error_rule(scenario::LosPlane plane, scenario::LosStatistic statistic) {
+  return {.plane = plane, .statistic = statistic, .least_to_go = 1, .most_to_go = 2, .below = 2e-3};
+}
+
+TEST_F(Engaged, LosRateErrorByPlaneAndStatistic) {
+  using enum scenario::LosPlane;
+  using enum scenario::LosStatistic;
+  answer_at(1.5).rate.yaw += 3e-3;
+  EXPECT_EQ(judge(error_rule(yaw, max)).outcome, Outcome::fail);
+  EXPECT_EQ(judge(error_rule(both, max)).measured, "max 3.000 mrad/s of 100");
+  EXPECT_EQ(judge(error_rule(pitch, max)).outcome, Outcome::pass);
+  EXPECT_EQ(judge(error_rule(yaw, rms)).measured, "RMS 0.300 mrad/s of 100") << "one of 100";
+  for (LosAnswer& answer : seen_.los) answer.rate.pitch += 2.1e-3;
+  EXPECT_EQ(judge(error_rule(pitch, rms)).outcome, Outcome::fail);
+}
+
+TEST_F(Engaged, TheWindowIsOfTheTimeToGo) {
+  using enum scenario::LosPlane;
+  using enum scenario::LosStatistic;
+  answer_at(2.5).rate.yaw += 1;
+  answer_at(0.5).rate.yaw += 1;
+  EXPECT_EQ(judge(error_rule(both, max)).outcome, Outcome::pass);
+  answer_at(1.0).rate.yaw += 1;
+  EXPECT_EQ(judge(error_rule(both, max)).outcome, Outcome::fail) << "its end is in";
+}
+
+TEST_F(Engaged, MissingAnswersFail) {
+  const auto rule = error_rule(scenario::LosPlane::both, scenario::LosStatistic::rms);
+  std::erase_if(seen_.los, [](const LosAnswer& answer) { return answer.cause_us % 20'000 == 0; });
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "half of the samples may be lost";
+  std::erase_if(seen_.los, [](const LosAnswer& answer) { return answer.cause_us == 3'510'000; });
+  EXPECT_THAT(judge(rule).measured, HasSubstr("answers to 49 of 100 samples"));
+  seen_.los.clear();
+  EXPECT_THAT(judge(rule).measured, HasSubstr("no answers"));
+  engagement_.epochs.clear();
+  EXPECT_THAT(judge(rule).measured, HasSubstr("no samples there"));
+}
+
+TEST_F(Engaged, AnswersThatAreNoEstimateTellNoRate) {
+  for (LosAnswer& answer : seen_.los) answer.outcome = LosRateOutcome::waiting;
+  EXPECT_THAT(judge(error_rule(scenario::LosPlane::both, scenario::LosStatistic::max)).measured,
+              HasSubstr("no answers"));
+}
+
+TEST_F(Engaged, Miss) {
+  EXPECT_EQ(judge(scenario::MissDistance{.below = 0.51}).outcome, Outcome::pass);
+  EXPECT_EQ(judge(scenario::MissDistance{.below = 0.5}).outcome, Outcome::fail);
+  engagement_.miss_n.reset();
+  EXPECT_THAT(judge(scenario::MissDistance{.below = 1}).measured, HasSubstr("did not pass"));
+  present_ = false;
+  EXPECT_EQ(judge(scenario::MissDistance{.below = 1}).outcome, Outcome::fail);
+}
+
+TEST_F(Engaged, ConsistencyIsOfTwoDegreesOfFreedomUntilThePassage) {
+  scenario::Consistency rule{.statistic = scenario::Statistic::los_nis,
+                             .window = {.from_us = 0, .to_us = duration_us},
+                             .bound = scenario::Probability{.value = 0.99}};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
+  for (LosAnswer& answer : seen_.los) answer.nis = 3;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "consistent with three";
+  for (LosAnswer& answer : seen_.los) {
+    answer.nis = answer.cause_us > 2'000'000 ? 0 : 2;
+    if (answer.cause_us > 2'000'000) answer.outcome = LosRateOutcome::coasting;
+  }
+  EXPECT_THAT(judge(rule).measured, HasSubstr("no answers from 2")) << "a coast gives no statistic";
+}
+
+TEST_F(Engaged, Coasting) {
+  scenario::Coasting rule{.window = {.from_us = 0, .to_us = duration_us}, .at_most = 0};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  answer_at(2).outcome = LosRateOutcome::coasting;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+}  // namespace
+}  // namespace canhil::checks
