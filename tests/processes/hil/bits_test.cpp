@@ -37,7 +37,7 @@ TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
-                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps"));
+                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "wind_quick"));
 
 TEST(Bits, InflightInProcessAndRealTimeAgree) {
   const std::string name = "inflight_quick";

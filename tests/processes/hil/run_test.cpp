@@ -51,7 +51,8 @@ TEST_P(RunOfScenario, OutputsPassInLockstep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Run, RunOfScenario,
-                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps"));
+                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "wind_ekf",
+                                         "wind_h_infinity"));
 
 TEST(Run, AnAlignmentInFlightPassesInRealTime) {
   const std::string report = scratch("inflight.json");
