@@ -39,7 +39,7 @@ void GliderNav::transmit(Transmission& out) {
   const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(period_s_, stream_);
   const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(period_s_, stream_);
   const Vector3 turn = config_.attitude_noise * attitude_.next(period_s_, stream_);
-  const world::Euler angles = euler_from(truth.C_bn);
+  const world::Euler angles = world::euler_from(truth.C_bn);
   out.send(messages::GliderNavVelocityNE{
       .velocity_north_mps = velocity.x(), .velocity_east_mps = velocity.y(), .height_m = truth.height});
   out.send(messages::GliderNavAttitude{.roll_deg = angle_deg(angles.roll + turn.x()),

@@ -21,7 +21,7 @@ InitialState state_at_release(const world::GlideRecord& glide, const scenario::G
   const world::GlideTruth& truth = glide.epochs().front();
   const scenario::ReleaseError& error = config.release;
   const world::Vector3 turn = error.attitude * stream.normal3();
-  world::Euler angles = euler_from(truth.C_bn);
+  world::Euler angles = world::euler_from(truth.C_bn);
   angles = {angles.roll + turn.x(), angles.pitch + turn.y(), angles.heading + turn.z()};
   InitialState state = initial_state({.t_us = truth.t_us,
                                       .position = {.height = truth.height},

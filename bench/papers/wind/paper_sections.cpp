@@ -171,15 +171,16 @@ Section glide(const Results& /*results*/) {
                   .thresholds = {},
                   .curves = {}};
   attitude.curves = {
-      over_time("roll", [](const auto& t) { return euler_from(t.C_bn).roll / deg; }),
-      over_time("pitch", [](const auto& t) { return euler_from(t.C_bn).pitch / deg; }),
-      over_time("heading", [](const auto& t) { return euler_from(t.C_bn).heading / deg; }),
+      over_time("roll", [](const auto& t) { return world::euler_from(t.C_bn).roll / deg; }),
+      over_time("pitch", [](const auto& t) { return world::euler_from(t.C_bn).pitch / deg; }),
+      over_time("heading", [](const auto& t) { return world::euler_from(t.C_bn).heading / deg; }),
       over_time("attack", [](const auto& t) { return std::atan2(t.v_a.z(), t.v_a.x()) / deg; })};
   const world::GlideTruth& end = nominal_glide().epochs().back();
   return {.id = "glide",
           .title = "Figs 3 to 6: the wind and the glide",
           .paragraphs = {fmt::format("The glide ends at {:.0f} m/s and {:.2f} km, heading {:+.1f} deg.",
-                                     end.v_a.norm(), end.height / 1000, euler_from(end.C_bn).heading / deg)},
+                                     end.v_a.norm(), end.height / 1000,
+                                     world::euler_from(end.C_bn).heading / deg)},
           .tables = {},
           .figures = {profiles(3, "wind speed over the height", "wind speed [m/s]", {0, 80},
                                [](const world::Vector3& w) { return w.norm(); }),

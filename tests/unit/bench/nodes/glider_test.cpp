@@ -64,7 +64,7 @@ std::vector<Sample> navigation(const scenario::GliderNav& config) {
 }
 
 Vector3 angles(const world::GlideTruth& truth) {
-  const world::Euler e = euler_from(truth.C_bn);
+  const world::Euler e = world::euler_from(truth.C_bn);
   return {e.roll, e.pitch, e.heading};
 }
 
