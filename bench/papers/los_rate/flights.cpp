@@ -11,7 +11,6 @@
 namespace canhil::papers::los_rate {
 namespace {
 
-std::string number(double value) { return fmt::format("{:.3g}", value); }
 std::string rms_words(double value) { return fmt::format("{:.2f}", value); }
 
 struct Filter {
