@@ -109,6 +109,55 @@ TEST(Allocation, TheFramePathOfInflightAlignmentHasNone) {
   }
 }
 
+// The same for the wind: late and refused fins, navigation lost, invalid, jumping, silent and back again.
+std::vector<Frame> wind_session(messages::Algorithm algorithm) {
+  using namespace messages;
+  BenchSide bench;
+  bench.command(Command::reset, Estimator::wind, algorithm);
+  bench.send(ParamSet{.parameter = Parameter::body_rate_noise_degpsprts, .value = 0.1F});
+  bench.initialise();
+  bench.send(TargetInitRate{});
+  bench.send(TargetInitAirVelocity{.air_velocity_x_mps = BenchSide::speed, .air_velocity_z_mps = 5});
+  bench.command(Command::start);
+  for (int k = 1; k <= 600; ++k) {
+    const std::int64_t t_us = k * 20'000;
+    if (k % 7 != 0) {
+      bench.send(FinDeflections{
+          .elevator_deg = k % 31 == 0 ? 40.0 : -1.0,
+          .time_of_validity_us = static_cast<double>(wrap_short_us(t_us - (k % 11 == 0 ? 60'000 : 0)))});
+    }
+    if (k < 200 || k > 350) {  // 3 s of silence
+      bench.send(GliderNavVelocityNE{
+          .velocity_north_mps = BenchSide::speed + (k % 90 == 0 ? 100 : 0.1 * (k % 3)), .height_m = 5000});
+      bench.send(GliderNavAttitude{.pitch_deg = k % 80 == 0 ? 89.0 : 2.0,
+                                   .navigation_validity = k % 50 == 0 ? Validity::invalid : Validity::valid});
+      if (k % 70 != 0) {
+        bench.send(GliderNavRates{});
+      } else {
+        bench.lose(GliderNavRates{});
+      }
+      bench.send(GliderNavVelocityD{.time_of_validity_us = wrap_us(k == 500 ? 0 : t_us)});
+    }
+    bench.send(ParamSet{.parameter = Parameter::theta_per_s, .value = static_cast<float>(k % 4)});
+    bench.sync(t_us, k > 300);
+  }
+  return bench.fed();
+}
+
+TEST(Allocation, TheFramePathOfTheWindHasNone) {
+  using messages::Algorithm;
+  for (const auto algorithm : {Algorithm::ekf, Algorithm::h_infinity, Algorithm::adaptive_q}) {
+    const std::vector<Frame> frames = wind_session(algorithm);
+    Device device;
+    std::size_t answers = 0;
+    const std::size_t before = allocations;
+    for (const Frame& frame : frames) answers += device.receive(frame).size();
+    EXPECT_EQ(allocations - before, 0U);
+    EXPECT_GT(answers, 3500U);
+    EXPECT_EQ(device.state(), messages::TargetState::running);
+  }
+}
+
 TEST(Allocation, TheCounterOfThisTestCounts) {
   const std::size_t before = allocations;
   delete new Device;

@@ -31,7 +31,7 @@ TEST(Device, RefusesACommandOfAnotherDbc) {
 
 TEST(Device, RefusesAnEstimatorThatItDoesNotOffer) {
   BenchSide bench;
-  bench.command(Command::reset, Estimator::wind);
+  bench.command(Command::reset, Estimator::none);
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_command, 1);
   bench.initialise();
   bench.command(Command::start);
@@ -50,9 +50,9 @@ TEST(Device, DoesNotStartWithoutAWholeInitialState) {
 TEST(Device, ReadsBackEveryParameterAsItWasSet) {
   for (const Parameter parameter : enumerators<Parameter>) {
     int takers = 0;
-    for (const auto& [estimator, algorithm] :
-         {std::pair(Estimator::transfer_alignment, Algorithm::kalman),
-          std::pair(Estimator::inflight_alignment, Algorithm::sin_cos)}) {
+    for (const auto& [estimator, algorithm] : {std::pair(Estimator::transfer_alignment, Algorithm::kalman),
+                                               std::pair(Estimator::inflight_alignment, Algorithm::sin_cos),
+                                               std::pair(Estimator::wind, Algorithm::ekf)}) {
       BenchSide bench;
       bench.command(Command::reset, estimator, algorithm);
       bench.send(ParamSet{.parameter = parameter, .value = 1.0F});
