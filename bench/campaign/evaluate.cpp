@@ -17,7 +17,8 @@ double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 double in_unit(double value, Quantity quantity) { return value / unit_of(quantity).factor; }
 
 std::string with_unit(double value, Quantity quantity) {
-  return fmt::format("{:.4g} {}", in_unit(value, quantity), unit_of(quantity).name);
+  const std::string_view unit = unit_of(quantity).name;
+  return fmt::format("{:.4g}{}{}", in_unit(value, quantity), unit.empty() ? "" : " ", unit);
 }
 
 std::string figure(std::string_view stem, Quantity quantity) {

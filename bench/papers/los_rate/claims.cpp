@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "bench/papers/los_rate/sections.hpp"
 #include "bench/papers/verdicts.hpp"
@@ -59,12 +60,17 @@ Row against_fixed(const Results& results) {
 
 Row miss_against_fixed(const Results& results) {
   const double ours = results.miss("closed_loop", "combined").rms;
-  double best = std::numeric_limits<double>::infinity();
-  for (const char* variant : {"low_pass_4", "low_pass_6", "low_pass_8", "low_pass_12", "low_pass_20"})
-    best = std::min(best, results.miss("closed_loop", variant).rms);
-  return reproduces("the same, by miss distance", "not flown",
-                    fmt::format("{:.2f} m a plane against {:.2f} m of the best of five", ours, best),
-                    ours < best);
+  double best = std::numeric_limits<double>::infinity(), worst = 0;
+  for (const char* variant : {"low_pass_4", "low_pass_6", "low_pass_8", "low_pass_12", "low_pass_20"}) {
+    const double rms = results.miss("closed_loop", variant).rms;
+    best = std::min(best, rms);
+    worst = std::max(worst, rms);
+  }
+  return verdict(
+      "the same, by miss distance", "not flown",
+      fmt::format("{:.2f} m a plane; five fixed bandwidths: {:.2f} to {:.2f} m", ours, best, worst),
+      ours < best ? Mark::yes : Mark::partly,
+      ours < best ? "better than all five" : "not than the best of five");
 }
 
 Table claim_table(const Results& results) {
@@ -92,22 +98,30 @@ bool bars_met(const Results& results) {
 }
 
 Section claims(const Results& results) {
-  const Miss combined = results.miss("closed_loop", "combined"),
-             kalman = results.miss("closed_loop", "kalman"),
-             fixed = results.miss("closed_loop", "low_pass_8");
-  return {
-      .id = "claims",
-      .title = "What reproduces, and what does not",
-      .paragraphs =
-          {fmt::format("A gain that is a function of range does what the full Kalman filter does once the "
-                       "start is forgotten: miss {:.2f} m RMS a plane with either ({:.2f} with the Kalman "
-                       "filter), {:.2f} m with a fixed bandwidth of 8 rad/s.",
-                       combined.rms, kalman.rms, fixed.rms),
-           "In open loop a fixed bandwidth that was chosen for the engagement has no larger RMS of the LOS "
-           "rate before the manoeuvre, and not much after. What the range gain buys is the miss, and that "
-           "nothing need be chosen for the engagement."},
-      .tables = {claim_table(results), bar_table(results)},
-      .figures = {}};
+  const auto miss = [&](const char* variant) { return results.miss("closed_loop", variant).rms; };
+  const auto late = [&](const char* variant) {
+    const auto rms = [&](const char* ms) {
+      return results.miss("latency", variant, fmt::format("seeker.latency_ms={}", ms)).rms;
+    };
+    return fmt::format("{:.2f}, {:.2f} and {:.2f} m", rms("0"), rms("20"), rms("50"));
+  };
+  return {.id = "claims",
+          .title = "What reproduces, and what does not",
+          .paragraphs =
+              {fmt::format(
+                   "A gain that is a function of range does what the full Kalman filter does once the "
+                   "start is forgotten: miss {:.2f} and {:.2f} m RMS a plane. A fixed bandwidth misses by "
+                   "{:.2f} m with 8 rad/s and {:.2f} m with 12.",
+                   miss("combined"), miss("kalman"), miss("low_pass_8"), miss("low_pass_12")),
+               fmt::format(
+                   "In open loop a fixed bandwidth that was chosen for the engagement has no larger RMS of "
+                   "the LOS rate before the manoeuvre, and not much after. In closed loop the miss is "
+                   "systematic: lags of filter, bus and autopilot add up, and the miss may pass through "
+                   "zero. With samples 0, 20 and 50 ms late 12 rad/s miss by {}, the range gain by {}. What "
+                   "the range gain buys is that nothing need be chosen for the engagement.",
+                   late("low_pass_12"), late("combined"))},
+          .tables = {claim_table(results), bar_table(results)},
+          .figures = {}};
 }
 
 }  // namespace canhil::papers::los_rate

@@ -51,7 +51,8 @@ TEST_P(RunOfScenario, OutputsPassInLockstep) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Run, RunOfScenario,
-                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "wind_ekf",
+                         testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
+                                         "los_closed_loop", "los_closed_loop_500hz", "wind_ekf",
                                          "wind_h_infinity"));
 
 TEST(Run, AnAlignmentInFlightPassesInRealTime) {
@@ -62,6 +63,17 @@ TEST(Run, AnAlignmentInFlightPassesInRealTime) {
   expect_outputs_passed(ended, read_json(report));
   EXPECT_EQ(read_json(report)["from_target"]["navigation_answers"], 1500);
   EXPECT_EQ(read_json(report)["fixes"]["outcomes"]["accepted"], 29);
+}
+
+TEST(Run, AMissileIsGuidedByTheTargetInRealTime) {
+  const std::string report = scratch("los.json");
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --json {}", scenario("los_closed_loop"), bus(), report));
+  ASSERT_NE(ended.code, 2) << ended.err;
+  expect_outputs_passed(ended, read_json(report));
+  EXPECT_LT(read_json(report)["engagement"]["miss_m"].get<double>(), 2.0);
+  EXPECT_GT(read_json(report)["from_target"]["los_answers"], 1000);
+  EXPECT_THAT(ended.out, HasSubstr("LOS rate error by s to go"));
 }
 
 TEST(Run, ATargetKilledInMidRunIsNamed) {

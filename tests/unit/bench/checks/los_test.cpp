@@ -23,6 +23,7 @@ class Engaged : public testing::Test {
       epoch.t_us = t_us;
       epoch.range = 5000 - 1e-3 * static_cast<double>(t_us);
       epoch.closing_speed = 1000;
+      epoch.velocity_n = {-1000, 0, 0};
       epoch.los_rate = {.pitch = 0.01, .yaw = -0.02};
       engagement_.epochs.push_back(epoch);
       LosAnswer answer;
@@ -126,7 +127,7 @@ TEST_F(Engaged, ConsistencyIsOfTwoDegreesOfFreedomUntilThePassage) {
 }
 
 TEST_F(Engaged, Coasting) {
-  scenario::Coasting rule{.window = {.from_us = 0, .to_us = duration_us}, .at_most = 0};
+  scenario::Coasting rule{.window = {.from_us = 0, .to_us = duration_us}, .at_least = {}, .at_most = 0};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   answer_at(2).outcome = LosRateOutcome::coasting;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);

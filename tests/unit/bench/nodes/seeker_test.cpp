@@ -117,8 +117,12 @@ TEST(Seeker, SendsTheTruthOfEachSampleRoundedToTheBus) {
     ASSERT_NEAR(angles.error_yaw_rad, epochs[i].error.yaw, 1e-5 + 1e-12);
     ASSERT_NEAR(range.range_m, epochs[i].range, 0.05 + 1e-9);
     ASSERT_NEAR(motion.closing_speed_mps, epochs[i].closing_speed, 0.25 + 1e-9);
-    ASSERT_NEAR(motion.missile_acceleration_y_mps2, epochs[i].missile.yaw, 0.01 + 0.5) << "mean of the step";
-    ASSERT_NEAR(motion.missile_acceleration_z_mps2, epochs[i].missile.pitch, 0.01 + 0.5);
+    if (i > 0) {  // mean of the step: the trapezium is off by T^2/12 of the second derivative
+      const double y = (epochs[i - 1].missile.yaw + epochs[i].missile.yaw) / 2;
+      const double z = (epochs[i - 1].missile.pitch + epochs[i].missile.pitch) / 2;
+      ASSERT_NEAR(motion.missile_acceleration_y_mps2, y, 0.01 + 0.02) << range.range_m;
+      ASSERT_NEAR(motion.missile_acceleration_z_mps2, z, 0.01 + 0.02) << range.range_m;
+    }
     ASSERT_EQ(angles.error_validity, Validity::valid);
     ASSERT_EQ(range.range_validity, Validity::valid);
   }
@@ -183,8 +187,8 @@ TEST(Seeker, LossesChangeNoMeasurement) {
   for (const Sample& sample : spoilt.all()) {
     const Sample& same = all[sample.range.time_of_validity_us / 5000 - 1];
     ASSERT_EQ(sample.range.range_m, same.range.range_m);
-    if (sample.angles.error_validity == Validity::valid)
-      ASSERT_EQ(sample.angles.error_yaw_rad, same.angles.error_yaw_rad);
+    if (sample.angles.error_validity == Validity::invalid) continue;
+    ASSERT_EQ(sample.angles.error_yaw_rad, same.angles.error_yaw_rad);
   }
 }
 
@@ -197,10 +201,10 @@ TEST(Seeker, FlagsWhatItDoesNotSee) {
   for (const Sample& sample : bench.all()) {
     const auto t_us = static_cast<std::int64_t>(sample.range.time_of_validity_us);
     const bool black = t_us >= 1'000'000 && t_us <= 1'200'000;
-    if (black || t_us < 4'000'000)
-      ASSERT_EQ(sample.angles.error_validity, black ? Validity::invalid : Validity::valid) << t_us;
     ASSERT_EQ(sample.range.range_validity, sample.motion.closing_speed_validity);
     no_range += sample.range.range_validity == Validity::invalid ? 1 : 0;
+    if (t_us > 4'000'000) continue;  // at the end the target leaves the field of view
+    ASSERT_EQ(sample.angles.error_validity, black ? Validity::invalid : Validity::valid) << t_us;
   }
   EXPECT_GT(no_range, 70);
   EXPECT_LT(no_range, 150);

@@ -84,13 +84,12 @@ TEST(Los, EveryAlgorithmSeesTheSameFlight) {
 TEST(Los, WithoutNoiseTheErrorIsThatOfTheBus) {
   // What is left is a filter that expects noise: no manoeuvre, so that it need not follow one.
   const Flown quiet =
-      fly("los_quick",
-          {set("seeker.thermal_noise_radpm2", "0"), set("seeker.glint_noise_m", "0"),
-           set("seeker.gyro_noise_mradps", "0"), set("seeker.gyro_bias_sigma_mradps", "0"),
-           set("seeker.accel_noise_mps2", "0"), set("seeker.accel_bias_sigma_mps2", "0"),
-           set("seeker.range_noise_m", "0"), set("seeker.range_bias_sigma_m", "0"),
-           set("seeker.closing_speed_noise_mps", "0"), set("seeker.closing_speed_bias_sigma_mps", "0"),
-           set("engagement.manoeuvre", "\"none\"")});
+      fly("los_quick", {set("seeker.thermal_noise_radpm2", "0"), set("seeker.glint_noise_m", "0"),
+                        set("seeker.gyro_noise_mradps", "0"), set("seeker.gyro_bias_sigma_mradps", "0"),
+                        set("seeker.accel_noise_mps2", "0"), set("seeker.accel_bias_sigma_mps2", "0"),
+                        set("seeker.range_noise_m", "0"), set("seeker.range_bias_sigma_m", "0"),
+                        set("seeker.closing_speed_noise_mps", "0"),
+                        set("seeker.closing_speed_bias_sigma_mps", "0"), set("engagement.manoeuvre_g", "0")});
   EXPECT_LT(quiet.rms(0.2, 2), 1e-4);
 }
 
