@@ -169,6 +169,36 @@ void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, 
   }
 }
 
+void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const RunMeans found = run_means(runs, rule.quantity, rule.from_us, rule.to_us);
+  out.measured =
+      fmt::format("mean {}, standard deviation {} over runs, largest {}{}",
+                  with_unit(found.mean, rule.quantity), with_unit(found.standard_deviation, rule.quantity),
+                  with_unit(found.largest, rule.quantity), missing_note(found.missing));
+  out.figures = {
+      {figure("mean", rule.quantity), in_unit(found.mean, rule.quantity)},
+      {figure("standard_deviation", rule.quantity), in_unit(found.standard_deviation, rule.quantity)},
+      {figure("largest", rule.quantity), in_unit(found.largest, rule.quantity)},
+      {"missing", static_cast<double>(found.missing)}};
+  Bars bars(out, found.missing == 0);
+  if (rule.at_most)
+    bars.expect(found.mean <= *rule.at_most, "at most " + with_unit(*rule.at_most, rule.quantity));
+  if (rule.at_least)
+    bars.expect(found.mean >= *rule.at_least, "at least " + with_unit(*rule.at_least, rule.quantity));
+  if (rule.other.empty()) return;
+  const RunMeans others = run_means(other, rule.quantity, rule.from_us, rule.to_us);
+  const double ratio = found.mean / others.mean;
+  out.measured += fmt::format(", {:.3g} times that of {}", ratio, rule.other);
+  out.figures.emplace_back("ratio", ratio);
+  Bars both(out, found.missing + others.missing == 0);
+  if (rule.ratio_at_most)
+    both.expect(ratio <= *rule.ratio_at_most,
+                fmt::format("at most {:g} times {}", *rule.ratio_at_most, rule.other));
+  if (rule.ratio_at_least)
+    both.expect(ratio >= *rule.ratio_at_least,
+                fmt::format("at least {:g} times {}", *rule.ratio_at_least, rule.other));
+}
+
 void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) {
   const ToGoStatistics found = to_go_statistics(runs, rule.quantity, rule.least, rule.most);
   out.measured = fmt::format("RMS {}, mean {}", with_unit(found.rms, rule.quantity),

@@ -151,6 +151,24 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   return rule;
 }
 
+RunMean read(Section& section, const Context& context, RunMean rule) {
+  rule.quantity = read_error(section);
+  const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
+  rule.from_us = from_us;
+  rule.to_us = to_us;
+  rule.at_most = optional_number(section, key_of("at_most", rule.quantity), Limits::at_least(0));
+  rule.at_least = optional_number(section, key_of("at_least", rule.quantity), Limits::at_least(0));
+  if (section.has("other")) rule.other = section.one_of("other", context.variants);
+  section.optional("other");
+  rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::above(0));
+  rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::above(0));
+  if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "is of no use alone",
+                   "other = a variant beside it");
+  }
+  return rule;
+}
+
 ToGo read(Section& section, const Context& context, ToGo rule) {
   rule.quantity = read_quantity(section, "quantity", [](const QuantityInfo& one) {
     return one.family == Family::los_rate && one.unit.name != "m";  // a miss has no time to go
@@ -194,6 +212,9 @@ std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s",
 std::string subject(const WindowMoments& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
 }
+std::string subject(const RunMean& rule) {
+  return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
+}
 std::string subject(const Paired& rule) {
   return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
 }
@@ -218,6 +239,7 @@ Quantity quantity_of(const Metric& metric) {
 std::string other_of(const Metric& metric) {
   if (const auto* paired = std::get_if<Paired>(&metric.rule)) return paired->other;
   if (const auto* lead = std::get_if<Lead>(&metric.rule)) return lead->other;
+  if (const auto* mean = std::get_if<RunMean>(&metric.rule)) return mean->other;
   if (const auto* to_go = std::get_if<ToGo>(&metric.rule)) return to_go->other;
   if (const auto* ratio = std::get_if<RmsRatio>(&metric.rule)) return ratio->other;
   return {};

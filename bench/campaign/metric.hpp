@@ -71,6 +71,16 @@ struct WindowMoments {
   std::optional<double> standard_deviation_at_most;
 };
 
+/// Mean of |quantity| over a time window of each run; its mean and standard deviation over the runs.
+struct RunMean {
+  static constexpr std::string_view kind = "run_mean";
+  Quantity quantity = Quantity::heading;
+  std::int64_t from_us = 0, to_us = 0;
+  std::optional<double> at_most, at_least;              ///< of the mean over runs [SI]
+  std::string other;                                    ///< empty: compared with none
+  std::optional<double> ratio_at_most, ratio_at_least;  ///< of the mean to that of `other`
+};
+
 /// RMS and mean over runs and a window of the time to go, and how they compare with another variant's.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
@@ -123,7 +133,7 @@ struct Metric {
   std::string requirement;            ///< id carried to the reports; may be empty
   std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
   std::variant<RmsCurve, TimeWithin, Lead, ValueAt, Distribution, WindowMoments, Paired, Consistency,
-               Diverged, ToGo, RmsRatio>
+               Diverged, ToGo, RmsRatio, RunMean>
       rule;
 };
 

@@ -9,6 +9,7 @@
 
 #include "bench/checks/errors.hpp"
 #include "bench/checks/los.hpp"
+#include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::campaign {
@@ -48,14 +49,26 @@ constexpr std::array infos{
     QuantityInfo{.name = "los_nis", .family = Family::los_rate, .unit = none, .may_be_untold = true},
     QuantityInfo{.name = "miss_pitch", .family = Family::los_rate, .unit = m},
     QuantityInfo{.name = "miss_yaw", .family = Family::los_rate, .unit = m},
-    QuantityInfo{.name = "miss", .family = Family::los_rate, .unit = m}};
-static_assert(infos.size() == static_cast<std::size_t>(Quantity::miss) + 1);
+    QuantityInfo{.name = "miss", .family = Family::los_rate, .unit = m},
+    QuantityInfo{.name = "wind_along", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_cross", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_down", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_norm", .family = Family::wind, .unit = mps},
+    QuantityInfo{.name = "wind_nis",
+                 .family = Family::wind,
+                 .unit = none,
+                 .degrees_of_freedom = 9,
+                 .may_be_untold = true},
+    QuantityInfo{.name = "wind_nees", .family = Family::wind, .unit = none, .degrees_of_freedom = 3},
+    QuantityInfo{.name = "wind_along_sigma", .family = Family::wind, .unit = mps}};
+static_assert(infos.size() == static_cast<std::size_t>(Quantity::wind_along_sigma) + 1);
 
 using enum Quantity;
 constexpr std::array alignment_kept{phi_north, phi_east, phi_down,      roll,          pitch, heading,
                                     v_north,   v_east,   v_down,        attitude_nees, nis,   p_north,
                                     p_east,    p_down,   heading_sigma, repairs};
 constexpr std::array los_kept{los_pitch, los_yaw, los_nis, miss_pitch, miss_yaw};
+constexpr std::array wind_kept{wind_along, wind_cross, wind_down, wind_nis, wind_nees, wind_along_sigma};
 
 void append(std::vector<std::uint8_t>& bytes, double value) {
   const auto bits = std::bit_cast<std::uint64_t>(value);
@@ -143,6 +156,23 @@ Samples los_samples(const checks::Observations& seen, const world::EngagementRec
   return samples;
 }
 
+Samples wind_samples(const checks::Observations& seen, const world::GlideRecord& glide) {
+  Samples samples(Family::wind);
+  const auto errors = checks::wind_errors(seen, glide);
+  const auto nees = checks::wind_nees(seen, glide);  // one for each error
+  auto answer = seen.wind.begin();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    while (!answer->started || answer->cause_us != errors[i].t_us) ++answer;
+    const bool updated = answer->outcome == messages::WindOutcome::updated;
+    const std::array<double, wind_kept.size()> values{errors[i].along_track, errors[i].cross_track,
+                                                      errors[i].error_n.z(), updated ? answer->nis : nan,
+                                                      nees[i].value,         answer->along_track_sigma};
+    samples.add(errors[i].t_us, values);
+    ++answer;
+  }
+  return samples;
+}
+
 }  // namespace
 
 std::span<const QuantityInfo> quantities() { return infos; }
@@ -151,7 +181,14 @@ std::string_view name(Quantity quantity) { return info(quantity).name; }
 Unit unit_of(Quantity quantity) { return info(quantity).unit; }
 
 std::span<const Quantity> kept(Family family) {
-  if (family == Family::los_rate) return los_kept;
+  switch (family) {
+    case Family::los_rate:
+      return los_kept;
+    case Family::wind:
+      return wind_kept;
+    case Family::alignment:
+      break;
+  }
   return alignment_kept;
 }
 
@@ -175,6 +212,8 @@ double Samples::value(std::size_t place, Quantity quantity) const {
       return std::sqrt((of(los_pitch) * of(los_pitch) + of(los_yaw) * of(los_yaw)) / 2);
     case miss:
       return std::hypot(of(miss_pitch), of(miss_yaw));
+    case wind_norm:
+      return std::hypot(of(wind_along), of(wind_cross), of(wind_down));
     default:
       break;
   }
@@ -183,17 +222,26 @@ double Samples::value(std::size_t place, Quantity quantity) const {
   return found == columns.end() ? nan : values(place)[static_cast<std::size_t>(found - columns.begin())];
 }
 
+// By what the target is asked for: a scenario may have several truths.
 Family family_of(const scenario::Scenario& scenario) {
-  return scenario.engagement ? Family::los_rate : Family::alignment;
+  if (scenario.target.estimator == "los_rate") return Family::los_rate;
+  if (scenario.target.estimator == "wind") return Family::wind;
+  return Family::alignment;
 }
 
 RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
                     const world::FlightRecord& truth) {
-  const auto& engagement = finished.own_truth.engagement;
-  return {.run = run_index,
-          .ending = finished.ending,
-          .samples =
-              engagement ? los_samples(finished.seen, *engagement) : alignment_samples(finished.seen, truth)};
+  const checks::Observations& seen = finished.seen;
+  const auto& [engagement, glide] = finished.own_truth;
+  RunSeries series{.run = run_index, .ending = finished.ending};
+  if (glide && (!seen.wind.empty() || !engagement)) {
+    series.samples = wind_samples(seen, *glide);
+  } else if (engagement && seen.navigation.empty()) {
+    series.samples = los_samples(seen, *engagement);
+  } else {
+    series.samples = alignment_samples(seen, truth);
+  }
+  return series;
 }
 
 std::vector<std::uint8_t> encode(const Samples& samples) {

@@ -21,7 +21,9 @@ enum class Family : std::uint8_t {
   alignment,
   /// A sample is 20 ms of the time to go; its time is minus that at which it begins, so that the closest
   /// approach is at 0.
-  los_rate
+  los_rate,
+  /// A sample is a wind answer of a filter that runs.
+  wind
 };
 
 /// A number of a sample. Errors are signed (estimated - true), in SI; of the LOS rate, RMS within the sample.
@@ -50,7 +52,14 @@ enum class Quantity : std::uint8_t {
   los_nis,     ///< mean of the updates' NIS, of 2 degrees of freedom; NaN without an update
   miss_pitch,  ///< of the whole run, as the start's axes divide it; NaN: the target was not passed
   miss_yaw,
-  miss
+  miss,
+  wind_along,  ///< wind along the horizontal air velocity, to its right, down
+  wind_cross,
+  wind_down,
+  wind_norm,        ///< of all three
+  wind_nis,         ///< 9 degrees of freedom; NaN without an update
+  wind_nees,        ///< 3 degrees of freedom
+  wind_along_sigma  ///< as the target tells it
 };
 
 /// What reports show a quantity in.

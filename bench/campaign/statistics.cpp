@@ -160,6 +160,33 @@ WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity qua
   return statistics;
 }
 
+RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+                   std::int64_t to_us) {
+  std::vector<double> means;
+  for (const RunSeries& run : runs) {
+    const auto times = run.samples.times();
+    const auto from = std::ranges::lower_bound(times, from_us) - times.begin();
+    const auto to = std::ranges::upper_bound(times, to_us) - times.begin();
+    double sum = 0;
+    for (auto i = from; i < to; ++i)
+      sum += std::abs(run.samples.value(static_cast<std::size_t>(i), quantity));
+    const double mean = sum / static_cast<double>(to - from);  // NaN of none
+    if (run.ending.kind == run::Ending::Kind::completed && std::isfinite(mean)) means.push_back(mean);
+  }
+  RunMeans found{.missing = runs.size() - means.size()};
+  if (means.empty()) {
+    found.mean = found.standard_deviation = found.largest = nan;
+    return found;
+  }
+  const auto n = static_cast<double>(means.size());
+  for (const double mean : means) found.mean += mean / n;
+  double squares = 0;
+  for (const double mean : means) squares += (mean - found.mean) * (mean - found.mean);
+  found.standard_deviation = means.size() < 2 ? nan : std::sqrt(squares / (n - 1));
+  found.largest = *std::ranges::max_element(means);
+  return found;
+}
+
 ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quantity, double least,
                                 double most) {
   ToGoStatistics statistics;

@@ -53,6 +53,17 @@ struct WindowStatistics {
 WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
                                    std::int64_t to_us);
 
+/// The mean of |quantity| over a window of each run, and how these means are spread over the runs.
+struct RunMeans {
+  double mean = 0;
+  double standard_deviation = 0;  ///< with n - 1
+  double largest = 0;
+  std::size_t missing =
+      0;  ///< runs that had ended early, have no update there, or a value that is not finite
+};
+RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+                   std::int64_t to_us);
+
 /// RMS and mean over all runs and samples that lie within a window of the time to go [s]: of family los_rate.
 struct ToGoStatistics {
   double rms = 0, mean = 0;  ///< of the finite values [SI]

@@ -10,12 +10,25 @@
 #include "bench/checks/fixes.hpp"
 #include "bench/checks/los.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/checks/wind.hpp"
 
 namespace canhil::checks {
 namespace {
 
 using messages::AlignUpdate;
 using messages::AlignVelocityD;
+
+// Degrees of freedom of a white statistic.
+double dimension(scenario::Statistic statistic) {
+  switch (statistic) {
+    case scenario::Statistic::los_nis:
+      return 2;
+    case scenario::Statistic::wind_nis:
+      return 9;
+    default:
+      return 3;
+  }
+}
 
 // The bench must keep its own deadlines to judge those of the target: a host that keeps the bench waiting for
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
@@ -170,6 +183,10 @@ class Judge {
   }
   Finding operator()(const scenario::Fixes& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::Coasting& rule) const { return checks::judge(rule, evidence_.seen); }
+  Finding operator()(const scenario::WindError& rule) const {
+    return checks::judge(rule, evidence_.seen, evidence_.glide);
+  }
+  Finding operator()(const scenario::WindAnswers& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::LosRateError& rule) const {
     return checks::judge(rule, evidence_.seen, evidence_.engagement);
   }
@@ -227,6 +244,8 @@ class Judge {
   [[nodiscard]] std::string unanswered_updates(const std::vector<Normalised>& part,
                                                const scenario::Consistency& rule) const {
     if (part.empty()) return "no answers";
+    if (rule.statistic == scenario::Statistic::wind_nis || rule.statistic == scenario::Statistic::wind_nees)
+      return unanswered(part, rule.window, messages::WindUpdate::info.name);
     if (rule.statistic == scenario::Statistic::los_nis)
       return unanswered(part, until_passage(rule.window), messages::LosRateTarget::info.name);
     return evidence_.seen.fixes.empty() ? unanswered(part, rule.window, AlignUpdate::info.name)
@@ -244,6 +263,11 @@ class Judge {
     switch (statistic) {
       case scenario::Statistic::nis:
         return nis(evidence_.seen);
+      case scenario::Statistic::wind_nis:
+        return wind_nis(evidence_.seen);
+      case scenario::Statistic::wind_nees:
+        return evidence_.glide == nullptr ? std::vector<Normalised>()
+                                          : wind_nees(evidence_.seen, *evidence_.glide);
       case scenario::Statistic::los_nis:
         return los_nis(evidence_.seen);
       case scenario::Statistic::heading_nees:
@@ -260,7 +284,7 @@ class Judge {
       return {between->low, between->high};
     const double probability = std::get<scenario::Probability>(rule.bound).value;
     const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
-    const double degrees_of_freedom = rule.statistic == scenario::Statistic::los_nis ? 2 : 3;
+    const double degrees_of_freedom = dimension(rule.statistic);
     const boost::math::chi_squared chi_squared(n * degrees_of_freedom);
     return {boost::math::quantile(chi_squared, (1 - probability) / 2) / n,
             boost::math::quantile(chi_squared, (1 + probability) / 2) / n};

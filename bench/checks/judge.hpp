@@ -8,6 +8,7 @@
 #include "bench/checks/verdict.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/world/engagement/engagement.hpp"
+#include "bench/world/glide/glide.hpp"
 
 namespace canhil::checks {
 
@@ -15,6 +16,7 @@ namespace canhil::checks {
 struct Evidence {
   const Observations& seen;
   const world::FlightRecord& truth;
+  const world::GlideRecord* glide = nullptr;            ///< null: not in the scenario
   const world::EngagementRecord* engagement = nullptr;  ///< null: not in the scenario
   std::int64_t duration_us = 0;
   std::string ended_early;   ///< why the run did not come to its end; empty: it did

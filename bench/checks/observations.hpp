@@ -58,6 +58,26 @@ struct FixAnswer {
   std::uint32_t refused = 0;                               ///< fixes not used for another reason, since start
 };
 
+/// Group Wind: what the wind filter made of a GliderNav group. SI, rad, NED.
+struct WindAnswer {
+  std::int64_t cause_us = 0;
+  bool started = false;  ///< the filter runs; else only the wind counts
+  messages::WindOutcome outcome = messages::WindOutcome::waiting;
+  messages::WindFault fault = messages::WindFault::none;
+  bool outside = false;  ///< of the range of the model, in any of its variables
+  bool fins_late = false;
+  bool fins_missing = false;
+  bool fins_not_physical = false;
+  bool theta_capped = false;
+  world::Vector3 wind_n = world::Vector3::Zero();
+  world::Vector3 sigma = world::Vector3::Zero();
+  world::Vector3 correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down
+  double along_track_sigma = 0;
+  double cross_track_sigma = 0;
+  world::Vector3 v_a = world::Vector3::Zero();  ///< air velocity, body
+  double nis = 0;                               ///< of 9 degrees of freedom; 0: without an update
+};
+
 /// Group LosRate: the LOS rate at the time of a sample of the seeker, in its antenna's axes. SI, rad.
 struct LosAnswer {
   std::int64_t cause_us = 0;
@@ -103,6 +123,7 @@ struct Observations {
   std::vector<NavigationAnswer> navigation;
   std::vector<FilterAnswer> filter;
   std::vector<FixAnswer> fixes;
+  std::vector<WindAnswer> wind;
   std::vector<LosAnswer> los;
 
   std::array<std::vector<Arrival>, messages::all_messages.size()> arrivals;  ///< by place in all_messages

@@ -51,7 +51,9 @@ constexpr std::array markers{7, 4, 9, 6, 11, 5, 8, 12};
 
 double on_axis(double y, const Figure& figure) {  // 0 at the lower end, 1 at the upper
   const auto [low, high] = figure.y_range;
-  return std::clamp(std::log(y / low) / std::log(high / low), 0.0, 1.0);
+  const double share =
+      figure.logarithmic ? std::log(y / low) / std::log(high / low) : (y - low) / (high - low);
+  return std::clamp(share, 0.0, 1.0);
 }
 
 // Heights of labels, as near to the curves' ends as they can be without lying on each other.
@@ -77,7 +79,8 @@ std::vector<double> spread(const std::vector<double>& wanted, double gap) {
 std::string data_block(std::size_t index, const Curve& curve, const Figure& figure) {
   std::string block = fmt::format("$c{} << EOD\n", index);
   for (const auto& [x, y] : curve.points) {
-    if (x < figure.x_range.first || x > figure.x_range.second || !std::isfinite(y) || !(y > 0)) continue;
+    if (x < figure.x_range.first || x > figure.x_range.second || !std::isfinite(y)) continue;
+    if (figure.logarithmic && !(y > 0)) continue;
     block += fmt::format("{:.6g} {:.4g}\n", x, y);
   }
   return block + "EOD\n";
@@ -118,7 +121,8 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += fmt::format("set terminal svg size {},{} dynamic enhanced font 'sans-serif,{}' linewidth 1.2\n",
                         layout.width, layout.height, layout.font);
   script += "set encoding utf8\nunset key\nset border 3 lw 0.8\nset tics nomirror out scale 0.6\n";
-  script += "set grid lw 0.8 lc rgb '#dcdcdc' dt solid\nset logscale y\nset format y '%g'\n";
+  script += "set grid lw 0.8 lc rgb '#dcdcdc' dt solid\nset format y '%g'\n";
+  if (figure.logarithmic) script += "set logscale y\n";
   const auto screen = [](int px, int of) { return static_cast<double>(px) / of; };
   script += fmt::format(
       "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n"

@@ -16,13 +16,14 @@ struct Curve {
   std::vector<std::pair<double, double>> points;
 };
 
-/// Curves, over time where nothing else is said, values on a logarithmic axis.
+/// Curves over time or something else, values on a logarithmic axis or a linear one.
 struct Figure {
   std::string id;  ///< of the HTML element
   std::string title;
   std::string caption;  ///< axes' meaning, settings, run count
   std::string y_label;
   std::string x_label = "time [s]";
+  bool logarithmic = true;
   std::pair<double, double> x_range{0, 20}, y_range{0.3, 300};
   std::vector<double> thresholds;  ///< horizontal lines, labelled by their value
   std::vector<Curve> curves;

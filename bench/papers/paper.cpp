@@ -11,6 +11,7 @@
 #include "bench/papers/inflight_alignment/reproduction.hpp"
 #include "bench/papers/los_rate/reproduction.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
+#include "bench/papers/wind/reproduction.hpp"
 #include "bench/report/file.hpp"
 #include "bench/run/contract.hpp"
 
@@ -28,7 +29,8 @@ struct Paper {
 constexpr std::array papers{
     Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
     Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce},
-    Paper{.name = "los", .reproduce = los_rate::reproduce}};
+    Paper{.name = "los", .reproduce = los_rate::reproduce},
+    Paper{.name = "wind", .reproduce = wind::reproduce}};
 
 Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);

@@ -28,6 +28,21 @@ Json object(const EngagementSummary& engagement) {
   return json;
 }
 
+Json object(const WindSummary& wind) {
+  const auto or_null = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+  };
+  Json json{{"from_s", wind.from_s},
+            {"mean_error_mps",
+             {{"norm", or_null(wind.norm_mps)},
+              {"along_track", or_null(wind.along_mps)},
+              {"cross_track", or_null(wind.cross_mps)},
+              {"down", or_null(wind.down_mps)}}},
+            {"along_track_sigma_mps", wind.along_sigma_mps}};
+  for (const auto& [name, count] : wind.outcomes) json["outcomes"][name] = count;
+  return json;
+}
+
 }  // namespace
 
 std::string json(const scenario::Scenario& scenario, const run::Run& run) {
@@ -78,6 +93,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
     for (const auto& [outcome, count] : summary.fixes->outcomes) page["fixes"]["outcomes"][outcome] = count;
   }
   if (summary.engagement) page["engagement"] = object(*summary.engagement);
+  if (summary.wind) page["wind"] = object(*summary.wind);
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {
       page["latency_s"][row.message] = object(row.latency_s);
@@ -94,6 +110,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},
                          {"los_answers", summary.los_answers},
+                         {"wind_answers", summary.wind_answers},
                          {"frames_lost", run.seen.target_frames_lost},
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};

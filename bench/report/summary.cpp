@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "bench/checks/errors.hpp"
 #include "bench/checks/los.hpp"
+#include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::report {
@@ -54,6 +56,32 @@ EngagementSummary engagement_summary(const checks::Observations& seen,
   return summary;
 }
 
+WindSummary wind_summary(const checks::Observations& seen, const world::GlideRecord& glide) {
+  WindSummary summary;
+  const scenario::Window everything{.from_us = 0, .to_us = glide.end_us()};
+  const auto errors =
+      checks::inside(checks::wind_errors(seen, glide),
+                     {.from_us = static_cast<std::int64_t>(summary.from_s * 1e6), .to_us = glide.end_us()});
+  const auto mean = [&](scenario::WindAxis axis) -> std::optional<double> {
+    double sum = 0;
+    for (const checks::WindError& error : errors) sum += std::abs(component(error, axis));
+    return errors.empty() ? std::nullopt : std::optional(sum / static_cast<double>(errors.size()));
+  };
+  summary.along_mps = mean(scenario::WindAxis::along_track);
+  summary.cross_mps = mean(scenario::WindAxis::cross_track);
+  summary.down_mps = mean(scenario::WindAxis::down);
+  summary.norm_mps = mean(scenario::WindAxis::norm);
+  if (!seen.wind.empty()) summary.along_sigma_mps = seen.wind.back().along_track_sigma;
+  const auto add = [&](std::string_view name, std::int64_t count) {
+    if (count > 0) summary.outcomes.emplace_back(name, static_cast<std::size_t>(count));
+  };
+  for (const auto outcome : messages::enumerators<messages::WindOutcome>)
+    add(name_of(outcome), std::ranges::count(seen.wind, outcome, &checks::WindAnswer::outcome));
+  for (const std::string_view flag : scenario::wind_flags)
+    add(flag, checks::count_flag(seen, everything, flag));
+  return summary;
+}
+
 }  // namespace
 
 Summary summarise(const run::Run& run) {
@@ -76,14 +104,18 @@ Summary summarise(const run::Run& run) {
 
   if (!run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
 
+  summary.wind_answers = run.seen.wind.size();
+  if (run.own_truth.glide) summary.wind = wind_summary(run.seen, *run.own_truth.glide);
   summary.los_answers = run.seen.los.size();
   if (run.own_truth.engagement) summary.engagement = engagement_summary(run.seen, *run.own_truth.engagement);
 
   const scenario::Window everything{0, run.truth.end_us()};
   const std::string_view update = run.seen.fixes.empty() ? AlignUpdate::info.name : FixUpdate::info.name;
   std::vector<std::string_view> closing;
-  if (!run.own_truth.engagement || !errors.empty()) closing = {AlignVelocityD::info.name, update};
+  const bool navigates = !run.own_truth.engagement && !run.own_truth.glide;
+  if (navigates || !errors.empty()) closing = {AlignVelocityD::info.name, update};
   if (run.own_truth.engagement) closing.push_back(messages::LosRateTarget::info.name);
+  if (run.own_truth.glide) closing.push_back(messages::WindUpdate::info.name);
   for (const std::string_view message : closing) {
     summary.latencies.push_back(
         {.message = std::string(message),
@@ -113,6 +145,8 @@ std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   add(scenario.ssbl, messages::SsblRelativeD::info);
   add(scenario.gps, messages::GpsTime::info);
   add(scenario.seeker, messages::SeekerRange::info);
+  add(scenario.glider_nav, messages::GliderNavVelocityD::info);
+  add(scenario.fins, messages::FinDeflections::info);
   return lines;
 }
 

@@ -48,6 +48,14 @@ struct EngagementSummary {
   std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< of the answers, those that occurred
 };
 
+/// A wind estimate as it was judged.
+struct WindSummary {
+  double from_s = 10;                                              ///< errors count from here to the end
+  std::optional<double> along_mps, cross_mps, down_mps, norm_mps;  ///< mean |error|; none: no answers there
+  double along_sigma_mps = 0;                                      ///< at the end, as the target tells it
+  std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< of the answers, and flags, that occurred
+};
+
 struct Summary {
   std::vector<BandEntry> heading_entries;
   std::optional<world::Euler> final_error_rad;  ///< of the last navigation answer
@@ -57,6 +65,8 @@ struct Summary {
   std::optional<FixSummary> fixes;  ///< none: the target answered no fix
   std::optional<EngagementSummary> engagement;
   std::size_t los_answers = 0;
+  std::optional<WindSummary> wind;
+  std::size_t wind_answers = 0;
   std::vector<MessageLatency> latencies;  ///< of the closing message of each group
   checks::Distribution lateness_s;        ///< of the bench's own transmissions
   std::string stamp_source;               ///< what the latencies were measured with

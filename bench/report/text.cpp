@@ -72,6 +72,22 @@ std::string words(const EngagementSummary& engagement) {
   return lines + '\n';
 }
 
+std::string words(const WindSummary& wind) {
+  std::string lines = "  the target gave no wind answers\n";
+  if (wind.norm_mps) {
+    lines = fmt::format(
+        "  wind error from {:g} s on        mean {:.3f} m/s: along track {:.3f} (sigma told {:.3f}), across "
+        "{:.3f}, "
+        "down {:.3f}\n",
+        wind.from_s, *wind.norm_mps, *wind.along_mps, wind.along_sigma_mps, *wind.cross_mps, *wind.down_mps);
+  }
+  if (wind.outcomes.empty()) return lines;
+  lines += "  wind answers                  ";
+  for (const auto& [name, count] : wind.outcomes) lines += fmt::format("{} {}  ", name, count);
+  while (lines.ends_with(' ')) lines.pop_back();
+  return lines + '\n';
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
@@ -96,7 +112,9 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
 
   page += '\n';
   if (summary.engagement) page += words(*summary.engagement);
-  if (!summary.engagement || summary.final_error_rad) page += navigation_words(summary);
+  if (summary.wind) page += words(*summary.wind);
+  const bool navigates = !summary.engagement && !summary.wind;
+  if (navigates || summary.final_error_rad) page += navigation_words(summary);
   if (summary.fixes) fmt::format_to(out, "  fixes                         {}\n", words(*summary.fixes));
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {

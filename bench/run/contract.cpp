@@ -21,7 +21,8 @@ scenario::Contract contract() {
                               .parameters = names<messages::Parameter>(),
                               .messages = {},
                               .fix_outcomes = names<messages::FixOutcome>(),
-                              .answers = {}};
+                              .answers = {},
+                              .wind_outcomes = names<messages::WindOutcome>()};
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);

@@ -1,5 +1,9 @@
 #include "bench/run/flight.hpp"
 
+#include <fmt/format.h>
+
+#include "bench/nodes/fins.hpp"
+#include "bench/nodes/glider_nav.hpp"
 #include "bench/nodes/gps.hpp"
 #include "bench/nodes/master_ins.hpp"
 #include "bench/nodes/seeker.hpp"
@@ -9,6 +13,27 @@
 #include "bench/run/wire_limits.hpp"
 
 namespace canhil::run {
+namespace {
+
+/// What a carrier tells a glider that it lets go: the truth with the errors that this run draws.
+InitialState state_at_release(const world::GlideRecord& glide, const scenario::Glide& config,
+                              const scenario::InitialSigma& sigma, world::Stream& stream) {
+  const world::GlideTruth& truth = glide.epochs().front();
+  const scenario::ReleaseError& error = config.release;
+  const world::Vector3 turn = error.attitude * stream.normal3();
+  world::Euler angles = world::euler_from(truth.C_bn);
+  angles = {angles.roll + turn.x(), angles.pitch + turn.y(), angles.heading + turn.z()};
+  InitialState state = initial_state({.t_us = truth.t_us,
+                                      .position = {.height = truth.height},
+                                      .v_eb_n = truth.v_eb_n + error.velocity * stream.normal3(),
+                                      .C_bn = C_bn_from(angles)},
+                                     sigma);
+  const world::Vector3 rates = truth.omega_nb_b + error.rate * stream.normal3();
+  state.air = initial_air(rates, truth.v_a + error.air_velocity * stream.normal3());
+  return state;
+}
+
+}  // namespace
 
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   const std::int64_t cycle_us = messages::SlaveImuStatus::info.cycle_time_us;
@@ -26,17 +51,32 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   return truth;
 }
 
-OwnTruth make_own_truth(const scenario::Scenario& scenario) {
+Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
   OwnTruth own;
+  if (scenario.glide) {
+    const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
+    own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
+                      stream("glide.gusts"));
+    const double missing_s = 1e-6 * static_cast<double>(scenario.duration_us - own.glide->end_us());
+    if (missing_s >= 1e-6 * static_cast<double>(world::GlideRecord::step_us)) {
+      return failure(
+          fmt::format("key 'duration_s': the glide of run {} ends {:g} s before it, at a height of {:.0f} m, "
+                      "expected to be in the air to the end",
+                      run_index, missing_s, own.glide->epochs().back().height));
+    }
+  }
   if (scenario.engagement) own.engagement.emplace();
   return own;
 }
 
 Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                        std::uint64_t run_index) {
+                                        const OwnTruth& own_truth, std::uint64_t run_index) {
   world::Stream stream(scenario.seed, run_index, "initial_error");
-  InitialState state = initial_state(initial_solution(truth.epochs().front(), scenario.initial_error, stream),
-                                     scenario.target.initial_sigma);
+  const bool glides = own_truth.glide && scenario.target.estimator == "wind";
+  InitialState state =
+      glides ? state_at_release(*own_truth.glide, *scenario.glide, scenario.target.initial_sigma, stream)
+             : initial_state(initial_solution(truth.epochs().front(), scenario.initial_error, stream),
+                             scenario.target.initial_sigma);
   if (auto fits = check_fits(state); !fits) return tl::unexpected(fits.error());
   return state;
 }
@@ -54,6 +94,16 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
   }
   if (scenario.ssbl) sensors.push_back(std::make_unique<nodes::Ssbl>(truth, *scenario.ssbl, stream("ssbl")));
   if (scenario.gps) sensors.push_back(std::make_unique<nodes::Gps>(truth, *scenario.gps, stream("gps")));
+  // Fins first: the deflection of an instant is there when its navigation is whole.
+  if (own_truth.glide && scenario.fins) {
+    sensors.push_back(
+        std::make_unique<nodes::Fins>(*own_truth.glide, *scenario.fins, stream("fins.loss"), truth.end_us()));
+  }
+  if (own_truth.glide && scenario.glider_nav) {
+    sensors.push_back(std::make_unique<nodes::GliderNav>(*own_truth.glide, *scenario.glider_nav,
+                                                         stream("glider_nav"), stream("glider_nav.loss"),
+                                                         truth.end_us()));
+  }
   if (own_truth.engagement && scenario.seeker) {
     const nodes::SeekerStreams streams{
         .engagement = stream("engagement"), .errors = stream("seeker"), .faults = stream("seeker.faults")};

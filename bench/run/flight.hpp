@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "bench/run/initial_state.hpp"
 #include "bench/run/schedule.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
+#include "bench/world/glide/glide.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::run {
@@ -15,17 +17,19 @@ namespace canhil::run {
 /// The truth of a scenario on the grid of its IMU. The same for every run: compute it once. Error: one line.
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 
+/// What a run flies by itself, because it draws it or its answers steer it.
+struct OwnTruth {
+  std::optional<world::EngagementRecord> engagement{};  ///< none: not in the scenario; filled as it goes on
+  std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
+};
+
+/// Flies what run `run_index` flies by itself. Error: one line, if the flight ends before the run.
+Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index);
+
 /// What the target is told in run `run_index`: the truth with the errors that this run draws. Error: one
 /// line, if the bus cannot carry it.
 Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                        std::uint64_t run_index);
-
-/// What a run flies by itself, because it draws it or its answers steer it. Filled while it goes on.
-struct OwnTruth {
-  std::optional<world::EngagementRecord> engagement{};  ///< none: not in the scenario
-};
-
-OwnTruth make_own_truth(const scenario::Scenario& scenario);
+                                        const OwnTruth& own_truth, std::uint64_t run_index);
 
 /// The nodes of run `run_index`, in the order of precedence. All but the index must outlive the schedule.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,

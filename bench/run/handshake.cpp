@@ -198,7 +198,9 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
   auto ready = dialogue.until(
       "taking its initial state", answer_limit_ns,
       [&](nodes::Transmission& o) {
-        std::apply([&](const auto&... message) { (o.send(message), ...); }, initial);
+        const auto send_all = [&](const auto&... message) { (o.send(message), ...); };
+        if (initial.air) std::apply(send_all, *initial.air);
+        std::apply(send_all, initial.navigation);
       },
       [](const Mailbox& mailbox) { return mailbox.heartbeat->state == TargetState::ready; });
   if (!ready) return ready;

@@ -14,13 +14,14 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
                                     std::uint64_t run_index) {
   constexpr std::int64_t step_limit_ns = 1'000'000'000;  // an answer is there when send() returns
   static const std::atomic<bool> never = false;
-  const auto initial = make_initial_state(scenario, truth, run_index);
+  auto own_truth = make_own_truth(scenario, run_index);
+  if (!own_truth) return tl::unexpected(own_truth.error());
+  const auto initial = make_initial_state(scenario, truth, *own_truth, run_index);
   if (!initial) return tl::unexpected(initial.error());
 
   InProcessPort port;
   Link link(port);
-  OwnTruth own_truth = make_own_truth(scenario);
-  Schedule schedule = make_schedule(scenario, truth, own_truth, run_index, true);
+  Schedule schedule = make_schedule(scenario, truth, *own_truth, run_index, true);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
   if (auto ready = configure(link, schedule.outbox(), scenario.target, *initial, gone); !ready) {
     return tl::unexpected(ready.error());
@@ -32,7 +33,7 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
   Ending ending = run_lockstep(link, schedule, step_limit_ns, never, [](std::int64_t) {});
   return InProcessRun{.ending = std::move(ending),
                       .seen = std::move(monitor.observations()),
-                      .own_truth = std::move(own_truth)};
+                      .own_truth = std::move(*own_truth)};
 }
 
 }  // namespace canhil::run

@@ -1,6 +1,7 @@
-// What the target is told of its state at the start, as the messages of group TargetInit.
+// What the target is told of its state at the start.
 #pragma once
 
+#include <optional>
 #include <tuple>
 
 #include "bench/scenario/target_setup.hpp"
@@ -10,10 +11,20 @@
 namespace canhil::run {
 
 /// Group TargetInit in the order of transmission.
-using InitialState =
+using InitialNavigation =
     std::tuple<messages::TargetInitLatitude, messages::TargetInitLongitude, messages::TargetInitVelocityNE,
                messages::TargetInitAttitude, messages::TargetInitSigma, messages::TargetInitVelocityD>;
+/// Group TargetInitAir.
+using InitialAir = std::tuple<messages::TargetInitRate, messages::TargetInitAirVelocity>;
+
+struct InitialState {
+  std::optional<InitialAir> air;  ///< of a glider; sent first, as the other group makes the target ready
+  InitialNavigation navigation;
+};
 
 InitialState initial_state(const world::NavigationSolution& initial, const scenario::InitialSigma& sigma);
+
+/// Rates [rad/s] and velocity through the air [m/s], body axes.
+InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_velocity);
 
 }  // namespace canhil::run

@@ -124,6 +124,7 @@ void Monitor::decode(const Frame& frame, std::uint8_t counter) {
   if (put(navigation_, frame, counter)) on_navigation();
   if (put(filter_, frame, counter)) on_filter();
   if (put(fix_, frame, counter)) on_fix();
+  if (put(wind_, frame, counter)) on_wind();
   if (put(los_, frame, counter)) on_los();
 }
 
@@ -233,6 +234,38 @@ void Monitor::on_fix() {
        .refused = status.refused});
   attribute(fix_, cause_us,
             status.source == FixSource::gps ? GpsTime::info.sample_group : SsblRelativeD::info.sample_group);
+}
+
+void Monitor::on_wind() {
+  const auto& wind = wind_.get<WindVector>();
+  const auto& status = wind_.get<WindSpeed>();
+  const auto& sigma = wind_.get<WindSigma>();
+  const auto& correlation = wind_.get<WindCorrelation>();
+  const auto& track = wind_.get<WindTrackSigma>();
+  const auto& air = wind_.get<WindAirVelocity>();
+  const auto& update = wind_.get<WindUpdate>();
+  const std::int64_t cause_us = unwrap_us(update.cause_time_us, now_us_);
+  const int outside = status.outside_alpha | status.outside_beta | status.outside_speed |
+                      status.outside_mach | status.outside_altitude | status.outside_pitch;
+  seen_.wind.push_back(
+      {.cause_us = cause_us,
+       .started = wind.started != 0,
+       .outcome = status.outcome,
+       .fault = status.fault,
+       .outside = outside != 0,
+       .fins_late = status.fins_late != 0,
+       .fins_missing = status.fins_missing != 0,
+       .fins_not_physical = status.fins_not_physical != 0,
+       .theta_capped = status.theta_capped != 0,
+       .wind_n = {wind.wind_north_mps, wind.wind_east_mps, wind.wind_down_mps},
+       .sigma = {sigma.wind_sigma_north_mps, sigma.wind_sigma_east_mps, sigma.wind_sigma_down_mps},
+       .correlation = {correlation.wind_correlation_ne, correlation.wind_correlation_nd,
+                       correlation.wind_correlation_ed},
+       .along_track_sigma = track.along_track_sigma_mps,
+       .cross_track_sigma = track.cross_track_sigma_mps,
+       .v_a = {air.air_velocity_x_mps, air.air_velocity_y_mps, air.air_velocity_z_mps},
+       .nis = update.nis});
+  attribute(wind_, cause_us, WindUpdate::info.answers.front());
 }
 
 void Monitor::on_los() {

@@ -26,6 +26,7 @@ class Monitor final : public Observer {
   void on_navigation();
   void on_filter();
   void on_fix();
+  void on_wind();
   void on_los();
   template <class... Messages>
   static bool put(SampleGroup<Messages...>& group, const Frame& frame, std::uint8_t counter);
@@ -45,6 +46,10 @@ class Monitor final : public Observer {
               messages::FixAccelBiasSigma, messages::FixBias, messages::FixBiasSigma, messages::FixStatus,
               messages::FixUpdate>
       fix_;
+  SampleGroup<messages::WindVector, messages::WindSpeed, messages::WindSigma, messages::WindCorrelation,
+              messages::WindTrackSigma, messages::WindAirVelocity, messages::WindAttitude,
+              messages::WindInnovation, messages::WindUpdate>
+      wind_;
   SampleGroup<messages::LosRateEstimate, messages::LosRateSigma, messages::LosRateTarget> los_;
   std::int64_t now_us_ = 0;  // last Sync
 };

@@ -43,7 +43,9 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   };
   auto truth = make_truth(scenario);
   if (!truth) return in_file(truth.error());
-  const auto initial = make_initial_state(scenario, *truth, options.run_index);
+  auto own_truth = make_own_truth(scenario, options.run_index);
+  if (!own_truth) return in_file(own_truth.error());
+  const auto initial = make_initial_state(scenario, *truth, *own_truth, options.run_index);
   if (!initial) return in_file(initial.error());
 
   auto port = open(options.bus);
@@ -69,8 +71,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return why ? std::optional("target: " + *why) : std::nullopt;
   };
 
-  OwnTruth own_truth = make_own_truth(scenario);
-  Schedule schedule = make_schedule(scenario, *truth, own_truth, options.run_index, lockstep);
+  Schedule schedule = make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep);
   if (auto configured = configure(link, schedule.outbox(), scenario.target, *initial, gone); !configured) {
     return tl::unexpected(configured.error());
   }
@@ -98,7 +99,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
-                                  .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr,
+                                  .glide = own_truth->glide ? &*own_truth->glide : nullptr,
+                                  .engagement = own_truth->engagement ? &*own_truth->engagement : nullptr,
                                   .duration_us = scenario.duration_us,
                                   .ended_early = ending.detail,
                                   .timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen)};
@@ -108,7 +110,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
              .ending = std::move(ending),
              .seen = std::move(seen),
              .truth = std::move(*truth),
-             .own_truth = std::move(own_truth),
+             .own_truth = std::move(*own_truth),
              .options = options,
              .wall_s = wall_s};
 }

@@ -102,7 +102,9 @@ std::string check_triad(const Names& names, const world::TriadErrorModel& model,
 
 Result<void> check_fits(const InitialState& state) {
   std::string wrong;
-  std::apply([&](const auto&... messages) { (check(messages, wrong), ...); }, state);
+  const auto check_all = [&](const auto&... messages) { (check(messages, wrong), ...); };
+  if (state.air) std::apply(check_all, *state.air);
+  std::apply(check_all, state.navigation);
   if (wrong.empty()) return {};
   return failure(std::move(wrong));
 }

@@ -15,7 +15,10 @@ namespace {
 constexpr std::array<std::string_view, 3> attitude_axes{"roll", "pitch", "heading"};
 constexpr std::array<std::string_view, 4> velocity_axes{"north", "east", "down", "norm"};
 constexpr std::array<std::string_view, 5> position_axes{"north", "east", "down", "horizontal", "norm"};
-constexpr std::array<std::string_view, 4> statistics{"attitude_nees", "nis", "heading_nees", "los_nis"};
+constexpr std::array<std::string_view, 6> statistics{"attitude_nees", "nis",      "heading_nees",
+                                                     "los_nis",       "wind_nis", "wind_nees"};
+constexpr std::array<std::string_view, 4> wind_axes{"along_track", "cross_track", "down", "norm"};
+constexpr std::array<std::string_view, 2> wind_statistics{"mean", "max"};
 constexpr std::array<std::string_view, 3> los_planes{"pitch", "yaw", "both"};
 constexpr std::array<std::string_view, 2> los_statistics{"rms", "max"};
 
@@ -83,8 +86,10 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
     section.reject("mean_between", "is given beside probability", "one of the two");
   // Errors of one run are correlated in time, so the mean of their NEES is not chi-square; innovations are
   // white.
-  if (rule.statistic != Statistic::nis && rule.statistic != Statistic::los_nis)
-    section.reject("probability", "is for nis and los_nis only", "mean_between = [low, high]");
+  const bool white = rule.statistic == Statistic::nis || rule.statistic == Statistic::los_nis ||
+                     rule.statistic == Statistic::wind_nis;
+  if (!white)
+    section.reject("probability", "is for nis, los_nis and wind_nis only", "mean_between = [low, high]");
   rule.bound = Probability{.value = section.number("probability", Limits::between(0.5, 0.999999))};
   section.optional("mean_between");
   return rule;
@@ -160,6 +165,30 @@ Coasting read(Section& section, const Context& context, Coasting rule) {
   return rule;
 }
 
+WindError read(Section& section, const Context& context, WindError rule) {
+  rule.axis = read_enum<WindAxis>(section, "axis", wind_axes, WindAxis::norm);
+  rule.statistic = read_enum<WindStatistic>(section, "statistic", wind_statistics, WindStatistic::max);
+  rule.window = read_window(section, context.duration_us);
+  rule.below = section.number("below_mps", Limits::above(0));
+  return rule;
+}
+
+WindAnswers read(Section& section, const Context& context, WindAnswers rule) {
+  rule.window = read_window(section, context.duration_us);
+  const auto read_count = [&](const std::string& name, bool is_flag) {
+    WindAnswers::Count count{.name = name,
+                             .is_flag = is_flag,
+                             .at_least = section.optional_integer(name + "_at_least", 0),
+                             .at_most = section.optional_integer(name + "_at_most", 0)};
+    if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
+  };
+  for (const std::string& outcome : context.contract.wind_outcomes) read_count(outcome, false);
+  for (const std::string_view flag : wind_flags) read_count(std::string(flag), true);
+  if (rule.counts.empty())
+    section.reject("updated_at_least", "is missing, as are all its like", "at least one limit");
+  return rule;
+}
+
 LosRateError read(Section& section, const Context& /*context*/, LosRateError rule) {
   rule.plane = read_enum<LosPlane>(section, "plane", los_planes, LosPlane::both);
   rule.statistic = read_enum<LosStatistic>(section, "statistic", los_statistics, LosStatistic::rms);
@@ -176,15 +205,27 @@ MissDistance read(Section& section, const Context& /*context*/, MissDistance rul
 using Rule = decltype(Check::rule);
 
 /// What a rule holds answers against.
-enum class Needs : std::uint8_t { nothing, navigation, engagement };
+enum class Needs : std::uint8_t { nothing, navigation, engagement, glide };
 template <class AnyRule>
 constexpr Needs needs(const AnyRule& rule) {
   using R = std::remove_cvref_t<AnyRule>;
   if constexpr (std::is_same_v<R, Consistency>) {
-    if (rule.statistic == Statistic::los_nis) return Needs::engagement;
-    return rule.statistic == Statistic::nis ? Needs::nothing : Needs::navigation;
+    switch (rule.statistic) {
+      case Statistic::nis:
+      case Statistic::wind_nis:
+        return Needs::nothing;
+      case Statistic::los_nis:
+        return Needs::engagement;
+      case Statistic::wind_nees:
+        return Needs::glide;
+      case Statistic::attitude_nees:
+      case Statistic::heading_nees:
+        break;
+    }
+    return Needs::navigation;
   }
   if (std::is_same_v<R, LosRateError> || std::is_same_v<R, MissDistance>) return Needs::engagement;
+  if (std::is_same_v<R, WindError>) return Needs::glide;
   const bool navigation = std::is_same_v<R, AttitudeError> || std::is_same_v<R, Convergence> ||
                           std::is_same_v<R, VelocityError> || std::is_same_v<R, PositionError>;
   return navigation ? Needs::navigation : Needs::nothing;
@@ -194,6 +235,8 @@ void expect_truth(Section& section, const Rule& rule, const Truths& truths) {
   const Needs needed = std::visit([](const auto& one) { return needs(one); }, rule);
   if (needed == Needs::navigation && !truths.navigation)
     section.reject("kind", "has nothing to be judged against", "a table [truth] in the scenario");
+  if (needed == Needs::glide && !truths.glide)
+    section.reject("kind", "has nothing to be judged against", "a table [glide] in the scenario");
   if (needed == Needs::engagement && !truths.engagement)
     section.reject("kind", "has nothing to be judged against", "a table [engagement] in the scenario");
 }
@@ -210,6 +253,10 @@ std::string subject(const Heartbeat& /*rule*/) { return {}; }
 std::string subject(const PositionError& rule) { return fmt::format(" {}", name(rule.axis)); }
 std::string subject(const Fixes& /*rule*/) { return {}; }
 std::string subject(const Coasting& /*rule*/) { return {}; }
+std::string subject(const WindError& rule) {
+  return fmt::format(" {} {}", name(rule.axis), name(rule.statistic));
+}
+std::string subject(const WindAnswers& /*rule*/) { return {}; }
 std::string subject(const LosRateError& rule) {
   return fmt::format(" {} {} to {:g} s to go", name(rule.plane), rule.most_to_go, rule.least_to_go);
 }
@@ -222,6 +269,10 @@ std::string_view name(VelocityAxis axis) { return velocity_axes[static_cast<std:
 std::string_view name(PositionAxis axis) { return position_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(Statistic statistic) { return statistics[static_cast<std::size_t>(statistic)]; }
 
+std::string_view name(WindAxis axis) { return wind_axes[static_cast<std::size_t>(axis)]; }
+std::string_view name(WindStatistic statistic) {
+  return wind_statistics[static_cast<std::size_t>(statistic)];
+}
 std::string_view name(LosPlane plane) { return los_planes[static_cast<std::size_t>(plane)]; }
 
 std::string_view kind(const Check& check) { return kind_of(check.rule); }

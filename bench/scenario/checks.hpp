@@ -2,6 +2,7 @@
 // bench/checks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,7 +20,9 @@ class Section;
 enum class AttitudeAxis : std::uint8_t { roll, pitch, heading };
 enum class VelocityAxis : std::uint8_t { north, east, down, norm };
 enum class PositionAxis : std::uint8_t { north, east, down, horizontal, norm };
-enum class Statistic : std::uint8_t { attitude_nees, nis, heading_nees, los_nis };
+enum class Statistic : std::uint8_t { attitude_nees, nis, heading_nees, los_nis, wind_nis, wind_nees };
+enum class WindAxis : std::uint8_t { along_track, cross_track, down, norm };
+enum class WindStatistic : std::uint8_t { mean, max };
 enum class LosPlane : std::uint8_t { pitch, yaw, both };
 enum class LosStatistic : std::uint8_t { rms, max };
 
@@ -106,6 +109,29 @@ struct Coasting {
   std::optional<std::int64_t> at_least, at_most;
 };
 
+/// The mean or the largest |estimated - true| wind of the window stays below a bar.
+struct WindError {
+  static constexpr std::string_view kind = "wind_error";
+  WindAxis axis = WindAxis::norm;
+  WindStatistic statistic = WindStatistic::max;
+  Window window;
+  double below = 0;  ///< [m/s]
+};
+
+/// How many wind answers of the window had an outcome or a flag. Absent: not judged.
+struct WindAnswers {
+  static constexpr std::string_view kind = "wind_answers";
+  struct Count {
+    std::string name;  ///< of the DBC's value table WindOutcome, or of wind_flags
+    bool is_flag = false;
+    std::optional<std::int64_t> at_least, at_most;
+  };
+  Window window;
+  std::vector<Count> counts;
+};
+inline constexpr std::array<std::string_view, 5> wind_flags{"outside", "fins_late", "fins_missing",
+                                                            "fins_not_physical", "theta_capped"};
+
 /// The mean of a normalised error squared over the window lies between two values.
 struct MeanBetween {
   double low = 0;
@@ -118,7 +144,8 @@ struct Probability {
 };
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
-  Statistic statistic = Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1, los_nis: of 2
+  Statistic statistic =
+      Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1, los_nis: of 2, wind_nis: of 9
   Window window;
   std::variant<MeanBetween, Probability> bound;
 };
@@ -162,7 +189,7 @@ struct Check {
   std::string requirement;  ///< id carried to the reports; may be empty
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
-               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance>
+               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers>
       rule;
 };
 
@@ -171,12 +198,15 @@ std::string_view name(AttitudeAxis axis);
 std::string_view name(VelocityAxis axis);
 std::string_view name(PositionAxis axis);
 std::string_view name(Statistic statistic);
+std::string_view name(WindAxis axis);
+std::string_view name(WindStatistic statistic);
 std::string_view name(LosPlane plane);
 
 /// What a scenario has that answers can be held against.
 struct Truths {
   bool navigation = true;
   bool engagement = false;
+  bool glide = false;
 };
 
 Check read_check(Section& section, std::int64_t duration_us, const Contract& contract, const Truths& truths);

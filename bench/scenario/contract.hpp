@@ -8,12 +8,13 @@
 namespace canhil::scenario {
 
 struct Contract {
-  std::vector<std::string> estimators;    ///< value table Estimator, without "none"
-  std::vector<std::string> algorithms;    ///< value table Algorithm
-  std::vector<std::string> parameters;    ///< value table Parameter
-  std::vector<std::string> messages;      ///< names of all messages
-  std::vector<std::string> fix_outcomes;  ///< value table FixOutcome
-  std::vector<std::string> answers;       ///< of those that answer a sample group
+  std::vector<std::string> estimators;       ///< value table Estimator, without "none"
+  std::vector<std::string> algorithms;       ///< value table Algorithm
+  std::vector<std::string> parameters;       ///< value table Parameter
+  std::vector<std::string> messages;         ///< names of all messages
+  std::vector<std::string> fix_outcomes;     ///< value table FixOutcome
+  std::vector<std::string> answers;          ///< of those that answer a sample group
+  std::vector<std::string> wind_outcomes{};  ///< value table WindOutcome
 };
 
 }  // namespace canhil::scenario

@@ -20,11 +20,19 @@ struct Unit {
 
 double factor_of(std::string_view key) {
   namespace units = world::units;
-  static constexpr std::array table{
-      Unit{"_deg", units::deg},   Unit{"_mrad", units::mrad},       Unit{"_mradps", units::mrad},
-      Unit{"_kmph", units::kmph}, Unit{"_degph", units::degph},     Unit{"_degprth", units::degprth},
-      Unit{"_ug", units::ug},     Unit{"_ugprthz", units::ugprthz}, Unit{"_g", units::standard_gravity},
-      Unit{"_ppm", units::ppm},   Unit{"_percent", 0.01},           Unit{"_ms", 1e-3}};
+  static constexpr std::array table{Unit{"_deg", units::deg},
+                                    Unit{"_mrad", units::mrad},
+                                    Unit{"_mradps", units::mrad},
+                                    Unit{"_kmph", units::kmph},
+                                    Unit{"_degph", units::degph},
+                                    Unit{"_degps", units::deg},
+                                    Unit{"_degprth", units::degprth},
+                                    Unit{"_ug", units::ug},
+                                    Unit{"_ugprthz", units::ugprthz},
+                                    Unit{"_g", units::standard_gravity},
+                                    Unit{"_ppm", units::ppm},
+                                    Unit{"_percent", 0.01},
+                                    Unit{"_ms", 1e-3}};
   const auto* const unit =
       std::ranges::find_if(table, [&](const Unit& candidate) { return key.ends_with(candidate.ending); });
   return unit == table.end() ? 1.0 : unit->factor;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <fstream>
 #include <sstream>
@@ -25,6 +26,21 @@ std::optional<Node> read_node(Section& root, std::string_view key, bool needed, 
   return read(*section);
 }
 
+/// The glider's truth and nodes: all of them are there, or none is.
+void read_glider(Section& root, Scenario& scenario) {
+  constexpr std::array parts{"glide", "wind", "airframe", "glider_nav", "fins"};
+  const bool wanted = scenario.target.estimator == "wind" ||
+                      std::ranges::any_of(parts, [&](const char* key) { return root.has(key); });
+  if (!wanted) {
+    for (const char* key : parts) root.optional(key);
+    return;
+  }
+  Section glide = root.table("glide");
+  scenario.glide = read_glide(root, glide);
+  scenario.glider_nav = read_node<GliderNav>(root, "glider_nav", true, read_glider_nav);
+  scenario.fins = read_node<Fins>(root, "fins", true, read_fins);
+}
+
 std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract,
                                const Truths& truths) {
   std::vector<Check> checks;
@@ -41,10 +57,12 @@ std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Co
   return checks;
 }
 
-/// The carrier's flight: it may be absent where an engagement is there. Then nothing that needs it may be.
+/// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
+/// may be.
 Truths read_navigation(Section& root, Scenario& scenario) {
-  const Truths truths{.navigation = root.has("truth") || !scenario.engagement,
-                      .engagement = scenario.engagement.has_value()};
+  const Truths truths{.navigation = root.has("truth") || !(scenario.engagement || scenario.glide),
+                      .engagement = scenario.engagement.has_value(),
+                      .glide = scenario.glide.has_value()};
   if (truths.navigation) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth);
@@ -79,6 +97,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   if (auto engagement = root.optional_table("engagement")) {
     scenario.engagement = read_engagement(*engagement);
   }
+  read_glider(root, scenario);
   const Truths truths = read_navigation(root, scenario);
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);

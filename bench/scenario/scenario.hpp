@@ -17,6 +17,9 @@
 
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/contract.hpp"
+#include "bench/scenario/fins.hpp"
+#include "bench/scenario/glide.hpp"
+#include "bench/scenario/glider_nav.hpp"
 #include "bench/scenario/gps.hpp"
 #include "bench/scenario/master_ins.hpp"
 #include "bench/scenario/seeker.hpp"
@@ -45,6 +48,9 @@ struct Scenario {
   std::optional<SlaveImu> slave_imu;
   std::optional<Ssbl> ssbl;
   std::optional<Gps> gps;
+  std::optional<Glide> glide;  ///< the truth of a glider, beside the navigation's
+  std::optional<GliderNav> glider_nav;
+  std::optional<Fins> fins;
   std::optional<world::EngagementPlan> engagement;
   std::optional<Seeker> seeker;
   std::vector<Check> checks;

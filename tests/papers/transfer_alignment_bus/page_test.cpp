@@ -34,7 +34,7 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
 TEST(PaperPage, NamesWhatIsWrongWithTheRequest) {
   Request unknown = request("transfer", "paper_errors");
   unknown.paper = "transfr";
-  EXPECT_EQ(complaint(unknown), "paper 'transfr' is unknown, expected transfer or inflight or los");
+  EXPECT_EQ(complaint(unknown), "paper 'transfr' is unknown, expected transfer or inflight or los or wind");
   Request no_folder = request("transfer", "paper_errors");
   no_folder.folder = "/dev/null/page";
   EXPECT_EQ(complaint(no_folder), "folder '/dev/null/page': cannot be made: Not a directory");

@@ -125,7 +125,9 @@ int compare(int groups) {
   if (!scenario) return complain(scenario.error().message);
   const auto truth = run::make_truth(*scenario);
   if (!truth) return complain(truth.error().message);
-  const auto initial = run::make_initial_state(*scenario, *truth, 0);
+  const auto own_truth = run::make_own_truth(*scenario, 0);
+  if (!own_truth) return complain(own_truth.error().message);
+  const auto initial = run::make_initial_state(*scenario, *truth, *own_truth, 0);
   if (!initial) return complain(initial.error().message);
 
   const std::string bus = fmt::format("local:turnaround-{}", ::getpid()), echo_bus = bus + "-echo";

@@ -39,7 +39,7 @@ TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
 // Those of the closed loop only if answers take effect at the same time on every bus.
 INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
-                                         "los_closed_loop", "los_closed_loop_500hz"));
+                                         "los_closed_loop", "los_closed_loop_500hz", "wind_quick"));
 
 TEST(Bits, InflightInProcessAndRealTimeAgree) {
   const std::string name = "inflight_quick";

@@ -52,7 +52,8 @@ TEST_P(RunOfScenario, OutputsPassInLockstep) {
 
 INSTANTIATE_TEST_SUITE_P(Run, RunOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
-                                         "los_closed_loop", "los_closed_loop_500hz"));
+                                         "los_closed_loop", "los_closed_loop_500hz", "wind_ekf",
+                                         "wind_h_infinity"));
 
 TEST(Run, AnAlignmentInFlightPassesInRealTime) {
   const std::string report = scratch("inflight.json");

@@ -24,7 +24,7 @@ TEST(Series, BytesAreDoublesLittleEndian) {
 }
 
 TEST(Series, ComesBackAsItWas) {
-  for (const Family family : {Family::alignment, Family::los_rate}) {
+  for (const Family family : {Family::alignment, Family::los_rate, Family::wind}) {
     std::map<Quantity, double> values;
     for (const Quantity quantity : kept(family))
       values[quantity] = 1.5 * static_cast<double>(values.size() + 1);
@@ -69,7 +69,7 @@ TEST(Series, EveryQuantityHasItsNameAndEveryFamilyItsOwn) {
   EXPECT_EQ(name(Quantity::los_pitch), "los_pitch");
   EXPECT_EQ(name(Quantity::los_nis), "los_nis");
   EXPECT_EQ(name(Quantity::miss), "miss");
-  for (const Family family : {Family::alignment, Family::los_rate}) {
+  for (const Family family : {Family::alignment, Family::los_rate, Family::wind}) {
     for (const Quantity quantity : kept(family)) EXPECT_EQ(info(quantity).family, family) << name(quantity);
   }
 }

@@ -35,8 +35,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"seed = 7", "seed = 7\nzebra_crossing = 1\nape_house = 1",
               "4: key 'zebra_crossing': is unknown, expected one of: title, duration_s, seed, target, "
-              "engagement, "
-              "truth, initial_error, master_ins, slave_imu, ssbl, gps, seeker, check"},
+              "engagement, glide, wind, "
+              "airframe, glider_nav, fins, truth, initial_error, master_ins, slave_imu, ssbl, gps, seeker, "
+              "check"},
         Wrong{"seed = 7", "seeds = 7", "3: key 'seeds': is unknown, expected 'seed'"},
         Wrong{"[master_ins]", "[master_ins]\nperod_ms = 3",
               "15: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"},
@@ -49,10 +50,11 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[check]]", "[[check]]\nbelow_mrad = 3",
               "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
               "silent_at_most_s, name"},
-        Wrong{
-            "seed = 7", "seed = 7\n\"a\\nb\" = 1",
-            "4: key 'a?b': is unknown, expected one of: title, duration_s, seed, target, engagement, truth, "
-            "initial_error, master_ins, slave_imu, ssbl, gps, seeker, check"},
+        Wrong{"seed = 7", "seed = 7\n\"a\\nb\" = 1",
+              "4: key 'a?b': is unknown, expected one of: title, duration_s, seed, target, engagement, "
+              "glide, wind, "
+              "airframe, glider_nav, fins, truth, initial_error, master_ins, slave_imu, ssbl, gps, seeker, "
+              "check"},
         Wrong{"[truth]", "[target.parameters]\nh2_cases = 1\n[truth]",
               "9: key 'target.parameters.h2_cases': is unknown, expected 'h2_case'"}));
 

@@ -43,7 +43,8 @@ Contract of_the_dbc() {
           .parameters = value_table(text, "Parameter"),
           .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):"),
           .fix_outcomes = value_table(text, "FixOutcome"),
-          .answers = answers(text)};
+          .answers = answers(text),
+          .wind_outcomes = value_table(text, "WindOutcome")};
 }
 
 TEST(ScenarioFiles, AreAllValid) {

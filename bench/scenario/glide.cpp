@@ -1,0 +1,83 @@
+#include "bench/scenario/glide.hpp"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+namespace glide = world::glide;
+
+template <class Enum>
+Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names, Enum usual) {
+  const std::vector<std::string> words(names.begin(), names.end());
+  const auto found =
+      std::ranges::find(words, section.one_of(key, words, words[static_cast<std::size_t>(usual)]));
+  return found == words.end() ? usual : static_cast<Enum>(found - words.begin());
+}
+
+glide::WindProfile read_profile(Section& section) {
+  if (section.has("season") || !section.has("steady_mps")) {
+    if (section.has("steady_mps")) section.reject("steady_mps", "is given beside season", "one of the two");
+    section.optional("steady_mps");
+    const std::vector<std::string> words(glide::season_names.begin(), glide::season_names.end());
+    const auto found = std::ranges::find(words, section.one_of("season", words));
+    return glide::WindProfile(found == words.end() ? glide::Season::march
+                                                   : static_cast<glide::Season>(found - words.begin()));
+  }
+  section.optional("season");
+  return glide::WindProfile(section.three("steady_mps", Limits::between(-150, 150)));
+}
+
+void read_wind(Section section, world::GlidePlan& plan) {
+  plan.wind = read_profile(section);
+  plan.gusts.sigma = section.number("gust_sigma_mps", Limits::between(0, 20), 0);
+  plan.gusts.time = section.number("gust_time_s", Limits::above(0), plan.gusts.time);
+  section.finish();
+}
+
+void read_airframe(Section section, world::GlidePlan& plan) {
+  using glide::ErrorKind;
+  glide::CoefficientErrorModel& errors = plan.coefficients;
+  errors.level = section.number("coefficient_error_percent", Limits::between(0, 100), 0);
+  errors.kind = read_enum(section, "coefficient_error", glide::error_kind_names, ErrorKind::held);
+  const std::int64_t hold_us = section.time_us("hold_ms", Limits::between(10, 1e6), 50);
+  const std::int64_t markov_us = section.time_us("markov_time_s", Limits::between(0.01, 1e4), 1);
+  errors.time_us = errors.kind == ErrorKind::markov ? markov_us : hold_us;
+  const std::vector<std::string> scopes{"term", "total"};
+  errors.per_part = section.one_of("per", scopes, "term") == "term";
+  const std::vector<std::string> reaches{"forces_and_moments", "forces"};
+  errors.moments = section.one_of("of", reaches, reaches[0]) == reaches[0];
+  plan.density_error = section.number("density_error_percent", Limits::between(-50, 50), 0);
+  section.finish();
+}
+
+ReleaseError read_release(Section section) {
+  const ReleaseError error{
+      .air_velocity = section.number("air_velocity_sigma_mps", Limits::between(0, 50), 0),
+      .velocity = section.number("velocity_sigma_mps", Limits::between(0, 50), 0),
+      .attitude = section.number("attitude_sigma_deg", Limits::between(0, 30), 0),
+      .rate = section.number("rate_sigma_degps", Limits::between(0, 30), 0)};
+  section.finish();
+  return error;
+}
+
+}  // namespace
+
+Glide read_glide(Section& root, Section& section) {
+  Glide glide;
+  glide.plan.heading = section.number("heading_deg", Limits::between(-180, 360));
+  glide.plan.speed = section.number("speed_mps", Limits::between(80, 300));
+  glide.plan.height = section.number("height_m", Limits::between(100, 15'000));
+  if (auto release = section.optional_table("initial_error")) glide.release = read_release(*release);
+  section.finish();
+  read_wind(root.table("wind"), glide.plan);
+  if (auto airframe = root.optional_table("airframe")) read_airframe(*airframe, glide.plan);
+  return glide;
+}
+
+}  // namespace canhil::scenario

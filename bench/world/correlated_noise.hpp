@@ -1,0 +1,23 @@
+// White noise and a first-order Gauss-Markov process together: errors of a sensor of which a part stays.
+#pragma once
+
+#include "bench/world/stream.hpp"
+
+namespace canhil::world {
+
+/// Of three components, standard normal at every instant; `fraction` of the variance is correlated in time.
+class CorrelatedNoise {
+ public:
+  /// correlation_time [s]. The process starts in its steady state.
+  CorrelatedNoise(double fraction, double correlation_time, Stream& stream);
+
+  /// The noise dt [s] after that before. Takes six numbers of the stream, whatever the fraction is.
+  Vector3 next(double dt, Stream& stream);
+
+ private:
+  double fraction_;
+  double correlation_time_;
+  Vector3 correlated_;
+};
+
+}  // namespace canhil::world

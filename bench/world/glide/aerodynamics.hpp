@@ -1,0 +1,57 @@
+// The glider: a 500-lb body with a planar wing kit. Not a real weapon's data: the body's size is of the
+// Mk-82 class, all coefficients are textbook estimates.
+//
+// Force from lift and drag in stability axes and a side force along body y, moments about the centre of
+// gravity: Park and Park (2019), eq. (7), (8), corrected: the paper mixes stability and wind axes and gives
+// gravity a moment.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "bench/world/attitude.hpp"
+#include "bench/world/glide/atmosphere.hpp"
+
+namespace canhil::world::glide {
+
+inline constexpr double mass = 300;  // [kg]
+
+/// About the centre of gravity, body axes [kg m^2].
+Matrix3 inertia();
+
+/// Deflections of elevator, aileron and rudder [rad].
+using Fins = Vector3;
+
+enum class Coefficient : std::uint8_t { lift, drag, side, roll, pitch, yaw };
+inline constexpr std::size_t coefficient_count = 6;
+/// What a coefficient is the sum of.
+enum class Part : std::uint8_t { steady, rate, control };
+inline constexpr std::size_t part_count = 3;
+
+/// True over nominal, of each part of each coefficient.
+using Factors = std::array<std::array<double, part_count>, coefficient_count>;
+inline constexpr Factors nominal{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
+
+/// Where the air comes from, and how fast.
+struct Flow {
+  double speed = 0;  ///< V = |v_a| [m/s]
+  double alpha = 0;  ///< atan2(w, u) [rad]
+  double beta = 0;   ///< asin(v / V) [rad]
+  double mach = 0;
+};
+Flow flow(const Vector3& v_a, double speed_of_sound);
+
+/// Lift, drag, side force, rolling, pitching and yawing moment; omega in rad/s.
+std::array<double, coefficient_count> coefficients(const Flow& flow, const Vector3& omega, const Fins& fins,
+                                                   const Factors& factors = nominal);
+
+/// What the air does to the glider, body axes.
+struct Loads {
+  Vector3 force = Vector3::Zero();   ///< [N]
+  Vector3 moment = Vector3::Zero();  ///< about the centre of gravity [N m]
+};
+/// v_a: velocity through the air, body axes [m/s].
+Loads loads(const Vector3& v_a, const Vector3& omega, const Fins& fins, const Air& air,
+            const Factors& factors = nominal);
+
+}  // namespace canhil::world::glide

@@ -1,0 +1,49 @@
+// How far the true aerodynamic coefficients are from the nominal ones: true = nominal (1 + level n), n
+// standard normal.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "bench/world/glide/aerodynamics.hpp"
+#include "bench/world/stream.hpp"
+
+namespace canhil::world::glide {
+
+/// How n goes on in time.
+enum class ErrorKind : std::uint8_t {
+  white,    ///< new at every step of the truth
+  held,     ///< new every `time`
+  markov,   ///< first-order Gauss-Markov of correlation time `time`
+  constant  ///< one for the run
+};
+inline constexpr std::array<std::string_view, 4> error_kind_names{"white", "held", "markov", "constant"};
+
+struct CoefficientErrorModel {
+  double level = 0;  ///< standard deviation of the factor
+  ErrorKind kind = ErrorKind::held;
+  std::int64_t time_us = 50'000;  ///< of held and markov
+  bool per_part = true;           ///< the parts of a coefficient have factors of their own
+  bool moments = true;            ///< false: of the forces only
+};
+
+class CoefficientErrors {
+ public:
+  CoefficientErrors(const CoefficientErrorModel& model, Stream stream);
+
+  /// The factors now.
+  [[nodiscard]] const Factors& now() const { return factors_; }
+  /// Goes on to t_us, dt_us later than before.
+  void advance(std::int64_t t_us, std::int64_t dt_us);
+
+ private:
+  void draw(double kept);
+
+  CoefficientErrorModel model_;
+  Stream stream_;
+  Factors n_{};  // standard normal numbers
+  Factors factors_ = nominal;
+};
+
+}  // namespace canhil::world::glide

@@ -1,0 +1,139 @@
+// Wind answers against a glider's truth.
+#include "bench/checks/wind.hpp"
+
+#include <gmock/gmock.h>
+
+#include "bench/checks/judge.hpp"
+#include "bench/world/motion/rest.hpp"
+#include "dbc/wire/transmit.hpp"
+
+namespace canhil::checks {
+namespace {
+
+using messages::WindOutcome;
+using scenario::WindAxis;
+using scenario::WindStatistic;
+using testing::HasSubstr;
+using world::Vector3;
+
+constexpr std::int64_t duration_us = 10'000'000;
+constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
+
+world::GlidePlan heading_east() {
+  world::GlidePlan plan;
+  plan.heading = 1.5707963267948966;
+  return plan;
+}
+
+// 10 s of a glide to the east, perfect answers every 20 ms; tests spoil them.
+class Winds : public testing::Test {
+ protected:
+  Winds() {
+    for (std::int64_t t_us = 20'000; t_us <= duration_us; t_us += 20'000) {
+      seen_.stimuli["GliderNav"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      WindAnswer answer{.cause_us = t_us, .started = true, .outcome = WindOutcome::updated};
+      answer.wind_n = glide_.at(t_us).wind_n;
+      answer.sigma = Vector3::Ones();
+      answer.nis = 9;
+      seen_.wind.push_back(answer);
+    }
+  }
+  template <class Rule>
+  CheckResult judge(const Rule& rule) {
+    scenario::Scenario scenario;
+    scenario.checks.push_back({.name = "it", .requirement = "", .rule = rule});
+    return checks::judge(scenario, {.seen = seen_,
+                                    .truth = rest_,
+                                    .glide = &glide_,
+                                    .duration_us = duration_us,
+                                    .ended_early = "",
+                                    .timing_unfit = ""})
+        .checks.at(0);
+  }
+  CheckResult error(WindAxis axis, WindStatistic statistic, double below) {
+    return judge(scenario::WindError{.axis = axis, .statistic = statistic, .window = whole, .below = below});
+  }
+
+  world::GlideRecord glide_{heading_east(), duration_us, world::Stream(1, 0, "c"), world::Stream(1, 0, "g")};
+  world::FlightRecord rest_{{.start = {}, .motion = world::Rest{}}, duration_us, 20'000};
+  Observations seen_;
+};
+
+TEST_F(Winds, ErrorsAreAlongAndAcrossTheAirVelocity) {
+  seen_.wind[100].wind_n += Vector3(0, 3, 0);   // to the east: along
+  seen_.wind[200].wind_n += Vector3(-2, 0, 0);  // to the south: to the right
+  seen_.wind[300].wind_n += Vector3(0, 0, -1);
+  const auto errors = wind_errors(seen_, glide_);
+  EXPECT_NEAR(errors[100].along_track, 3, 0.01);  // it weathercocks by a fraction of a degree
+  EXPECT_NEAR(errors[100].cross_track, 0, 0.1);
+  EXPECT_NEAR(errors[200].cross_track, 2, 0.01);
+  EXPECT_NEAR(component(errors[300], WindAxis::down), -1, 1e-12);
+  EXPECT_NEAR(component(errors[300], WindAxis::norm), 1, 1e-12);
+}
+
+TEST_F(Winds, TheLargestAndTheMeanErrorAreJudged) {
+  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1e-6).outcome, Outcome::pass);
+  seen_.wind[100].wind_n.z() -= 5;
+  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 4.9).outcome, Outcome::fail);
+  EXPECT_EQ(error(WindAxis::down, WindStatistic::max, 5.1).outcome, Outcome::pass);
+  EXPECT_EQ(error(WindAxis::down, WindStatistic::mean, 0.009).outcome, Outcome::fail);  // 5 / 500
+  EXPECT_EQ(error(WindAxis::down, WindStatistic::mean, 0.011).outcome, Outcome::pass);
+  EXPECT_EQ(error(WindAxis::cross_track, WindStatistic::max, 1e-6).outcome, Outcome::pass);
+}
+
+TEST_F(Winds, SilenceAndNansNeverPass) {
+  seen_.wind[100].wind_n.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error(WindAxis::norm, WindStatistic::mean, 1e9).outcome, Outcome::fail);
+  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1e9).outcome, Outcome::fail);
+  seen_.wind.erase(seen_.wind.begin() + 90, seen_.wind.begin() + 150);  // 1.2 s
+  EXPECT_THAT(error(WindAxis::norm, WindStatistic::max, 1).measured, HasSubstr("no answers for 1.2"));
+  seen_.wind.clear();
+  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1).measured, "no answers");
+  EXPECT_EQ(judge(scenario::WindAnswers{.window = whole, .counts = {}}).outcome, Outcome::fail);
+}
+
+TEST_F(Winds, AFilterThatWaitsHasNoError) {
+  for (WindAnswer& answer : seen_.wind) answer.started = false;
+  EXPECT_TRUE(wind_errors(seen_, glide_).empty());
+}
+
+TEST_F(Winds, NeesTakesTheCorrelationIn) {
+  seen_.wind[0].wind_n += Vector3(1, 2, 3);
+  seen_.wind[0].sigma = {1, 2, 3};
+  EXPECT_NEAR(wind_nees(seen_, glide_)[0].value, 3, 1e-9);
+  seen_.wind[0].correlation = {0.5, 0, 0};
+  EXPECT_NEAR(wind_nees(seen_, glide_)[0].value, 2.0 / 1.5 + 1, 1e-9);  // (1 + 1 - 2 r) / (1 - r^2) and 1
+}
+
+TEST_F(Winds, NisIsOfNineDegreesOfFreedom) {
+  const auto consistent = [&] {
+    return judge(scenario::Consistency{.statistic = scenario::Statistic::wind_nis,
+                                       .window = whole,
+                                       .bound = scenario::Probability{.value = 0.999}})
+        .outcome;
+  };
+  EXPECT_EQ(consistent(), Outcome::pass);
+  for (WindAnswer& answer : seen_.wind) answer.nis = 3;
+  EXPECT_EQ(consistent(), Outcome::fail);
+  for (WindAnswer& answer : seen_.wind) answer.outcome = WindOutcome::coasting;
+  EXPECT_TRUE(wind_nis(seen_).empty());
+}
+
+TEST_F(Winds, AnswersAreCountedByOutcomeAndFlag) {
+  for (std::size_t i = 0; i < 7; ++i) seen_.wind[i].fins_late = true;
+  for (std::size_t i = 0; i < 3; ++i) seen_.wind[i].outcome = WindOutcome::coasting;
+  const auto counted = [&](const char* name, bool is_flag, std::int64_t least, std::int64_t most) {
+    return judge(scenario::WindAnswers{
+                     .window = whole,
+                     .counts = {{.name = name, .is_flag = is_flag, .at_least = least, .at_most = most}}})
+        .outcome;
+  };
+  EXPECT_EQ(counted("coasting", false, 3, 3), Outcome::pass);
+  EXPECT_EQ(counted("coasting", false, 0, 2), Outcome::fail);
+  EXPECT_EQ(counted("updated", false, 498, 600), Outcome::fail);
+  EXPECT_EQ(counted("fins_late", true, 7, 7), Outcome::pass);
+  EXPECT_EQ(counted("outside", true, 1, 7), Outcome::fail);
+}
+
+}  // namespace
+}  // namespace canhil::checks

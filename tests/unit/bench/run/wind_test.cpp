@@ -1,0 +1,126 @@
+// The glider from the scenario's text to the checks, against the device in this process.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "bench/checks/judge.hpp"
+#include "bench/checks/wind.hpp"
+#include "bench/run/contract.hpp"
+#include "bench/run/flight.hpp"
+#include "bench/run/in_process.hpp"
+
+namespace canhil::run {
+namespace {
+
+using messages::WindOutcome;
+using testing::HasSubstr;
+
+scenario::Scenario quick(const std::vector<scenario::Setting>& settings) {
+  std::ifstream file(SOURCE_DIR "/bench/scenarios/wind_quick.toml");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto scenario = scenario::parse(text, "quick.toml", contract(), settings);
+  EXPECT_TRUE(scenario) << scenario.error().message;
+  return *scenario;
+}
+
+scenario::Setting set(std::string key, std::string value) {
+  return {.key = std::move(key), .value = std::move(value), .elements = {}, .line = 1};
+}
+
+struct Flown {
+  checks::Observations seen;
+  OwnTruth own_truth;
+  checks::Verdict verdict;
+
+  [[nodiscard]] std::int64_t count(WindOutcome outcome) const {
+    return std::ranges::count(seen.wind, outcome, &checks::WindAnswer::outcome);
+  }
+  [[nodiscard]] std::int64_t flagged(std::string_view flag) const {
+    return checks::count_flag(seen, {.from_us = 0, .to_us = 100'000'000}, flag);
+  }
+  [[nodiscard]] double mean_error(scenario::WindAxis axis) const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const checks::WindError& error : checks::wind_errors(seen, *own_truth.glide)) {
+      if (error.t_us < 10'000'000) continue;
+      sum += std::abs(component(error, axis));
+      ++count;
+    }
+    return sum / static_cast<double>(count);
+  }
+};
+
+Flown fly(const std::vector<scenario::Setting>& settings = {}, std::uint64_t run = 0) {
+  const scenario::Scenario scenario = quick(settings);
+  const auto truth = make_truth(scenario);
+  EXPECT_TRUE(truth) << truth.error().message;
+  auto flown = run_in_process(scenario, *truth, run);
+  EXPECT_TRUE(flown) << flown.error().message;
+  EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
+  checks::Verdict verdict = checks::judge(scenario, {.seen = flown->seen,
+                                                     .truth = *truth,
+                                                     .glide = &*flown->own_truth.glide,
+                                                     .duration_us = scenario.duration_us,
+                                                     .ended_early = flown->ending.detail,
+                                                     .timing_unfit = "virtual time"});
+  return {std::move(flown->seen), std::move(flown->own_truth), std::move(verdict)};
+}
+
+TEST(Wind, IsEstimatedThroughTheBus) {
+  const Flown flown = fly();
+  for (const checks::CheckResult& check : flown.verdict.checks)
+    EXPECT_NE(check.outcome, checks::Outcome::fail) << check.name << ": " << check.measured;
+  EXPECT_GE(flown.count(WindOutcome::updated), 990);
+  EXPECT_LT(flown.mean_error(scenario::WindAxis::norm), 2);
+}
+
+// The first answer knows what the carrier told: not more, not less.
+TEST(Wind, StartsFromWhatTheCarrierTells) {
+  const auto first_error = [](const std::string& sigma) {
+    const Flown flown = fly({set("glide.initial_error.air_velocity_sigma_mps", sigma),
+                             set("glide.initial_error.attitude_sigma_deg", "0")});
+    return checks::wind_errors(flown.seen, *flown.own_truth.glide).front().error_n.norm();
+  };
+  EXPECT_LT(first_error("0"), 0.3);
+  EXPECT_GT(first_error("10"), 3);
+}
+
+TEST(Wind, DenserAirIsAWindAlongTheTrack) {
+  const Flown flown =
+      fly({set("airframe.density_error_percent", "3"), set("airframe.coefficient_error_percent", "0")});
+  EXPECT_NEAR(flown.mean_error(scenario::WindAxis::along_track), 2.7, 0.7);
+  EXPECT_LT(flown.mean_error(scenario::WindAxis::cross_track), 0.7);
+}
+
+TEST(Wind, FinsThatStayAwayAreTold) {
+  const Flown lost = fly({set("fins.outage_s", "1"), set("fins.outage_every_s", "5")});
+  EXPECT_GT(lost.flagged("fins_missing"), 4 * 40);
+  EXPECT_EQ(fly().flagged("fins_missing"), 0);
+  EXPECT_GT(fly({set("fins.latency_ms", "50")}).flagged("fins_late"), 900);
+}
+
+TEST(Wind, NavigationThatStaysAwayIsBridged) {
+  const Flown flown = fly({set("glider_nav.outage_s", "1"), set("glider_nav.outage_every_s", "5")});
+  EXPECT_NEAR(static_cast<double>(flown.count(WindOutcome::updated)), 800, 10);
+  EXPECT_LT(flown.mean_error(scenario::WindAxis::norm), 3);
+}
+
+TEST(Wind, AGlideThatEndsBeforeTheRunIsRefused) {
+  const scenario::Scenario low = quick({set("glide.height_m", "100")});
+  const auto own = make_own_truth(low, 7);
+  ASSERT_FALSE(own);
+  EXPECT_THAT(own.error().message, HasSubstr("key 'duration_s': the glide of run 7 ends"));
+}
+
+TEST(Wind, RunsAreDrawnApartAndAgain) {
+  const Flown a = fly({}, 3);
+  const Flown b = fly({}, 3);
+  const Flown c = fly({}, 4);
+  EXPECT_EQ(a.seen.wind.back().wind_n, b.seen.wind.back().wind_n);
+  EXPECT_NE(a.seen.wind.back().wind_n, c.seen.wind.back().wind_n);
+  EXPECT_NE(a.own_truth.glide->epochs().back().v_a, c.own_truth.glide->epochs().back().v_a);
+}
+
+}  // namespace
+}  // namespace canhil::run

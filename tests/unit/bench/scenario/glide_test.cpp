@@ -1,0 +1,186 @@
+// The sections of a glider: what they say in SI, and every way they can be wrong in one line.
+#include <gtest/gtest.h>
+
+#include "bench/world/units.hpp"
+#include "tests/unit/bench/scenario/texts.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+using world::glide::ErrorKind;
+using world::units::deg;
+
+const Contract glider_contract{.estimators = {"transfer_alignment", "wind"},
+                               .algorithms = {"ekf", "h_infinity"},
+                               .parameters = {"theta_per_s"},
+                               .messages = {"WindVector"},
+                               .fix_outcomes = {"accepted"},
+                               .answers = {"WindVector"},
+                               .wind_outcomes = {"updated", "coasting"}};
+
+constexpr std::string_view glider = R"(title = "A glider"
+duration_s = 20.0
+seed = 7
+[target]
+estimator = "wind"
+algorithm = "ekf"
+initial_sigma = { velocity_mps = 1.0, tilt_deg = 2.0, heading_deg = 5.0, position_m = 10.0 }
+[glide]
+heading_deg = 90
+speed_mps = 250
+height_m = 10000
+[wind]
+season = "june"
+[fins]
+[glider_nav]
+[[check]]
+kind = "heartbeat"
+silent_at_most_s = 0.5
+)";
+
+Result<Scenario> read(std::string_view text) { return parse(text, "g.toml", glider_contract); }
+Scenario glides(std::string_view text) {
+  const auto scenario = read(text);
+  if (scenario) return *scenario;
+  ADD_FAILURE() << scenario.error().message;
+  return {};
+}
+std::string complaint(std::string_view from, std::string_view to) {
+  const auto scenario = read(with(from, to, glider));
+  return scenario ? "no error" : scenario.error().message;
+}
+
+TEST(GlideSections, NeedNoTruthOfNavigation) {
+  const Scenario s = glides(glider);
+  ASSERT_TRUE(s.glide);
+  EXPECT_NEAR(s.glide->plan.heading, 90 * deg, 1e-15);
+  EXPECT_EQ(s.glide->plan.speed, 250);
+  EXPECT_EQ(s.glide->plan.height, 10'000);
+  EXPECT_LT((s.glide->plan.wind.at(11'000) - world::glide::WindProfile(world::glide::Season::june).at(11'000))
+                .norm(),
+            1e-12);
+  EXPECT_EQ(s.glide->plan.coefficients.level, 0);
+  EXPECT_EQ(s.glide->plan.density_error, 0);
+  EXPECT_EQ(s.glide->release.air_velocity, 0);
+  EXPECT_FALSE(s.fins->schedule.period_us);
+  EXPECT_TRUE(std::holds_alternative<world::Rest>(s.truth.motion));
+}
+
+TEST(GlideSections, CarryEveryKey) {
+  std::string text =
+      with("season = \"june\"", "steady_mps = [1, -20, 0.5]\ngust_sigma_mps = 1.5\ngust_time_s = 2", glider);
+  text = with(
+      "[wind]",
+      "[glide.initial_error]\nair_velocity_sigma_mps = 1\nvelocity_sigma_mps = 0.5\nattitude_sigma_deg = "
+      "0.1\nrate_sigma_degps = 0.01\n[airframe]\ncoefficient_error_percent = 20\ncoefficient_error = "
+      "\"markov\"\nmarkov_time_s = 2\nper = \"total\"\nof = \"forces\"\ndensity_error_percent = -3\n[wind]",
+      text);
+  text = with("[fins]",
+              "[fins]\nperiod_ms = 20\nlatency_ms = 50\ntime_stamp_error_ms = 40\nloss_percent = 10", text);
+  text = with("[glider_nav]",
+              "[glider_nav]\nperiod_ms = 50\nvelocity_noise_mps = 0.25\nrate_noise_degps = "
+              "0.125\nattitude_noise_deg = "
+              "0.25\ncorrelated_fraction = 0.5\ncorrelation_time_s = 30\noutage_s = 1\noutage_every_s = 10",
+              text);
+  const Scenario s = glides(text);
+  const world::GlidePlan& plan = s.glide->plan;
+  EXPECT_EQ(plan.wind.at(3000), world::Vector3(1, -20, 0.5));
+  EXPECT_EQ(plan.gusts.sigma, 1.5);
+  EXPECT_EQ(plan.gusts.time, 2);
+  EXPECT_NEAR(plan.coefficients.level, 0.2, 1e-15);
+  EXPECT_EQ(plan.coefficients.kind, ErrorKind::markov);
+  EXPECT_EQ(plan.coefficients.time_us, 2'000'000);
+  EXPECT_FALSE(plan.coefficients.per_part);
+  EXPECT_FALSE(plan.coefficients.moments);
+  EXPECT_NEAR(plan.density_error, -0.03, 1e-15);
+  EXPECT_EQ(s.glide->release.air_velocity, 1);
+  EXPECT_EQ(s.glide->release.velocity, 0.5);
+  EXPECT_NEAR(s.glide->release.attitude, 0.1 * deg, 1e-15);
+  EXPECT_NEAR(s.glide->release.rate, 0.01 * deg, 1e-15);
+  EXPECT_EQ(s.fins->schedule.period_us, 20'000);
+  EXPECT_EQ(s.fins->schedule.latency_us, 50'000);
+  EXPECT_EQ(s.fins->stamp_error_us, 40'000);
+  EXPECT_NEAR(s.fins->loss.probability, 0.1, 1e-15);
+  EXPECT_EQ(s.glider_nav->schedule.period_us, 50'000);
+  EXPECT_EQ(s.glider_nav->velocity_noise, 0.25);
+  EXPECT_NEAR(s.glider_nav->rate_noise, 0.125 * deg, 1e-15);
+  EXPECT_NEAR(s.glider_nav->attitude_noise, 0.25 * deg, 1e-15);
+  EXPECT_EQ(s.glider_nav->correlated_fraction, 0.5);
+  EXPECT_EQ(s.glider_nav->correlation_time, 30);
+  EXPECT_EQ(s.glider_nav->loss.outage_us, 1'000'000);
+  EXPECT_EQ(s.glider_nav->loss.outage_every_us, 10'000'000);
+}
+
+TEST(GlideSections, OutagesAreTheEndOfTheirPeriod) {
+  constexpr SampleLoss loss{.probability = 0, .outage_us = 1'000'000, .outage_every_us = 10'000'000};
+  EXPECT_FALSE(in_outage(loss, 500'000));
+  EXPECT_FALSE(in_outage(loss, 8'990'000));
+  EXPECT_TRUE(in_outage(loss, 9'000'000));
+  EXPECT_TRUE(in_outage(loss, 19'990'000));
+  EXPECT_FALSE(in_outage(loss, 20'000'000));
+  EXPECT_FALSE(in_outage({}, 9'500'000));
+}
+
+TEST(GlideSections, ChecksOfTheWind) {
+  const Scenario s =
+      glides(with("[[check]]",
+                  "[[check]]\nkind = \"wind_error\"\naxis = \"along_track\"\nstatistic = \"mean\"\nfrom_s "
+                  "= 10\nbelow_mps = 2\n[[check]]\nkind = \"wind_answers\"\nupdated_at_least = "
+                  "5\nfins_late_at_most = 1\n[[check]]\nkind = \"consistency\"\nstatistic = "
+                  "\"wind_nis\"\nprobability = 0.99\n[[check]]",
+                  glider));
+  const auto& error = std::get<WindError>(s.checks.at(0).rule);
+  EXPECT_EQ(s.checks.at(0).name, "wind_error along_track mean");
+  EXPECT_EQ(error.axis, WindAxis::along_track);
+  EXPECT_EQ(error.statistic, WindStatistic::mean);
+  EXPECT_EQ(error.window.from_us, 10'000'000);
+  EXPECT_EQ(error.below, 2);
+  const auto& answers = std::get<WindAnswers>(s.checks.at(1).rule);
+  ASSERT_EQ(answers.counts.size(), 2U);
+  EXPECT_EQ(answers.counts[0].name, "updated");
+  EXPECT_EQ(answers.counts[0].at_least, 5);
+  EXPECT_FALSE(answers.counts[0].is_flag);
+  EXPECT_EQ(answers.counts[1].name, "fins_late");
+  EXPECT_TRUE(answers.counts[1].is_flag);
+  EXPECT_EQ(std::get<Consistency>(s.checks.at(2).rule).statistic, Statistic::wind_nis);
+}
+
+TEST(GlideSections, WrongOnesGiveOneLine) {
+  EXPECT_EQ(complaint("[wind]\nseason = \"june\"\n", ""),
+            "g.toml:1: key 'wind': is missing, expected a table");
+  EXPECT_EQ(complaint("[fins]\n", ""), "g.toml:1: key 'fins': is missing, expected a table");
+  EXPECT_EQ(complaint("[glider_nav]\n", ""), "g.toml:1: key 'glider_nav': is missing, expected a table");
+  EXPECT_EQ(complaint("\"june\"", "\"july\""),
+            "g.toml:13: key 'wind.season': 'july' is unknown, expected 'june'");
+  EXPECT_EQ(complaint("season = \"june\"", "season = \"june\"\nsteady_mps = 3"),
+            "g.toml:14: key 'wind.steady_mps': is given beside season, expected one of the two");
+  EXPECT_EQ(complaint("speed_mps = 250", "speed_mps = 400"),
+            "g.toml:10: key 'glide.speed_mps': 400 is out of range, expected a number from 80 to 300");
+  EXPECT_EQ(
+      complaint("[fins]", "[fins]\nperiod_ms = 15"),
+      "g.toml:15: key 'fins.period_ms': is not a multiple of the truth's step, expected a multiple of 10");
+  EXPECT_EQ(
+      complaint("[fins]", "[fins]\noutage_s = 1"),
+      "g.toml:15: key 'fins.outage_s': is given alone, expected outage_s and outage_every_s, both above 0");
+  EXPECT_EQ(complaint("[fins]", "[fins]\noutage_s = 3\noutage_every_s = 2"),
+            "g.toml:15: key 'fins.outage_s': is longer than outage_every_s, expected a shorter outage");
+  EXPECT_EQ(
+      complaint("[glider_nav]", "[glider_nav]\ncorrelated_fraction = 1.5"),
+      "g.toml:16: key 'glider_nav.correlated_fraction': 1.5 is out of range, expected a number from 0 to 1");
+  EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"wind_answers\"\n[[check]]"),
+            "g.toml:16: key 'check[1].updated_at_least': is missing, as are all its like, expected at least "
+            "one limit");
+}
+
+TEST(GlideSections, WhatHasNoTruthIsNotJudged) {
+  EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"velocity_error\"\nbelow_mps = 1\n[[check]]"),
+            "g.toml:17: key 'check[1].kind': has nothing to be judged against, expected a table [truth] in "
+            "the scenario");
+  EXPECT_EQ(
+      error_of(inside("[[check]]", "kind = \"wind_error\"\nbelow_mps = 1\n[[check]]")),
+      "s.toml:17: key 'check[1].kind': has nothing to be judged against, expected a table [glide] in the "
+      "scenario");
+}
+
+}  // namespace
+}  // namespace canhil::scenario
