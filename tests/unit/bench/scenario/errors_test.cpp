@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
               "17: key 'check[1].kind': 'banana' is unknown, expected one of: attitude_error, convergence, "
               "velocity_error, "
               "consistency, output_period, latency, counters, heartbeat, position_error, fixes, coasting, "
-              "los_rate_error, miss_distance"},
+              "los_rate_error, miss_distance, wind_error, wind_answers"},
         Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'yaw'\nbelow_mrad = 1"),
               "18: key 'check[1].axis': 'yaw' is unknown, expected one of: roll, pitch, heading"},
         Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),
@@ -183,7 +183,8 @@ INSTANTIATE_TEST_SUITE_P(
               check("kind = 'consistency'\nstatistic = 'nis'\nmean_between = [1, 2]\nprobability = 0.9"),
               "19: key 'check[1].mean_between': is given beside probability, expected one of the two"},
         Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'attitude_nees'\nprobability = 0.9"),
-              "19: key 'check[1].probability': is for nis and los_nis only, expected mean_between = [low, "
+              "19: key 'check[1].probability': is for nis, los_nis and wind_nis only, expected mean_between "
+              "= [low, "
               "high]"},
         Wrong{"[[check]]", check("kind = 'counters'"),
               "16: key 'check[1].frames_lost_at_most': is missing, as are all its like, expected at least "
@@ -237,7 +238,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[check]]", check("kind = 'coasting'"),
               "16: key 'check[1].at_least': is missing, as is 'at_most', expected at least one limit"},
         Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'heading_nees'\nprobability = 0.9"),
-              "19: key 'check[1].probability': is for nis and los_nis only, expected mean_between = [low, "
+              "19: key 'check[1].probability': is for nis, los_nis and wind_nis only, expected mean_between "
+              "= [low, "
               "high]"},
         Wrong{"[[check]]", "[ssbl]\noutlier_percent = 5\n[[check]]",
               "17: key 'ssbl.outlier_percent': is given alone, expected outlier_percent and outlier_m, both "
