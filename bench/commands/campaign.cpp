@@ -17,6 +17,7 @@
 #include "bench/commands/paper.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/whole_number.hpp"
+#include "bench/papers/paper.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/text.hpp"
 #include "bench/run/session.hpp"
@@ -169,6 +170,10 @@ ExitCode replay(const ReplayArguments& arguments) {
     }
     variant = &*found;
   }
+  if (*arguments.run >= campaign->runs) {
+    return complain({fmt::format("{}: run {} is none of the campaign's, expected 0 to {}", arguments.file,
+                                 *arguments.run, campaign->runs - 1)});
+  }
   run::Options options;
   options.bus = "in-process";
   options.clock = run::ClockKind::lockstep;
@@ -231,7 +236,8 @@ void add_campaign(CLI::App& app, int& code) {
                       "write the report as JSON to a file; -: to stdout, in place of the text");
   auto paper = std::make_shared<PaperArguments>();
   CLI::Option* name = command->add_option(
-      "--paper", paper->paper, "in place of FILE: what a paper claims, with a page of figures: transfer");
+      "--paper", paper->paper,
+      "in place of FILE: what a paper claims, with a page of figures: " + papers::names());
   command->add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
       ->needs(name);
   name->excludes(file);

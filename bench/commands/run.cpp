@@ -1,11 +1,13 @@
 #include "bench/commands/run.hpp"
 
 #include <fmt/format.h>
+#include <net/if.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
@@ -17,6 +19,7 @@
 #include "bench/report/text.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/session.hpp"
+#include "bench/scenario/nearest.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -85,7 +88,21 @@ Result<void> check_outputs(const Arguments& arguments) {
   return report::check_writable(arguments.log);
 }
 
+Result<void> check_bus(const Arguments& arguments) {
+  if (arguments.bus == in_process && !arguments.target.empty())
+    return failure(
+        "--target: with --bus in-process the device is in hil-bench itself, expected only one of the two");
+  static const std::vector<std::string> known{std::string(in_process), std::string(private_bus)};
+  const bool names_one = arguments.bus.starts_with(private_bus) || arguments.bus == in_process;
+  const std::string meant = scenario::nearest(arguments.bus, known);
+  if (!names_one && !meant.empty() && if_nametoindex(arguments.bus.c_str()) == 0)
+    return failure(
+        fmt::format("--bus '{}': there is no such interface, expected '{}'", arguments.bus, meant));
+  return {};
+}
+
 ExitCode execute(const Arguments& arguments) {
+  if (auto fine = check_bus(arguments); !fine) return complain(fine.error());
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
   if (!scenario) return complain(scenario.error());
   if (arguments.seed) scenario->seed = *arguments.seed;

@@ -42,6 +42,8 @@ struct Page {
 struct Reproduction {
   Page page;
   bool bars_met = false;
+  std::uint64_t runs = 0;    ///< flown of each variant
+  std::uint64_t enough = 0;  ///< that the bars are for: with fewer they may be missed by chance
 };
 
 /// One HTML file without anything outside it, for phone and desktop. Error: a figure cannot be drawn.

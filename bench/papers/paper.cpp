@@ -33,13 +33,16 @@ constexpr std::array papers{
 Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);
   if (found != papers.end()) return *found;
-  std::vector<std::string_view> names;
-  names.reserve(papers.size());
-  for (const Paper& paper : papers) names.push_back(paper.name);
-  return failure(fmt::format("paper '{}' is unknown, expected {}", name, fmt::join(names, " or ")));
+  return failure(fmt::format("paper '{}' is unknown, expected {}", name, names()));
 }
 
 }  // namespace
+
+std::string names() {
+  std::array<std::string_view, papers.size()> all{};
+  std::ranges::transform(papers, all.begin(), &Paper::name);
+  return fmt::format("{}", fmt::join(all, " or "));
+}
 
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop) {
   const auto paper = find_paper(request.paper);
@@ -75,7 +78,10 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   if (auto saved = report::write_file(reproduced.page.string(), *drawn); !saved)
     return tl::unexpected(saved.error());
   reproduced.text = text((*written)->page);
-  reproduced.outcome = (*written)->bars_met ? Outcome::bars_met : Outcome::bars_missed;
+  const Reproduction& judged = **written;
+  reproduced.outcome = judged.bars_met               ? Outcome::bars_met
+                       : judged.runs < judged.enough ? Outcome::too_few_runs
+                                                     : Outcome::bars_missed;
   return reproduced;
 }
 

@@ -14,20 +14,24 @@
 namespace canhil::papers {
 
 struct Request {
-  std::string paper;             ///< "transfer"
+  std::string paper;             ///< one of names()
   std::filesystem::path folder;  ///< is made; gets NAME.html and the campaigns' results, which are resumed
   std::optional<std::uint64_t> runs;  ///< a variant; none: as the campaigns say
   std::filesystem::path exact;        ///< results of the twin without rounding; empty: none
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
-enum class Outcome : std::uint8_t { bars_met, bars_missed, interrupted };
+/// Bars that so few runs miss say nothing: `too_few_runs`.
+enum class Outcome : std::uint8_t { bars_met, bars_missed, too_few_runs, interrupted };
 
 struct Reproduced {
   Outcome outcome = Outcome::interrupted;
   std::string text;            ///< every table, for a terminal
   std::filesystem::path page;  ///< where the HTML is
 };
+
+/// The papers there are, for messages: "transfer or inflight".
+std::string names();
 
 /// Error, one line: unknown paper, folder not writable, gnuplot missing; all found before the first flight.
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop);

@@ -61,8 +61,8 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
   }
   page["heading_convergence"] = Json::array();
   for (const BandEntry& entry : summary.heading_entries) {
-    page["heading_convergence"].push_back(
-        {{"within_mrad", entry.within_mrad}, {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
+    page["heading_convergence"].push_back({{"within_mrad", entry.within_rad / world::units::mrad},
+                                           {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
   }
   if (summary.final_error_rad) {
     page["final_error"] = {{"roll_rad", summary.final_error_rad->roll},

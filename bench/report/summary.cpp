@@ -16,7 +16,9 @@ using messages::AlignUpdate;
 using messages::AlignVelocityD;
 using messages::FixUpdate;
 
+// Of the heading, in the unit of the alignment: a fine one, or one that starts from anywhere and has fixes.
 constexpr double bands_mrad[] = {10, 3, 2, 1};
+constexpr double bands_deg[] = {30, 10, 3, 1};
 
 FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes) {
   FixSummary summary{.outcomes = {},
@@ -57,10 +59,13 @@ EngagementSummary engagement_summary(const checks::Observations& seen,
 Summary summarise(const run::Run& run) {
   Summary summary;
   const auto errors = checks::navigation_errors(run.seen, run.truth);
-  for (const double band : bands_mrad) {
-    const auto t_us = checks::convergence_us(errors, &world::Euler::heading, band * world::units::mrad);
+  const scenario::AngleUnit unit = run.seen.fixes.empty() ? scenario::mrad : scenario::degrees;
+  for (const double band : run.seen.fixes.empty() ? bands_mrad : bands_deg) {
+    const auto t_us = checks::convergence_us(errors, &world::Euler::heading, band * unit.factor);
     summary.heading_entries.push_back(
-        {band, t_us ? std::optional(static_cast<double>(*t_us) * 1e-6) : std::nullopt});
+        {.within_rad = band * unit.factor,
+         .unit = unit,
+         .t_s = t_us ? std::optional(static_cast<double>(*t_us) * 1e-6) : std::nullopt});
   }
   if (!errors.empty()) {
     summary.final_error_rad = errors.back().angles;

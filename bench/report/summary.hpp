@@ -13,8 +13,9 @@ namespace canhil::report {
 
 /// Time at which the heading error enters a band for good.
 struct BandEntry {
-  double within_mrad = 0;
-  std::optional<double> t_s;  ///< none: outside at the end
+  double within_rad = 0;
+  scenario::AngleUnit unit = scenario::mrad;  ///< in which people read it
+  std::optional<double> t_s;                  ///< none: outside at the end
 };
 
 /// Latency of one message of the target.

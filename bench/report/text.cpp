@@ -37,7 +37,7 @@ std::string navigation_words(const Summary& summary) {
   std::string lines = "  heading error for good within";
   auto out = std::back_inserter(lines);
   for (const BandEntry& entry : summary.heading_entries) {
-    fmt::format_to(out, "  {:g} mrad: {}", entry.within_mrad,
+    fmt::format_to(out, "  {:g} {}: {}", entry.within_rad / entry.unit.factor, entry.unit.name,
                    entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
   }
   if (summary.final_error_rad) {

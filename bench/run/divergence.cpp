@@ -49,7 +49,8 @@ std::string describe_as(const Frame& frame) {
     if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
       text += fmt::format(" {}={}", signal.name, name_of(value));
     } else {
-      text += fmt::format(" {}={:g}", signal.name, static_cast<double>(value));
+      // To 12 digits: resolves every signal, and hides what binary makes of a decimal fraction.
+      text += fmt::format(" {}={:.12g}", signal.name, static_cast<double>(value));
     }
   });
   return text;

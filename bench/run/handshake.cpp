@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bench/run/heard.hpp"
+#include "bench/run/heartbeat_errors.hpp"
 
 namespace canhil::run {
 namespace {
@@ -31,20 +32,6 @@ class Mailbox final : public Observer {
   std::optional<ParamAck> acknowledgement;
   bool other_bench = false;  // somebody else keeps the time base
 };
-
-std::string errors_of(const TargetHeartbeat& heartbeat) {
-  std::string text;
-  const auto add = [&](bool set, std::string_view name) {
-    if (set) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
-  };
-  add(heartbeat.error_dbc_mismatch != 0, "dbc_mismatch");
-  add(heartbeat.error_not_initialised != 0, "not_initialised");
-  add(heartbeat.error_input_lost != 0, "input_lost");
-  add(heartbeat.error_input_silent != 0, "input_silent");
-  add(heartbeat.error_numeric != 0, "numeric");
-  add(heartbeat.error_command != 0, "command");
-  return text.empty() ? "none" : text;
-}
 
 // Sends commands and waits for what they should bring about.
 class Dialogue {
@@ -200,8 +187,10 @@ Result<void> configure(Link& link, nodes::Transmission& out, const scenario::Tar
   if (!reset) return reset;
   if (box.heartbeat->error_command != 0) {
     return failure(
-        fmt::format("target on '{}': does not offer estimator '{}' with algorithm '{}' (errors: {})",
-                    link.port().name(), setup.estimator, setup.algorithm, errors_of(*box.heartbeat)));
+        fmt::format("{}: the target on '{}' does not offer '{}' for '{}', expected an algorithm of that "
+                    "estimator (docs/scenarios.md); its errors: {}",
+                    setup.algorithm_where, link.port().name(), setup.algorithm, setup.estimator,
+                    errors_of(*box.heartbeat)));
   }
   for (const scenario::Parameter& parameter : setup.parameters) {
     if (auto set = set_parameter(dialogue, parameter); !set) return set;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bench/run/heard.hpp"
+#include "bench/run/heartbeat_errors.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::run {
@@ -19,17 +20,19 @@ class StepWatch final : public Observer {
   }
   void received(const Received& received) override {
     if (const auto done = heard<messages::StepDone>(received)) done_ = done_ || done->step == awaited_;
-    if (const auto beat = heard<messages::TargetHeartbeat>(received))
-      fault_ = beat->state == messages::TargetState::fault;
+    if (const auto beat = heard<messages::TargetHeartbeat>(received)) {
+      if (beat->state == messages::TargetState::fault) fault_ = beat;
+    }
   }
   [[nodiscard]] std::uint16_t awaited() const { return awaited_; }
   [[nodiscard]] bool done() const { return done_; }
-  [[nodiscard]] bool fault() const { return fault_; }
+  /// The heartbeat that said so.
+  [[nodiscard]] const std::optional<messages::TargetHeartbeat>& fault() const { return fault_; }
 
  private:
   std::uint16_t awaited_ = 0;
   bool done_ = false;
-  bool fault_ = false;
+  std::optional<messages::TargetHeartbeat> fault_;
 };
 
 }  // namespace
@@ -76,7 +79,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
       }
       link.wait_until(deadline_ns);
     }
-    if (watch.fault()) return {Ending::Kind::target_fault, t_us, "the target reported a fault"};
+    if (watch.fault()) return {Ending::Kind::target_fault, t_us, fault_of(*watch.fault())};
   }
   return {Ending::Kind::completed, t_us, ""};
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bench/run/heard.hpp"
+#include "bench/run/heartbeat_errors.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
@@ -29,15 +30,17 @@ class TargetWatch final : public Observer {
   void received(const Received& received) override {
     if (received.own || target_messages(received.frame) == Routes::nowhere) return;
     heard_ns_ = now_ns();
-    if (const auto beat = heard<messages::TargetHeartbeat>(received))
-      fault_ = beat->state == messages::TargetState::fault;
+    if (const auto beat = heard<messages::TargetHeartbeat>(received)) {
+      if (beat->state == messages::TargetState::fault) fault_ = beat;
+    }
   }
   [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
-  [[nodiscard]] bool fault() const { return fault_; }
+  /// The heartbeat that said so.
+  [[nodiscard]] const std::optional<messages::TargetHeartbeat>& fault() const { return fault_; }
 
  private:
   std::int64_t heard_ns_;
-  bool fault_ = false;
+  std::optional<messages::TargetHeartbeat> fault_;
 };
 
 }  // namespace
@@ -57,8 +60,7 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       const std::int64_t now = now_ns();
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
-      if (watch.fault())
-        return Ending{Ending::Kind::target_fault, bench_us(now), "the target reported a fault"};
+      if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), fault_of(*watch.fault())};
       if (now - watch.heard_ns() > silence_limit_ns) {
         return Ending{Ending::Kind::target_silent, bench_us(watch.heard_ns()),
                       fmt::format("target silent since t={:.3f} s",

@@ -6,12 +6,15 @@
 
 namespace canhil::scenario {
 
+// Together with the way of a ship and its errors within the range of SsblRelativeNE, which is the narrowest.
+constexpr double largest_outlier_m = 50'000;
+
 FixFaults read_fix_faults(Section& section) {
   const Limits share = Limits::between(0, 100);
   FixFaults faults{.loss_probability = section.number("loss_percent", share, 0),
                    .invalid_probability = section.number("invalid_percent", share, 0),
                    .outlier_probability = section.number("outlier_percent", share, 0),
-                   .outlier = section.number("outlier_m", Limits::at_least(0), 0),
+                   .outlier = section.number("outlier_m", Limits::between(0, largest_outlier_m), 0),
                    .silence_us = {}};
   if ((faults.outlier_probability > 0) != (faults.outlier > 0)) {
     section.reject(faults.outlier > 0 ? "outlier_m" : "outlier_percent", "is given alone",

@@ -14,6 +14,8 @@ world::InitialErrorModel read_initial_error(Section& section) {
                     .sigma = section.three("attitude_sigma_deg", Limits::between(0, 180))};
   model.heading_sigma = section.number("heading_sigma_deg", Limits::between(0, 180), 0);
   model.heading_magnitude = section.number("heading_magnitude_deg", Limits::between(0, 180), 0);
+  if (model.heading_sigma > 0 && model.heading_magnitude > 0)
+    section.reject("heading_magnitude_deg", "is given beside 'heading_sigma_deg'", "only one of the two");
   section.finish();
   return model;
 }

@@ -39,6 +39,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
   target.algorithm = section.one_of("algorithm", contract.algorithms);
+  target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
   // Told at every start; an estimator that does not navigate makes nothing of it.
   const bool navigates = target.estimator != "los_rate";
   if (navigates || section.has("initial_sigma"))

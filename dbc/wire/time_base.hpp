@@ -1,4 +1,5 @@
-// The bench's time base in 32 bits: microseconds that wrap every 71.6 minutes.
+// The bench's time base in 32 bits: microseconds that wrap every 71.6 minutes. And in 16 bits of 10 us, for a
+// sample that must fit into one frame: they wrap every 655.36 ms.
 #pragma once
 
 #include <cstdint>
@@ -14,5 +15,21 @@ constexpr std::int64_t unwrap_us(std::uint32_t low_us, std::int64_t reference_us
 
 /// The low 32 bits of a time [us] of the bench's time base.
 constexpr std::uint32_t wrap_us(std::int64_t t_us) { return static_cast<std::uint32_t>(t_us); }
+
+/// What a time [us] that travels in 16 bits of 10 us is taken modulo.
+inline constexpr std::int64_t short_period_us = 65536 * 10;
+
+/// The latest time [us], at the most `latest_us`, that is `short_us` modulo short_period_us. Right for times
+/// of the last 0.65 s before latest_us.
+constexpr std::int64_t unwrap_short_us(std::int64_t short_us, std::int64_t latest_us) {
+  const std::int64_t age_us = (latest_us - short_us) % short_period_us;
+  return latest_us - (age_us < 0 ? age_us + short_period_us : age_us);
+}
+
+/// A time [us] of the bench's time base modulo short_period_us.
+constexpr std::int64_t wrap_short_us(std::int64_t t_us) {
+  const std::int64_t rest_us = t_us % short_period_us;
+  return rest_us < 0 ? rest_us + short_period_us : rest_us;
+}
 
 }  // namespace canhil

@@ -2,6 +2,7 @@
 // estimator.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -31,6 +32,13 @@ struct Errors {
   bool command = false;
 };
 
+/// What the group TargetInitAir knows besides, at the same time: for a body that flies in moving air. Body
+/// axes.
+struct InitialAir {
+  std::array<double, 3> velocity{};  ///< w.r.t. the air [m/s]
+  std::array<double, 3> rate{};      ///< [rad/s]
+};
+
 /// Initial navigation state as the TargetInit group carries it. SI, rad, NED.
 struct InitialState {
   std::int64_t t_us = 0;
@@ -47,6 +55,7 @@ struct InitialState {
   double velocity_sigma = 0;  ///< [m/s]
   double tilt_sigma = 0;
   double heading_sigma = 0;
+  std::optional<InitialAir> air{};  ///< none: not told
 };
 
 /// What an adapter sees of the device while it works on one frame.

@@ -11,6 +11,7 @@ namespace canhil::target {
 std::unique_ptr<Adapter> make_transfer_alignment_adapter();
 std::unique_ptr<Adapter> make_inflight_alignment_adapter();
 std::unique_ptr<Adapter> make_los_rate_adapter();
+std::unique_ptr<Adapter> make_wind_adapter();
 
 /// One of each: the list that a new estimator joins.
 inline std::vector<std::unique_ptr<Adapter>> make_adapters() {
@@ -18,6 +19,7 @@ inline std::vector<std::unique_ptr<Adapter>> make_adapters() {
   adapters.push_back(make_transfer_alignment_adapter());
   adapters.push_back(make_inflight_alignment_adapter());
   adapters.push_back(make_los_rate_adapter());
+  adapters.push_back(make_wind_adapter());
   return adapters;
 }
 

@@ -79,6 +79,10 @@ void Device::dispatch(const Frame& frame, std::uint8_t counter) {
       return on_initial<TargetInitAttitude>(frame, counter);
     case TargetInitSigma::info.id:
       return on_initial<TargetInitSigma>(frame, counter);
+    case TargetInitRate::info.id:
+      return on_initial_air<TargetInitRate>(frame, counter);
+    case TargetInitAirVelocity::info.id:
+      return on_initial_air<TargetInitAirVelocity>(frame, counter);
     default:
       if (state_ != TargetState::running) return;
       untouched_ = false;
@@ -123,6 +127,8 @@ void Device::reset(Estimator estimator, Algorithm algorithm) {
   losses_ = {};
   errors_ = {};
   initial_group_.discard();
+  initial_air_group_.discard();
+  initial_air_.reset();
   now_us_ = 0;
   heartbeat_due_us_ = 0;
   lockstep_ = false;
@@ -140,6 +146,7 @@ void Device::start() {
   const bool again = state_ == TargetState::running && untouched_;
   if (state_ == TargetState::ready || again) {
     untouched_ = true;
+    initial_.air = initial_air_;
     adapter_->start(initial_);
     answers_.reset_counters();  // what follows depends on this run's frames alone, not on how often a command
                                 // was repeated
@@ -199,6 +206,22 @@ void Device::on_initial_state() {
     return send_heartbeat();
   }
   enter(TargetState::ready);
+}
+
+template <class Message>
+void Device::on_initial_air(const Frame& frame, std::uint8_t counter) {
+  if (state_ == TargetState::running) {
+    errors_.command = true;
+    return;
+  }
+  const auto outcome = initial_air_group_.put(from_frame<Message>(frame), counter);
+  if (outcome == InitialAirGroup::Outcome::dropped_previous) ++losses_.bad_group;
+  if (outcome != InitialAirGroup::Outcome::complete) return;
+  const auto& rate = initial_air_group_.get<TargetInitRate>();
+  const auto& air = initial_air_group_.get<TargetInitAirVelocity>();
+  initial_air_ = {
+      .velocity = {air.air_velocity_x_mps, air.air_velocity_y_mps, air.air_velocity_z_mps},
+      .rate = {rate.rate_x_degps * radians, rate.rate_y_degps * radians, rate.rate_z_degps * radians}};
 }
 
 void Device::apply(Health health) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,8 @@ class Device {
   template <class Message>
   void on_initial(const Frame& frame, std::uint8_t counter);
   void on_initial_state();
+  template <class Message>
+  void on_initial_air(const Frame& frame, std::uint8_t counter);
   void apply(Health health);
   void reset(messages::Estimator estimator, messages::Algorithm algorithm);
   void start();
@@ -54,12 +57,16 @@ class Device {
       SampleGroup<messages::TargetInitLatitude, messages::TargetInitLongitude, messages::TargetInitVelocityNE,
                   messages::TargetInitVelocityD, messages::TargetInitAttitude, messages::TargetInitSigma>;
 
+  using InitialAirGroup = SampleGroup<messages::TargetInitRate, messages::TargetInitAirVelocity>;
+
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   Answers answers_;
   Losses losses_;
   Errors errors_;
   InitialGroup initial_group_;
+  InitialAirGroup initial_air_group_;
   InitialState initial_;
+  std::optional<InitialAir> initial_air_;
   std::vector<std::unique_ptr<Adapter>> adapters_;  // all of them, made at start-up
   Adapter* adapter_ = nullptr;                      // the selected one
   messages::TargetState state_{};

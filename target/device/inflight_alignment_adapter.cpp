@@ -1,6 +1,5 @@
 // In-flight alignment behind the bus: groups SlaveImu, Ssbl and Gps in, groups AlignNav and FixFilter out.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -10,7 +9,7 @@
 #include "target/device/fix_queue.hpp"
 #include "target/device/group_intake.hpp"
 #include "target/device/imu_stream.hpp"
-#include "target/device/parameter_table.hpp"
+#include "target/device/inflight_alignment_parameters.hpp"
 #include "target/estimators/inflight_alignment/history.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/strapdown/earth.hpp"
@@ -23,67 +22,11 @@ using namespace messages;
 
 constexpr double deg = std::numbers::pi / 180;
 constexpr double degph = deg / 3600;
-constexpr double degprth = deg / 60;
 constexpr double ug = 1e-6 * 9.80665;
 
 constexpr std::size_t history_length = 512;          // 2.5 s at 5 ms
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
 constexpr std::size_t pending_limit = 4;             // fixes ahead of the INS that are kept
-
-// Parameters in the unit of their name; defaults are those of Kang, Kim, Park 2006 with an SSBL.
-struct Tuning {
-  ia::Settings filter;
-  double height_sigma = 0;  // 0: as that of the other coordinates
-  std::int64_t output_interval_us = 0;
-};
-using Row = ParameterTable<Tuning>::Row;
-constexpr bool whole = true;
-constexpr bool real = false;
-constexpr bool any_time = true;
-constexpr bool stopped_only = false;
-constexpr std::array rows{
-    Row{Parameter::accel_bias_sigma_ug, 1000, 0, 1e6, real, stopped_only,
-        [](Tuning& t, double v) { t.filter.accel_bias_sigma_0 = v * ug; }},
-    Row{Parameter::gyro_bias_sigma_degph, 1, 0, 1e6, real, stopped_only,
-        [](Tuning& t, double v) { t.filter.gyro_bias_sigma_0 = v * degph; }},
-    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
-        [](Tuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
-    Row{Parameter::gyro_noise_degprth, 0.3, 0, 1e4, real, any_time,
-        [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
-    Row{Parameter::closed_loop, 1, 0, 1, whole, stopped_only,
-        [](Tuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
-    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
-        [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
-    Row{Parameter::aiding, 0, 0, 1, whole, stopped_only,
-        [](Tuning& t, double v) { t.filter.aiding = static_cast<ia::Aiding>(std::lround(v)); }},
-    Row{Parameter::attitude_error_frame, 0, 0, 1, whole, stopped_only,
-        [](Tuning& t, double v) {
-          t.filter.attitude_error_frame = static_cast<ia::AttitudeErrorFrame>(std::lround(v));
-        }},
-    Row{Parameter::ukf_root, 0, 0, 1, whole, stopped_only,
-        [](Tuning& t, double v) { t.filter.ukf_root = static_cast<ia::UkfRoot>(std::lround(v)); }},
-    Row{Parameter::ukf_covariance, 0, 0, 1, whole, stopped_only,
-        [](Tuning& t, double v) {
-          t.filter.ukf_covariance = static_cast<ia::UkfCovariance>(std::lround(v));
-        }},
-    Row{Parameter::fix_noise_horizontal_m, 2, 1e-3, 1e4, real, any_time,
-        [](Tuning& t, double v) { t.filter.fix_noise_horizontal = v; }},
-    Row{Parameter::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time,
-        [](Tuning& t, double v) { t.filter.fix_noise_vertical = v; }},
-    Row{Parameter::fix_bias_sigma_m, 3.1622777, 0, 1e4, real, stopped_only,
-        [](Tuning& t, double v) { t.filter.fix_bias_sigma_0 = v; }},
-    Row{Parameter::fix_bias_walk_mprts, 0, 0, 1e3, real, any_time,
-        [](Tuning& t, double v) { t.filter.fix_bias_noise_density = v; }},
-    Row{Parameter::initial_height_sigma_m, 0, 0, 1e5, real, stopped_only,
-        [](Tuning& t, double v) { t.height_sigma = v; }},
-    Row{Parameter::handover_sigma_deg, 2, 1e-3, 90, real, any_time,
-        [](Tuning& t, double v) { t.filter.handover_sigma = v * deg; }},
-    Row{Parameter::gate_nis, 30, 0, 1e9, real, any_time, [](Tuning& t, double v) { t.filter.gate_nis = v; }},
-    Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time,
-        [](Tuning& t, double v) { t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v)); }},
-    Row{Parameter::late_fixes, 1, 0, 1, whole, stopped_only,
-        [](Tuning& t, double v) { t.filter.late_fixes = static_cast<ia::LateFixes>(std::lround(v)); }},
-};
 
 struct Fix {
   FixSource source = FixSource::ssbl;
@@ -346,8 +289,8 @@ class InflightAlignmentAdapter final : public Adapter {
         FixUpdate{.cause_time_us = wrap_us(fix.t_us), .cause_counter = fix.counter, .nis = result.nis});
   }
 
-  ParameterTable<Tuning> parameters_{rows};
-  Tuning tuning_;
+  ParameterTable<InflightTuning> parameters_{inflight_alignment_parameters};
+  InflightTuning tuning_;
   ImuStream imu_;
   SampleGroup<SsblRelativeNE, SsblShipLatitude, SsblShipLongitude, SsblRelativeD> ssbl_group_;
   SampleGroup<GpsLatitude, GpsLongitude, GpsTime> gps_group_;

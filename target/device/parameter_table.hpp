@@ -39,6 +39,7 @@ class ParameterTable {
     if (running && !row.while_running) return messages::ParameterStatus::wrong_state;
     if (!(value >= row.minimum && value <= row.maximum))
       return messages::ParameterStatus::out_of_range;  // NaN too
+    if (row.whole && value != std::round(value)) return messages::ParameterStatus::out_of_range;
     take(tuning, *index, value);
     return messages::ParameterStatus::accepted;
   }

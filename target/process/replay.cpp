@@ -12,13 +12,14 @@ constexpr Routes from_target_route([](const MessageInfo& info) {
 });
 bool from_target(const Frame& frame) { return from_target_route(frame) != Routes::nowhere; }
 
-// Reads a log to its end.
+// Reads a log to its end, before the first line of a replay is written. One without frames is no recording.
 Result<void> check(const std::string& log_path) {
   auto reader = LogReader::open(log_path);
   if (!reader) return tl::unexpected(reader.error());
-  for (;;) {
+  for (bool empty = true;; empty = false) {
     const auto next = reader->next();
     if (!next) return tl::unexpected(next.error());
+    if (!*next && empty) return failure(log_path + ": holds no frames, expected the log of a run");
     if (!*next) return {};
   }
 }
@@ -26,7 +27,7 @@ Result<void> check(const std::string& log_path) {
 }  // namespace
 
 Result<void> replay(const std::string& log_path, std::FILE* out) {
-  if (auto whole = check(log_path); !whole) return whole;  // before the first line is written
+  if (auto whole = check(log_path); !whole) return whole;
   auto reader = LogReader::open(log_path);
   if (!reader) return tl::unexpected(reader.error());
   Device device;

@@ -7,8 +7,9 @@
 namespace canhil::papers::inflight_alignment {
 namespace {
 
+constexpr std::uint64_t enough = 400;  // runs of a variant
+
 Page page(const Results& results) {
-  constexpr std::uint64_t enough = 400;
   return {
       .title =
           "In-flight alignment under large heading error: EKF, UKF, and a filter that starts from anywhere",
@@ -30,7 +31,8 @@ Result<std::optional<Reproduction>> reproduce(const FlyOptions& options,
   const auto results = fly(options, stop);
   if (!results) return tl::unexpected(results.error());
   if (!*results) return std::nullopt;
-  return Reproduction{.page = page(**results), .bars_met = bars_met(**results)};
+  return Reproduction{
+      .page = page(**results), .bars_met = bars_met(**results), .runs = (*results)->runs, .enough = enough};
 }
 
 }  // namespace canhil::papers::inflight_alignment

@@ -7,8 +7,9 @@
 namespace canhil::papers::transfer_alignment {
 namespace {
 
+constexpr std::uint64_t enough = 300;  // runs of a variant
+
 Page page(const Results& results) {
-  constexpr std::uint64_t enough = 300;
   Page page{
       .title = "Velocity-matching transfer alignment: robust H2 filter against Kalman filter",
       .subtitle = fmt::format(
@@ -29,7 +30,8 @@ Result<std::optional<Reproduction>> reproduce(const FlyOptions& options, const s
   const auto results = fly(options, exact, stop);
   if (!results) return tl::unexpected(results.error());
   if (!*results) return std::nullopt;
-  return Reproduction{.page = page(**results), .bars_met = bars_met(**results)};
+  return Reproduction{
+      .page = page(**results), .bars_met = bars_met(**results), .runs = (*results)->runs, .enough = enough};
 }
 
 }  // namespace canhil::papers::transfer_alignment

@@ -111,8 +111,10 @@ TEST_F(Handshake, NamesAnEstimatorThatTheTargetDoesNotOffer) {
   offers_ = false;
   const auto done = configure();
   ASSERT_FALSE(done);
-  EXPECT_THAT(done.error().message, HasSubstr("does not offer estimator 'transfer_alignment' with algorithm "
-                                              "'robust_h2' (errors: command)"));
+  EXPECT_THAT(done.error().message,
+              HasSubstr("does not offer 'robust_h2' for 'transfer_alignment', expected an "
+                        "algorithm of that estimator"));
+  EXPECT_THAT(done.error().message, HasSubstr("its errors: command"));
 }
 
 TEST_F(Handshake, SaysWhereAParameterStandsThatTheTargetRefusesAndWhy) {

@@ -34,8 +34,9 @@ INSTANTIATE_TEST_SUITE_P(
     Keys, ScenarioError,
     testing::Values(
         Wrong{"seed = 7", "seed = 7\nzebra_crossing = 1\nape_house = 1",
-              "4: key 'zebra_crossing': is unknown, expected one of: title, duration_s, seed, target, truth, "
-              "initial_error, master_ins, slave_imu, ssbl, gps, check"},
+              "4: key 'zebra_crossing': is unknown, expected one of: title, duration_s, seed, target, "
+              "engagement, "
+              "truth, initial_error, master_ins, slave_imu, ssbl, gps, seeker, check"},
         Wrong{"seed = 7", "seeds = 7", "3: key 'seeds': is unknown, expected 'seed'"},
         Wrong{"[master_ins]", "[master_ins]\nperod_ms = 3",
               "15: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"},
@@ -48,9 +49,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[check]]", "[[check]]\nbelow_mrad = 3",
               "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
               "silent_at_most_s, name"},
-        Wrong{"seed = 7", "seed = 7\n\"a\\nb\" = 1",
-              "4: key 'a?b': is unknown, expected one of: title, duration_s, seed, target, truth, "
-              "initial_error, master_ins, slave_imu, ssbl, gps, check"},
+        Wrong{
+            "seed = 7", "seed = 7\n\"a\\nb\" = 1",
+            "4: key 'a?b': is unknown, expected one of: title, duration_s, seed, target, engagement, truth, "
+            "initial_error, master_ins, slave_imu, ssbl, gps, seeker, check"},
         Wrong{"[truth]", "[target.parameters]\nh2_cases = 1\n[truth]",
               "9: key 'target.parameters.h2_cases': is unknown, expected 'h2_case'"}));
 
@@ -149,7 +151,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"\"heartbeat\"", "\"banana\"",
               "17: key 'check[1].kind': 'banana' is unknown, expected one of: attitude_error, convergence, "
               "velocity_error, "
-              "consistency, output_period, latency, counters, heartbeat, position_error, fixes, coasting"},
+              "consistency, output_period, latency, counters, heartbeat, position_error, fixes, coasting, "
+              "los_rate_error, miss_distance"},
         Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'yaw'\nbelow_mrad = 1"),
               "18: key 'check[1].axis': 'yaw' is unknown, expected one of: roll, pitch, heading"},
         Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),
@@ -178,7 +181,8 @@ INSTANTIATE_TEST_SUITE_P(
               check("kind = 'consistency'\nstatistic = 'nis'\nmean_between = [1, 2]\nprobability = 0.9"),
               "19: key 'check[1].mean_between': is given beside probability, expected one of the two"},
         Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'attitude_nees'\nprobability = 0.9"),
-              "19: key 'check[1].probability': is for nis only, expected mean_between = [low, high]"},
+              "19: key 'check[1].probability': is for nis and los_nis only, expected mean_between = [low, "
+              "high]"},
         Wrong{"[[check]]", check("kind = 'counters'"),
               "16: key 'check[1].frames_lost_at_most': is missing, as are all its like, expected at least "
               "one limit"},
@@ -231,11 +235,17 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[check]]", check("kind = 'coasting'"),
               "16: key 'check[1].at_least': is missing, as is 'at_most', expected at least one limit"},
         Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'heading_nees'\nprobability = 0.9"),
-              "19: key 'check[1].probability': is for nis only, expected mean_between = [low, high]"},
+              "19: key 'check[1].probability': is for nis and los_nis only, expected mean_between = [low, "
+              "high]"},
         Wrong{"[[check]]", "[ssbl]\noutlier_percent = 5\n[[check]]",
               "17: key 'ssbl.outlier_percent': is given alone, expected outlier_percent and outlier_m, both "
               "above "
               "0"},
+        Wrong{"[[check]]", "[gps]\noutlier_percent = 1\noutlier_m = 1e9\n[[check]]",
+              "18: key 'gps.outlier_m': 1000000000 is out of range, expected a number from 0 to 50000"},
+        Wrong{"[[check]]", "[initial_error]\nheading_sigma_deg = 5\nheading_magnitude_deg = 90\n[[check]]",
+              "18: key 'initial_error.heading_magnitude_deg': is given beside 'heading_sigma_deg', expected "
+              "only one of the two"},
         Wrong{"[[check]]", "[gps]\nloss_percent = 101\n[[check]]",
               "17: key 'gps.loss_percent': 101 is out of range, expected a number from 0 to 100"},
         Wrong{"[[check]]", "[gps]\nnoise = 10\n[[check]]",

@@ -118,12 +118,11 @@ TEST(ScenarioFields, InitialErrorIsFixedOrDrawnForOneOrThreeAxes) {
   expect_near(error.attitude.sigma, Vector3(1, 1, 1) * deg);
   EXPECT_EQ(error.heading_sigma, 0.0);
   EXPECT_EQ(error.heading_magnitude, 0.0);
-  const auto heading =
-      parsed(with("[master_ins]",
-                  "[initial_error]\nheading_sigma_deg = 30\nheading_magnitude_deg = 90\n[master_ins]"))
-          .initial_error;
-  EXPECT_DOUBLE_EQ(heading.heading_sigma, 30 * deg);
-  EXPECT_DOUBLE_EQ(heading.heading_magnitude, 90 * deg);
+  const auto drawn = parsed(with("[master_ins]", "[initial_error]\nheading_sigma_deg = 30\n[master_ins]"));
+  EXPECT_DOUBLE_EQ(drawn.initial_error.heading_sigma, 30 * deg);
+  const auto to_a_side =
+      parsed(with("[master_ins]", "[initial_error]\nheading_magnitude_deg = 90\n[master_ins]"));
+  EXPECT_DOUBLE_EQ(to_a_side.initial_error.heading_magnitude, 90 * deg);
 }
 
 TEST(ScenarioFields, MasterIns) {

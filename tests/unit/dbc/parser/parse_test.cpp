@@ -27,8 +27,8 @@ TEST(Parse, TheContract) {
   const auto database = read_file(SOURCE_DIR "/dbc/canhil.dbc");
   ASSERT_TRUE(database) << database.error().message;
   EXPECT_EQ(database->version, "1");
-  EXPECT_EQ(database->nodes.size(), 7U);
-  EXPECT_EQ(database->messages.size(), 62U);
+  EXPECT_EQ(database->nodes.size(), 9U);
+  EXPECT_EQ(database->messages.size(), 78U);
   const Message* message = find_message(*database, "SlaveImuDeltaTheta");
   ASSERT_NE(message, nullptr);
   EXPECT_EQ(message, find_message(*database, 128));

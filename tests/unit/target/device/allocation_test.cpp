@@ -6,25 +6,29 @@
 #include <new>
 
 #include "tests/unit/target/device/bench_side.hpp"
+#include "tests/unit/target/device/missile.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-void* operator new(std::size_t size) {
+// Not inlined: GCC would take free() in them for a mismatch.
+[[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-void* operator new(std::size_t size, std::align_val_t alignment) {
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
   ++allocations;
   if (void* memory = std::aligned_alloc(static_cast<std::size_t>(alignment), size)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
 
 namespace canhil::target {
 namespace {
@@ -106,6 +110,88 @@ TEST(Allocation, TheFramePathOfInflightAlignmentHasNone) {
     EXPECT_EQ(allocations - before, 0U);
     EXPECT_GT(answers, 1500U);
     EXPECT_EQ(device.state(), messages::TargetState::fault);
+  }
+}
+
+// The same for the LOS rate: groups lost, invalid, late, and a seeker that stays away and comes back.
+std::vector<Frame> los_rate_session(messages::Algorithm algorithm) {
+  using namespace messages;
+  Missile missile(algorithm, {{.parameter = Parameter::glint_noise_yaw_m, .value = 0.7F}});
+  for (int k = 1; !missile.over(); ++k) {
+    if (k % 37 == 0 || (k > 400 && k < 520)) {
+      missile.fly_unheard();
+    } else {
+      missile.fly([k](SeekerSample& sample) {
+        if (k % 29 == 0) sample.angles.error_validity = Validity::invalid;
+        if (k % 31 == 0) sample.range.range_m = -1;
+        if (k % 41 == 0) sample.range.time_of_validity_us = 0;
+      });
+    }
+  }
+  return missile.fed();
+}
+
+TEST(Allocation, TheFramePathOfTheLosRateHasNone) {
+  using messages::Algorithm;
+  for (const auto algorithm :
+       {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman, Algorithm::low_pass}) {
+    const std::vector<Frame> frames = los_rate_session(algorithm);
+    Device device;
+    std::size_t answers = 0;
+    const std::size_t before = allocations;
+    for (const Frame& frame : frames) answers += device.receive(frame).size();
+    EXPECT_EQ(allocations - before, 0U);
+    EXPECT_GT(answers, 2500U);
+    EXPECT_EQ(device.state(), messages::TargetState::running);
+  }
+}
+
+// The same for the wind: late and refused fins, navigation lost, invalid, jumping, silent and back again.
+std::vector<Frame> wind_session(messages::Algorithm algorithm) {
+  using namespace messages;
+  BenchSide bench;
+  bench.command(Command::reset, Estimator::wind, algorithm);
+  bench.send(ParamSet{.parameter = Parameter::body_rate_noise_degpsprts, .value = 0.1F});
+  bench.initialise();
+  bench.send(TargetInitRate{});
+  bench.send(TargetInitAirVelocity{.air_velocity_x_mps = BenchSide::speed, .air_velocity_z_mps = 5});
+  bench.command(Command::start);
+  for (int k = 1; k <= 600; ++k) {
+    const std::int64_t t_us = k * 20'000;
+    if (k % 7 != 0) {
+      bench.send(FinDeflections{
+          .elevator_deg = k % 31 == 0 ? 40.0 : -1.0,
+          .time_of_validity_us = static_cast<double>(wrap_short_us(t_us - (k % 11 == 0 ? 60'000 : 0)))});
+    }
+    if (k < 200 || k > 350) {  // 3 s of silence
+      bench.send(GliderNavVelocityNE{
+          .velocity_north_mps = BenchSide::speed + (k % 90 == 0 ? 100 : 0.1 * (k % 3)), .height_m = 5000});
+      bench.send(GliderNavAttitude{.pitch_deg = k % 80 == 0 ? 89.0 : 2.0,
+                                   .navigation_validity = k % 50 == 0 ? Validity::invalid : Validity::valid});
+      if (k % 70 != 0) {
+        bench.send(GliderNavRates{});
+      } else {
+        bench.lose(GliderNavRates{});
+      }
+      bench.send(GliderNavVelocityD{.time_of_validity_us = wrap_us(k == 500 ? 0 : t_us)});
+    }
+    bench.send(ParamSet{.parameter = Parameter::theta_per_s, .value = static_cast<float>(k % 4)});
+    bench.sync(t_us, k > 300);
+  }
+  return bench.fed();
+}
+
+TEST(Allocation, TheFramePathOfTheWindHasNone) {
+  using messages::Algorithm;
+  for (const auto algorithm : {Algorithm::ekf, Algorithm::h_infinity, Algorithm::adaptive_q}) {
+    const std::vector<Frame> frames = wind_session(algorithm);
+    Device device;
+    std::size_t answers = 0;
+    const std::size_t before = allocations;
+    for (const Frame& frame : frames) answers += device.receive(frame).size();
+    EXPECT_EQ(allocations - before, 0U);
+    EXPECT_GT(answers, 3500U);
+    EXPECT_EQ(device.state(), messages::TargetState::running);
   }
 }
 

@@ -1,0 +1,25 @@
+#include "bench/run/heartbeat_errors.hpp"
+
+#include <fmt/format.h>
+
+namespace canhil::run {
+
+std::string errors_of(const messages::TargetHeartbeat& heartbeat) {
+  std::string text;
+  const auto add = [&](bool set, std::string_view name) {
+    if (set) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+  };
+  add(heartbeat.error_dbc_mismatch != 0, "dbc_mismatch");
+  add(heartbeat.error_not_initialised != 0, "not_initialised");
+  add(heartbeat.error_input_lost != 0, "input_lost");
+  add(heartbeat.error_input_silent != 0, "input_silent");
+  add(heartbeat.error_numeric != 0, "numeric");
+  add(heartbeat.error_command != 0, "command");
+  return text.empty() ? "none" : text;
+}
+
+std::string fault_of(const messages::TargetHeartbeat& heartbeat) {
+  return fmt::format("the target reported a fault, its errors: {}", errors_of(heartbeat));
+}
+
+}  // namespace canhil::run

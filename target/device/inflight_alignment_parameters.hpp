@@ -1,0 +1,78 @@
+// What a bench may choose of in-flight alignment.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "target/device/parameter_table.hpp"
+#include "target/estimators/inflight_alignment/settings.hpp"
+
+namespace canhil::target {
+
+/// What the parameters change.
+struct InflightTuning {
+  inflight_alignment::Settings filter;
+  double height_sigma = 0;  // 0: as that of the other coordinates
+  std::int64_t output_interval_us = 0;
+};
+
+/// In the unit of their name; defaults are those of Kang, Kim, Park 2006 with an SSBL.
+inline constexpr std::array inflight_alignment_parameters = [] {
+  namespace ia = inflight_alignment;
+  using Row = ParameterTable<InflightTuning>::Row;
+  using P = messages::Parameter;
+  constexpr double deg = std::numbers::pi / 180, degph = deg / 3600, degprth = deg / 60, ug = 1e-6 * 9.80665;
+  constexpr bool whole = true, real = false, any_time = true, stopped_only = false;
+  return std::array{
+      Row{P::accel_bias_sigma_ug, 1000, 0, 1e6, real, stopped_only,
+          [](InflightTuning& t, double v) { t.filter.accel_bias_sigma_0 = v * ug; }},
+      Row{P::gyro_bias_sigma_degph, 1, 0, 1e6, real, stopped_only,
+          [](InflightTuning& t, double v) { t.filter.gyro_bias_sigma_0 = v * degph; }},
+      Row{P::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
+          [](InflightTuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
+      Row{P::gyro_noise_degprth, 0.3, 0, 1e4, real, any_time,
+          [](InflightTuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
+      Row{P::closed_loop, 1, 0, 1, whole, stopped_only,
+          [](InflightTuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
+      Row{P::output_interval_ms, 10, 1, 1000, real, any_time,
+          [](InflightTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
+      Row{P::aiding, 0, 0, 1, whole, stopped_only,
+          [](InflightTuning& t, double v) { t.filter.aiding = static_cast<ia::Aiding>(std::lround(v)); }},
+      Row{P::attitude_error_frame, 0, 0, 1, whole, stopped_only,
+          [](InflightTuning& t, double v) {
+            t.filter.attitude_error_frame = static_cast<ia::AttitudeErrorFrame>(std::lround(v));
+          }},
+      Row{P::ukf_root, 0, 0, 1, whole, stopped_only,
+          [](InflightTuning& t, double v) { t.filter.ukf_root = static_cast<ia::UkfRoot>(std::lround(v)); }},
+      Row{P::ukf_covariance, 0, 0, 1, whole, stopped_only,
+          [](InflightTuning& t, double v) {
+            t.filter.ukf_covariance = static_cast<ia::UkfCovariance>(std::lround(v));
+          }},
+      Row{P::fix_noise_horizontal_m, 2, 1e-3, 1e4, real, any_time,
+          [](InflightTuning& t, double v) { t.filter.fix_noise_horizontal = v; }},
+      Row{P::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time,
+          [](InflightTuning& t, double v) { t.filter.fix_noise_vertical = v; }},
+      Row{P::fix_bias_sigma_m, 3.1622777, 0, 1e4, real, stopped_only,
+          [](InflightTuning& t, double v) { t.filter.fix_bias_sigma_0 = v; }},
+      Row{P::fix_bias_walk_mprts, 0, 0, 1e3, real, any_time,
+          [](InflightTuning& t, double v) { t.filter.fix_bias_noise_density = v; }},
+      Row{P::initial_height_sigma_m, 0, 0, 1e5, real, stopped_only,
+          [](InflightTuning& t, double v) { t.height_sigma = v; }},
+      Row{P::handover_sigma_deg, 2, 1e-3, 90, real, any_time,
+          [](InflightTuning& t, double v) { t.filter.handover_sigma = v * deg; }},
+      Row{P::gate_nis, 30, 0, 1e9, real, any_time,
+          [](InflightTuning& t, double v) { t.filter.gate_nis = v; }},
+      Row{P::gate_recovery, 5, 0, 1e6, whole, any_time,
+          [](InflightTuning& t, double v) {
+            t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v));
+          }},
+      Row{P::late_fixes, 1, 0, 1, whole, stopped_only,
+          [](InflightTuning& t, double v) {
+            t.filter.late_fixes = static_cast<ia::LateFixes>(std::lround(v));
+          }},
+  };
+}();
+
+}  // namespace canhil::target

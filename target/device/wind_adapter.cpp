@@ -1,0 +1,266 @@
+// Wind estimation behind the bus: groups Fins and GliderNav in, group Wind out.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "dbc/wire/time_base.hpp"
+#include "target/device/adapters.hpp"
+#include "target/device/group_intake.hpp"
+#include "target/device/wind_parameters.hpp"
+#include "target/estimators/wind/filter.hpp"
+
+namespace canhil::target {
+namespace {
+
+using namespace messages;
+
+constexpr double deg = std::numbers::pi / 180;
+
+constexpr std::int64_t lead_limit_us = 200'000;  // a sample valid further ahead of the last Sync is nonsense
+constexpr std::int64_t silence_limit_us = 500'000;  // navigation that stays away this long is named
+// Limits of what is physical, within what the bus can carry, so that it can carry what is not.
+constexpr double ground_speed_most = 600;
+constexpr double rate_most = 300 * deg;
+
+static_assert(static_cast<int>(WindOutcome::waiting) == static_cast<int>(wind::Outcome::waiting) &&
+              static_cast<int>(WindOutcome::non_finite) == static_cast<int>(wind::Outcome::non_finite) &&
+              static_cast<int>(WindFault::none) == static_cast<int>(wind::Fault::none) &&
+              static_cast<int>(WindFault::jump) == static_cast<int>(wind::Fault::jump));
+
+std::optional<wind::Algorithm> algorithm_of(Algorithm algorithm) {
+  switch (algorithm) {
+    case Algorithm::ekf:
+      return wind::Algorithm::ekf;
+    case Algorithm::h_infinity:
+      return wind::Algorithm::h_infinity;
+    case Algorithm::adaptive_q:
+      return wind::Algorithm::adaptive_q;
+    default:
+      return std::nullopt;
+  }
+}
+
+// An angle [rad]. A raw value beyond the half turn is no angle: an encoder that knows no limits makes it of a
+// NaN.
+double angle(double value_deg) {
+  return std::abs(value_deg) <= 180.5 ? value_deg * deg : std::numeric_limits<double>::quiet_NaN();
+}
+
+Eigen::Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
+
+class WindAdapter final : public Adapter {
+ public:
+  [[nodiscard]] Estimator estimator() const override { return Estimator::wind; }
+
+  bool reset(Algorithm algorithm) override {
+    const auto chosen = algorithm_of(algorithm);
+    if (!chosen) return false;
+    tuning_ = {};
+    tuning_.filter.algorithm = *chosen;
+    tuning_.filter.sample_period = 1e-6 * static_cast<double>(GliderNavVelocityD::info.cycle_time_us);
+    tuning_.filter.ground_speed_most = ground_speed_most;
+    tuning_.filter.rate_most = rate_most;
+    parameters_.reset(tuning_);
+    design_ = wind::make_design(tuning_.filter);
+    return true;
+  }
+
+  ParameterStatus set(Parameter parameter, double value, bool running) override {
+    const ParameterStatus status = parameters_.set(tuning_, parameter, value, running);
+    design_ = wind::make_design(tuning_.filter);
+    return status;
+  }
+  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
+    return parameters_.get(parameter);
+  }
+
+  // Where the air velocity at release is not known, the wind is not: the first usable sample starts the
+  // filter.
+  void start(const InitialState& initial) override {
+    wind::Settings& filter = tuning_.filter;
+    filter.velocity_sigma_0 = std::max(initial.velocity_sigma, 1e-3);
+    filter.attitude_sigma_0 = std::max({initial.tilt_sigma, initial.heading_sigma, 1e-3 * deg});
+    design_ = wind::make_design(filter);
+    state_ = initial.air ? wind::initial({.t_us = initial.t_us,
+                                          .air_velocity = vector(initial.air->velocity),
+                                          .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
+                                          .omega = vector(initial.air->rate),
+                                          .attitude = {initial.roll, initial.pitch, initial.heading},
+                                          .altitude = initial.height},
+                                         design_)
+                         : wind::initial(design_);
+    fins_ = {};
+    group_.discard();
+    start_us_ = newest_us_ = answered_us_ = initial.t_us;
+    answered_us_ -= tuning_.output_interval_us;
+  }
+
+  Health receive(const Frame& frame, std::uint8_t counter, Context context) override {
+    switch (frame.id) {
+      case FinDeflections::info.id:
+        on_fins(from_frame<FinDeflections>(frame), context);
+        break;
+      case GliderNavVelocityNE::info.id:
+        put<GliderNavVelocityNE>(frame, counter, context);
+        break;
+      case GliderNavAttitude::info.id:
+        put<GliderNavAttitude>(frame, counter, context);
+        break;
+      case GliderNavRates::info.id:
+        put<GliderNavRates>(frame, counter, context);
+        break;
+      case GliderNavVelocityD::info.id:
+        put<GliderNavVelocityD>(frame, counter, context);
+        break;
+      default:
+        break;
+    }
+    return Health::good;  // the filter starts again by itself
+  }
+
+  Health tick(Context context) override {
+    context.errors.input_silent = context.now_us - newest_us_ > silence_limit_us;
+    return Health::good;
+  }
+
+ private:
+  template <class Message>
+  void put(const Frame& frame, std::uint8_t counter, Context& context) {
+    if (completes<Message>(group_, frame, counter, context)) on_navigation(context);
+  }
+
+  // The latest time at which a sample that has arrived can be valid; a run may start before its first Sync.
+  [[nodiscard]] std::int64_t latest_us(const Context& context) const {
+    return std::max(context.now_us, start_us_) + lead_limit_us;
+  }
+
+  void on_fins(const FinDeflections& fins, Context& context) {
+    const std::int64_t t_us = unwrap_short_us(std::llround(fins.time_of_validity_us), latest_us(context));
+    const wind::Deflection deflection{fins.elevator_deg * deg, fins.aileron_deg * deg, fins.rudder_deg * deg};
+    switch (fins_.push(t_us, deflection, design_.airframe.deflection_most)) {
+      case wind::FinOutcome::kept:
+        break;
+      case wind::FinOutcome::out_of_order:
+        ++context.losses.late;
+        break;
+      case wind::FinOutcome::not_physical:
+        drop_group(context);
+        break;
+    }
+  }
+
+  // Every whole group that is not used, or with reserve, is answered; of the others as many as asked for.
+  void on_navigation(Context& context) {
+    const auto& horizontal = group_.get<GliderNavVelocityNE>();
+    const auto& attitude = group_.get<GliderNavAttitude>();
+    const auto& rates = group_.get<GliderNavRates>();
+    const auto& vertical = group_.get<GliderNavVelocityD>();
+    const std::int64_t t_us = unwrap_us(vertical.time_of_validity_us, context.now_us);
+    if (t_us > latest_us(context)) {
+      drop_group(context);
+      return answer(t_us, WindOutcome::future, {}, context.answers);
+    }
+    const wind::UpdateResult result = wind::step(
+        state_,
+        {.t_us = t_us,
+         .v_eb_n = {horizontal.velocity_north_mps, horizontal.velocity_east_mps, vertical.velocity_down_mps},
+         .omega = Eigen::Vector3d(rates.rate_x_degps, rates.rate_y_degps, rates.rate_z_degps) * deg,
+         .attitude = {angle(attitude.roll_deg), angle(attitude.pitch_deg), angle(attitude.heading_deg)},
+         .altitude = horizontal.height_m,
+         .valid = attitude.navigation_validity == Validity::valid},
+        fins_, design_);
+    count(result, context);
+    const std::int64_t interval_us = t_us - newest_us_;
+    const bool is_due = t_us - answered_us_ >= tuning_.output_interval_us - interval_us / 2;
+    newest_us_ = std::max(newest_us_, t_us);
+    const bool reserved = result.outcome != wind::Outcome::updated || result.flags.outside.any() ||
+                          result.flags.fins_late || result.flags.fins_not_physical;
+    if (is_due) answered_us_ = t_us;
+    if (is_due || reserved) answer(t_us, static_cast<WindOutcome>(result.outcome), result, context.answers);
+  }
+
+  static void count(const wind::UpdateResult& result, Context& context) {
+    if (result.outcome == wind::Outcome::out_of_order) ++context.losses.late;
+    if (result.outcome == wind::Outcome::non_finite) context.errors.numeric = true;
+    switch (result.fault) {
+      case wind::Fault::invalid:
+      case wind::Fault::not_finite:
+      case wind::Fault::not_physical:
+      case wind::Fault::stale:
+        return drop_group(context);
+      case wind::Fault::none:
+      case wind::Fault::pitch:  // a true sample, of no use to Euler angles
+      case wind::Fault::jump:   // as a gate's
+        break;
+    }
+  }
+
+  void answer(std::int64_t t_us, WindOutcome outcome, const wind::UpdateResult& result, Answers& answers) {
+    constexpr int n = wind::wind_at, e = n + 1, d = n + 2;
+    const auto bit = [](bool set) { return static_cast<std::uint8_t>(set); };
+    const wind::Estimate best = wind::estimate(state_);
+    const wind::Uncertainty sigma = wind::uncertainty(state_);
+    const wind::RangeFlags& outside = result.flags.outside;
+    const auto correlation = [&](int i, int j) {
+      return state_.P(i, j) / std::max(sigma.state(i) * sigma.state(j), 1e-12);
+    };
+    answers.send(WindVector{.wind_north_mps = best.wind.x(),
+                            .wind_east_mps = best.wind.y(),
+                            .wind_down_mps = best.wind.z(),
+                            .started = bit(state_.started)});
+    answers.send(WindSpeed{.wind_speed_mps = best.wind_speed,
+                           .wind_from_deg = best.wind_from / deg,
+                           .outcome = outcome,
+                           .fault = static_cast<WindFault>(result.fault),
+                           .outside_alpha = bit(outside.alpha),
+                           .outside_beta = bit(outside.beta),
+                           .outside_speed = bit(outside.speed),
+                           .outside_mach = bit(outside.mach),
+                           .outside_altitude = bit(outside.altitude),
+                           .outside_pitch = bit(outside.pitch),
+                           .fins_late = bit(result.flags.fins_late),
+                           .fins_missing = bit(result.flags.fins_missing),
+                           .fins_not_physical = bit(result.flags.fins_not_physical),
+                           .theta_capped = bit(result.flags.theta_capped)});
+    answers.send(WindSigma{.wind_sigma_north_mps = sigma.state(n),
+                           .wind_sigma_east_mps = sigma.state(e),
+                           .wind_sigma_down_mps = sigma.state(d)});
+    answers.send(WindCorrelation{.wind_correlation_ne = correlation(n, e),
+                                 .wind_correlation_nd = correlation(n, d),
+                                 .wind_correlation_ed = correlation(e, d)});
+    answers.send(WindTrackSigma{.along_track_sigma_mps = sigma.along_track,
+                                .cross_track_sigma_mps = sigma.cross_track,
+                                .wind_speed_sigma_mps = sigma.wind_speed,
+                                .wind_from_sigma_deg = sigma.wind_from / deg});
+    answers.send(WindAirVelocity{.air_velocity_x_mps = best.air_velocity.x(),
+                                 .air_velocity_y_mps = best.air_velocity.y(),
+                                 .air_velocity_z_mps = best.air_velocity.z()});
+    answers.send(WindAttitude{.roll_deg = best.attitude.x() / deg,
+                              .pitch_deg = best.attitude.y() / deg,
+                              .heading_deg = best.attitude.z() / deg});
+    answers.send(WindInnovation{.innovation_north_mps = result.innovation(0),
+                                .innovation_east_mps = result.innovation(1),
+                                .innovation_down_mps = result.innovation(2)});
+    answers.send(
+        WindUpdate{.cause_time_us = wrap_us(t_us), .cause_counter = group_.counter(), .nis = result.nis});
+  }
+
+  ParameterTable<WindTuning> parameters_{wind_parameters};
+  WindTuning tuning_;
+  wind::Design design_ = wind::make_design({});
+  wind::State state_;
+  wind::FinHistory fins_;
+  SampleGroup<GliderNavVelocityNE, GliderNavAttitude, GliderNavRates, GliderNavVelocityD> group_;
+  std::int64_t start_us_ = 0;
+  std::int64_t newest_us_ = 0;    // the newest time of validity of navigation
+  std::int64_t answered_us_ = 0;  // that of the last answer
+};
+
+}  // namespace
+
+std::unique_ptr<Adapter> make_wind_adapter() { return std::make_unique<WindAdapter>(); }
+
+}  // namespace canhil::target
