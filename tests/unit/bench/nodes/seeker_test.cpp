@@ -112,7 +112,7 @@ TEST(Seeker, SendsTheTruthOfEachSampleRoundedToTheBus) {
     ASSERT_EQ(epochs[i].t_us, due_us);
     ASSERT_EQ(counter, i % 15);
     ASSERT_EQ(angles.interval_us, 5000);
-    if (epochs[i].range < 50) continue;  // angles leave the field of view, increments their range
+    if (epochs[i].range < 100) continue;  // then all turn too fast to be compared with one instant
     ASSERT_NEAR(angles.error_pitch_rad, epochs[i].error.pitch, 1e-5 + 1e-12);
     ASSERT_NEAR(angles.error_yaw_rad, epochs[i].error.yaw, 1e-5 + 1e-12);
     ASSERT_NEAR(range.range_m, epochs[i].range, 0.05 + 1e-9);
