@@ -26,8 +26,8 @@ struct Parameter {
 };
 
 struct TargetSetup {
-  std::string estimator;        ///< a name of the DBC's value table Estimator
-  std::string algorithm;        ///< a name of Algorithm
+  std::string estimator;          ///< a name of the DBC's value table Estimator
+  std::string algorithm;          ///< a name of Algorithm
   std::string algorithm_where{};  ///< in the scenario, for messages: "my.toml:9: key 'target.algorithm'"
   InitialSigma initial_sigma;
   std::vector<Parameter> parameters;  ///< in the DBC's order

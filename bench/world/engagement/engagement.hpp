@@ -24,8 +24,8 @@ struct EngagementTruth {
   Vector3 omega_los_n = Vector3::Zero();  ///< rate of the line of sight, across it [rad/s]
   Matrix3 C_na = Matrix3::Identity();     ///< takes antenna to n
 
-  /// To the closest approach if neither accelerates any more; as good as range over closing speed, but for the
-  /// last metres [s].
+  /// To the closest approach if neither accelerates any more; as good as range over closing speed, but for
+  /// the last metres [s].
   [[nodiscard]] double time_to_go() const { return range * closing_speed / velocity_n.squaredNorm(); }
 };
 
