@@ -84,9 +84,10 @@ Loads loads(const Vector3& v_a, const Vector3& omega, const Fins& fins, const Ai
   const auto [lift, drag, side, roll, pitch, yaw] = coefficients(now, omega, fins, factors);
   const double sa = std::sin(now.alpha);
   const double ca = std::cos(now.alpha);
-  const double scale = 0.5 * air.density * now.speed * now.speed * area;  // dynamic pressure times area [N]
-  return {.force = scale * Vector3(lift * sa - drag * ca, side, -lift * ca - drag * sa),
-          .moment = scale * Vector3(span * roll, chord * pitch, span * yaw)};
+  const double pressure_area =
+      air.density * now.speed * now.speed * area / 2;  // dynamic pressure times area [N]
+  return {.force = pressure_area * Vector3(lift * sa - drag * ca, side, -lift * ca - drag * sa),
+          .moment = pressure_area * Vector3(span * roll, chord * pitch, span * yaw)};
 }
 
 }  // namespace canhil::world::glide
