@@ -16,10 +16,27 @@ std::string record(const std::string& name, const std::string& options,
   return log;
 }
 
+// A record in real time on which nothing was lost: a host that keeps a program waiting for half a second
+// loses frames of vcan in its receive queue, both programs say so, and the property says nothing of such a
+// run.
+std::string record_in_real_time(const std::string& name,
+                                const std::string& file = "transfer_alignment_quick") {
+  const std::string report = scratch(name + ".json");
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    std::string log = record(name, fmt::format("--bus {} --json {}", bus(), report), file);
+    const auto json = read_json(report);
+    if (json["target_counters"]["frames_lost"] == 0 && json["from_target"]["frames_lost"] == 0 &&
+        json["from_target"]["bench_overflows"] == 0)
+      return log;
+  }
+  ADD_FAILURE() << "frames were lost in each of four runs";
+  return scratch(name);
+}
+
 TEST(Bits, InProcessLockstepAndRealTimeAgree) {
   const auto in_process = target_frames(record("in_process.log", "--bus in-process"));
   const auto lockstep = target_frames(record("lockstep.log", fmt::format("--bus {} --lockstep", bus())));
-  const auto real_time = target_frames(record("real_time.log", fmt::format("--bus {}", bus())));
+  const auto real_time = target_frames(record_in_real_time("real_time.log"));
   EXPECT_GT(in_process.size(), 500U);
   EXPECT_TRUE(in_process == lockstep);
   EXPECT_TRUE(in_process == real_time);
@@ -44,16 +61,14 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
 TEST(Bits, InflightInProcessAndRealTimeAgree) {
   const std::string name = "inflight_quick";
   const auto in_process = target_frames(record("inflight.in_process.log", "--bus in-process", name));
-  const auto real_time =
-      target_frames(record("inflight.real_time.log", fmt::format("--bus {}", bus()), name));
+  const auto real_time = target_frames(record_in_real_time("inflight.real_time.log", name));
   EXPECT_GT(in_process.size(), 1000U);
   EXPECT_TRUE(in_process == real_time);
 }
 
 TEST(Bits, LosRateInProcessAndRealTimeAgree) {
   const auto in_process = target_frames(record("los.in_process.log", "--bus in-process", "los_quick"));
-  const auto real_time =
-      target_frames(record("los.real_time.log", fmt::format("--bus {}", bus()), "los_quick"));
+  const auto real_time = target_frames(record_in_real_time("los.real_time.log", "los_quick"));
   EXPECT_GT(in_process.size(), 3000U);
   EXPECT_TRUE(in_process == real_time);
 }

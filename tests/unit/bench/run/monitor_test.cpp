@@ -99,8 +99,8 @@ TEST_F(Watched, ALosRateGroupIsOneAnswerOfItsSeekerSample) {
           5'300'000);
   receive(LosRateSigma{.los_rate_sigma_pitch_radps = 0.001,
                        .los_rate_sigma_yaw_radps = 0.002,
-                       .target_acceleration_sigma_y_mps2 = 4,
-                       .target_acceleration_sigma_z_mps2 = 6,
+                       .target_acceleration_sigma_y_mps2 = 5,
+                       .target_acceleration_sigma_z_mps2 = 7.5,
                        .nis = 2.5},
           5'400'000);
   receive(
@@ -118,7 +118,7 @@ TEST_F(Watched, ALosRateGroupIsOneAnswerOfItsSeekerSample) {
   EXPECT_NEAR(answer.rate_sigma.pitch, 0.001, 1e-9);
   EXPECT_NEAR(answer.rate_sigma.yaw, 0.002, 1e-9);
   EXPECT_EQ(answer.target, (world::Planes<double>{.pitch = -20, .yaw = 10})) << "z in pitch, y in yaw";
-  EXPECT_EQ(answer.target_sigma, (world::Planes<double>{.pitch = 6, .yaw = 4}));
+  EXPECT_EQ(answer.target_sigma, (world::Planes<double>{.pitch = 7.5, .yaw = 5}));
   EXPECT_NEAR(answer.nis, 2.5, 1e-9);
   EXPECT_THAT(checks::latencies_s(seen(), "LosRateTarget", everything),
               ElementsAre(testing::DoubleNear(4e-4, 1e-12)));
