@@ -91,7 +91,8 @@ struct UpdateFigures {
 
 Samples alignment_samples(const checks::Observations& seen, const world::FlightRecord& truth) {
   Samples samples(Family::alignment);
-  const std::vector<checks::NavigationError> errors = checks::navigation_errors(seen, truth);
+  const std::vector<checks::NavigationError> errors =
+      checks::navigation_errors(seen.fix_navigation.empty() ? seen.navigation : seen.fix_navigation, truth);
   const auto add = [&](const auto& update, const UpdateFigures& figures) {
     const checks::NavigationError* after = checks::first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) return;
@@ -224,8 +225,8 @@ double Samples::value(std::size_t place, Quantity quantity) const {
 
 // By what the target is asked for: a scenario may have several truths.
 Family family_of(const scenario::Scenario& scenario) {
-  if (scenario.target.estimator == "los_rate") return Family::los_rate;
-  if (scenario.target.estimator == "wind") return Family::wind;
+  if (scenario.runs("los_rate")) return Family::los_rate;
+  if (scenario.runs("wind")) return Family::wind;
   return Family::alignment;
 }
 
@@ -236,7 +237,7 @@ RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
   RunSeries series{.run = run_index, .ending = finished.ending};
   if (glide && (!seen.wind.empty() || !engagement)) {
     series.samples = wind_samples(seen, *glide);
-  } else if (engagement && seen.navigation.empty()) {
+  } else if (engagement && seen.navigation.empty() && seen.fix_navigation.empty()) {
     series.samples = los_samples(seen, *engagement);
   } else {
     series.samples = alignment_samples(seen, truth);

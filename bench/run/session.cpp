@@ -45,7 +45,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (!truth) return in_file(truth.error());
   auto own_truth = make_own_truth(scenario, options.run_index);
   if (!own_truth) return in_file(own_truth.error());
-  const auto initial = make_initial_state(scenario, *truth, *own_truth, options.run_index);
+  const auto initial = make_initial_states(scenario, *truth, *own_truth, options.run_index);
   if (!initial) return in_file(initial.error());
 
   auto port = open(options.bus);
@@ -72,7 +72,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   };
 
   Schedule schedule = make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep);
-  if (auto configured = configure(link, schedule.outbox(), scenario.target, *initial, gone); !configured) {
+  if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !configured) {
     return tl::unexpected(configured.error());
   }
 
