@@ -174,6 +174,19 @@ Samples wind_samples(const checks::Observations& seen, const world::GlideRecord&
   return samples;
 }
 
+Samples samples_of(const run::InProcessRun& finished, const world::FlightRecord& truth, Family family) {
+  const auto& [engagement, glide] = finished.own_truth;
+  switch (family) {
+    case Family::los_rate:
+      return engagement ? los_samples(finished.seen, *engagement) : Samples(family);
+    case Family::wind:
+      return glide ? wind_samples(finished.seen, *glide) : Samples(family);
+    case Family::alignment:
+      break;
+  }
+  return alignment_samples(finished.seen, truth);
+}
+
 }  // namespace
 
 std::span<const QuantityInfo> quantities() { return infos; }
@@ -231,18 +244,8 @@ Family family_of(const scenario::Scenario& scenario) {
 }
 
 RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth) {
-  const checks::Observations& seen = finished.seen;
-  const auto& [engagement, glide] = finished.own_truth;
-  RunSeries series{.run = run_index, .ending = finished.ending};
-  if (glide && (!seen.wind.empty() || !engagement)) {
-    series.samples = wind_samples(seen, *glide);
-  } else if (engagement && seen.navigation.empty() && seen.fix_navigation.empty()) {
-    series.samples = los_samples(seen, *engagement);
-  } else {
-    series.samples = alignment_samples(seen, truth);
-  }
-  return series;
+                    const world::FlightRecord& truth, Family family) {
+  return {.run = run_index, .ending = finished.ending, .samples = samples_of(finished, truth, family)};
 }
 
 std::vector<std::uint8_t> encode(const Samples& samples) {

@@ -12,8 +12,8 @@ struct BusLoad {
   double busiest = 0;  ///< of a second
 };
 
-/// Of the whole run at a bit rate [bit/s]; the second in which it ended is not a whole one and left out, unless it
-/// is the only one.
+/// Of the whole run at a bit rate [bit/s]; the second in which it ended is not a whole one and left out,
+/// unless it is the only one.
 BusLoad bus_load(const Observations& seen, wire::BitRates rates);
 
 Finding judge(const scenario::BusLoad& rule, const Observations& seen);

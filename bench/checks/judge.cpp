@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/fixes.hpp"
 #include "bench/checks/los.hpp"
@@ -184,6 +185,7 @@ class Judge {
     return finding;
   }
 
+  Finding operator()(const scenario::BusLoad& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::PositionError& rule) const {
     return checks::judge(rule, evidence_.seen, evidence_.truth);
   }

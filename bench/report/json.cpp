@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/report/summary.hpp"
 
 namespace canhil::report {
@@ -112,6 +113,11 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                                {"bad_crc", run.seen.counters->bad_crc},
                                {"bad_group", run.seen.counters->bad_group},
                                {"late", run.seen.counters->late}};
+  }
+  for (const std::int64_t bitrate : {500'000, 1'000'000}) {
+    const checks::BusLoad load = checks::bus_load(run.seen, {.nominal = bitrate});
+    page["bus_load"].push_back(
+        {{"bitrate_bitps", bitrate}, {"mean", load.mean}, {"busiest_second", load.busiest}});
   }
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},

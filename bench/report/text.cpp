@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/report/summary.hpp"
 #include "bench/world/units.hpp"
 
@@ -134,6 +135,12 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                      run.seen.queue_max_us, run.seen.compute_max_us);
     }
   }
+  const checks::BusLoad half = checks::bus_load(run.seen, {.nominal = 500'000});
+  const checks::BusLoad full = checks::bus_load(run.seen, {.nominal = 1'000'000});
+  fmt::format_to(out,
+                 "  bus load at 500 kbit/s        mean {:.1f} %, busiest second {:.1f} %; at 1 Mbit/s {:.1f} "
+                 "%, {:.1f} %\n",
+                 half.mean * 100, half.busiest * 100, full.mean * 100, full.busiest * 100);
   const auto& counters = run.seen.counters;
   fmt::format_to(
       out, "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",

@@ -7,8 +7,8 @@
 
 namespace canhil::run {
 
-/// Adds up the exact length of every frame, from the bench and from others, by second of the time base: the same
-/// on every bus and in virtual time.
+/// Adds up the exact length of every frame, from the bench and from others, by second of the time base: the
+/// same on every bus and in virtual time.
 class LoadMeter final : public Observer {
  public:
   void transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) override {

@@ -8,6 +8,7 @@
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/in_process_port.hpp"
+#include "bench/run/load_meter.hpp"
 #include "bench/run/lockstep.hpp"
 #include "bench/run/monitor.hpp"
 #include "bench/run/recorder.hpp"
@@ -78,6 +79,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   Monitor monitor;
   link.attach(monitor);
+  LoadMeter meter;
+  link.attach(meter);
   Ears ears(schedule);
   link.attach(ears);
   const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
@@ -85,6 +88,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                            : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
   link.detach(ears);
+  link.detach(meter);
   link.detach(monitor);
   if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
     ending.detail += fmt::format(" (its process {})", *why);
@@ -96,6 +100,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   }
 
   checks::Observations seen = std::move(monitor.observations());
+  seen.length_by_second = meter.lengths();
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,

@@ -221,6 +221,14 @@ MissDistance read(Section& section, const Context& /*context*/, MissDistance rul
   return rule;
 }
 
+BusLoad read(Section& section, const Context& /*context*/, BusLoad rule) {
+  constexpr std::int64_t kilo = 1000;
+  rule.bitrate = section.integer("bitrate_kbitps", 1) * kilo;
+  rule.data_bitrate = section.optional_integer("data_bitrate_kbitps", 1).value_or(0) * kilo;
+  rule.below = section.plain_number("below_percent", Limits::above(0, 100)) / 100;
+  return rule;
+}
+
 using Rule = decltype(Check::rule);
 
 /// What a rule holds answers against.
@@ -280,6 +288,7 @@ std::string subject(const LosRateError& rule) {
   return fmt::format(" {} {} to {:g} s to go", name(rule.plane), rule.most_to_go, rule.least_to_go);
 }
 std::string subject(const MissDistance& /*rule*/) { return {}; }
+std::string subject(const BusLoad& rule) { return fmt::format(" at {} kbit/s", rule.bitrate / 1000); }
 
 }  // namespace
 

@@ -189,13 +189,22 @@ struct Heartbeat {
   std::int64_t silent_at_most_us = 0;
 };
 
+/// The frames of everybody keep the bus busy for less than a share of each second, at a bit rate.
+struct BusLoad {
+  static constexpr std::string_view kind = "bus_load";
+  std::int64_t bitrate = 0;       ///< [bit/s]
+  std::int64_t data_bitrate = 0;  ///< of the data phase of FD frames [bit/s]; 0: as the other
+  double below = 0;               ///< share: 0.5 is 50 %
+};
+
 struct Check {
   std::string
       name;  ///< unique in the scenario; by default kind and what it looks at: "attitude_error heading"
   std::string requirement;  ///< id carried to the reports; may be empty
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
-               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers>
+               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers,
+               BusLoad>
       rule;
 };
 

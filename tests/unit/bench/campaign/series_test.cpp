@@ -96,9 +96,10 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   flown.seen.los[1].outcome = messages::LosRateOutcome::waiting;
   record.miss_n = world::Vector3(0, 0.3, -0.4);
   flown.own_truth.engagement = record;
-  const RunSeries series =
-      series_of(7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000));
-  ASSERT_EQ(series.samples.family(), Family::los_rate);
+  flown.seen.navigation.emplace_back();
+  const RunSeries series = series_of(
+      7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), Family::los_rate);
+  ASSERT_EQ(series.samples.family(), Family::los_rate) << "by what was asked for, whatever else was seen";
   // To go: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 | 10.5 ms.
   ASSERT_EQ(series.samples.size(), 5U);
   EXPECT_EQ(series.samples.times()[0], -100'000) << "begins at 100 ms to go";
@@ -118,7 +119,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   const auto truth = run::make_truth(*scenario);
   const auto flown = run::run_in_process(*scenario, *truth, 5);
   ASSERT_TRUE(flown) << flown.error().message;
-  const RunSeries series = series_of(5, *flown, *truth);
+  const RunSeries series = series_of(5, *flown, *truth, Family::alignment);
   EXPECT_EQ(series.run, 5U);
   EXPECT_EQ(series.ending.kind, run::Ending::Kind::completed);
   // 10 Hz for 3 s; the last update is followed by no answer.
@@ -155,7 +156,7 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   flown.seen.fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;
   flown.seen.fixes.push_back(fix);
-  const RunSeries series = series_of(5, flown, truth);
+  const RunSeries series = series_of(5, flown, truth, Family::alignment);
   ASSERT_EQ(series.samples.size(), 1U) << "only of fixes that were considered";
   const auto value = [&](Quantity quantity) { return series.samples.value(0, quantity); };
   EXPECT_EQ(series.samples.times()[0], 500'000);
