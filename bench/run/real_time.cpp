@@ -18,7 +18,7 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 constexpr std::int64_t ns_per_us = 1000;
 constexpr std::int64_t lead_ns = 20'000'000;             // from here to the first deadline
 constexpr std::int64_t last_answers_ns = 150'000'000;    // longer than a heartbeat period
-constexpr std::int64_t outage_limit_ns = 2'000'000'000;  // an interface down and up, a restart after bus-off
+constexpr std::int64_t outage_limit_ns = 5'000'000'000;  // an interface down and up, a restart after bus-off
 constexpr std::int64_t progress_period_us = 100'000;
 
 constexpr Routes target_messages([](const MessageInfo& info) {
