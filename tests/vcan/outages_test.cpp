@@ -109,6 +109,28 @@ TEST(Outages, AnInterfaceThatStaysAwayEndsTheRunAndIsNamed) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
+/// A wire on vcan0 that carries a third of what is sent, for half a second, behind a queue of some bytes.
+std::string slow_wire(int queue_bytes) {
+  return fmt::format(
+      "tc qdisc add dev vcan0 root tbf rate 20kbit burst 100 limit {} && sleep 0.5 && "
+      "tc qdisc del dev vcan0 root",
+      queue_bytes);
+}
+
+class FullQueue : public testing::TestWithParam<int> {};
+
+TEST_P(FullQueue, KeepsFramesWaitingAndLosesNone) {
+  const Outcome outcome = run_with(slow_wire(GetParam()));
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.report["ending"];
+  EXPECT_GT(outcome.report["bus"]["late_in_queue"], 0);
+  EXPECT_EQ(outcome.report["target_counters"]["frames_lost"], 0) << "the bench drops nothing";
+  EXPECT_THAT(outcome.ended.out, HasSubstr(fmt::format("late in transmit queue {} frames",
+                                                       outcome.report["bus"]["late_in_queue"].get<int>())));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfTheSocket, FullQueue, testing::Values(100'000));
+INSTANTIATE_TEST_SUITE_P(OfTheInterface, FullQueue, testing::Values(40));
+
 TEST(Outages, AQuietBusHasNothingToTell) {
   const Outcome outcome = run_with("true");
   EXPECT_EQ(outcome.report["bus"]["error_frames"], 0);
