@@ -46,7 +46,7 @@ class TargetWatch final : public Observer {
 }  // namespace
 
 Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
-                     const std::atomic<bool>& stop, const Progress& progress) {
+                     const std::atomic<bool>& stop, const Progress& progress, std::int64_t spin_ns) {
   const std::int64_t start_ns = now_ns() + lead_ns;
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
   TargetWatch watch(start_ns);
@@ -67,7 +67,8 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
                                   static_cast<double>(bench_us(watch.heard_ns())) * 1e-6)};
       }
       if (now >= deadline_ns) return std::nullopt;
-      link.wait_until(std::min(deadline_ns, watch.heard_ns() + silence_limit_ns + 1));
+      if (now < deadline_ns - spin_ns)
+        link.wait_until(std::min(deadline_ns - spin_ns, watch.heard_ns() + silence_limit_ns + 1));
     }
   };
 
