@@ -36,6 +36,12 @@ double dimension(scenario::Statistic statistic) {
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
 constexpr double lateness_share = 0.5;
 
+// A process of a few hundred frames a second that is ready to run and is not let run, for this share of the
+// run, meets a CPU that has no room for it; nor, on the same machine, for the target.
+constexpr double most_waited = 0.05;
+// A machine that loses this share of its time to others does so at instants that nobody on it sees.
+constexpr double most_stolen = 0.05;
+
 // Judged is what was answered; a target that falls silent for longer than this, or than two of its periods,
 // leaves a part of the window unjudged.
 constexpr double longest_stretch_s = 1;
@@ -266,9 +272,9 @@ class Judge {
   // Why timing with this bar cannot be judged; empty: it can.
   [[nodiscard]] std::string unfit(double q, double bar_s) const {
     if (!evidence_.timing_unfit.empty()) return evidence_.timing_unfit;
-    const auto& lateness = evidence_.seen.lateness_ns;
-    if (lateness.empty()) return "the bench sent nothing";
-    const double late_s = quantile({lateness.begin(), lateness.end()}, q) * 1e-9;
+    const Histogram& lateness = evidence_.seen.timing.lateness;
+    if (lateness.count() == 0) return "the bench sent nothing";
+    const double late_s = lateness.quantile_ns(q) * 1e-9;
     if (late_s <= lateness_share * bar_s) return "";
     return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the bar",
                        late_s * 1e3, quantile_name(q), lateness_share * 100);
@@ -352,6 +358,16 @@ std::string unfit_for_timing(const Observations& seen) {
     return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
   if (seen.target_frames_lost > 0)
     return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
+  const HostRecord& host = seen.host;
+  if (host.clock_step_ns != 0)
+    return fmt::format("the clock of the stamps was set by {:.3f} ms in mid-run",
+                       static_cast<double>(host.clock_step_ns) * 1e-6);
+  if (host.stolen_share > most_stolen)
+    return fmt::format("the hypervisor gave {:.1f} % of this machine's CPU time to others",
+                       host.stolen_share * 100);
+  if (host.cpu_wait_s > most_waited * host.wall_s)
+    return fmt::format("no CPU was free for the bench for {:.1f} % of the run",
+                       host.cpu_wait_s / host.wall_s * 100);
   return "";
 }
 

@@ -22,7 +22,8 @@ struct BandEntry {
 struct MessageLatency {
   std::string message;
   checks::Distribution latency_s;
-  checks::Distribution period_s;
+  checks::Distribution jitter_s;
+  std::size_t unanswered = 0;
 };
 
 /// What became of the fixes of an alignment in flight, as the target says.
@@ -79,6 +80,9 @@ struct Summary {
 };
 
 Summary summarise(const scenario::Scenario& scenario, const run::Run& run);
+
+/// The message that closes each group of answers of the estimators in use.
+std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);
 
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario);

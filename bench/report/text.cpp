@@ -109,6 +109,11 @@ std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
   return lines;
 }
 
+std::string milliseconds(const checks::Distribution& d) {
+  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  p99.9 {:.3f}  max {:.3f} ms", d.p50 * 1e3, d.p90 * 1e3,
+                     d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
@@ -144,15 +149,13 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {
-      fmt::format_to(out, "  latency {:<22}p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} answers\n",
-                     row.message, row.latency_s.p50 * 1e3, row.latency_s.p99 * 1e3, row.latency_s.max * 1e3,
-                     row.latency_s.count);
+      fmt::format_to(out, "  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
+                     row.latency_s.count,
+                     row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
+      fmt::format_to(out, "    its period's deviation      {}\n", milliseconds(row.jitter_s));
     }
-    fmt::format_to(out,
-                   "  bench's own lateness          p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} frames  "
-                   "(latency by {})\n",
-                   summary.lateness_s.p50 * 1e3, summary.lateness_s.p99 * 1e3, summary.lateness_s.max * 1e3,
-                   summary.lateness_s.count, summary.stamp_source);
+    fmt::format_to(out, "  bench's own lateness          {}  of {} frames  (latency by {})\n",
+                   milliseconds(summary.lateness_s), summary.lateness_s.count, summary.stamp_source);
     if (run.seen.target_timing_seen) {
       fmt::format_to(out, "  target's own account          queue max {} us  compute max {} us\n",
                      run.seen.queue_max_us, run.seen.compute_max_us);

@@ -8,6 +8,7 @@
 #include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
+#include "bench/run/host_watch.hpp"
 #include "bench/run/in_process_port.hpp"
 #include "bench/run/load_meter.hpp"
 #include "bench/run/lockstep.hpp"
@@ -89,14 +90,19 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   link.attach(monitor);
   LoadMeter meter;
   link.attach(meter);
+  HostWatch host((*port)->stamp_clock());
+  link.attach(host);
   Ears ears(schedule);
   link.attach(ears);
   const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
+  const std::int64_t started_s = clock_ns(CLOCK_REALTIME) / 1'000'000'000;
   Ending ending =
       lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
                : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress, options.spin_ns);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
+  monitor.observations().host = host.record();
   link.detach(ears);
+  link.detach(host);
   link.detach(meter);
   link.detach(monitor);
   if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
@@ -113,13 +119,14 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.bus = bus.record();
   seen.bus.late_in_queue = link.late_in_queue();
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
+  std::string timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
                                   .glide = own_truth->glide ? &*own_truth->glide : nullptr,
                                   .engagement = own_truth->engagement ? &*own_truth->engagement : nullptr,
                                   .duration_us = scenario.duration_us,
                                   .ended_early = ending.detail,
-                                  .timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen)};
+                                  .timing_unfit = timing_unfit};
   checks::Verdict verdict = judge(scenario, evidence);
   if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return Run{.verdict = std::move(verdict),
@@ -128,8 +135,10 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
              .truth = std::move(*truth),
              .own_truth = std::move(*own_truth),
              .options = options,
+             .timing_unfit = std::move(timing_unfit),
              .host = lockstep ? std::nullopt : std::optional(realtime::standing()),
-             .wall_s = wall_s};
+             .wall_s = wall_s,
+             .started_s = started_s};
 }
 
 }  // namespace canhil::run

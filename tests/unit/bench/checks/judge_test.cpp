@@ -24,7 +24,7 @@ class Judged : public testing::Test {
       seen_.stimuli["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
       seen_.navigation.push_back({.cause_us = t_us, .angles = {}});
       arrive<messages::AlignAttitude>(t_us * 1000 + 200'000, t_us);
-      seen_.lateness_ns.push_back(50'000);
+      seen_.timing.lateness.add(50'000);
       if (t_us % 100'000 != 0) continue;
       seen_.stimuli["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
       seen_.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
@@ -209,7 +209,7 @@ TEST_F(Judged, CountersByEachBar) {
 TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
   const scenario::Latency latency{.message = "AlignAttitude", .window = whole, .below_us = 1000};
   const scenario::Heartbeat heartbeat{.silent_at_most_us = 500'000};
-  seen_.lateness_ns[7] = 501'000;  // more than half of 1 ms
+  seen_.timing.lateness.add(501'000);  // more than half of 1 ms
   EXPECT_EQ(judge(latency).outcome, Outcome::not_measured);
   EXPECT_EQ(verdict_.outcome, Outcome::not_measured);
   EXPECT_EQ(judge(heartbeat).outcome, Outcome::pass) << "its bar is far above";

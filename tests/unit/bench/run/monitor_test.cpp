@@ -300,7 +300,9 @@ TEST_F(Watched, ARepeatedFrameIsNotUsed) {
 TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
   transmit(Sync{}, 100, 7);
   transmit(Sync{}, 300, 9);
-  EXPECT_THAT(seen().lateness_ns, ElementsAre(7, 9));
+  EXPECT_EQ(seen().timing.lateness.min_ns(), 7);
+  EXPECT_EQ(seen().timing.lateness.max_ns(), 9);
+  EXPECT_EQ(seen().timing.lateness.count(), 2U);
   EXPECT_EQ(seen().first_ns, 100);
   EXPECT_EQ(seen().last_ns, 300);
 }
