@@ -12,6 +12,7 @@
 #include "bench/commands/diverge.hpp"
 #include "bench/commands/doctor.hpp"
 #include "bench/commands/exit_code.hpp"
+#include "bench/commands/report.hpp"
 #include "bench/commands/run.hpp"
 #include "messages/canhil.hpp"
 
@@ -31,6 +32,7 @@ int run(int argc, char** argv) {
               SIG_IGN);  // a file at its size limit is an error of write(), with a line that names the file
   int code = 0;
   canhil::commands::add_run(app, code);
+  canhil::commands::add_report(app, code);
   canhil::commands::add_bus(app, code);
   canhil::commands::add_campaign(app, code);
   canhil::commands::add_diverge(app, code);

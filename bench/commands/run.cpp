@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
+#include "bench/report/page.hpp"
 #include "bench/report/text.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/session.hpp"
@@ -41,6 +43,7 @@ struct Arguments {
   std::optional<int> spin_us;
   std::string json;
   std::string junit;
+  std::string html;
   std::string log;
 };
 
@@ -84,13 +87,18 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
   if (!arguments.json.empty()) {
     if (auto written = report::write(arguments.json, report::json(scenario, run)); !written) return written;
   }
-  if (!arguments.junit.empty()) return report::write(arguments.junit, report::junit(scenario, run));
-  return {};
+  if (!arguments.junit.empty()) {
+    if (auto written = report::write(arguments.junit, report::junit(scenario, run)); !written) return written;
+  }
+  if (arguments.html.empty()) return {};
+  const auto page = report::html(report::document(scenario, run));
+  if (!page) return tl::unexpected(page.error());
+  return report::write_file(arguments.html, *page);
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
-  if (auto distinct =
-          report::check_distinct({arguments.scenario, arguments.json, arguments.junit, arguments.log});
+  if (auto distinct = report::check_distinct(
+          {arguments.scenario, arguments.json, arguments.junit, arguments.html, arguments.log});
       !distinct) {
     return distinct;
   }
@@ -98,8 +106,11 @@ Result<void> check_outputs(const Arguments& arguments) {
     if (path.empty() || path == report::to_stdout) continue;
     if (auto writable = report::check_writable(path); !writable) return writable;
   }
-  if (arguments.log.empty()) return {};
-  return report::check_writable(arguments.log);
+  for (const std::string& path : {arguments.html, arguments.log}) {
+    if (path.empty()) continue;
+    if (auto writable = report::check_writable(path); !writable) return writable;
+  }
+  return {};
 }
 
 Result<void> check_bus(const Arguments& arguments) {
@@ -173,6 +184,7 @@ void add_run(CLI::App& app, int& code) {
                       "write the report as JSON to a file; -: to stdout, in place of the text");
   command->add_option("--junit", arguments->junit,
                       "write the checks as JUnit XML to a file; -: to stdout, in place of the text");
+  command->add_option("--html", arguments->html, "write the report as one HTML page to a file");
   command->add_option("--log", arguments->log, "record every frame in candump's log format");
   command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }

@@ -128,12 +128,8 @@ constexpr std::string_view kind_name(Series::Kind kind) {
 }
 
 Json object(const Series& series) {
-  Json json{{"estimator", series.estimator},
-            {"quantity", series.quantity},
-            {"unit", series.unit},
-            {"kind", kind_name(series.kind)},
-            {"t_s", Json::array()},
-            {"low", Json::array()},
+  Json json{{"estimator", series.estimator},  {"quantity", series.quantity}, {"unit", series.unit},
+            {"kind", kind_name(series.kind)}, {"t_s", Json::array()},        {"low", Json::array()},
             {"high", Json::array()}};
   for (const Series::Point& point : series.points) {
     json["t_s"].push_back(point.t_s);
@@ -182,9 +178,12 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
 
 void print(std::string& out, const Json& json, std::size_t indent) {
   // File and bus names need not be UTF-8.
-  const auto plain = [](const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); };
-  const bool open = (json.is_object() && !json.empty()) ||
-                    (json.is_array() && std::ranges::any_of(json, [](const Json& j) { return j.is_object(); }));
+  const auto plain = [](const Json& value) {
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  const bool open =
+      (json.is_object() && !json.empty()) ||
+      (json.is_array() && std::ranges::any_of(json, [](const Json& j) { return j.is_object(); }));
   if (!open) {
     out += plain(json);
     return;
@@ -231,7 +230,8 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
   page["timing"] = timing_judged(run);
   if (run.options.clock == run::ClockKind::real_time) add_timing(page, scenario, run);
   if (run.seen.target_timing_seen)
-    page["target_timing_us"] = {{"queue_max", run.seen.queue_max_us}, {"compute_max", run.seen.compute_max_us}};
+    page["target_timing_us"] = {{"queue_max", run.seen.queue_max_us},
+                                {"compute_max", run.seen.compute_max_us}};
   if (run.seen.counters) {
     page["target_counters"] = {{"frames_lost", run.seen.counters->frames_lost},
                                {"bad_crc", run.seen.counters->bad_crc},

@@ -1,5 +1,6 @@
 #include "bench/report/json_timing.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -25,7 +26,8 @@ Json object(const checks::Histogram& histogram) {
 Json object(const checks::TimeLine& line) {
   Json json{{"stretch_s", static_cast<double>(line.stretch_ns()) * 1e-9}, {"largest_s", Json::array()}};
   for (const std::int64_t largest_ns : line.largest_ns())
-    json["largest_s"].push_back(largest_ns < 0 ? Json(nullptr) : Json(static_cast<double>(largest_ns) * 1e-9));
+    json["largest_s"].push_back(largest_ns < 0 ? Json(nullptr)
+                                               : Json(static_cast<double>(largest_ns) * 1e-9));
   return json;
 }
 

@@ -17,7 +17,7 @@ constexpr double width = 440, height = 230;
 constexpr double left = 58, right = 428, top = 24, bottom = 192;
 
 struct Axis {
-  double from = 0, to = 1;     // values at the ends
+  double from = 0, to = 1;        // values at the ends
   double at_from = 0, at_to = 1;  // places of the ends
   [[nodiscard]] double operator()(double value) const {
     const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
@@ -131,7 +131,8 @@ std::string path_along(const LinePlot& plot, const std::vector<double>& values, 
   };
   for (const Stretch& stretch : stretches(values.size(), shown)) {
     for (std::size_t i = stretch.from; i < stretch.to; ++i)
-      path += fmt::format("{}{:.1f} {:.1f}", i == stretch.from ? 'M' : 'L', x(plot.t_s[i]), y(sign * values[i]));
+      path +=
+          fmt::format("{}{:.1f} {:.1f}", i == stretch.from ? 'M' : 'L', x(plot.t_s[i]), y(sign * values[i]));
   }
   return path;
 }
@@ -161,7 +162,8 @@ std::vector<double> round_values(double from, double to, int most) {
     if (times * power >= rough) step = times * power;
   }
   std::vector<double> values;
-  for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i) values.push_back(i * step);
+  for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
+    values.push_back(i * step);
   return values;
 }
 
@@ -185,7 +187,7 @@ std::string svg(const HistogramPlot& plot) {
   const Axis y{std::log10(0.5), std::log10(most) + 0.12, bottom, top};
   std::string out = begin(plot.title);
   for (const double value : decades(0, y.to)) {
-    out += line("grid", left, y(std::log10(value)), right, y(std::log10(value)));
+    out += line("rule", left, y(std::log10(value)), right, y(std::log10(value)));
     out += words(left - 6, y(std::log10(value)) + 4, "end", fmt::format("{:g}", value));
   }
   double last_label = -100;
@@ -213,19 +215,21 @@ std::string svg(const HistogramPlot& plot) {
     if (room) last_mark = at;
   }
   out += frame();
-  out += words((left + right) / 2, bottom + 35, "middle", "time (logarithmic); height: how many (logarithmic)");
+  out +=
+      words((left + right) / 2, bottom + 35, "middle", "time (logarithmic); height: how many (logarithmic)");
   return out + "</svg>";
 }
 
 std::string svg(const LinePlot& plot) {
   const Extent extent = extent_of(plot);
   if (plot.t_s.empty() || !std::isfinite(extent.low)) return "<p class=\"note\">nothing to show</p>";
-  const Axis x{std::min(plot.t_s.front(), 0.0), std::max(plot.t_s.back(), plot.t_s.front() + 1e-3), left, right};
+  const Axis x{std::min(plot.t_s.front(), 0.0), std::max(plot.t_s.back(), plot.t_s.front() + 1e-3), left,
+               right};
   const double margin = 0.05 * (extent.high - extent.low);
   const Axis y{plot.from_zero ? 0.0 : extent.low - margin, extent.high + margin, bottom, top};
   std::string out = begin(plot.title);
   for (const double value : round_values(y.from, y.to, 5)) {
-    out += line(std::abs(value) < 1e-12 ? "zero" : "grid", left, y(value), right, y(value));
+    out += line(std::abs(value) < 1e-12 ? "zero" : "rule", left, y(value), right, y(value));
     out += words(left - 6, y(value) + 4, "end", fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0.0 : value));
   }
   for (const double value : round_values(x.from, x.to, 6)) {

@@ -1,9 +1,11 @@
 #include "bench/report/series.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 #include <utility>
 
 #include "bench/checks/errors.hpp"
@@ -78,8 +80,8 @@ Series nis_series(std::string_view estimator, std::int64_t duration_us,
 // An error with the sigma of the last filter answer before it.
 template <class Answers, class Error, class Sigma>
 Series navigation_series(Series empty, std::int64_t duration_us,
-                         const std::vector<checks::NavigationError>& errors, const Answers& answers, Error error,
-                         Sigma sigma) {
+                         const std::vector<checks::NavigationError>& errors, const Answers& answers,
+                         Error error, Sigma sigma) {
   auto next = answers.begin();
   return thinned(std::move(empty), duration_us, errors, t_us, [&](const checks::NavigationError& e) {
     while (next != answers.end() && next->cause_us <= e.t_us) ++next;
@@ -88,7 +90,9 @@ Series navigation_series(Series empty, std::int64_t duration_us,
   });
 }
 
-double misalignment_sigma(const checks::FilterAnswer& answer, int axis) { return answer.attitude_sigma(axis); }
+double misalignment_sigma(const checks::FilterAnswer& answer, int axis) {
+  return answer.attitude_sigma(axis);
+}
 double misalignment_sigma(const checks::FixAnswer& answer, int axis) {
   return axis == 0 ? answer.tilt_sigma_north : axis == 1 ? answer.tilt_sigma_east : answer.heading_sigma;
 }
@@ -102,19 +106,23 @@ void add_alignment(std::vector<Series>& all, scenario::Aligner aligner, const ru
   const double unit = by_fixes ? deg : mrad;
   for (int axis = 0; axis < 3; ++axis) {
     const std::string about = axes[static_cast<std::size_t>(axis)];
-    all.push_back(navigation_series({.estimator = estimator,
-                                     .quantity = "attitude error about " + about,
-                                     .unit = by_fixes ? "deg" : "mrad",
-                                     .points = {},
-                                     .between = {}},
-                                    duration_us, errors, answers,
-                                    [&](const auto& e) { return e.misalignment(axis) / unit; },
-                                    [&](const auto& a) { return misalignment_sigma(a, axis) / unit; }));
+    all.push_back(navigation_series(
+        {.estimator = estimator,
+         .quantity = "attitude error about " + about,
+         .unit = by_fixes ? "deg" : "mrad",
+         .points = {},
+         .between = {}},
+        duration_us, errors, answers, [&](const auto& e) { return e.misalignment(axis) / unit; },
+        [&](const auto& a) { return misalignment_sigma(a, axis) / unit; }));
   }
   for (int axis = 0; axis < 3; ++axis) {
     const std::string along = axes[static_cast<std::size_t>(axis)];
     all.push_back(navigation_series(
-        {.estimator = estimator, .quantity = "velocity error " + along, .unit = "m/s", .points = {}, .between = {}},
+        {.estimator = estimator,
+         .quantity = "velocity error " + along,
+         .unit = "m/s",
+         .points = {},
+         .between = {}},
         duration_us, errors, answers, [&](const auto& e) { return e.v_eb_n(axis); },
         [&](const auto& a) { return a.velocity_sigma(axis); }));
   }
@@ -176,16 +184,17 @@ void add_los(std::vector<Series>& all, const Observations& seen, const world::En
   // In the last moments before the passage the rate itself grows beyond any picture.
   constexpr double least_to_go_s = 0.08;
   std::erase_if(errors, [](const checks::LosError& e) { return e.time_to_go < least_to_go_s; });
-  for (const auto& [plane, member] : {std::pair("pitch", &world::Planes<double>::pitch),
-                                      std::pair("yaw", &world::Planes<double>::yaw)}) {
+  for (const auto& [plane, member] :
+       {std::pair("pitch", &world::Planes<double>::pitch), std::pair("yaw", &world::Planes<double>::yaw)}) {
     all.push_back(thinned({.estimator = "los_rate",
                            .quantity = std::string("LOS rate error, ") + plane,
                            .unit = "mrad/s",
                            .points = {},
                            .between = {}},
                           duration_us, errors, t_us, [&](const checks::LosError& e) {
-                            return std::tuple(e.rate.*member / mrad,
-                                              std::optional(answer_at(seen.los, e.t_us)->rate_sigma.*member / mrad));
+                            return std::tuple(
+                                e.rate.*member / mrad,
+                                std::optional(answer_at(seen.los, e.t_us)->rate_sigma.*member / mrad));
                           }));
   }
   all.push_back(nis_series("los_rate", duration_us, checks::los_nis(seen), 2));
@@ -202,7 +211,8 @@ std::vector<Series> series(const scenario::Scenario& scenario, const run::Run& r
     add_alignment(all, scenario::Aligner::inflight_alignment, run, duration_us, run.seen.fixes);
     add_position(all, run, duration_us);
   }
-  if (run.own_truth.glide && scenario.runs("wind")) add_wind(all, run.seen, *run.own_truth.glide, duration_us);
+  if (run.own_truth.glide && scenario.runs("wind"))
+    add_wind(all, run.seen, *run.own_truth.glide, duration_us);
   if (run.own_truth.engagement && scenario.runs("los_rate"))
     add_los(all, run.seen, *run.own_truth.engagement, duration_us);
   std::erase_if(all, [](const Series& one) { return one.points.empty(); });

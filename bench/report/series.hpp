@@ -1,6 +1,7 @@
 // Estimates against the truth over the time of a run, in as many points as a picture has.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

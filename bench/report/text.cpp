@@ -110,8 +110,8 @@ std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
 }
 
 std::string milliseconds(const checks::Distribution& d) {
-  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  p99.9 {:.3f}  max {:.3f} ms", d.p50 * 1e3, d.p90 * 1e3,
-                     d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
+  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  p99.9 {:.3f}  max {:.3f} ms", d.p50 * 1e3,
+                     d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
 }
 
 }  // namespace
