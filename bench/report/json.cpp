@@ -10,6 +10,7 @@
 #include "bench/report/provenance.hpp"
 #include "bench/report/series.hpp"
 #include "bench/report/summary.hpp"
+#include "dbc/realtime/host.hpp"
 
 namespace canhil::report {
 namespace {

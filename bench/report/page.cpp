@@ -22,7 +22,7 @@ constexpr std::string_view style = R"(
  --fill:#31587f;--yes:#6fd3a4;--no:#ff9b78;--unknown:#e6c35c;--warn:#ffa070}}
 *{box-sizing:border-box}
 body{margin:0 auto;padding:1.2rem 1rem 4rem;max-width:64rem;background:var(--paper);color:var(--ink);
- font:1rem/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;overflow-wrap:anywhere}
+ font:1rem/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"DejaVu Sans",sans-serif;overflow-wrap:break-word}
 h1{font-size:1.6rem;line-height:1.2;margin:.4rem 0}
 h2{font-size:1.25rem;margin:2.2rem 0 .6rem;padding-top:.7rem;border-top:1px solid var(--rule)}
 h3{font-size:1rem;margin:1.2rem 0 .3rem}
@@ -34,7 +34,8 @@ td span{font-weight:600;white-space:nowrap}
 nav{font-size:.95rem}nav a{margin-right:1rem;white-space:nowrap;color:var(--line)}
 table{border-collapse:collapse;width:100%;margin:.6rem 0;font-size:.9rem;font-variant-numeric:tabular-nums}
 th,td{text-align:left;vertical-align:top;padding:.3rem .7rem .3rem 0;border-bottom:1px solid var(--rule)}
-th{border-bottom:2px solid var(--soft)}
+th{border-bottom:2px solid var(--soft);white-space:nowrap}
+.pairs td{overflow-wrap:anywhere}
 .figures th:not(:first-child),.figures td:not(:first-child){text-align:right}
 .pairs td:first-child{width:40%}
 .grid{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,26rem),1fr));gap:.4rem 1.6rem}

@@ -190,12 +190,12 @@ std::string timing_section(const Json& report) {
         joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
     if (!latency.at("closes_group").get<bool>()) continue;
     figures += histogram("Latency of " + message, latency);
-    figures += course("Latency of " + message + " over time [s]", latency.at("line"));
+    figures += course("Latency of " + message + " over time", latency.at("line"));
     if (jitters.contains(message))
       figures += histogram("Deviation of the period of " + message, jitters.at(message));
   }
   figures += histogram("The bench's own lateness", report.at("bench_lateness_s"));
-  figures += course("The bench's own lateness over time [s]", report.at("bench_lateness_s").at("line"));
+  figures += course("The bench's own lateness over time", report.at("bench_lateness_s").at("line"));
   const auto head = joined(joined({"latency of"}, percentile_head), {"never came"});
   if (!rows.empty()) out += table(head, rows, "figures");
   out += "<div class=\"grid\">\n" + figures + "</div>\n";

@@ -163,7 +163,7 @@ std::vector<double> round_values(double from, double to, int most) {
   }
   std::vector<double> values;
   for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
-    values.push_back(i * step);
+    values.push_back(i == 0 ? 0.0 : i * step);  // never -0
   return values;
 }
 
@@ -229,8 +229,8 @@ std::string svg(const LinePlot& plot) {
   const Axis y{plot.from_zero ? 0.0 : extent.low - margin, extent.high + margin, bottom, top};
   std::string out = begin(plot.title);
   for (const double value : round_values(y.from, y.to, 5)) {
-    out += line(std::abs(value) < 1e-12 ? "zero" : "rule", left, y(value), right, y(value));
-    out += words(left - 6, y(value) + 4, "end", fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0.0 : value));
+    out += line(value == 0 ? "zero" : "rule", left, y(value), right, y(value));
+    out += words(left - 6, y(value) + 4, "end", fmt::format("{:.4g}", value));
   }
   for (const double value : round_values(x.from, x.to, 6)) {
     out += line("tick", x(value), bottom, x(value), bottom + 5);

@@ -40,10 +40,10 @@ struct Run {
   world::FlightRecord truth;
   OwnTruth own_truth{};
   Options options;
-  std::string timing_unfit{};              ///< why no timing of the run is judged; empty: it is
-  std::optional<realtime::Standing> host;  ///< of the bench, in real time
-  double wall_s = 0;                       ///< from the start of the estimator to the end
-  std::int64_t started_s = 0;              ///< since 1970, UTC; 0: unknown
+  std::string timing_unfit{};                ///< why no timing of the run is judged; empty: it is
+  std::optional<realtime::Standing> host{};  ///< of the bench, in real time
+  double wall_s = 0;                         ///< from the start of the estimator to the end
+  std::int64_t started_s = 0;                ///< since 1970, UTC; 0: unknown
 };
 
 /// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a

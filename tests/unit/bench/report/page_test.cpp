@@ -31,7 +31,7 @@ scenario::Scenario scenario_of() {
   scenario::Scenario scenario;
   scenario.title = "<script>alert(1)</script>";
   scenario.duration_us = 2'000'000;
-  scenario.targets = {{.estimator = "transfer_alignment"}};
+  scenario.targets.emplace_back().estimator = "transfer_alignment";
   return scenario;
 }
 
