@@ -145,6 +145,13 @@ class Judge {
     if (auto why = unfit(rule.quantile, nominal * rule.within); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
     }
+    // A bench that would fail the check itself cannot fail the target by it.
+    if (auto own = stimulus_deviations_s(evidence_.seen, rule.message, rule.window); !own.empty()) {
+      const double off_s = quantile(std::move(own), rule.quantile);
+      if (off_s > lateness_share * nominal * rule.within)
+        return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),
+                expected};
+    }
     std::vector<double> periods = periods_s(evidence_.seen, rule.message, rule.window);
     if (periods.empty()) return {Outcome::fail, "fewer than two arrivals", expected};
     if (const double end_s = ended_before_s(evidence_.seen, rule.message, rule.window); end_s > nominal)

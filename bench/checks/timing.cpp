@@ -121,6 +121,24 @@ std::vector<double> periods_s(const Observations& seen, std::string_view message
   return sample;
 }
 
+std::vector<double> stimulus_deviations_s(const Observations& seen, std::string_view message,
+                                          const scenario::Window& window) {
+  std::vector<double> sample;
+  const MessageInfo* info = info_of(message);
+  if (info == nullptr) return sample;
+  for (const std::vector<Stimulus>* stimuli : all_stimuli_of(seen, *info)) {
+    for (std::size_t i = 1; i < stimuli->size(); ++i) {
+      const Stimulus &from = (*stimuli)[i - 1], &to = (*stimuli)[i];
+      if (!within(window, to.valid_us)) continue;
+      const double period_s = elapsed_s(from, to);
+      const double due_s = static_cast<double>(to.due_ns - from.due_ns) * 1e-9;
+      const double times = due_s > 0 ? std::max(1.0, std::round(period_s / due_s)) : 1.0;
+      sample.insert(sample.end(), static_cast<std::size_t>(times), std::abs(period_s - due_s));
+    }
+  }
+  return sample;
+}
+
 bool stamped_by_hardware(const Observations& seen) {
   const auto stamped = [](const auto& one) { return one.hardware_ns != 0; };
   bool any = false;

@@ -53,6 +53,12 @@ std::size_t unanswered(const Observations& seen, std::string_view message);
 std::vector<double> periods_s(const Observations& seen, std::string_view message,
                               const scenario::Window& window);
 
+/// How far [s] the bench was off the period of what a message answers: by stimulus within the window, the
+/// time between two on the bus less that between their deadlines; one in whose place several were due counts
+/// as many times.
+std::vector<double> stimulus_deviations_s(const Observations& seen, std::string_view message,
+                                          const scenario::Window& window);
+
 /// The longest time [s] without a message, the beginning and the end of the run included.
 double longest_silence_s(const Observations& seen, std::string_view message);
 
