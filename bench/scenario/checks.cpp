@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <tuple>
 
+#include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::scenario {
@@ -27,16 +27,6 @@ struct Context {
   std::int64_t duration_us;
   const Contract& contract;
 };
-
-template <class Enum>
-Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names,
-               std::optional<Enum> fallback = {}) {
-  const std::vector<std::string> words(names.begin(), names.end());
-  std::optional<std::string> word;
-  if (fallback) word = words[static_cast<std::size_t>(*fallback)];
-  const auto found = std::ranges::find(words, section.one_of(key, words, word));
-  return found == words.end() ? Enum{} : static_cast<Enum>(found - words.begin());
-}
 
 /// An angle as STEM_mrad or STEM_deg.
 std::pair<double, AngleUnit> read_angle(Section& section, const std::string& stem) {

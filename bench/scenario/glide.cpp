@@ -1,10 +1,9 @@
 #include "bench/scenario/glide.hpp"
 
-#include <algorithm>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
@@ -12,22 +11,11 @@ namespace {
 
 namespace glide = world::glide;
 
-template <class Enum>
-Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names, Enum usual) {
-  const std::vector<std::string> words(names.begin(), names.end());
-  const auto found =
-      std::ranges::find(words, section.one_of(key, words, words[static_cast<std::size_t>(usual)]));
-  return found == words.end() ? usual : static_cast<Enum>(found - words.begin());
-}
-
 glide::WindProfile read_profile(Section& section) {
   if (section.has("season") || !section.has("steady_mps")) {
     if (section.has("steady_mps")) section.reject("steady_mps", "is given beside season", "one of the two");
     section.optional("steady_mps");
-    const std::vector<std::string> words(glide::season_names.begin(), glide::season_names.end());
-    const auto found = std::ranges::find(words, section.one_of("season", words));
-    return glide::WindProfile(found == words.end() ? glide::Season::march
-                                                   : static_cast<glide::Season>(found - words.begin()));
+    return glide::WindProfile(read_enum<glide::Season>(section, "season", glide::season_names));
   }
   section.optional("season");
   return glide::WindProfile(section.three("steady_mps", Limits::between(-150, 150)));
@@ -44,7 +32,7 @@ void read_airframe(Section section, world::GlidePlan& plan) {
   using glide::ErrorKind;
   glide::CoefficientErrorModel& errors = plan.coefficients;
   errors.level = section.number("coefficient_error_percent", Limits::between(0, 100), 0);
-  errors.kind = read_enum(section, "coefficient_error", glide::error_kind_names, ErrorKind::held);
+  errors.kind = read_enum<ErrorKind>(section, "coefficient_error", glide::error_kind_names, ErrorKind::held);
   const std::int64_t hold_us = section.time_us("hold_ms", Limits::between(10, 1e6), 50);
   const std::int64_t markov_us = section.time_us("markov_time_s", Limits::between(0.01, 1e4), 1);
   errors.time_us = errors.kind == ErrorKind::markov ? markov_us : hold_us;
