@@ -117,6 +117,9 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };
       if (!read) return refused(read.error().message);
+      if (read->targets.size() > 1)
+        return refused(
+            fmt::format("{} runs {} estimators, expected one", one.scenario, read->targets.size()));
       if (std::ranges::find(variants, variant.name, &Variant::name) != variants.end()) {
         return refused("is there twice, expected different values in the sweep");
       }

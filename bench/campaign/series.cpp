@@ -91,7 +91,8 @@ struct UpdateFigures {
 
 Samples alignment_samples(const checks::Observations& seen, const world::FlightRecord& truth) {
   Samples samples(Family::alignment);
-  const std::vector<checks::NavigationError> errors = checks::navigation_errors(seen, truth);
+  const std::vector<checks::NavigationError> errors =
+      checks::navigation_errors(seen.fix_navigation.empty() ? seen.navigation : seen.fix_navigation, truth);
   const auto add = [&](const auto& update, const UpdateFigures& figures) {
     const checks::NavigationError* after = checks::first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) return;
@@ -237,8 +238,8 @@ double Samples::value(std::size_t place, Quantity quantity) const {
 
 // By what the target is asked for: a scenario may have several truths.
 Family family_of(const scenario::Scenario& scenario) {
-  if (scenario.target.estimator == "los_rate") return Family::los_rate;
-  if (scenario.target.estimator == "wind") return Family::wind;
+  if (scenario.runs("los_rate")) return Family::los_rate;
+  if (scenario.runs("wind")) return Family::wind;
   return Family::alignment;
 }
 

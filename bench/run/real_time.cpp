@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
@@ -30,9 +29,7 @@ class TargetWatch final : public Observer {
   void received(const Received& received) override {
     if (received.own || target_messages(received.frame) == Routes::nowhere) return;
     heard_ns_ = now_ns();
-    if (const auto beat = heard<messages::TargetHeartbeat>(received)) {
-      if (beat->state == messages::TargetState::fault) fault_ = beat;
-    }
+    if (const auto beat = fault_in(received)) fault_ = beat;
   }
   [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
   /// The heartbeat that said so.

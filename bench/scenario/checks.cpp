@@ -12,6 +12,7 @@
 namespace canhil::scenario {
 namespace {
 
+constexpr std::array<std::string_view, 2> aligners{"transfer_alignment", "inflight_alignment"};
 constexpr std::array<std::string_view, 3> attitude_axes{"roll", "pitch", "heading"};
 constexpr std::array<std::string_view, 4> velocity_axes{"north", "east", "down", "norm"};
 constexpr std::array<std::string_view, 5> position_axes{"north", "east", "down", "horizontal", "norm"};
@@ -26,7 +27,19 @@ constexpr std::array<std::string_view, 2> los_statistics{"rms", "max"};
 struct Context {
   std::int64_t duration_us;
   const Contract& contract;
+  const Truths& truths;
 };
+
+/// Whose answers: to be said where two estimators align.
+Aligner read_aligner(Section& section, const Context& context) {
+  const std::vector<Aligner>& there = context.truths.aligners;
+  if (there.size() > 1) return read_enum<Aligner>(section, "estimator", aligners);
+  const Aligner only = there.empty() ? Aligner::transfer_alignment : there.front();
+  const auto given = read_enum<Aligner>(section, "estimator", aligners, only);
+  if (given != only)
+    section.reject("estimator", fmt::format("'{}' is not run in this scenario", name(given)), name(only));
+  return given;
+}
 
 /// An angle as STEM_mrad or STEM_deg.
 std::pair<double, AngleUnit> read_angle(Section& section, const std::string& stem) {
@@ -43,6 +56,7 @@ std::pair<double, AngleUnit> read_angle(Section& section, const std::string& ste
 }
 
 AttitudeError read(Section& section, const Context& context, AttitudeError rule) {
+  rule.of = read_aligner(section, context);
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
   rule.window = read_window(section, context.duration_us);
   std::tie(rule.below, rule.unit) = read_angle(section, "below");
@@ -50,6 +64,7 @@ AttitudeError read(Section& section, const Context& context, AttitudeError rule)
 }
 
 Convergence read(Section& section, const Context& context, Convergence rule) {
+  rule.of = read_aligner(section, context);
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
   std::tie(rule.within, rule.unit) = read_angle(section, "within");
   rule.before_us = read_time(section, "before_s", Limits::above(0), context.duration_us);
@@ -57,6 +72,7 @@ Convergence read(Section& section, const Context& context, Convergence rule) {
 }
 
 VelocityError read(Section& section, const Context& context, VelocityError rule) {
+  rule.of = read_aligner(section, context);
   rule.axis = read_enum<VelocityAxis>(section, "axis", velocity_axes, VelocityAxis::norm);
   rule.window = read_window(section, context.duration_us);
   rule.below = section.number("below_mps", Limits::above(0));
@@ -65,6 +81,9 @@ VelocityError read(Section& section, const Context& context, VelocityError rule)
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   rule.statistic = read_enum<Statistic>(section, "statistic", statistics);
+  const bool of_alignment = rule.statistic == Statistic::nis || rule.statistic == Statistic::attitude_nees ||
+                            rule.statistic == Statistic::heading_nees;
+  if (of_alignment) rule.of = read_aligner(section, context);
   rule.window = read_window(section, context.duration_us);
   if (!section.has("probability")) {
     const auto [low, high] = section.interval("mean_between", Limits::at_least(0));
@@ -192,6 +211,14 @@ MissDistance read(Section& section, const Context& /*context*/, MissDistance rul
   return rule;
 }
 
+BusLoad read(Section& section, const Context& /*context*/, BusLoad rule) {
+  constexpr std::int64_t kilo = 1000;
+  rule.bitrate = section.integer("bitrate_kbitps", 1) * kilo;
+  rule.data_bitrate = section.optional_integer("data_bitrate_kbitps", 1).value_or(0) * kilo;
+  rule.below = section.plain_number("below_percent", Limits::above(0, 100)) / 100;
+  return rule;
+}
+
 using Rule = decltype(Check::rule);
 
 /// What a rule holds answers against.
@@ -251,9 +278,11 @@ std::string subject(const LosRateError& rule) {
   return fmt::format(" {} {} to {:g} s to go", name(rule.plane), rule.most_to_go, rule.least_to_go);
 }
 std::string subject(const MissDistance& /*rule*/) { return {}; }
+std::string subject(const BusLoad& rule) { return fmt::format(" at {} kbit/s", rule.bitrate / 1000); }
 
 }  // namespace
 
+std::string_view name(Aligner aligner) { return aligners[static_cast<std::size_t>(aligner)]; }
 std::string_view name(AttitudeAxis axis) { return attitude_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(VelocityAxis axis) { return velocity_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(PositionAxis axis) { return position_axes[static_cast<std::size_t>(axis)]; }
@@ -272,11 +301,18 @@ Check read_check(Section& section, std::int64_t duration_us, const Contract& con
   check.line = section.line();
   const std::string wanted = section.one_of("kind", kinds<Rule>());
   check.requirement = section.text("requirement", "");
-  const Context context{.duration_us = duration_us, .contract = contract};
+  const Context context{.duration_us = duration_us, .contract = contract, .truths = truths};
   check.rule = read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
   expect_truth(section, check.rule, truths);
-  const std::string by_default = fmt::format(
-      "{}{}", kind(check), std::visit([](const auto& rule) { return subject(rule); }, check.rule));
+  const auto whose = [&](const auto& rule) -> std::string {
+    if constexpr (requires { rule.of; }) {
+      if (truths.aligners.size() > 1) return fmt::format(" of {}", name(rule.of));
+    }
+    return {};
+  };
+  const std::string by_default = std::visit(
+      [&](const auto& rule) { return fmt::format("{}{}{}", rule.kind, subject(rule), whose(rule)); },
+      check.rule);
   check.name = section.text("name", by_default);
   section.finish();
   return check;

@@ -364,6 +364,12 @@ std::vector<Section> Section::tables(std::string_view key) {
   return sections;
 }
 
+std::vector<Section> Section::table_or_tables(std::string_view key) {
+  const toml::node* node = state_->ask(key);
+  if (node != nullptr && node->is_array()) return tables(key);
+  return {table(key)};
+}
+
 void Section::reject(std::string_view key, std::string_view what, std::string_view expected) {
   state_->fail(key, state_->line_of_key(key), what, expected);
 }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
@@ -33,8 +35,6 @@ std::vector<Parameter> read_parameters(Section section, const Contract& contract
   return parameters;
 }
 
-}  // namespace
-
 TargetSetup read_target(Section& section, const Contract& contract) {
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
@@ -48,8 +48,25 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract);
   }
+  if (auto initial_error = section.optional_table("initial_error"))
+    target.initial_error = read_initial_error(*initial_error);
   section.finish();
   return target;
+}
+
+}  // namespace
+
+std::vector<TargetSetup> read_targets(Section& root, const Contract& contract) {
+  std::vector<TargetSetup> targets;
+  for (Section& section : root.table_or_tables("target")) {
+    TargetSetup target = read_target(section, contract);
+    if (std::ranges::find(targets, target.estimator, &TargetSetup::estimator) != targets.end()) {
+      section.reject("estimator", fmt::format("'{}' is that of another [[target]] too", target.estimator),
+                     "each estimator once");
+    }
+    targets.push_back(std::move(target));
+  }
+  return targets;
 }
 
 }  // namespace canhil::scenario

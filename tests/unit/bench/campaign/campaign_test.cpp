@@ -22,9 +22,9 @@ TEST(Campaign, VariantsAreTheirScenarioWithSettings) {
   ASSERT_TRUE(campaign) << campaign.error().message;
   EXPECT_THAT(names_of(*campaign), ElementsAre("A", "B"));
   EXPECT_EQ(campaign->runs, 4U);
-  EXPECT_NEAR(campaign->variants[0].scenario.target.initial_sigma.heading, 0.0873, 1e-4);
-  EXPECT_NEAR(campaign->variants[1].scenario.target.initial_sigma.heading, 0.01745, 1e-5);
-  EXPECT_NEAR(campaign->variants[1].scenario.target.initial_sigma.tilt, 0.0873, 1e-4);
+  EXPECT_NEAR(campaign->variants[0].scenario.targets.front().initial_sigma.heading, 0.0873, 1e-4);
+  EXPECT_NEAR(campaign->variants[1].scenario.targets.front().initial_sigma.heading, 0.01745, 1e-5);
+  EXPECT_NEAR(campaign->variants[1].scenario.targets.front().initial_sigma.tilt, 0.0873, 1e-4);
   EXPECT_NE(campaign->variants[0].scenario.hash, campaign->variants[1].scenario.hash);
   for (const Variant& variant : campaign->variants) EXPECT_EQ(variant.scenario.seed, 3U);
 }

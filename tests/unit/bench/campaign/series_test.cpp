@@ -124,7 +124,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   EXPECT_EQ(series.ending.kind, run::Ending::Kind::completed);
   // 10 Hz for 3 s; the last update is followed by no answer.
   ASSERT_EQ(series.samples.size(), 29U);
-  const auto errors = checks::navigation_errors(flown->seen, *truth);
+  const auto errors = checks::navigation_errors(flown->seen.navigation, *truth);
   for (std::size_t i = 0; i < series.samples.size(); ++i) {
     const auto same_time = [&](const auto& error) {
       return error.t_us == series.samples.times()[i] + 10'000;
@@ -147,7 +147,7 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   const world::FlightRecord truth({.start = start, .motion = world::Rest{}}, 3'000'000, 20'000);
   run::InProcessRun flown{.ending = {}, .seen = {}};
   for (const std::int64_t t_us : {1'000'000, 1'500'000, 2'000'000})
-    flown.seen.navigation.push_back(
+    flown.seen.fix_navigation.push_back(
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});
   checks::FixAnswer fix{.cause_us = 500'000, .navigation_us = 1'000'000, .nis = 4};
   fix.position = displaced(start, {1, 2, 3});

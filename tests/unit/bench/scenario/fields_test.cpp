@@ -27,20 +27,21 @@ TEST(ScenarioFields, Top) {
 
 TEST(ScenarioFields, Target) {
   const Scenario s = parsed(valid);
-  EXPECT_EQ(s.target.estimator, "transfer_alignment");
-  EXPECT_EQ(s.target.algorithm, "kalman");
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.velocity, 1.0);
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.tilt, 2 * deg);
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.heading, 5 * deg);
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.position, 10.0);
-  EXPECT_TRUE(s.target.parameters.empty());
+  EXPECT_EQ(s.targets.front().estimator, "transfer_alignment");
+  EXPECT_EQ(s.targets.front().algorithm, "kalman");
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, 1.0);
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.tilt, 2 * deg);
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, 5 * deg);
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.position, 10.0);
+  EXPECT_TRUE(s.targets.front().parameters.empty());
 }
 
 TEST(ScenarioFields, ParametersKeepTheUnitOfTheirNameAndTheOrderOfTheDbc) {
   const auto parameters =
       parsed(with("[truth]",
                   "[target.parameters]\nvelocity_noise_m2ps = 0.01\naccel_bias_sigma_ug = 300\n[truth]"))
-          .target.parameters;
+          .targets.front()
+          .parameters;
   ASSERT_EQ(parameters.size(), 2U);
   EXPECT_EQ(parameters[0].name, "accel_bias_sigma_ug");
   EXPECT_EQ(parameters[0].value, 300.0);
