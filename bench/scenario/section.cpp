@@ -365,9 +365,8 @@ std::vector<Section> Section::tables(std::string_view key) {
 }
 
 std::vector<Section> Section::table_or_tables(std::string_view key) {
-  const toml::node* node = state_->ask(key);
-  if (node != nullptr && node->is_array()) return tables(key);
-  return {table(key)};
+  const bool several = state_->table != nullptr && (*state_->table)[key].is_array();
+  return several ? tables(key) : std::vector{table(key)};
 }
 
 void Section::reject(std::string_view key, std::string_view what, std::string_view expected) {

@@ -56,7 +56,8 @@ TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
 // Those of the closed loop only if answers take effect at the same time on every bus.
 INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
-                                         "los_closed_loop", "los_closed_loop_500hz", "wind_quick"));
+                                         "los_closed_loop", "los_closed_loop_500hz", "wind_quick",
+                                         "all_four"));
 
 TEST(Bits, InflightInProcessAndRealTimeAgree) {
   const std::string name = "inflight_quick";
@@ -71,6 +72,19 @@ TEST(Bits, LosRateInProcessAndRealTimeAgree) {
   const auto real_time = target_frames(record_in_real_time("los.real_time.log", "los_quick"));
   EXPECT_GT(in_process.size(), 3000U);
   EXPECT_TRUE(in_process == real_time);
+}
+
+TEST(Bits, AllFourAtOnceInProcessAndRealTimeAgree) {
+  const auto in_process = target_frames(record("all_four.in_process.log", "--bus in-process", "all_four"));
+  const auto real_time = target_frames(record_in_real_time("all_four.real_time.log", "all_four"));
+  EXPECT_GT(in_process.size(), 30'000U);
+  EXPECT_TRUE(in_process == real_time);
+  // What was judged on the way, apart from timing.
+  const auto report = read_json(scratch("all_four.real_time.log.json"));
+  for (const auto& check : report["checks"]) {
+    if (check["kind"] == "heartbeat") continue;
+    EXPECT_EQ(check["outcome"], "pass") << check.dump();
+  }
 }
 
 TEST(Bits, AnotherSeedGivesOtherFrames) {

@@ -51,7 +51,7 @@ TEST(ScenarioFields, ParametersKeepTheUnitOfTheirNameAndTheOrderOfTheDbc) {
   const Setting setting{.key = "target.parameters.h2_case", .value = "3", .elements = {}};
   const auto varied = parse(valid, "s.toml", contract, {&setting, 1});
   ASSERT_TRUE(varied) << varied.error().message;
-  EXPECT_EQ(varied->target.parameters.at(0).where, "s.toml: key 'target.parameters.h2_case'");
+  EXPECT_EQ(varied->targets.front().parameters.at(0).where, "s.toml: key 'target.parameters.h2_case'");
 }
 
 TEST(ScenarioFields, TruthAtRest) {
