@@ -154,6 +154,7 @@ Fixes read(Section& section, const Context& context, Fixes rule) {
     Fixes::Count count{.outcome = outcome,
                        .at_least = section.optional_integer(outcome + "_at_least", 0),
                        .at_most = section.optional_integer(outcome + "_at_most", 0)};
+    expect_ordered(section, outcome + "_at_least", count.at_least, outcome + "_at_most", count.at_most);
     if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
   }
   rule.repairs_at_most = section.optional_integer("repairs_at_most", 0);
@@ -171,6 +172,7 @@ Coasting read(Section& section, const Context& context, Coasting rule) {
   rule.at_most = section.optional_integer("at_most", 0);
   if (!rule.at_least && !rule.at_most)
     section.reject("at_least", "is missing, as is 'at_most'", "at least one limit");
+  expect_ordered(section, "at_least", rule.at_least, "at_most", rule.at_most);
   return rule;
 }
 
@@ -189,6 +191,7 @@ WindAnswers read(Section& section, const Context& context, WindAnswers rule) {
                              .is_flag = is_flag,
                              .at_least = section.optional_integer(name + "_at_least", 0),
                              .at_most = section.optional_integer(name + "_at_most", 0)};
+    expect_ordered(section, name + "_at_least", count.at_least, name + "_at_most", count.at_most);
     if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
   };
   for (const std::string& outcome : context.contract.wind_outcomes) read_count(outcome, false);

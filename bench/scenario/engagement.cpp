@@ -16,7 +16,11 @@ Manoeuvre read_manoeuvre(Section& section) {
   static constexpr std::array<std::string_view, 3> kinds{"none", "step", "weave"};
   Manoeuvre manoeuvre;
   manoeuvre.kind = read_enum<Manoeuvre::Kind>(section, "manoeuvre", kinds, Manoeuvre::Kind::step);
+  if (manoeuvre.kind != Manoeuvre::Kind::weave)
+    section.refuse("manoeuvre_period_s", "has no effect here", "manoeuvre = \"weave\"");
   if (manoeuvre.kind == Manoeuvre::Kind::none) {
+    for (const char* key : {"manoeuvre_g", "manoeuvre_from_s", "manoeuvre_at_to_go_s"})
+      section.refuse(key, "has no effect here", "manoeuvre = \"step\" or \"weave\"");
     manoeuvre.acceleration = 0;
     return manoeuvre;
   }

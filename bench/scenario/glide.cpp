@@ -24,6 +24,8 @@ glide::WindProfile read_profile(Section& section) {
 void read_wind(Section section, world::GlidePlan& plan) {
   plan.wind = read_profile(section);
   plan.gusts.sigma = section.number("gust_sigma_mps", Limits::between(0, 20), 0);
+  if (!section.has("gust_sigma_mps"))
+    section.refuse("gust_time_s", "has no effect alone", "gust_sigma_mps beside it");
   plan.gusts.time = section.number("gust_time_s", Limits::above(0), plan.gusts.time);
   section.finish();
 }
@@ -34,6 +36,8 @@ void read_airframe(Section section, world::GlidePlan& plan) {
   errors.level = section.number("coefficient_error_percent", Limits::between(0, 100), 0);
   errors.kind = read_enum<ErrorKind>(section, "coefficient_error", glide::error_kind_names, ErrorKind::held);
   const std::int64_t hold_us = section.time_us("hold_ms", Limits::between(10, 1e6), 50);
+  if (errors.kind != ErrorKind::markov)
+    section.refuse("markov_time_s", "has no effect here", "coefficient_error = \"markov\" beside it");
   const std::int64_t markov_us = section.time_us("markov_time_s", Limits::between(0.01, 1e4), 1);
   errors.time_us = errors.kind == ErrorKind::markov ? markov_us : hold_us;
   const std::vector<std::string> scopes{"term", "total"};
