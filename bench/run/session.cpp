@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "bench/run/bus_watch.hpp"
 #include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
@@ -52,6 +53,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   auto port = open(options.bus);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
+  BusWatch bus;
+  link.attach(bus);
   std::unique_ptr<Recorder> recorder;
   if (options.log_path) {
     auto opened = Recorder::open(*options.log_path, **port);
@@ -101,6 +104,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   checks::Observations seen = std::move(monitor.observations());
   seen.length_by_second = meter.lengths();
+  seen.bus = bus.record();
+  seen.bus.late_in_queue = link.late_in_queue();
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
