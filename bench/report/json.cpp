@@ -97,6 +97,18 @@ Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
   return json;
 }
 
+Json object(const realtime::Standing& host, std::int64_t spin_ns) {
+  return {{"policy", host.policy},
+          {"priority", host.priority},
+          {"cpus", host.cpus},
+          {"locked_kib", host.locked_kib},
+          {"timer_slack_ns", host.timer_slack_ns},
+          {"no_deep_sleep", host.awake},
+          {"governors", host.governors},
+          {"preemption", host.preemption},
+          {"spin_us", spin_ns / 1000}};
+}
+
 }  // namespace
 
 std::string json(const scenario::Scenario& scenario, const run::Run& run) {
@@ -114,6 +126,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                         {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
                         {"latency_stamps", summary.stamp_source},
                         {"period_overrides", period_overrides(scenario)}};
+  if (run.host) page["provenance"]["bench_process"] = object(*run.host, run.options.spin_ns);
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
   page["ending"] = {{"completed", run.ending.kind == run::Ending::Kind::completed},

@@ -45,7 +45,7 @@ class TargetWatch final : public Observer {
 }  // namespace
 
 Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
-                     const std::atomic<bool>& stop, const Progress& progress) {
+                     const std::atomic<bool>& stop, const Progress& progress, std::int64_t spin_ns) {
   const std::int64_t start_ns = now_ns() + lead_ns;
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
   TargetWatch watch(start_ns);
@@ -76,7 +76,8 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), fault_of(*watch.fault())};
       if (now > excused_until_ns()) return silent();
       if (now >= deadline_ns) return std::nullopt;
-      link.wait_until(std::min(deadline_ns, excused_until_ns() + 1));
+      if (now < deadline_ns - spin_ns)
+        link.wait_until(std::min(deadline_ns - spin_ns, excused_until_ns() + 1));
     }
   };
 
