@@ -12,6 +12,7 @@
 #include "bench/commands/diverge.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/run.hpp"
+#include "bench/commands/schedulability.hpp"
 #include "messages/canhil.hpp"
 
 namespace {
@@ -33,6 +34,7 @@ int run(int argc, char** argv) {
   canhil::commands::add_bus(app, code);
   canhil::commands::add_campaign(app, code);
   canhil::commands::add_diverge(app, code);
+  canhil::commands::add_schedulability(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
