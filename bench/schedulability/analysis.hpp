@@ -39,12 +39,6 @@ struct Stream {
   wire::BitLength length{};    ///< of its longest frame
 };
 
-/// How streams rank on the bus: the stream with the smaller number wins. Where base ids are equal, the 11-bit
-/// id wins over the 29-bit one.
-constexpr std::uint32_t arbitration_rank(std::uint32_t id, bool extended) {
-  return extended ? (id >> 18U) << 19U | 1U << 18U | (id & 0x3FFFFU) : id << 19U;
-}
-
 /// Bus errors: `burst` of them at once, and one more every `interval_ns`. Each costs an error frame and a
 /// retransmission (Tindell, Burns, Wellings 1995; Davis et al. 2007, section 3.4).
 struct ErrorModel {
@@ -71,7 +65,7 @@ struct Bus {
 Response response(std::span<const Stream> streams, std::size_t index, std::int64_t blocking_ns,
                   const Bus& bus);
 
-/// R of every stream; the streams are sorted by arbitration_rank().
+/// R of every stream; the streams are sorted by wire::arbitration_rank().
 std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus);
 
 /// The share of the bus that all streams with a period take up.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <variant>
 
+#include "dbc/wire/arbitration.hpp"
+
 namespace canhil::schedulability {
 namespace {
 
@@ -81,7 +83,7 @@ Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assu
     }
   }
   if (streams.empty()) return failure("no messages in the DBC, expected one at least");
-  std::ranges::sort(streams, {}, [](const Stream& s) { return arbitration_rank(s.id, s.extended); });
+  std::ranges::sort(streams, {}, [](const Stream& s) { return wire::arbitration_rank(s.id, s.extended); });
   return streams;
 }
 
