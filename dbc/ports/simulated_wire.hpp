@@ -90,6 +90,8 @@ class SimulatedWire {
   [[nodiscard]] const WireCounters& counters() const { return counters_; }
 
  private:
+  static constexpr std::int64_t long_ago = std::numeric_limits<std::int64_t>::min() / 2;
+
   struct Pending {
     Frame frame;
     std::uint32_t rank = 0;
@@ -101,7 +103,7 @@ class SimulatedWire {
     std::vector<Pending> queue{};  ///< oldest first
     int tec = 0;
     int rec = 0;
-    std::int64_t silent_until_ns = 0;  ///< an error passive sender lets others go first
+    std::int64_t silent_until_ns = long_ago;  ///< an error passive sender lets others go first
     bool off = false;
     std::int64_t recessive_runs = 0;  ///< of 11 bits, while off
   };
@@ -134,7 +136,7 @@ class SimulatedWire {
   Disturb disturb_;
   std::vector<Node> nodes_;
   std::optional<Running> running_{};
-  std::int64_t free_ns_ = std::numeric_limits<std::int64_t>::min() / 2;  ///< nothing is on the wire since
+  std::int64_t free_ns_ = long_ago;  ///< nothing is on the wire since
   std::int64_t idle_ns_ = free_ns_;  ///< up to here the recessive bits since then are counted
   WireCounters counters_{};
 };
