@@ -13,6 +13,7 @@
 #include "bench/commands/doctor.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/run.hpp"
+#include "bench/commands/schedulability.hpp"
 #include "messages/canhil.hpp"
 
 namespace {
@@ -35,6 +36,7 @@ int run(int argc, char** argv) {
   canhil::commands::add_campaign(app, code);
   canhil::commands::add_diverge(app, code);
   canhil::commands::add_doctor(app, code);
+  canhil::commands::add_schedulability(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
