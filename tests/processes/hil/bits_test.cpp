@@ -124,6 +124,20 @@ TEST(Bits, DivergeNamesTheFirstFrameThatDiffers) {
   EXPECT_EQ(shorter.code, 1);
   EXPECT_THAT(shorter.out, testing::HasSubstr("has no more frames of the target"));
   EXPECT_EQ(hil_bench(fmt::format("diverge {} no_such.log", log)).code, 2);
+
+  std::ofstream(scratch("empty.log")).close();
+  const auto expect_refused = [](const std::string& logs, const std::string& why) {
+    const Ended refused = hil_bench("diverge " + logs);
+    EXPECT_EQ(refused.code, 2) << logs;
+    EXPECT_EQ(refused.err, "hil-bench: " + why + "\n");
+    EXPECT_EQ(refused.out, "");
+  };
+  const std::string empty = scratch("empty.log"), folder = testing::TempDir();
+  const std::string none = ": no frame of the target after a Sync, expected the log of a run";
+  expect_refused(empty + " " + log, empty + none);
+  expect_refused(log + " " + empty, empty + none);
+  expect_refused(empty + " " + empty, empty + ", " + empty + none);
+  expect_refused(log + " " + folder, "cannot read log '" + folder + "': Is a directory");
 }
 
 }  // namespace
