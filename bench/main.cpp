@@ -13,8 +13,10 @@
 #include "bench/commands/bus.hpp"
 #include "bench/commands/campaign.hpp"
 #include "bench/commands/diverge.hpp"
+#include "bench/commands/doctor.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/run.hpp"
+#include "bench/commands/schedulability.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "messages/canhil.hpp"
 
@@ -46,6 +48,8 @@ int run(int argc, char** argv) {
   canhil::commands::add_bus(app, code);
   canhil::commands::add_campaign(app, code);
   canhil::commands::add_diverge(app, code);
+  canhil::commands::add_doctor(app, code);
+  canhil::commands::add_schedulability(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

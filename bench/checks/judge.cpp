@@ -5,6 +5,8 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/finding.hpp"
@@ -169,20 +171,23 @@ class Judge {
   Finding operator()(const scenario::Counters& rule) const {
     if (!evidence_.seen.counters) return {Outcome::fail, "no TargetCounters", "counters reported"};
     const messages::TargetCounters& counters = *evidence_.seen.counters;
-    Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
-    const auto judge_one = [&](std::string_view what, const std::optional<std::int64_t>& most,
-                               std::int64_t value) {
-      if (!most) return;
-      const std::string_view separator = finding.expected.empty() ? "" : ", ";
-      finding.expected += fmt::format("{}{} <= {}", separator, what, *most);
-      finding.measured += fmt::format("{}{} {}", separator, what, value);
-      if (value > *most) finding.outcome = Outcome::fail;
-    };
-    judge_one("frames lost", rule.frames_lost_at_most, counters.frames_lost);
-    judge_one("bad CRC", rule.bad_crc_at_most, counters.bad_crc);
-    judge_one("bad groups", rule.bad_group_at_most, counters.bad_group);
-    judge_one("late", rule.late_at_most, counters.late);
-    return finding;
+    return within_limits(
+        std::array<Limit, 4>{{{"frames lost", rule.frames_lost_at_most, counters.frames_lost},
+                              {"bad CRC", rule.bad_crc_at_most, counters.bad_crc},
+                              {"bad groups", rule.bad_group_at_most, counters.bad_group},
+                              {"late", rule.late_at_most, counters.late}}});
+  }
+
+  Finding operator()(const scenario::BusErrorLimits& rule) const {
+    const BusRecord& bus = evidence_.seen.bus;
+    const BusErrors& errors = bus.errors;
+    return within_limits(
+        std::array<Limit, 6>{{{"bus off", rule.bus_off_at_most, errors.bus_off},
+                              {"interface down", rule.down_at_most, bus.downs},
+                              {"error passive", rule.passive_at_most, errors.passive},
+                              {"error warning", rule.warning_at_most, errors.warning},
+                              {"error frames", rule.error_frames_at_most, errors.frames},
+                              {"late in transmit queue", rule.late_in_queue_at_most, bus.late_in_queue}}});
   }
 
   Finding operator()(const scenario::BusLoad& rule) const { return checks::judge(rule, evidence_.seen); }
@@ -214,6 +219,23 @@ class Judge {
   }
 
  private:
+  struct Limit {
+    std::string_view what;
+    std::optional<std::int64_t> at_most;  // none: not judged
+    std::uint64_t value;
+  };
+  static Finding within_limits(std::span<const Limit> limits) {
+    Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
+    for (const Limit& limit : limits) {
+      if (!limit.at_most) continue;
+      const std::string_view separator = finding.expected.empty() ? "" : ", ";
+      finding.expected += fmt::format("{}{} <= {}", separator, limit.what, *limit.at_most);
+      finding.measured += fmt::format("{}{} {}", separator, limit.what, limit.value);
+      if (std::cmp_greater(limit.value, *limit.at_most)) finding.outcome = Outcome::fail;
+    }
+    return finding;
+  }
+
   static std::string quantile_name(double q) {
     return q >= 1 ? "max" : fmt::format("{:g} % quantile", q * 100);
   }
@@ -308,6 +330,16 @@ class Judge {
   std::vector<NavigationError> inflight_errors_;
 };
 
+// A bus that failed fails a run that says nothing of it.
+std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, const Judge& judge) {
+  const bool said = std::ranges::any_of(scenario.checks, [](const scenario::Check& check) {
+    return std::holds_alternative<scenario::BusErrorLimits>(check.rule);
+  });
+  const scenario::BusErrorLimits rule;
+  if (said || judge(rule).outcome == Outcome::pass) return std::nullopt;
+  return scenario::Check{.name = std::string(rule.kind), .requirement = "", .rule = rule};
+}
+
 }  // namespace
 
 std::string seconds(const scenario::Window& window) {
@@ -326,7 +358,9 @@ std::string unfit_for_timing(const Observations& seen) {
 Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
   Verdict verdict;
   const Judge judge(evidence);
-  for (const scenario::Check& check : scenario.checks) {
+  std::vector<scenario::Check> all = scenario.checks;
+  if (auto implied = bus_check(scenario, judge)) all.push_back(std::move(*implied));
+  for (const scenario::Check& check : all) {
     Finding finding = std::visit(judge, check.rule);
     if (!evidence.ended_early.empty()) {  // what was seen until then proves nothing either way
       finding.outcome = Outcome::not_measured;

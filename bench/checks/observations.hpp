@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/checks/bus.hpp"
 #include "bench/world/earth.hpp"
 #include "bench/world/engagement/plan.hpp"
 #include "dbc/wire/bit_length.hpp"
@@ -109,6 +110,7 @@ constexpr bool used(messages::FixOutcome outcome) {
 /// One arrival of a message of the target.
 struct Arrival {
   std::int64_t t_ns = 0;           ///< stamp of the port
+  std::int64_t hardware_ns = 0;    ///< the controller's own, on a clock of its own; 0: none
   std::int64_t cause_us = -1;      ///< time of validity of what it answers; -1: answers nothing
   std::string_view cause_group{};  ///< sample group of what it answers
 };
@@ -116,7 +118,8 @@ struct Arrival {
 /// The last frame of a sample group that the bench sent.
 struct Stimulus {
   std::int64_t valid_us = 0;
-  std::int64_t t_ns = 0;  ///< transmit stamp: the port's echo where it gives one
+  std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
+  std::int64_t hardware_ns = 0;  ///< the controller's own, of the echo; 0: none
 };
 
 /// Everything that the checks judge, apart from the truth.
@@ -143,6 +146,7 @@ struct Observations {
   std::uint16_t queue_max_us = 0;       ///< largest of TargetTiming; saturates at 8191
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
+  BusRecord bus;
 };
 
 }  // namespace canhil::checks

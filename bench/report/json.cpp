@@ -66,6 +66,49 @@ Json object(const AlignmentSummary& summary) {
   return json;
 }
 
+Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
+  const BusErrors& errors = bus.errors;
+  Json json{{"error_frames", errors.frames},
+            {"bus_off", errors.bus_off},
+            {"restarted", errors.restarted},
+            {"error_passive", errors.passive},
+            {"error_warning", errors.warning},
+            {"error_active", errors.active},
+            {"no_ack", errors.no_ack},
+            {"lost_arbitration", errors.lost_arbitration},
+            {"tx_timeout", errors.tx_timeout},
+            {"protocol", errors.protocol},
+            {"bus_error", errors.bus_error},
+            {"controller_rx_overflow", errors.rx_overflow},
+            {"controller_tx_overflow", errors.tx_overflow},
+            {"transceiver", errors.transceiver},
+            {"tx_counter_max", errors.tx_counter_max},
+            {"rx_counter_max", errors.rx_counter_max},
+            {"interface_down", bus.downs},
+            {"late_in_queue", bus.late_in_queue},
+            {"incidents", Json::array()},
+            {"more_incidents", bus.more_incidents}};
+  for (const checks::BusIncident& incident : bus.incidents) {
+    json["incidents"].push_back({{"t_s", static_cast<double>(incident.t_ns - first_ns) * 1e-9},
+                                 {"event", name(incident.event)},
+                                 {"tx_counter", incident.tx_counter},
+                                 {"rx_counter", incident.rx_counter}});
+  }
+  return json;
+}
+
+Json object(const realtime::Standing& host, std::int64_t spin_ns) {
+  return {{"policy", host.policy},
+          {"priority", host.priority},
+          {"cpus", host.cpus},
+          {"locked_kib", host.locked_kib},
+          {"timer_slack_ns", host.timer_slack_ns},
+          {"no_deep_sleep", host.awake},
+          {"governors", host.governors},
+          {"preemption", host.preemption},
+          {"spin_us", spin_ns / 1000}};
+}
+
 }  // namespace
 
 std::string json(const scenario::Scenario& scenario, const run::Run& run) {
@@ -83,6 +126,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                         {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
                         {"latency_stamps", summary.stamp_source},
                         {"period_overrides", period_overrides(scenario)}};
+  if (run.host) page["provenance"]["bench_process"] = object(*run.host, run.options.spin_ns);
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
   page["ending"] = {{"completed", run.ending.kind == run::Ending::Kind::completed},
@@ -126,6 +170,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                          {"frames_lost", run.seen.target_frames_lost},
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};
+  page["bus"] = object(run.seen.bus, run.seen.first_ns);
   // File and bus names need not be UTF-8.
   return page.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

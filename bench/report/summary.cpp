@@ -136,10 +136,11 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   std::vector<double> lateness(run.seen.lateness_ns.begin(), run.seen.lateness_ns.end());
   for (double& late : lateness) late *= 1e-9;
   summary.lateness_s = checks::distribution(std::move(lateness));
-  summary.stamp_source = run.options.clock == run::ClockKind::lockstep ? "virtual time"
-                         : run.seen.transmit_stamps_echoed
-                             ? "bus stamps of stimulus and answer"
-                             : "bench's stamp of the stimulus, bus stamp of the answer";
+  summary.stamp_source =
+      run.options.clock == run::ClockKind::lockstep ? "virtual time"
+      : checks::stamped_by_hardware(run.seen) ? "the controller's hardware stamps of stimulus and answer"
+      : run.seen.transmit_stamps_echoed       ? "bus stamps of stimulus and answer"
+                                              : "bench's stamp of the stimulus, bus stamp of the answer";
   return summary;
 }
 

@@ -90,6 +90,25 @@ std::string words(const WindSummary& wind) {
   return lines + '\n';
 }
 
+// When, by the bench's first transmission; in the units of the events' own words.
+std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
+  constexpr std::size_t shown = 20;
+  std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
+  auto out = std::back_inserter(lines);
+  if (const std::string said = canhil::words(bus.errors); !said.empty()) fmt::format_to(out, " ({})", said);
+  fmt::format_to(out, "; interface down {} times; late in transmit queue {} frames\n", bus.downs,
+                 bus.late_in_queue);
+  for (const checks::BusIncident& incident : bus.incidents) {
+    if (&incident == bus.incidents.data() + shown) break;
+    fmt::format_to(out, "    t={:.3f} s  {} (tx {}, rx {})\n",
+                   static_cast<double>(incident.t_ns - first_ns) * 1e-9, name(incident.event),
+                   incident.tx_counter, incident.rx_counter);
+  }
+  const std::size_t more = bus.incidents.size() + bus.more_incidents;
+  if (more > shown) fmt::format_to(out, "    and {} more\n", more - shown);
+  return lines;
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
@@ -102,6 +121,10 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                  run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time",
                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
+  if (run.host) {
+    fmt::format_to(out, "  bench {}{}\n", realtime::words(*run.host),
+                   run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
+  }
   for (const std::string& line : period_overrides(scenario)) fmt::format_to(out, "  {}\n", line);
   page += '\n';
 
@@ -148,6 +171,8 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                              counters->bad_crc, counters->bad_group, counters->late)
                : "unknown",
       run.seen.target_frames_lost, run.seen.target_bad_crc, run.seen.receive_overflows);
+
+  page += words(run.seen.bus, run.seen.first_ns);
 
   fmt::format_to(out, "\n{}: {}\n", checks::name(run.verdict.outcome), run.verdict.reason);
   return page;

@@ -97,7 +97,9 @@ void Monitor::echoed(const Received& received) {
   const auto found = std::find_if(
       stimuli.rbegin(), stimuli.rend(),
       [valid_us = unwrap_us(closed.valid_us, now_us_)](const auto& s) { return s.valid_us == valid_us; });
-  if (found != stimuli.rend()) found->t_ns = received.t_ns;
+  if (found == stimuli.rend()) return;
+  found->t_ns = received.t_ns;
+  found->hardware_ns = received.hardware_ns;
 }
 
 void Monitor::received(const Received& received) {
@@ -122,7 +124,7 @@ void Monitor::received(const Received& received) {
     case e2e::Check::ok:
       break;
   }
-  seen_.arrivals[index].push_back({.t_ns = received.t_ns});
+  seen_.arrivals[index].push_back({.t_ns = received.t_ns, .hardware_ns = received.hardware_ns});
   decode(frame, index);
 }
 

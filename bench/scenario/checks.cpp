@@ -136,6 +136,16 @@ Counters read(Section& section, const Context& /*context*/, Counters rule) {
   return rule;
 }
 
+BusErrorLimits read(Section& section, const Context& /*context*/, BusErrorLimits rule) {
+  rule = {.bus_off_at_most = section.optional_integer("bus_off_at_most", 0).value_or(0),
+          .down_at_most = section.optional_integer("down_at_most", 0).value_or(0),
+          .passive_at_most = section.optional_integer("passive_at_most", 0),
+          .warning_at_most = section.optional_integer("warning_at_most", 0),
+          .error_frames_at_most = section.optional_integer("error_frames_at_most", 0),
+          .late_in_queue_at_most = section.optional_integer("late_in_queue_at_most", 0)};
+  return rule;
+}
+
 Heartbeat read(Section& section, const Context& /*context*/, Heartbeat rule) {
   rule.silent_at_most_us = section.time_us("silent_at_most_s", Limits::above(0));
   return rule;
@@ -269,6 +279,7 @@ std::string subject(const Consistency& rule) { return fmt::format(" {}", name(ru
 std::string subject(const OutputPeriod& rule) { return fmt::format(" {}", rule.message); }
 std::string subject(const Latency& rule) { return fmt::format(" {}", rule.message); }
 std::string subject(const Counters& /*rule*/) { return {}; }
+std::string subject(const BusErrorLimits& /*rule*/) { return {}; }
 std::string subject(const Heartbeat& /*rule*/) { return {}; }
 std::string subject(const PositionError& rule) { return fmt::format(" {}", name(rule.axis)); }
 std::string subject(const Fixes& /*rule*/) { return {}; }

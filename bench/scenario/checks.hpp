@@ -197,6 +197,18 @@ struct BusLoad {
   double below = 0;               ///< share: 0.5 is 50 %
 };
 
+/// What went wrong on the bus itself. Absent: not judged; without such a check a bus-off or an outage fails
+/// every run.
+struct BusErrorLimits {
+  static constexpr std::string_view kind = "bus_errors";
+  std::int64_t bus_off_at_most = 0;
+  std::int64_t down_at_most = 0;  ///< of the bench's interface
+  std::optional<std::int64_t> passive_at_most;
+  std::optional<std::int64_t> warning_at_most;
+  std::optional<std::int64_t> error_frames_at_most;
+  std::optional<std::int64_t> late_in_queue_at_most;  ///< frames of the bench
+};
+
 struct Check {
   std::string
       name;  ///< unique in the scenario; by default kind and what it looks at: "attitude_error heading"
@@ -204,7 +216,7 @@ struct Check {
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
                Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers,
-               BusLoad>
+               BusLoad, BusErrorLimits>
       rule;
 };
 
