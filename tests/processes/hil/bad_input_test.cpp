@@ -66,13 +66,14 @@ TEST(BadInput, AMisspeltParameterIsOneOfItsEstimator) {
   const std::string table = "[target.parameters]\n";
   const auto at = text.find(table);
   if (at == std::string::npos) {
-    text += "\n" + table + "rate_sigma_degph = 1\n";
+    text += "\n" + table + "gyro_rate_sigma_degph = 1\n";
   } else {
-    text.insert(at + table.size(), "rate_sigma_degph = 1\n");
+    text.insert(at + table.size(), "gyro_rate_sigma_degph = 1\n");
   }
   std::ofstream(scratch("misspelt.toml")) << text;
-  expect_one_line(hil_bench(fmt::format("run {} --bus in-process", scratch("misspelt.toml"))),
-                  "key 'target.parameters.rate_sigma_degph': is unknown, expected 'glider_rate_sigma_degps'");
+  expect_one_line(
+      hil_bench(fmt::format("run {} --bus in-process", scratch("misspelt.toml"))),
+      "key 'target.parameters.gyro_rate_sigma_degph': is unknown, expected 'glider_rate_sigma_degps'");
 }
 
 TEST(BadInput, ValueThatTheBusCannotCarry) {
