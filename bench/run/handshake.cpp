@@ -7,6 +7,7 @@
 
 #include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
+#include "target/device/device.hpp"
 
 namespace canhil::run {
 namespace {
@@ -120,14 +121,23 @@ TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
   return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
 }
 
+// What hil-target takes; another target may take something else.
+std::string range_of(Estimator estimator, Parameter parameter) {
+  const auto range = target::Device().range(estimator, parameter);
+  if (!range) return "a value in its range";
+  return fmt::format("a {}number from {:g} to {:g}", range->whole ? "whole " : "", range->minimum,
+                     range->maximum);
+}
+
 // Why, what was expected, and what becomes of the old value.
-std::string refusal(const ParamAck& ack) {
+std::string refusal(const ParamAck& ack, Estimator estimator) {
   const auto in_force = static_cast<double>(ack.value);
   switch (ack.status) {
     case ParameterStatus::out_of_range:
-      return fmt::format("out_of_range, expected a value in its range; {:g} stays in force", in_force);
+      return fmt::format("out_of_range, expected {}; {:g} stays in force", range_of(estimator, ack.parameter),
+                         in_force);
     case ParameterStatus::unknown:
-      return "unknown, expected a parameter of the estimator in use";
+      return fmt::format("unknown, expected a parameter of {}", name_of(estimator));
     case ParameterStatus::wrong_state:
       return fmt::format("wrong_state, expected to be set before the start; {:g} stays in force", in_force);
     case ParameterStatus::accepted:
@@ -136,7 +146,7 @@ std::string refusal(const ParamAck& ack) {
   return fmt::format("status {}, which is none of the DBC's", static_cast<int>(ack.status));
 }
 
-Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted) {
+Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenario::Parameter& wanted) {
   const auto parameter = from_name<Parameter>(wanted.name);
   if (!parameter) return failure(fmt::format("{}: not in the DBC", wanted.where));
   const auto value = static_cast<float>(wanted.value);
@@ -151,7 +161,7 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
   const ParamAck& ack = *dialogue.mailbox().acknowledgement;
   if (ack.status != ParameterStatus::accepted) {
     return failure(fmt::format("{}: {:g} was sent and refused by the target: {}", wanted.where,
-                               static_cast<double>(value), refusal(ack)));
+                               static_cast<double>(value), refusal(ack, estimator)));
   }
   // Read-back: the value in force is the one sent, up to the rounding of a conversion of units in the target.
   if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
@@ -210,7 +220,7 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
         selection == Command::add ? " beside others" : "", errors_of(*dialogue.mailbox().heartbeat)));
   }
   for (const scenario::Parameter& parameter : setup.parameters) {
-    if (auto set = set_parameter(dialogue, parameter); !set) return set;
+    if (auto set = set_parameter(dialogue, *estimator, parameter); !set) return set;
   }
   return dialogue.until(
       "taking its initial state", answer_limit_ns,

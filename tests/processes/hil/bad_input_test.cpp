@@ -57,7 +57,23 @@ TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
       hil_bench(fmt::format("run {} --bus {}", file, bus())),
       file +
           ":13: key 'target.parameters.h2_case': 7 was sent and refused by the target: out_of_range, "
-          "expected a value in its range; 2 stays in force");
+          "expected a whole number from 1 to 4; 2 stays in force");
+}
+
+TEST(BadInput, AMisspeltParameterIsOneOfItsEstimator) {
+  // Of all parameters gyro_bias_sigma_degph of the alignments would be the nearest.
+  std::string text = read(scenario("wind_quick"));
+  const std::string table = "[target.parameters]\n";
+  const auto at = text.find(table);
+  if (at == std::string::npos) {
+    text += "\n" + table + "gyro_rate_sigma_degph = 1\n";
+  } else {
+    text.insert(at + table.size(), "gyro_rate_sigma_degph = 1\n");
+  }
+  std::ofstream(scratch("misspelt.toml")) << text;
+  expect_one_line(
+      hil_bench(fmt::format("run {} --bus in-process", scratch("misspelt.toml"))),
+      "key 'target.parameters.gyro_rate_sigma_degph': is unknown, expected 'glider_rate_sigma_degps'");
 }
 
 TEST(BadInput, ValueThatTheBusCannotCarry) {

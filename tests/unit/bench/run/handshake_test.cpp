@@ -128,9 +128,9 @@ TEST_F(Handshake, SaysWhereAParameterStandsThatTheTargetRefusesAndWhy) {
   };
   const std::string sent = "my.toml:9: key 'h2_case': 2 was sent and refused by the target: ";
   EXPECT_EQ(refused_with(ParameterStatus::out_of_range),
-            sent + "out_of_range, expected a value in its range; 2 stays in force");
+            sent + "out_of_range, expected a whole number from 1 to 4; 2 stays in force");
   EXPECT_EQ(refused_with(ParameterStatus::unknown),
-            sent + "unknown, expected a parameter of the estimator in use");
+            sent + "unknown, expected a parameter of transfer_alignment");
   EXPECT_EQ(refused_with(ParameterStatus::wrong_state),
             sent + "wrong_state, expected to be set before the start; 2 stays in force");
   EXPECT_EQ(refused_with(static_cast<ParameterStatus>(9)), sent + "status 9, which is none of the DBC's");
