@@ -52,7 +52,7 @@ for name in out err status; do
 done
 limit=${CANHIL_CONTROLLER_TIMEOUT_S:-600}
 setsid timeout -k 5 "$limit" qemu-system-x86_64 -nodefaults -no-user-config -display none -no-reboot \
-  -machine pc,accel=tcg -m 1024 -smp 1 ${CANHIL_CONTROLLER_QEMU:-} \
+  -machine pc,accel=tcg -m 1024 -smp 1 -icount shift=1 \
   -kernel "$kernel/vmlinuz" -initrd "$dir/initramfs.gz" -append "console=ttyS0 quiet loglevel=3 panic=-1 mitigations=off" \
   -serial "file:$dir/console" -virtfs local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap \
   -object can-bus,id=canbus0 -device kvaser_pci,canbus=canbus0 -device kvaser_pci,canbus=canbus0 \
