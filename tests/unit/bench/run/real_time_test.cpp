@@ -74,6 +74,7 @@ class Trouble : public RealTime {
         port_.trouble = trouble;
         port_.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + silence_limit_ns * 3 / 2;
         begin();
+        return;
       }
       port_.give(TargetHeartbeat{.state = TargetState::running});
     };
@@ -88,7 +89,6 @@ TEST_F(Trouble, AnInterfaceThatComesBackIsWaitedFor) {
 
 TEST_F(Trouble, ABusOffIsWaitedForToo) {
   const Ending ending = run_with(SendOutcome::queue_full, [&] {
-    port_.on_send = nullptr;
     port_.give(Frame{.id = CAN_ERR_BUSOFF, .size = 8, .error = true});
   });
   EXPECT_EQ(ending.kind, Ending::Kind::completed) << ending.detail;
