@@ -18,6 +18,7 @@
 #include "dbc/ports/can_interface.hpp"
 #include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/frame_rules.hpp"
+#include "dbc/ports/receive_batch.hpp"
 
 namespace canhil {
 namespace {
@@ -115,24 +116,11 @@ class SocketCan final : public Port {
   }
 
   std::optional<Received> receive() override {
-    if (!up_) is_back();
-    canfd_frame raw{};
-    iovec part{.iov_base = &raw, .iov_len = sizeof raw};
-    alignas(cmsghdr) std::array<char, 256> control;
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = control.data();
-    message.msg_controllen = control.size();
-    const ssize_t bytes = ::recvmsg(socket_.get(), &message, 0);
-    if (bytes < 0) {
-      note_outage(errno);
-      return std::nullopt;
-    }
-    if (bytes != CAN_MTU && bytes != CANFD_MTU) return std::nullopt;
-    Received received{.frame = from_kernel(raw, bytes == CANFD_MTU),
-                      .own = (message.msg_flags & MSG_CONFIRM) != 0};
-    take(read_ancillary(message), received);
+    if (batch_.empty() && !fetch()) return std::nullopt;
+    const ReceiveBatch::Item item = batch_.take();
+    Received received{.frame = from_kernel(item.frame, item.fd), .own = item.own};
+    stamp(received, item.ancillary);
+    if (item.ancillary.lost) add_lost(*item.ancillary.lost, counters_);
     ++counters_.received;
     if (received.frame.error) ++counters_.error_frames;
     return received;
@@ -157,6 +145,18 @@ class SocketCan final : public Port {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
+  bool fetch() {
+    if (!up_) is_back();
+    if (took_all_) {  // saves a call that finds nothing: what came since, wait() sees
+      took_all_ = false;
+      return false;
+    }
+    const bool any = batch_.fetch(socket_.get());
+    if (!any) note_outage(errno);
+    took_all_ = any && batch_.took_all();
+    return any;
+  }
+
   SendOutcome send_failure(int error) {
     switch (error) {
       case ENOBUFS:
@@ -204,8 +204,7 @@ class SocketCan final : public Port {
     counters.overflowed += lost - static_cast<std::uint32_t>(counters.overflowed);
   }
 
-  void take(const Ancillary& said, Received& received) {
-    if (said.lost) add_lost(*said.lost, counters_);
+  static void stamp(Received& received, const Ancillary& said) {
     received.t_ns = said.software_ns;
     received.hardware_ns = said.hardware_ns;
     received.source = said.hardware_ns != 0 ? StampSource::hardware : StampSource::kernel;
@@ -222,6 +221,8 @@ class SocketCan final : public Port {
   bool up_ = true;
   std::int64_t look_ns_ = 0;  // when to look for an interface that is away
   bool interface_queue_full_ = false;
+  ReceiveBatch batch_;
+  bool took_all_ = false;  // the queue was empty after the last frame that receive() gave
   PortCounters counters_;
 };
 

@@ -44,7 +44,7 @@ def stop(process):
 def round_trips(ping, echo):
     """Times [us] of TRIPS round trips."""
     answering = start(echo, stdout=subprocess.DEVNULL)
-    done = subprocess.run(ping, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, check=True, text=True)
+    done = subprocess.run(ping, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, check=True, text=True, timeout=120)
     stop(answering)
     return [int(line) / 1000 for line in done.stdout.split()]
 
@@ -53,7 +53,7 @@ def chain_s(send, receive):
     """Time from the start of the sender to the end of the receiver, and how many frames the receiver missed or mixed up."""
     receiving = start(receive, stdout=subprocess.PIPE, text=True)
     begin = time.monotonic()
-    subprocess.run(send, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=True)
+    subprocess.run(send, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=True, timeout=120)
     out, _ = receiving.communicate(timeout=120)
     took = time.monotonic() - begin
     if receiving.returncode != 0:
