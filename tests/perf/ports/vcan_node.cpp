@@ -1,11 +1,13 @@
 // One end of a measurement on a CAN interface, by the port or by a bare raw socket; vcan.py plays several
 // against can-utils and python-can.
 //   vcan_node ROLE port|raw INTERFACE COUNT
-//   ping: COUNT round trips, one at a time, to somebody who answers each frame; prints their times in ns, one
-//   a line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send: COUNT numbered frames as
-//   fast as they go. receive: COUNT frames; prints how many of them were lost or out of order.
+//   ping: for each line on stdin COUNT round trips, one at a time, to somebody who answers each frame; prints
+//   their times in ns on a line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send:
+//   COUNT numbered frames as fast as they go. receive: COUNT frames; prints how many were lost or out of
+//   order.
 // Waits without limit: vcan.py sees to that.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
@@ -13,6 +15,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -111,15 +114,17 @@ class RawLine final : public Line {
 };
 
 void play_ping(Line& line, std::uint64_t count) {
-  std::vector<std::int64_t> times_ns;
-  times_ns.reserve(count);
-  for (std::uint64_t n = 0; n < count; ++n) {
-    const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
-    line.send(ping_id, n);
-    line.receive(echo_id);
-    times_ns.push_back(clock_ns(CLOCK_MONOTONIC) - start_ns);
+  std::vector<std::int64_t> times_ns(count);
+  while (std::getchar() != EOF) {
+    for (std::uint64_t n = 0; n < count; ++n) {
+      const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
+      line.send(ping_id, n);
+      line.receive(echo_id);
+      times_ns[n] = clock_ns(CLOCK_MONOTONIC) - start_ns;
+    }
+    fmt::print("{}\n", fmt::join(times_ns, " "));
+    std::fflush(stdout);
   }
-  for (const std::int64_t time_ns : times_ns) fmt::print("{}\n", time_ns);
 }
 
 void play_echo(Line& line, std::uint64_t count) {
