@@ -21,9 +21,9 @@ ReceiveBatch::Item ReceiveBatch::take() {
           .ancillary = read_ancillary(message.msg_hdr)};
 }
 
-bool ReceiveBatch::fetch(int socket) {
+bool ReceiveBatch::fetch(int socket, int flags) {
   for (std::size_t i = 0; i < count_; ++i) messages_[i].msg_hdr.msg_controllen = control_bytes;
-  const int count = ::recvmmsg(socket, messages_.data(), capacity, MSG_DONTWAIT, nullptr);
+  const int count = ::recvmmsg(socket, messages_.data(), capacity, flags, nullptr);
   next_ = 0;
   count_ = count > 0 ? static_cast<std::size_t>(count) : 0;
   return count > 0;

@@ -29,8 +29,10 @@ class ReceiveBatch {
   [[nodiscard]] bool empty() const { return next_ == count_; }
   /// The next frame, of one that is not empty; valid until fetch().
   Item take();
-  /// Takes all that waits, up to the capacity, without blocking. False: nothing came, errno says why.
-  bool fetch(int socket);
+  /// Takes all that waits, up to the capacity. False: nothing came, errno says why. `flags` as for
+  /// recvmmsg(): MSG_DONTWAIT, or MSG_WAITFORONE to wait for the first frame as long as the socket's
+  /// SO_RCVTIMEO.
+  bool fetch(int socket, int flags);
   /// True if the last fetch() left nothing behind.
   [[nodiscard]] bool took_all() const { return count_ < capacity; }
 
