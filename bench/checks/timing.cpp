@@ -137,7 +137,8 @@ double nominal_period_s(const Observations& seen, std::string_view message) {
   const double span_us = static_cast<double>(stimuli.back().valid_us - stimuli.front().valid_us);
   const double stimulus_s = span_us / static_cast<double>(stimuli.size() - 1) * 1e-6;
   // Navigation answers keep an interval of their own where the IMU is faster.
-  const bool navigation = info->sample_group == messages::AlignVelocityD::info.sample_group;
+  const bool navigation = info->sample_group == messages::AlignVelocityD::info.sample_group ||
+                          info->sample_group == messages::FixVelocityD::info.sample_group;
   return navigation ? std::max(cycle_s, stimulus_s) : stimulus_s;
 }
 

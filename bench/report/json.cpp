@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/report/summary.hpp"
 
 namespace canhil::report {
@@ -43,6 +44,28 @@ Json object(const WindSummary& wind) {
   return json;
 }
 
+Json object(const AlignmentSummary& summary) {
+  Json json{{"estimator", name(summary.estimator)}, {"heading_convergence", Json::array()}};
+  for (const BandEntry& entry : summary.heading_entries) {
+    json["heading_convergence"].push_back({{"within_mrad", entry.within_rad / world::units::mrad},
+                                           {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
+  }
+  if (summary.final_error_rad) {
+    json["final_error"] = {{"roll_rad", summary.final_error_rad->roll},
+                           {"pitch_rad", summary.final_error_rad->pitch},
+                           {"heading_rad", summary.final_error_rad->heading},
+                           {"velocity_mps", summary.final_velocity_error_mps}};
+  }
+  if (summary.fixes) {
+    json["fixes"] = {
+        {"repairs", summary.fixes->repairs},
+        {"resolved_s", summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr)},
+        {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
+    for (const auto& [outcome, count] : summary.fixes->outcomes) json["fixes"]["outcomes"][outcome] = count;
+  }
+  return json;
+}
+
 Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
   const BusErrors& errors = bus.errors;
   Json json{{"error_frames", errors.frames},
@@ -74,10 +97,22 @@ Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
   return json;
 }
 
+Json object(const realtime::Standing& host, std::int64_t spin_ns) {
+  return {{"policy", host.policy},
+          {"priority", host.priority},
+          {"cpus", host.cpus},
+          {"locked_kib", host.locked_kib},
+          {"timer_slack_ns", host.timer_slack_ns},
+          {"no_deep_sleep", host.awake},
+          {"governors", host.governors},
+          {"preemption", host.preemption},
+          {"spin_us", spin_ns / 1000}};
+}
+
 }  // namespace
 
 std::string json(const scenario::Scenario& scenario, const run::Run& run) {
-  const Summary summary = summarise(run);
+  const Summary summary = summarise(scenario, run);
   Json page;
   page["title"] = scenario.title;
   page["verdict"] = checks::name(run.verdict.outcome);
@@ -91,6 +126,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                         {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
                         {"latency_stamps", summary.stamp_source},
                         {"period_overrides", period_overrides(scenario)}};
+  if (run.host) page["provenance"]["bench_process"] = object(*run.host, run.options.spin_ns);
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
   page["ending"] = {{"completed", run.ending.kind == run::Ending::Kind::completed},
@@ -105,24 +141,8 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                               {"measured", check.measured},
                               {"expected", check.expected}});
   }
-  page["heading_convergence"] = Json::array();
-  for (const BandEntry& entry : summary.heading_entries) {
-    page["heading_convergence"].push_back({{"within_mrad", entry.within_rad / world::units::mrad},
-                                           {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
-  }
-  if (summary.final_error_rad) {
-    page["final_error"] = {{"roll_rad", summary.final_error_rad->roll},
-                           {"pitch_rad", summary.final_error_rad->pitch},
-                           {"heading_rad", summary.final_error_rad->heading},
-                           {"velocity_mps", summary.final_velocity_error_mps}};
-  }
-  if (summary.fixes) {
-    page["fixes"] = {
-        {"repairs", summary.fixes->repairs},
-        {"resolved_s", summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr)},
-        {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
-    for (const auto& [outcome, count] : summary.fixes->outcomes) page["fixes"]["outcomes"][outcome] = count;
-  }
+  for (const AlignmentSummary& alignment : summary.alignments)
+    page["alignments"].push_back(object(alignment));
   if (summary.engagement) page["engagement"] = object(*summary.engagement);
   if (summary.wind) page["wind"] = object(*summary.wind);
   if (run.options.clock == run::ClockKind::real_time) {
@@ -137,6 +157,11 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                                {"bad_crc", run.seen.counters->bad_crc},
                                {"bad_group", run.seen.counters->bad_group},
                                {"late", run.seen.counters->late}};
+  }
+  for (const std::int64_t bitrate : {500'000, 1'000'000}) {
+    const checks::BusLoad load = checks::bus_load(run.seen, {.nominal = bitrate});
+    page["bus_load"].push_back(
+        {{"bitrate_bitps", bitrate}, {"mean", load.mean}, {"busiest_second", load.busiest}});
   }
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "bench/run/bus_watch.hpp"
-#include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
@@ -32,9 +31,7 @@ class TargetWatch final : public Observer {
   void received(const Received& received) override {
     if (received.own || target_messages(received.frame) == Routes::nowhere) return;
     heard_ns_ = now_ns();
-    if (const auto beat = heard<messages::TargetHeartbeat>(received)) {
-      if (beat->state == messages::TargetState::fault) fault_ = beat;
-    }
+    if (const auto beat = fault_in(received)) fault_ = beat;
   }
   [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
   /// The heartbeat that said so.
@@ -48,7 +45,7 @@ class TargetWatch final : public Observer {
 }  // namespace
 
 Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
-                     const std::atomic<bool>& stop, const Progress& progress) {
+                     const std::atomic<bool>& stop, const Progress& progress, std::int64_t spin_ns) {
   const std::int64_t start_ns = now_ns() + lead_ns;
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
   TargetWatch watch(start_ns);
@@ -79,7 +76,8 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), fault_of(*watch.fault())};
       if (now > excused_until_ns()) return silent();
       if (now >= deadline_ns) return std::nullopt;
-      link.wait_until(std::min(deadline_ns, excused_until_ns() + 1));
+      if (now < deadline_ns - spin_ns)
+        link.wait_until(std::min(deadline_ns - spin_ns, excused_until_ns() + 1));
     }
   };
 

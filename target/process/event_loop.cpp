@@ -100,8 +100,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
       // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the
       // device's frames are to be those of a replay. A target that a bench has left behind speaks up again
       // for the next one.
-      const std::int64_t patience_ns =
-          device.state() == messages::TargetState::running ? bench_gone_ns : bench_silent_ns;
+      const std::int64_t patience_ns = device.running() ? bench_gone_ns : bench_silent_ns;
       if (now - bench_ns >= patience_ns) {
         send(port, device.idle_heartbeat(), notes);
       } else if (!device.lockstep()) {

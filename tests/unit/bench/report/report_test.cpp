@@ -41,6 +41,7 @@ run::Run run_of() {
           .seen = {},
           .truth = {{.start = {}, .motion = world::Rest{}}, 1'000'000, 10'000},
           .options = {},
+          .host = {},
           .wall_s = 1.5};
 }
 
@@ -106,22 +107,24 @@ TEST(Reports, NameAPeriodThatIsNotTheDbcs) {
 
 TEST(Reports, TellWhatBecameOfFixes) {
   run::Run run = run_of();
-  EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("fixes")));
+  scenario::Scenario scenario = scenario_of();
+  scenario.targets = {
+      {.estimator = "inflight_alignment", .algorithm = "ekf", .initial_sigma = {}, .parameters = {}}};
+  EXPECT_THAT(text(scenario, run), Not(HasSubstr("fixes")));
   checks::FixAnswer fix{.cause_us = 100'000};
   fix.heading_sigma = 0.01;
   run.seen.fixes = {fix, fix, fix};
-  EXPECT_THAT(text(scenario_of(), run),
+  EXPECT_THAT(text(scenario, run),
               HasSubstr("accepted 3; repairs 0; heading not resolved, sigma 0.573 deg at the end"));
   run.seen.fixes[1].outcome = messages::FixOutcome::gated;
   run.seen.fixes[1].cause_us = 200'000;
   run.seen.fixes[1].handed_over = run.seen.fixes[2].handed_over = true;
   run.seen.fixes[2].repairs = 4;
-  EXPECT_THAT(text(scenario_of(), run),
-              HasSubstr("accepted 2, gated 1; repairs 4; heading resolved at 0.2 s"));
-  const auto page = nlohmann::json::parse(json(scenario_of(), run));
-  EXPECT_EQ(page["fixes"]["outcomes"]["gated"], 1);
-  EXPECT_EQ(page["fixes"]["resolved_s"], 0.2);
-  EXPECT_EQ(page["fixes"]["repairs"], 4);
+  EXPECT_THAT(text(scenario, run), HasSubstr("accepted 2, gated 1; repairs 4; heading resolved at 0.2 s"));
+  const auto page = nlohmann::json::parse(json(scenario, run));
+  EXPECT_EQ(page["alignments"][0]["fixes"]["outcomes"]["gated"], 1);
+  EXPECT_EQ(page["alignments"][0]["fixes"]["resolved_s"], 0.2);
+  EXPECT_EQ(page["alignments"][0]["fixes"]["repairs"], 4);
 }
 
 TEST(Reports, TellWhatTheBusDid) {

@@ -12,7 +12,7 @@
 namespace canhil::run {
 
 /// Every frame sent is shown to `on_send`, which may call give(). Stamps are 0; waiting is sleeping.
-class FakePort final : public Port {
+class FakePort : public Port {
  public:
   SendOutcome send(const Frame& frame) override {
     if (outcome != SendOutcome::sent) return outcome;

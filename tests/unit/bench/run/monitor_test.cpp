@@ -40,6 +40,11 @@ class Watched : public testing::Test {
     receive(AlignVelocityNE{.velocity_north_mps = 1, .velocity_east_mps = 2}, t_ns);
     receive(AlignVelocityD{.velocity_down_mps = 3, .cause_time_us = wrap_us(cause_us)}, t_ns);
   }
+  void answer_in_flight(std::int64_t cause_us, std::int64_t t_ns = 0) {
+    receive(FixAttitude{.heading_deg = 42}, t_ns);
+    receive(FixVelocityNE{.velocity_north_mps = 4, .velocity_east_mps = 5}, t_ns);
+    receive(FixVelocityD{.velocity_down_mps = 6, .cause_time_us = wrap_us(cause_us)}, t_ns);
+  }
   void answer_filter(std::int64_t cause_us) {
     receive(AlignInnovation{.innovation_down_mps = 0.5});
     receive(AlignAttitudeSigma{.attitude_sigma_east_rad = 0.01});
@@ -146,8 +151,19 @@ TEST_F(Watched, AFilterGroupIsOneAnswerThatKnowsTheNavigationBeforeIt) {
   EXPECT_NEAR(seen().filter[0].gyro_bias.x(), 1.7453293e-5, 1e-12);
 }
 
-TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
+TEST_F(Watched, TheTwoAlignmentsAreKeptApart) {
   answer(100'000);
+  answer_in_flight(100'000);
+  answer_in_flight(200'000);
+  EXPECT_EQ(seen().navigation.size(), 1U);
+  ASSERT_EQ(seen().fix_navigation.size(), 2U);
+  EXPECT_NEAR(seen().fix_navigation[1].angles.heading, 0.7330383, 1e-6);
+  EXPECT_TRUE(seen().fix_navigation[1].v_eb_n.isApprox(world::Vector3(4, 5, 6), 1e-12));
+  EXPECT_EQ(seen().fix_navigation[1].cause_us, 200'000);
+}
+
+TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
+  answer_in_flight(100'000);
   answer_fix(60'000, FixSource::gps);
   ASSERT_EQ(seen().fixes.size(), 1U);
   const checks::FixAnswer& fix = seen().fixes[0];
@@ -240,7 +256,7 @@ TEST_F(Watched, TheControllersStampsAreKept) {
 TEST_F(Watched, AnEchoIsNoAnswer) {
   echo(next(target_, AlignVelocityD{}), 0);
   echo(next(target_, TargetHeartbeat{}), 0);
-  EXPECT_FALSE(seen().heartbeat);
+  EXPECT_THAT(seen().arrivals[message_index<TargetHeartbeat>()], IsEmpty());
   EXPECT_THAT(seen().arrivals[message_index<AlignVelocityD>()], IsEmpty());
 }
 
@@ -279,7 +295,7 @@ TEST_F(Watched, ABrokenFrameIsCountedAndNotUsed) {
   frame.size = 3;
   monitor_.received({.frame = frame});
   EXPECT_EQ(seen().target_bad_crc, 2U);
-  EXPECT_FALSE(seen().heartbeat);
+  EXPECT_THAT(seen().arrivals[message_index<TargetHeartbeat>()], IsEmpty());
 }
 
 TEST_F(Watched, ARepeatedFrameIsNotUsed) {

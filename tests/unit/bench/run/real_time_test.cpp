@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <linux/can/error.h>
+#include <unistd.h>
+
+#include <array>
 
 #include "bench/nodes/time_keeper.hpp"
 #include "tests/unit/bench/run/fake_port.hpp"
@@ -29,6 +32,43 @@ class RealTime : public testing::Test {
 TEST_F(RealTime, SendsTheWholeSchedule) {
   EXPECT_EQ(run(patient_ns).kind, Ending::Kind::completed);
   EXPECT_EQ(port_.sent.size(), 6U);
+}
+
+// FakePort has no descriptor: without a spin the link does not sleep either, so a port with one that stays
+// silent.
+class SilentPort final : public FakePort {
+ public:
+  SilentPort() { EXPECT_EQ(::pipe(ends_.data()), 0); }
+  ~SilentPort() override {
+    ::close(ends_[0]);
+    ::close(ends_[1]);
+  }
+  [[nodiscard]] int descriptor() const override { return ends_[0]; }
+  std::optional<Received> receive() override {
+    ++looks;
+    return FakePort::receive();
+  }
+  int looks = 0;
+
+ private:
+  std::array<int, 2> ends_{};
+};
+
+TEST_F(RealTime, LooksAtTheBusAllTheTimeThatItSpins) {
+  const auto looks = [&](std::int64_t spin_ns) {
+    SilentPort port;
+    Link link(port);
+    Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, false));
+    EXPECT_EQ(run_real_time(
+                  link, schedule, patient_ns, stop_, [](std::int64_t) {}, spin_ns)
+                  .kind,
+              Ending::Kind::completed);
+    EXPECT_EQ(port.sent.size(), 6U);
+    return port.looks;
+  };
+  const int asleep = looks(0), spinning = looks(5'000'000);
+  EXPECT_LT(asleep, 50) << "it sleeps up to its deadline";
+  EXPECT_GT(spinning, 10 * asleep);
 }
 
 TEST_F(RealTime, NamesASilentTarget) {
@@ -73,8 +113,7 @@ class Trouble : public RealTime {
       if (port_.sent.size() == 2) {
         port_.trouble = trouble;
         port_.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + silence_limit_ns * 3 / 2;
-        begin();
-        return;
+        return begin();  // the target is not heard any more
       }
       port_.give(TargetHeartbeat{.state = TargetState::running});
     };
