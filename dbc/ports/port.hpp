@@ -69,6 +69,8 @@ class Port {
   /// gives nothing. For room to send see room_wait().
   [[nodiscard]] virtual int descriptor() const = 0;
   [[nodiscard]] virtual RoomWait room_wait() const = 0;
+  /// Waits like wait() for a frame: a port that can take it by the same call does.
+  virtual bool wait_for_frame(std::int64_t deadline_ns);
   /// True once the bus is gone for good (hub closed, log at its end).
   [[nodiscard]] virtual bool closed() const = 0;
   /// False while an interface is down or removed: send() and receive() look for its return, wait() gives them
@@ -93,6 +95,6 @@ constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 
 /// Waits until the port is worth another receive() or send(): true; or until deadline_ns on CLOCK_MONOTONIC,
 /// or a signal came: false. A frame may turn out not to be there: receive() decides.
-bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns);
+bool wait(Port& port, WaitFor what, std::int64_t deadline_ns);
 
 }  // namespace canhil

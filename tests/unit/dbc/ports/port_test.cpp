@@ -82,7 +82,7 @@ class WaitingPort final : public Port {
 };
 
 TEST(Wait, EndsAtItsDeadlineNotBefore) {
-  const WaitingPort port;
+  WaitingPort port;
   const std::int64_t deadline = clock_ns(CLOCK_MONOTONIC) + 3'000'000;
   EXPECT_FALSE(wait(port, WaitFor::frame, deadline));
   EXPECT_GE(clock_ns(CLOCK_MONOTONIC), deadline);
@@ -90,7 +90,7 @@ TEST(Wait, EndsAtItsDeadlineNotBefore) {
 }
 
 TEST(Wait, EndsWithTheDescriptor) {
-  const WaitingPort port;
+  WaitingPort port;
   ::eventfd_write(port.event.get(), 1);
   EXPECT_TRUE(wait(port, WaitFor::frame, no_deadline));
 }
