@@ -8,6 +8,7 @@
 #include <exception>
 #include <string>
 
+#include "dbc/realtime/command_line.hpp"
 #include "messages/canhil.hpp"
 #include "target/device/version.hpp"
 #include "target/process/event_loop.hpp"
@@ -38,6 +39,8 @@ int run(int argc, char** argv) {
   auto* replay_option = app.add_option(
       "--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
   bus_option->excludes(replay_option);
+  canhil::realtime::Options realtime;
+  canhil::realtime::add_options(app, realtime)->excludes(replay_option);
   try {
     app.parse(argc, argv);
     if (bus.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");
@@ -50,6 +53,11 @@ int run(int argc, char** argv) {
   if (!log.empty()) {
     const auto replayed = canhil::target::replay(log, stdout);
     return replayed ? 0 : complain(replayed.error());
+  }
+  if (const auto request = realtime.request()) {
+    if (auto entered = canhil::realtime::enter(*request); !entered) return complain(entered.error());
+    const std::string warning = canhil::realtime::frequency_warning(canhil::realtime::standing());
+    if (!warning.empty()) std::fprintf(stderr, "hil-target: %s\n", warning.c_str());
   }
   std::signal(SIGTERM, request_stop);
   std::signal(SIGINT, request_stop);

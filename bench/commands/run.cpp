@@ -20,12 +20,14 @@
 #include "bench/run/contract.hpp"
 #include "bench/run/session.hpp"
 #include "bench/scenario/nearest.hpp"
+#include "dbc/realtime/command_line.hpp"
 
 namespace canhil::commands {
 namespace {
 
 constexpr std::string_view private_bus = "local:";
 constexpr std::string_view in_process = "in-process";
+constexpr std::size_t heap_bytes = 64 << 20;  // what a run of some minutes records
 
 // As typed.
 struct Arguments {
@@ -34,6 +36,9 @@ struct Arguments {
   std::string target;  // empty: the hil-target beside this program
   bool lockstep = false;
   std::optional<std::uint64_t> seed;
+  realtime::Options realtime;
+  std::optional<int> target_cpu;
+  std::optional<int> spin_us;
   std::string json;
   std::string junit;
   std::string log;
@@ -52,6 +57,15 @@ run::Options options_of(const Arguments& arguments) {
   const bool virtual_time = arguments.lockstep || options.bus == in_process;
   options.clock = virtual_time ? run::ClockKind::lockstep : run::ClockKind::real_time;
   if (!arguments.log.empty()) options.log_path = arguments.log;
+  options.realtime = arguments.realtime.request();
+  if (options.realtime) {
+    options.realtime->heap_bytes = heap_bytes;
+    // Another program inherits policy and priority; ours also locks its memory.
+    if (arguments.target.empty())
+      options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
+  }
+  options.target_cpu = arguments.target_cpu;
+  options.spin_ns = std::int64_t{arguments.spin_us.value_or(0)} * 1000;
   return options;
 }
 
@@ -92,6 +106,14 @@ Result<void> check_bus(const Arguments& arguments) {
   if (arguments.bus == in_process && !arguments.target.empty())
     return failure(
         "--target: with --bus in-process the device is in hil-bench itself, expected only one of the two");
+  if (arguments.bus == in_process && (arguments.realtime.wanted || arguments.spin_us))
+    return failure(
+        "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
+  if (arguments.target_cpu && (arguments.target == "none" || arguments.bus == in_process))
+    return failure("--target-cpu: no target is started here, expected one with --target and a bus");
+  if (arguments.target_cpu) {
+    if (auto known = realtime::check_cpu("--target-cpu", *arguments.target_cpu); !known) return known;
+  }
   static const std::vector<std::string> known{std::string(in_process), std::string(private_bus)};
   const bool names_one = arguments.bus.starts_with(private_bus) || arguments.bus == in_process;
   const std::string meant = scenario::nearest(arguments.bus, known);
@@ -99,6 +121,11 @@ Result<void> check_bus(const Arguments& arguments) {
     return failure(
         fmt::format("--bus '{}': there is no such interface, expected '{}'", arguments.bus, meant));
   return {};
+}
+
+void warn(const run::Run& run) {
+  const std::string warning = realtime::frequency_warning(*run.host);
+  if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
 }
 
 ExitCode execute(const Arguments& arguments) {
@@ -115,6 +142,7 @@ ExitCode execute(const Arguments& arguments) {
     });
   }();
   if (!finished) return complain(finished.error());
+  if (arguments.realtime.wanted) warn(*finished);
   if (auto written = write_reports(arguments, *scenario, *finished); !written)
     return complain(written.error());
   return exit_code(finished->verdict.outcome);
@@ -132,7 +160,14 @@ void add_run(CLI::App& app, int& code) {
   command->add_option(
       "--target", arguments->target,
       "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
-  command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
+  CLI::Option* lockstep =
+      command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
+  realtime::add_options(*command, arguments->realtime)->excludes(lockstep);
+  realtime::add_number(*command, "--target-cpu", arguments->target_cpu, 0, 1023,
+                       "the only CPU of the target that this command starts");
+  realtime::add_number(*command, "--spin-us", arguments->spin_us, 0, 10'000,
+                       "poll for so long before each deadline instead of sleeping up to it")
+      ->excludes(lockstep);
   add_whole_number(*command, "--seed", arguments->seed, "another seed than the scenario's");
   command->add_option("--json", arguments->json,
                       "write the report as JSON to a file; -: to stdout, in place of the text");

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/checks/judge.hpp"
 #include "bench/run/ending.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/real_time.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "dbc/realtime/process.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::run {
@@ -22,8 +24,12 @@ struct Options {
   std::string bus;  ///< "local:NAME", a SocketCAN interface, or "in-process" (lockstep only)
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
   ClockKind clock = ClockKind::real_time;
-  std::optional<std::string> log_path;  ///< candump log of every frame from the first command on
-  std::uint64_t run_index = 0;          ///< of a campaign: selects the random numbers together with the seed
+  std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
+  std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments
+  std::vector<std::string> target_arguments;  ///< besides --bus
+  std::optional<int> target_cpu;              ///< none: those of the bench before it was pinned
+  std::int64_t spin_ns = 0;                   ///< before each deadline the bench polls instead of sleeping
+  std::uint64_t run_index = 0;  ///< of a campaign: selects the random numbers together with the seed
 };
 
 /// A finished run.
@@ -34,7 +40,8 @@ struct Run {
   world::FlightRecord truth;
   OwnTruth own_truth{};
   Options options;
-  double wall_s = 0;  ///< from the start of the estimator to the end
+  std::optional<realtime::Standing> host;  ///< of the bench, in real time
+  double wall_s = 0;                       ///< from the start of the estimator to the end
 };
 
 /// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a

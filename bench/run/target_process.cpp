@@ -9,13 +9,22 @@
 
 #include <utility>
 
+#include "dbc/realtime/process.hpp"
+
 namespace canhil::run {
 
-Result<TargetProcess> TargetProcess::start(const std::string& program, const std::string& bus) {
+Result<TargetProcess> TargetProcess::start(const std::string& program, const std::string& bus,
+                                           const std::vector<std::string>& more,
+                                           const std::vector<int>& cpus) {
   if (access(program.c_str(), X_OK) != 0) {
     return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", program,
                                strerror(errno)));
   }
+  std::vector<std::string> words{program, "--bus", bus};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
   const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid < 0)
@@ -23,7 +32,8 @@ Result<TargetProcess> TargetProcess::start(const std::string& program, const std
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);
-    execl(program.c_str(), program.c_str(), "--bus", bus.c_str(), nullptr);
+    if (!cpus.empty()) realtime::pin(cpus);
+    execv(program.c_str(), arguments.data());
     _exit(127);
   }
   return TargetProcess(pid);

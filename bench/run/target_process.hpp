@@ -4,6 +4,7 @@
 #include <sys/types.h>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dbc/wire/result.hpp"
 
@@ -12,8 +13,11 @@ namespace canhil::run {
 /// A started hil-target; it is terminated with this object, and by the kernel should the bench die.
 class TargetProcess {
  public:
-  /// Starts `program --bus BUS`. Error: the program cannot be started.
-  static Result<TargetProcess> start(const std::string& program, const std::string& bus);
+  /// Starts `program --bus BUS` and what else it is to be told, on the given CPUs (empty: on those of the
+  /// bench). Error: the program cannot be started.
+  static Result<TargetProcess> start(const std::string& program, const std::string& bus,
+                                     const std::vector<std::string>& more = {},
+                                     const std::vector<int>& cpus = {});
 
   TargetProcess(TargetProcess&& other) noexcept;
   TargetProcess& operator=(TargetProcess&& other) noexcept;

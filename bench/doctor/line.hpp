@@ -1,0 +1,40 @@
+// What the doctor finds: one line a subject.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace canhil::doctor {
+
+enum class Grade : std::uint8_t { good, weak, bad };
+
+constexpr std::string_view name(Grade grade) {
+  switch (grade) {
+    case Grade::good:
+      return "good";
+    case Grade::weak:
+      return "weak";
+    case Grade::bad:
+      break;
+  }
+  return "bad";
+}
+
+/// One subject.
+struct Line {
+  Grade grade = Grade::good;
+  std::string subject;
+  std::string found;
+  std::string remedy{};  ///< empty when good
+};
+
+/// The worst of the lines.
+inline Grade worst(const std::vector<Line>& lines) {
+  const auto found = std::ranges::max_element(lines, {}, &Line::grade);
+  return found == lines.end() ? Grade::good : found->grade;
+}
+
+}  // namespace canhil::doctor

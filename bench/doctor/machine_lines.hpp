@@ -1,0 +1,27 @@
+// What the machine grants, apart from the bus.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bench/doctor/line.hpp"
+
+namespace canhil::doctor {
+
+/// What the machine offers.
+struct Machine {
+  std::string preemption;              ///< model of the kernel
+  std::string refusal;                 ///< why --realtime is not possible here; empty: it is
+  std::vector<std::string> governors;  ///< of the CPUs
+  std::vector<int> cpus;               ///< that this process may run on
+  std::string isolated;                ///< list of the CPUs that the scheduler leaves alone
+};
+
+/// Lines for kernel, real-time rights, frequency and CPUs.
+std::vector<Line> machine_lines(const Machine& machine);
+
+/// The list that the kernel was started with.
+std::string isolated_cpus();
+
+}  // namespace canhil::doctor

@@ -1,0 +1,85 @@
+#include "dbc/realtime/process.hpp"
+
+#include <gmock/gmock.h>
+#include <sched.h>
+
+#include "dbc/realtime/command_line.hpp"
+
+namespace canhil::realtime {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Words, SayWhatIsInForce) {
+  Standing standing{.policy = "SCHED_FIFO",
+                    .priority = 40,
+                    .cpus = {2, 3},
+                    .locked_kib = 71 * 1024,
+                    .timer_slack_ns = 1,
+                    .awake = true,
+                    .governors = {"performance"},
+                    .preemption = "PREEMPT_RT"};
+  EXPECT_EQ(words(standing),
+            "SCHED_FIFO 40, CPU 2-3, 71 MiB locked, timer slack 1 ns, no deep sleep, governor performance, "
+            "PREEMPT_RT");
+  EXPECT_EQ(frequency_warning(standing), "");
+  standing.governors = {"performance", "ondemand"};
+  EXPECT_THAT(frequency_warning(standing),
+              HasSubstr("CPU 2-3 follows the load (governor performance, ondemand)"));
+}
+
+TEST(Standing, IsThatOfThisProcess) {
+  const Standing now = standing();
+  EXPECT_EQ(now.policy == "SCHED_FIFO", sched_getscheduler(0) == SCHED_FIFO);
+  EXPECT_EQ(now.cpus, cpus());
+  EXPECT_FALSE(now.awake);
+}
+
+TEST(Cpu, OneThatThisProcessHasNotIsNamedWithThoseThatItHas) {
+  EXPECT_TRUE(check_cpu("--cpu", cpus().front()));
+  const auto refused = check_cpu("--cpu", 1023);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("--cpu 1023: this process may not run there, expected one of "));
+}
+
+std::string parse(const std::string& line, Options& options) {
+  CLI::App app;
+  add_options(app, options);
+  try {
+    app.parse(line);
+    return "";
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+}
+
+TEST(CommandLine, AsksForNothingUnlessTold) {
+  Options options;
+  EXPECT_EQ(parse("", options), "");
+  EXPECT_FALSE(options.request());
+  EXPECT_EQ(parse("--realtime", options), "");
+  ASSERT_TRUE(options.request());
+  EXPECT_EQ(options.request()->priority, default_priority);
+  EXPECT_FALSE(options.request()->cpu);
+}
+
+TEST(CommandLine, TakesPriorityAndCpu) {
+  Options options;
+  EXPECT_EQ(parse("--realtime --priority 080 --cpu 3", options), "");
+  EXPECT_EQ(options.request()->priority, 80) << "decimal";
+  EXPECT_EQ(options.request()->cpu, 3);
+}
+
+TEST(CommandLine, RefusesWhatIsNoPriorityAndWhatLacksRealtime) {
+  for (const char* number : {"0", "100", "-1", "1e1", "0x10", "99999999999"}) {
+    Options options;
+    EXPECT_THAT(parse(std::string("--realtime --priority ") + number, options),
+                HasSubstr("is not a whole number from 1 to 99"));
+  }
+  Options options;
+  EXPECT_THAT(parse("--cpu 1", options), HasSubstr("requires --realtime"));
+}
+
+}  // namespace
+}  // namespace canhil::realtime
