@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "tests/processes/hil/program.hpp"
 
 namespace canhil::test {
@@ -25,8 +27,8 @@ std::string record_in_real_time(const std::string& name,
   for (int attempt = 0; attempt < 4; ++attempt) {
     std::string log = record(name, fmt::format("--bus {} --json {}", bus(), report), file);
     const auto json = read_json(report);
-    if (json["ending"]["completed"] == true && json["target_counters"]["frames_lost"] == 0 && json["from_target"]["frames_lost"] == 0 &&
-        json["from_target"]["bench_overflows"] == 0)
+    if (json["ending"]["completed"] == true && json["target_counters"]["frames_lost"] == 0 &&
+        json["from_target"]["frames_lost"] == 0 && json["from_target"]["bench_overflows"] == 0)
       return log;
   }
   ADD_FAILURE() << "frames were lost in each of four runs, or the run ended early";

@@ -41,6 +41,7 @@ run::Run run_of() {
           .seen = {},
           .truth = {{.start = {}, .motion = world::Rest{}}, 1'000'000, 10'000},
           .options = {},
+          .host = {},
           .wall_s = 1.5};
 }
 
