@@ -52,8 +52,8 @@ run::Options options_of(const Arguments& arguments) {
   const bool external = arguments.target == "none";
   options.bus = arguments.bus;
   // Nobody else can know the name of a private bus, so two benches on one machine do not meet.
-  if (options.bus == private_bus)
-    options.bus = external ? "local:canhil" : fmt::format("local:canhil-{}", getpid());
+  if (options.bus == private_bus || options.bus.starts_with("local:?"))
+    options.bus.insert(private_bus.size(), external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
   const bool virtual_time = arguments.lockstep || options.bus == in_process;
   options.clock = virtual_time ? run::ClockKind::lockstep : run::ClockKind::real_time;

@@ -35,6 +35,16 @@ TEST(BadInput, NobodyHostsTheBus) {
 
 TEST(BadInput, MissingScenario) { expect_one_line(hil_bench("run no_such.toml"), "no_such.toml"); }
 
+TEST(BadInput, ScheduleOfWhatIsNoDbc) {
+  expect_one_line(hil_bench("schedulability no_such.dbc"),
+                  "no_such.dbc: cannot be read, expected a DBC file");
+  const std::string fd = TEST_DATA_DIR "/dbc/fd.dbc";
+  expect_one_line(hil_bench("schedulability " + fd), fd + ": no bit rate, expected --bitrate");
+  expect_one_line(hil_bench("schedulability --bitrate 500000 " + fd), "message Long is CAN FD");
+  expect_one_line(hil_bench("schedulability --bitrate 5e5 " + fd), "--bitrate: '5e5' is not a whole number");
+  expect_one_line(hil_bench("schedulability --error-burst 2 " + fd), "--errors-per-second");
+}
+
 TEST(BadInput, UnknownScenarioKey) {
   std::ofstream(scratch("typo.toml"))
       << read(scenario("transfer_alignment_quick")) << "\n[slave_inu]\nperiod_ms = 10\n";
