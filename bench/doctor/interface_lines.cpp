@@ -13,7 +13,7 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone fills a third of it
+constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone stays under half of it
 // The kernel's own choice is 75 % above 800 kbit/s and 87.5 % at 500 kbit/s and below, as CiA recommends.
 constexpr std::uint32_t earliest_sample_permille = 750, latest_sample_permille = 900;
 // The largest group of the contract must fit; a frame at the end of a long queue waits for all before it.
