@@ -76,13 +76,14 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
     if (place >= work.tasks.size()) break;
     const auto [variant, run] = work.tasks[place];
     const world::FlightRecord& truth = *work.truths[variant];
-    const auto flown = run::run_in_process(work.campaign.variants[variant].scenario, truth, run);
+    const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
+    const auto flown = run::run_in_process(scenario, truth, run);
     if (!flown) {
       finishing.fail(in_variant(work.campaign, variant, flown.error()));
       work.halt = true;
       break;
     }
-    finishing.add({.variant = variant, .series = series_of(run, *flown, truth)});
+    finishing.add({.variant = variant, .series = series_of(run, *flown, truth, family_of(scenario))});
   }
   finishing.worker_ends();
 }

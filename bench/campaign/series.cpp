@@ -31,16 +31,30 @@ constexpr std::array infos{
     QuantityInfo{.name = "v_north", .family = Family::alignment, .unit = mps},
     QuantityInfo{.name = "v_east", .family = Family::alignment, .unit = mps},
     QuantityInfo{.name = "v_down", .family = Family::alignment, .unit = mps},
-    QuantityInfo{.name = "p_north", .family = Family::alignment, .unit = m, .may_be_untold = true},
-    QuantityInfo{.name = "p_east", .family = Family::alignment, .unit = m, .may_be_untold = true},
-    QuantityInfo{.name = "p_down", .family = Family::alignment, .unit = m, .may_be_untold = true},
+    QuantityInfo{.name = "p_north",
+                 .family = Family::alignment,
+                 .unit = m,
+                 .may_be_untold = true,
+                 .only_of = "inflight_alignment"},
+    QuantityInfo{.name = "p_east",
+                 .family = Family::alignment,
+                 .unit = m,
+                 .may_be_untold = true,
+                 .only_of = "inflight_alignment"},
+    QuantityInfo{.name = "p_down",
+                 .family = Family::alignment,
+                 .unit = m,
+                 .may_be_untold = true,
+                 .only_of = "inflight_alignment"},
     QuantityInfo{.name = "heading_over_sigma", .family = Family::alignment, .unit = none},
-    QuantityInfo{.name = "repairs", .family = Family::alignment, .unit = none},
+    QuantityInfo{
+        .name = "repairs", .family = Family::alignment, .unit = none, .only_of = "inflight_alignment"},
     QuantityInfo{.name = "attitude_nees",
                  .family = Family::alignment,
                  .unit = none,
                  .degrees_of_freedom = 3,
-                 .may_be_untold = true},
+                 .may_be_untold = true,
+                 .only_of = "transfer_alignment"},
     QuantityInfo{.name = "nis", .family = Family::alignment, .unit = none, .degrees_of_freedom = 3},
     QuantityInfo{.name = "heading_sigma", .family = Family::alignment, .unit = mrad},
     QuantityInfo{.name = "los_pitch", .family = Family::los_rate, .unit = mradps},
@@ -91,7 +105,8 @@ struct UpdateFigures {
 
 Samples alignment_samples(const checks::Observations& seen, const world::FlightRecord& truth) {
   Samples samples(Family::alignment);
-  const std::vector<checks::NavigationError> errors = checks::navigation_errors(seen, truth);
+  const std::vector<checks::NavigationError> errors =
+      checks::navigation_errors(seen.fix_navigation.empty() ? seen.navigation : seen.fix_navigation, truth);
   const auto add = [&](const auto& update, const UpdateFigures& figures) {
     const checks::NavigationError* after = checks::first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) return;
@@ -173,6 +188,19 @@ Samples wind_samples(const checks::Observations& seen, const world::GlideRecord&
   return samples;
 }
 
+Samples samples_of(const run::InProcessRun& finished, const world::FlightRecord& truth, Family family) {
+  const auto& [engagement, glide] = finished.own_truth;
+  switch (family) {
+    case Family::los_rate:
+      return engagement ? los_samples(finished.seen, *engagement) : Samples(family);
+    case Family::wind:
+      return glide ? wind_samples(finished.seen, *glide) : Samples(family);
+    case Family::alignment:
+      break;
+  }
+  return alignment_samples(finished.seen, truth);
+}
+
 }  // namespace
 
 std::span<const QuantityInfo> quantities() { return infos; }
@@ -224,24 +252,14 @@ double Samples::value(std::size_t place, Quantity quantity) const {
 
 // By what the target is asked for: a scenario may have several truths.
 Family family_of(const scenario::Scenario& scenario) {
-  if (scenario.target.estimator == "los_rate") return Family::los_rate;
-  if (scenario.target.estimator == "wind") return Family::wind;
+  if (scenario.runs("los_rate")) return Family::los_rate;
+  if (scenario.runs("wind")) return Family::wind;
   return Family::alignment;
 }
 
 RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth) {
-  const checks::Observations& seen = finished.seen;
-  const auto& [engagement, glide] = finished.own_truth;
-  RunSeries series{.run = run_index, .ending = finished.ending};
-  if (glide && (!seen.wind.empty() || !engagement)) {
-    series.samples = wind_samples(seen, *glide);
-  } else if (engagement && seen.navigation.empty()) {
-    series.samples = los_samples(seen, *engagement);
-  } else {
-    series.samples = alignment_samples(seen, truth);
-  }
-  return series;
+                    const world::FlightRecord& truth, Family family) {
+  return {.run = run_index, .ending = finished.ending, .samples = samples_of(finished, truth, family)};
 }
 
 std::vector<std::uint8_t> encode(const Samples& samples) {

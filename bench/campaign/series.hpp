@@ -75,6 +75,7 @@ struct QuantityInfo {
   Unit unit;
   int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: none
   bool may_be_untold = false;  ///< NaN tells of nothing wrong
+  std::string_view only_of{};  ///< the one estimator of the family that tells it; empty: all do
 };
 std::span<const QuantityInfo> quantities();
 const QuantityInfo& info(Quantity quantity);
@@ -120,10 +121,10 @@ Family family_of(const scenario::Scenario& scenario);
 /// Length of a sample of the LOS rate, in time to go.
 inline constexpr std::int64_t los_sample_us = 20'000;
 
-/// The series of a finished run: of family los_rate where it flew an engagement. `truth` is that of its
-/// variant.
+/// The series of a finished run. `truth` is that of its variant, `family` that of its scenario (family_of);
+/// no samples where the run has no truth of the family.
 RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth);
+                    const world::FlightRecord& truth, Family family);
 
 /// Samples as bytes: doubles, little endian: t in s and what is kept, sample by sample.
 std::vector<std::uint8_t> encode(const Samples& samples);

@@ -7,6 +7,7 @@
 namespace canhil::checks {
 namespace {
 
+using scenario::Aligner;
 using world::Matrix3;
 using world::Vector3;
 
@@ -25,10 +26,15 @@ Matrix3 covariance(const FilterAnswer& answer) {
 
 }  // namespace
 
-std::vector<NavigationError> navigation_errors(const Observations& seen, const world::FlightRecord& truth) {
+const std::vector<NavigationAnswer>& navigation_of(const Observations& seen, scenario::Aligner aligner) {
+  return aligner == Aligner::inflight_alignment ? seen.fix_navigation : seen.navigation;
+}
+
+std::vector<NavigationError> navigation_errors(const std::vector<NavigationAnswer>& answers,
+                                               const world::FlightRecord& truth) {
   std::vector<NavigationError> errors;
-  errors.reserve(seen.navigation.size());
-  for (const NavigationAnswer& answer : seen.navigation) {
+  errors.reserve(answers.size());
+  for (const NavigationAnswer& answer : answers) {
     if (answer.cause_us < 0 || answer.cause_us > truth.end_us()) continue;
     const world::Truth at = truth.at(answer.cause_us);
     const world::Euler angles = world::euler_from(at.C_bn);
@@ -49,9 +55,12 @@ const NavigationError* first_after(const std::vector<NavigationError>& errors, s
   return after == errors.end() ? nullptr : &*after;
 }
 
-std::vector<Normalised> nis(const Observations& seen) {
+std::vector<Normalised> nis(const Observations& seen, Aligner aligner) {
   std::vector<Normalised> series;
-  for (const FilterAnswer& answer : seen.filter) series.push_back({answer.cause_us, answer.nis});
+  if (aligner == Aligner::transfer_alignment) {
+    for (const FilterAnswer& answer : seen.filter) series.push_back({answer.cause_us, answer.nis});
+    return series;
+  }
   for (const FixAnswer& answer : seen.fixes) {
     if (used(answer.outcome)) series.push_back({answer.cause_us, answer.nis});
   }
@@ -73,13 +82,17 @@ std::vector<Normalised> attitude_nees(const Observations& seen, const std::vecto
   return series;
 }
 
-std::vector<Normalised> heading_nees(const Observations& seen, const std::vector<NavigationError>& errors) {
+std::vector<Normalised> heading_nees(const Observations& seen, Aligner aligner,
+                                     const std::vector<NavigationError>& errors) {
   std::vector<Normalised> series;
   const auto add = [&](const auto& answer, double sigma) {
     const NavigationError* after = first_after(errors, answer.cause_us, answer.navigation_us);
     if (after != nullptr) series.push_back({answer.cause_us, std::pow(after->angles.heading / sigma, 2)});
   };
-  for (const FilterAnswer& answer : seen.filter) add(answer, answer.attitude_sigma.z());
+  if (aligner == Aligner::transfer_alignment) {
+    for (const FilterAnswer& answer : seen.filter) add(answer, answer.attitude_sigma.z());
+    return series;
+  }
   for (const FixAnswer& answer : seen.fixes) {
     if (used(answer.outcome)) add(answer, answer.heading_sigma);
   }

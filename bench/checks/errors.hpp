@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/checks/observations.hpp"
+#include "bench/scenario/checks.hpp"
 #include "bench/world/flight_record.hpp"
 
 namespace canhil::checks {
@@ -18,8 +19,12 @@ struct NavigationError {
   world::Vector3 misalignment = world::Vector3::Zero();  ///< phi, NED: C_estimated = exp(-[phi x]) C_true
 };
 
+/// What an estimator said of attitude and velocity.
+const std::vector<NavigationAnswer>& navigation_of(const Observations& seen, scenario::Aligner aligner);
+
 /// Errors of all navigation answers whose cause lies within the truth.
-std::vector<NavigationError> navigation_errors(const Observations& seen, const world::FlightRecord& truth);
+std::vector<NavigationError> navigation_errors(const std::vector<NavigationAnswer>& answers,
+                                               const world::FlightRecord& truth);
 
 /// One normalised error squared.
 struct Normalised {
@@ -32,8 +37,8 @@ struct Normalised {
 const NavigationError* first_after(const std::vector<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 
-/// NIS (3 degrees of freedom) of each update: of velocity updates, and of the fixes that the filter used.
-std::vector<Normalised> nis(const Observations& seen);
+/// NIS (3 degrees of freedom) of each update: of velocity updates, or of the fixes that the filter used.
+std::vector<Normalised> nis(const Observations& seen, scenario::Aligner aligner);
 
 /// Attitude NEES (3 degrees of freedom) after each velocity update: phi' P^-1 phi, with P from the sigmas and
 /// correlations on the bus and phi from first_after().
@@ -41,7 +46,8 @@ std::vector<Normalised> attitude_nees(const Observations& seen, const std::vecto
 
 /// (error / sigma)^2 of the heading (1 degree of freedom) after each update, with the error from
 /// first_after().
-std::vector<Normalised> heading_nees(const Observations& seen, const std::vector<NavigationError>& errors);
+std::vector<Normalised> heading_nees(const Observations& seen, scenario::Aligner aligner,
+                                     const std::vector<NavigationError>& errors);
 
 /// The error (estimated - true) of one position, at the time of validity of its fix.
 struct PositionError {

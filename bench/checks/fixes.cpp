@@ -114,9 +114,12 @@ Finding judge(const scenario::Coasting& rule, const Observations& seen) {
     return within(rule.window, answer.cause_us) && answer.outcome == messages::LosRateOutcome::coasting;
   };
   judge_count(finding, "coasting answers",
-              std::ranges::count_if(seen.navigation, coasted) + std::ranges::count_if(seen.los, coasted_los),
+              std::ranges::count_if(seen.navigation, coasted) +
+                  std::ranges::count_if(seen.fix_navigation, coasted) +
+                  std::ranges::count_if(seen.los, coasted_los),
               rule.at_least, rule.at_most);
-  if (seen.navigation.empty() && seen.los.empty()) return {Outcome::fail, "no answers", finding.expected};
+  if (seen.navigation.empty() && seen.fix_navigation.empty() && seen.los.empty())
+    return {Outcome::fail, "no answers", finding.expected};
   return finding;
 }
 

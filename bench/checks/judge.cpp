@@ -5,7 +5,10 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/fixes.hpp"
 #include "bench/checks/los.hpp"
@@ -16,7 +19,6 @@ namespace canhil::checks {
 namespace {
 
 using messages::AlignUpdate;
-using messages::AlignVelocityD;
 
 // Degrees of freedom of a white statistic.
 double dimension(scenario::Statistic statistic) {
@@ -64,17 +66,24 @@ double component(const world::Vector3& v, scenario::VelocityAxis axis) {
   return v.norm();
 }
 
+std::string_view closing_of(scenario::Aligner aligner) {
+  return aligner == scenario::Aligner::inflight_alignment ? messages::FixVelocityD::info.name
+                                                          : messages::AlignVelocityD::info.name;
+}
+
 // Judges each kind of rule; an absent answer is a failure of the target, never a pass.
 class Judge {
  public:
   explicit Judge(const Evidence& evidence)
-      : evidence_(evidence), errors_(navigation_errors(evidence.seen, evidence.truth)) {}
+      : evidence_(evidence),
+        transfer_errors_(navigation_errors(evidence.seen.navigation, evidence.truth)),
+        inflight_errors_(navigation_errors(evidence.seen.fix_navigation, evidence.truth)) {}
 
   Finding operator()(const scenario::AttitudeError& rule) const {
-    const auto part = inside(errors_, rule.window);
+    const auto part = inside(errors_of(rule.of), rule.window);
     const std::string expected = fmt::format("|error| < {:g} {} {}", rule.below / rule.unit.factor,
                                              rule.unit.name, seconds(rule.window));
-    if (auto gap = unanswered(part, rule.window, AlignVelocityD::info.name); !gap.empty())
+    if (auto gap = unanswered(part, rule.window, closing_of(rule.of)); !gap.empty())
       return {Outcome::fail, std::move(gap), expected};
     double worst = 0;
     for (const auto& error : part) worst = std::max(worst, std::abs(error.angles.*member(rule.axis)));
@@ -84,12 +93,12 @@ class Judge {
   }
 
   Finding operator()(const scenario::Convergence& rule) const {
-    const auto t_us = convergence_us(errors_, member(rule.axis), rule.within);
+    const auto t_us = convergence_us(errors_of(rule.of), member(rule.axis), rule.within);
     const std::string expected =
         fmt::format("within {:g} {} for good before {:g} s", rule.within / rule.unit.factor, rule.unit.name,
                     static_cast<double>(rule.before_us) * 1e-6);
     const scenario::Window to_the_end{rule.before_us, evidence_.duration_us};
-    if (auto gap = unanswered(inside(errors_, to_the_end), to_the_end, AlignVelocityD::info.name);
+    if (auto gap = unanswered(inside(errors_of(rule.of), to_the_end), to_the_end, closing_of(rule.of));
         !gap.empty()) {
       return {Outcome::fail, std::move(gap), expected};
     }
@@ -99,9 +108,9 @@ class Judge {
   }
 
   Finding operator()(const scenario::VelocityError& rule) const {
-    const auto part = inside(errors_, rule.window);
+    const auto part = inside(errors_of(rule.of), rule.window);
     const std::string expected = fmt::format("|error| < {:g} m/s {}", rule.below, seconds(rule.window));
-    if (auto gap = unanswered(part, rule.window, AlignVelocityD::info.name); !gap.empty())
+    if (auto gap = unanswered(part, rule.window, closing_of(rule.of)); !gap.empty())
       return {Outcome::fail, std::move(gap), expected};
     double worst = 0;
     for (const auto& error : part) worst = std::max(worst, std::abs(component(error.v_eb_n, rule.axis)));
@@ -109,7 +118,7 @@ class Judge {
   }
 
   Finding operator()(const scenario::Consistency& rule) const {
-    const auto part = inside(series_of(rule.statistic), rule.window);
+    const auto part = inside(series_of(rule), rule.window);
     const auto [low, high] = interval(rule, part.size());
     const std::string expected =
         fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(rule.window));
@@ -162,22 +171,26 @@ class Judge {
   Finding operator()(const scenario::Counters& rule) const {
     if (!evidence_.seen.counters) return {Outcome::fail, "no TargetCounters", "counters reported"};
     const messages::TargetCounters& counters = *evidence_.seen.counters;
-    Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
-    const auto judge_one = [&](std::string_view what, const std::optional<std::int64_t>& most,
-                               std::int64_t value) {
-      if (!most) return;
-      const std::string_view separator = finding.expected.empty() ? "" : ", ";
-      finding.expected += fmt::format("{}{} <= {}", separator, what, *most);
-      finding.measured += fmt::format("{}{} {}", separator, what, value);
-      if (value > *most) finding.outcome = Outcome::fail;
-    };
-    judge_one("frames lost", rule.frames_lost_at_most, counters.frames_lost);
-    judge_one("bad CRC", rule.bad_crc_at_most, counters.bad_crc);
-    judge_one("bad groups", rule.bad_group_at_most, counters.bad_group);
-    judge_one("late", rule.late_at_most, counters.late);
-    return finding;
+    return within_limits(
+        std::array<Limit, 4>{{{"frames lost", rule.frames_lost_at_most, counters.frames_lost},
+                              {"bad CRC", rule.bad_crc_at_most, counters.bad_crc},
+                              {"bad groups", rule.bad_group_at_most, counters.bad_group},
+                              {"late", rule.late_at_most, counters.late}}});
   }
 
+  Finding operator()(const scenario::BusErrorLimits& rule) const {
+    const BusRecord& bus = evidence_.seen.bus;
+    const BusErrors& errors = bus.errors;
+    return within_limits(
+        std::array<Limit, 6>{{{"bus off", rule.bus_off_at_most, errors.bus_off},
+                              {"interface down", rule.down_at_most, bus.downs},
+                              {"error passive", rule.passive_at_most, errors.passive},
+                              {"error warning", rule.warning_at_most, errors.warning},
+                              {"error frames", rule.error_frames_at_most, errors.frames},
+                              {"late in transmit queue", rule.late_in_queue_at_most, bus.late_in_queue}}});
+  }
+
+  Finding operator()(const scenario::BusLoad& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::PositionError& rule) const {
     return checks::judge(rule, evidence_.seen, evidence_.truth);
   }
@@ -206,8 +219,29 @@ class Judge {
   }
 
  private:
+  struct Limit {
+    std::string_view what;
+    std::optional<std::int64_t> at_most;  // none: not judged
+    std::uint64_t value;
+  };
+  static Finding within_limits(std::span<const Limit> limits) {
+    Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
+    for (const Limit& limit : limits) {
+      if (!limit.at_most) continue;
+      const std::string_view separator = finding.expected.empty() ? "" : ", ";
+      finding.expected += fmt::format("{}{} <= {}", separator, limit.what, *limit.at_most);
+      finding.measured += fmt::format("{}{} {}", separator, limit.what, limit.value);
+      if (std::cmp_greater(limit.value, *limit.at_most)) finding.outcome = Outcome::fail;
+    }
+    return finding;
+  }
+
   static std::string quantile_name(double q) {
     return q >= 1 ? "max" : fmt::format("{:g} % quantile", q * 100);
+  }
+
+  [[nodiscard]] const std::vector<NavigationError>& errors_of(scenario::Aligner aligner) const {
+    return aligner == scenario::Aligner::inflight_alignment ? inflight_errors_ : transfer_errors_;
   }
 
   // Where in the window answers are missing; empty: nowhere.
@@ -248,8 +282,9 @@ class Judge {
       return unanswered(part, rule.window, messages::WindUpdate::info.name);
     if (rule.statistic == scenario::Statistic::los_nis)
       return unanswered(part, until_passage(rule.window), messages::LosRateTarget::info.name);
-    return evidence_.seen.fixes.empty() ? unanswered(part, rule.window, AlignUpdate::info.name)
-                                        : unanswered_fixes(evidence_.seen, rule.window);
+    return rule.of == scenario::Aligner::transfer_alignment
+               ? unanswered(part, rule.window, AlignUpdate::info.name)
+               : unanswered_fixes(evidence_.seen, rule.window);
   }
 
   // A seeker is silent once its missile has passed the target.
@@ -259,10 +294,10 @@ class Judge {
     return window;
   }
 
-  [[nodiscard]] std::vector<Normalised> series_of(scenario::Statistic statistic) const {
-    switch (statistic) {
+  [[nodiscard]] std::vector<Normalised> series_of(const scenario::Consistency& rule) const {
+    switch (rule.statistic) {
       case scenario::Statistic::nis:
-        return nis(evidence_.seen);
+        return nis(evidence_.seen, rule.of);
       case scenario::Statistic::wind_nis:
         return wind_nis(evidence_.seen);
       case scenario::Statistic::wind_nees:
@@ -271,11 +306,11 @@ class Judge {
       case scenario::Statistic::los_nis:
         return los_nis(evidence_.seen);
       case scenario::Statistic::heading_nees:
-        return heading_nees(evidence_.seen, errors_);
+        return heading_nees(evidence_.seen, rule.of, errors_of(rule.of));
       case scenario::Statistic::attitude_nees:
         break;
     }
-    return attitude_nees(evidence_.seen, errors_);
+    return attitude_nees(evidence_.seen, errors_of(rule.of));
   }
 
   // The mean of n independent chi-squares of k degrees of freedom is chi-square of n k, divided by n.
@@ -291,8 +326,19 @@ class Judge {
   }
 
   const Evidence& evidence_;
-  std::vector<NavigationError> errors_;
+  std::vector<NavigationError> transfer_errors_;
+  std::vector<NavigationError> inflight_errors_;
 };
+
+// A bus that failed fails a run that says nothing of it.
+std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, const Judge& judge) {
+  const bool said = std::ranges::any_of(scenario.checks, [](const scenario::Check& check) {
+    return std::holds_alternative<scenario::BusErrorLimits>(check.rule);
+  });
+  const scenario::BusErrorLimits rule;
+  if (said || judge(rule).outcome == Outcome::pass) return std::nullopt;
+  return scenario::Check{.name = std::string(rule.kind), .requirement = "", .rule = rule};
+}
 
 }  // namespace
 
@@ -312,7 +358,9 @@ std::string unfit_for_timing(const Observations& seen) {
 Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
   Verdict verdict;
   const Judge judge(evidence);
-  for (const scenario::Check& check : scenario.checks) {
+  std::vector<scenario::Check> all = scenario.checks;
+  if (auto implied = bus_check(scenario, judge)) all.push_back(std::move(*implied));
+  for (const scenario::Check& check : all) {
     Finding finding = std::visit(judge, check.rule);
     if (!evidence.ended_early.empty()) {  // what was seen until then proves nothing either way
       finding.outcome = Outcome::not_measured;

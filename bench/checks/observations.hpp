@@ -8,13 +8,15 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/checks/bus.hpp"
 #include "bench/world/earth.hpp"
 #include "bench/world/engagement/plan.hpp"
+#include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {
 
-/// Group AlignNav: aligned attitude and velocity at the time of a slave IMU sample. rad, m/s, NED.
+/// Group AlignNav or FixNav: aligned attitude and velocity at the time of a slave IMU sample. rad, m/s, NED.
 struct NavigationAnswer {
   std::int64_t cause_us = 0;
   world::Euler angles;
@@ -108,6 +110,7 @@ constexpr bool used(messages::FixOutcome outcome) {
 /// One arrival of a message of the target.
 struct Arrival {
   std::int64_t t_ns = 0;           ///< stamp of the port
+  std::int64_t hardware_ns = 0;    ///< the controller's own, on a clock of its own; 0: none
   std::int64_t cause_us = -1;      ///< time of validity of what it answers; -1: answers nothing
   std::string_view cause_group{};  ///< sample group of what it answers
 };
@@ -115,12 +118,14 @@ struct Arrival {
 /// The last frame of a sample group that the bench sent.
 struct Stimulus {
   std::int64_t valid_us = 0;
-  std::int64_t t_ns = 0;  ///< transmit stamp: the port's echo where it gives one
+  std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
+  std::int64_t hardware_ns = 0;  ///< the controller's own, of the echo; 0: none
 };
 
 /// Everything that the checks judge, apart from the truth.
 struct Observations {
-  std::vector<NavigationAnswer> navigation;
+  std::vector<NavigationAnswer> navigation;      ///< of transfer alignment
+  std::vector<NavigationAnswer> fix_navigation;  ///< of in-flight alignment
   std::vector<FilterAnswer> filter;
   std::vector<FixAnswer> fixes;
   std::vector<WindAnswer> wind;
@@ -133,14 +138,15 @@ struct Observations {
   std::vector<std::int64_t> lateness_ns;  ///< of every transmission of the bench against its deadline
   bool transmit_stamps_echoed = false;    ///< stamps of stimuli are the bus's, not the bench's
 
-  std::optional<messages::TargetHeartbeat> heartbeat;  ///< the last one
-  std::optional<messages::TargetCounters> counters;    ///< the last one
-  std::uint32_t target_frames_lost = 0;                ///< by the E2E counters of the target's messages
+  std::optional<messages::TargetCounters> counters;  ///< the last one
+  std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus, by second of the time base
+  std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages
   std::uint32_t target_bad_crc = 0;
   std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost
   std::uint16_t queue_max_us = 0;       ///< largest of TargetTiming; saturates at 8191
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
+  BusRecord bus;
 };
 
 }  // namespace canhil::checks

@@ -64,7 +64,7 @@ std::vector<double> latencies_s(const Observations& seen, std::string_view messa
     if (stimuli == nullptr || !within(window, arrival.cause_us)) continue;
     const auto cause = std::ranges::lower_bound(*stimuli, arrival.cause_us, {}, &Stimulus::valid_us);
     if (cause == stimuli->end() || cause->valid_us != arrival.cause_us) continue;
-    sample.push_back(static_cast<double>(arrival.t_ns - cause->t_ns) * 1e-9);
+    sample.push_back(elapsed_s(*cause, arrival));
   }
   return sample;
 }
@@ -78,10 +78,22 @@ std::vector<double> periods_s(const Observations& seen, std::string_view message
   const Arrival* before = nullptr;
   for (const Arrival& arrival : arrivals_of(seen, *info)) {
     if (answers && !within(window, arrival.cause_us)) continue;
-    if (before != nullptr) sample.push_back(static_cast<double>(arrival.t_ns - before->t_ns) * 1e-9);
+    if (before != nullptr) sample.push_back(elapsed_s(*before, arrival));
     before = &arrival;
   }
   return sample;
+}
+
+bool stamped_by_hardware(const Observations& seen) {
+  const auto stamped = [](const auto& one) { return one.hardware_ns != 0; };
+  bool any = false;
+  for (const auto& [group, stimuli] : seen.stimuli) {
+    any = any || !stimuli.empty();
+    if (!std::ranges::all_of(stimuli, stamped)) return false;
+  }
+  return any && std::ranges::all_of(seen.arrivals, [&](const std::vector<Arrival>& arrivals) {
+           return std::ranges::all_of(arrivals, stamped);
+         });
 }
 
 double longest_silence_s(const Observations& seen, std::string_view message) {
@@ -125,7 +137,8 @@ double nominal_period_s(const Observations& seen, std::string_view message) {
   const double span_us = static_cast<double>(stimuli.back().valid_us - stimuli.front().valid_us);
   const double stimulus_s = span_us / static_cast<double>(stimuli.size() - 1) * 1e-6;
   // Navigation answers keep an interval of their own where the IMU is faster.
-  const bool navigation = info->sample_group == messages::AlignVelocityD::info.sample_group;
+  const bool navigation = info->sample_group == messages::AlignVelocityD::info.sample_group ||
+                          info->sample_group == messages::FixVelocityD::info.sample_group;
   return navigation ? std::max(cycle_s, stimulus_s) : stimulus_s;
 }
 

@@ -23,6 +23,16 @@ Distribution distribution(std::vector<double> sample);
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
 double quantile(std::vector<double> sample, double q);
 
+/// Time [s] from one stamp to a later one: by the controller's clock where it stamped both.
+template <class From, class To>
+double elapsed_s(const From& from, const To& to) {
+  const bool hardware = from.hardware_ns != 0 && to.hardware_ns != 0;
+  return static_cast<double>(hardware ? to.hardware_ns - from.hardware_ns : to.t_ns - from.t_ns) * 1e-9;
+}
+
+/// True if the controller stamped every answer and every stimulus.
+bool stamped_by_hardware(const Observations& seen);
+
 /// Latency [s] of every answer of a message within a window: its stamp less that of the last frame of its
 /// stimulus.
 std::vector<double> latencies_s(const Observations& seen, std::string_view message,

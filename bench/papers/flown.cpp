@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "bench/campaign/execute.hpp"
@@ -71,6 +72,18 @@ const Flown& of(const std::vector<Flown>& flown, std::string_view name) {
   const auto found = std::ranges::find(flown, name, &Flown::name);
   if (found == flown.end()) no_such(name, "results");
   return *found;
+}
+
+std::size_t flights(const std::vector<Flown>& flown) {
+  std::size_t sum = 0;
+  for (const Flown& one : flown) sum += one.campaign.variants.size() * one.campaign.runs;
+  return sum;
+}
+
+double figure(const campaign::Answer& answer, std::string_view name) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto found = std::ranges::find_if(answer.figures, [&](const auto& one) { return one.first == name; });
+  return found == answer.figures.end() ? nan : found->second.value_or(nan);
 }
 
 std::string_view frames_flown() {

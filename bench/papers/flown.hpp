@@ -58,6 +58,12 @@ struct Flown {
 /// The campaign of this name; it must exist.
 const Flown& of(const std::vector<Flown>& flown, std::string_view name);
 
+/// Flights of all variants of all campaigns.
+std::size_t flights(const std::vector<Flown>& flown);
+
+/// A figure of an answer, by its name in the report; NaN: it has none.
+double figure(const campaign::Answer& answer, std::string_view name);
+
 /// "frames quantised as on the bus", or that they were not: hil-bench-exact rounds nothing.
 std::string_view frames_flown();
 

@@ -38,12 +38,12 @@ struct Page {
   std::vector<Section> sections;
 };
 
-/// What became of a paper.
+/// What became of a paper. None has a default: a paper that forgets one does not compile.
 struct Reproduction {
   Page page;
-  bool bars_met = false;
-  std::uint64_t runs = 0;    ///< flown of each variant
-  std::uint64_t enough = 0;  ///< that the bars are for: with fewer they may be missed by chance
+  bool bars_met;
+  std::uint64_t runs;    ///< flown of each variant of the campaign with the bars
+  std::uint64_t enough;  ///< that the bars are for: with fewer they may be missed by chance
 };
 
 /// One HTML file without anything outside it, for phone and desktop. Error: a figure cannot be drawn.

@@ -38,12 +38,27 @@ Result<Paper> find_paper(std::string_view name) {
   return failure(fmt::format("paper '{}' is unknown, expected {}", name, names()));
 }
 
+bool too_few_runs(const Reproduction& reproduction) { return reproduction.runs < reproduction.enough; }
+
+Page with_caveat(const Reproduction& reproduction) {
+  Page page = reproduction.page;
+  if (too_few_runs(reproduction))
+    page.subtitle +=
+        fmt::format(" The bars are for {} runs: with fewer they may fail by chance.", reproduction.enough);
+  return page;
+}
+
 }  // namespace
 
 std::string names() {
   std::array<std::string_view, papers.size()> all{};
   std::ranges::transform(papers, all.begin(), &Paper::name);
   return fmt::format("{}", fmt::join(all, " or "));
+}
+
+Outcome outcome_of(const Reproduction& reproduction) {
+  if (reproduction.bars_met) return Outcome::bars_met;
+  return too_few_runs(reproduction) ? Outcome::too_few_runs : Outcome::bars_missed;
 }
 
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop) {
@@ -75,15 +90,14 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
       {.folder = request.folder, .runs = request.runs, .progress = request.progress}, request.exact, stop);
   if (!written) return tl::unexpected(written.error());
   if (!*written) return reproduced;
-  const auto drawn = html((*written)->page);
+  const Reproduction& judged = **written;
+  const Page page = with_caveat(judged);
+  const auto drawn = html(page);
   if (!drawn) return tl::unexpected(drawn.error());
   if (auto saved = report::write_file(reproduced.page.string(), *drawn); !saved)
     return tl::unexpected(saved.error());
-  reproduced.text = text((*written)->page);
-  const Reproduction& judged = **written;
-  reproduced.outcome = judged.bars_met               ? Outcome::bars_met
-                       : judged.runs < judged.enough ? Outcome::too_few_runs
-                                                     : Outcome::bars_missed;
+  reproduced.text = text(page);
+  reproduced.outcome = outcome_of(judged);
   return reproduced;
 }
 

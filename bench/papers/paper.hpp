@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/papers/page.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::papers {
@@ -23,6 +24,8 @@ struct Request {
 
 /// Bars that so few runs miss say nothing: `too_few_runs`.
 enum class Outcome : std::uint8_t { bars_met, bars_missed, too_few_runs, interrupted };
+
+Outcome outcome_of(const Reproduction& reproduction);
 
 struct Reproduced {
   Outcome outcome = Outcome::interrupted;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/report/summary.hpp"
 
 namespace canhil::report {
@@ -43,6 +44,59 @@ Json object(const WindSummary& wind) {
   return json;
 }
 
+Json object(const AlignmentSummary& summary) {
+  Json json{{"estimator", name(summary.estimator)}, {"heading_convergence", Json::array()}};
+  for (const BandEntry& entry : summary.heading_entries) {
+    json["heading_convergence"].push_back({{"within_mrad", entry.within_rad / world::units::mrad},
+                                           {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
+  }
+  if (summary.final_error_rad) {
+    json["final_error"] = {{"roll_rad", summary.final_error_rad->roll},
+                           {"pitch_rad", summary.final_error_rad->pitch},
+                           {"heading_rad", summary.final_error_rad->heading},
+                           {"velocity_mps", summary.final_velocity_error_mps}};
+  }
+  if (summary.fixes) {
+    json["fixes"] = {
+        {"repairs", summary.fixes->repairs},
+        {"resolved_s", summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr)},
+        {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
+    for (const auto& [outcome, count] : summary.fixes->outcomes) json["fixes"]["outcomes"][outcome] = count;
+  }
+  return json;
+}
+
+Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
+  const BusErrors& errors = bus.errors;
+  Json json{{"error_frames", errors.frames},
+            {"bus_off", errors.bus_off},
+            {"restarted", errors.restarted},
+            {"error_passive", errors.passive},
+            {"error_warning", errors.warning},
+            {"error_active", errors.active},
+            {"no_ack", errors.no_ack},
+            {"lost_arbitration", errors.lost_arbitration},
+            {"tx_timeout", errors.tx_timeout},
+            {"protocol", errors.protocol},
+            {"bus_error", errors.bus_error},
+            {"controller_rx_overflow", errors.rx_overflow},
+            {"controller_tx_overflow", errors.tx_overflow},
+            {"transceiver", errors.transceiver},
+            {"tx_counter_max", errors.tx_counter_max},
+            {"rx_counter_max", errors.rx_counter_max},
+            {"interface_down", bus.downs},
+            {"late_in_queue", bus.late_in_queue},
+            {"incidents", Json::array()},
+            {"more_incidents", bus.more_incidents}};
+  for (const checks::BusIncident& incident : bus.incidents) {
+    json["incidents"].push_back({{"t_s", static_cast<double>(incident.t_ns - first_ns) * 1e-9},
+                                 {"event", name(incident.event)},
+                                 {"tx_counter", incident.tx_counter},
+                                 {"rx_counter", incident.rx_counter}});
+  }
+  return json;
+}
+
 Json object(const realtime::Standing& host, std::int64_t spin_ns) {
   return {{"policy", host.policy},
           {"priority", host.priority},
@@ -58,7 +112,7 @@ Json object(const realtime::Standing& host, std::int64_t spin_ns) {
 }  // namespace
 
 std::string json(const scenario::Scenario& scenario, const run::Run& run) {
-  const Summary summary = summarise(run);
+  const Summary summary = summarise(scenario, run);
   Json page;
   page["title"] = scenario.title;
   page["verdict"] = checks::name(run.verdict.outcome);
@@ -87,24 +141,8 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                               {"measured", check.measured},
                               {"expected", check.expected}});
   }
-  page["heading_convergence"] = Json::array();
-  for (const BandEntry& entry : summary.heading_entries) {
-    page["heading_convergence"].push_back({{"within_mrad", entry.within_rad / world::units::mrad},
-                                           {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
-  }
-  if (summary.final_error_rad) {
-    page["final_error"] = {{"roll_rad", summary.final_error_rad->roll},
-                           {"pitch_rad", summary.final_error_rad->pitch},
-                           {"heading_rad", summary.final_error_rad->heading},
-                           {"velocity_mps", summary.final_velocity_error_mps}};
-  }
-  if (summary.fixes) {
-    page["fixes"] = {
-        {"repairs", summary.fixes->repairs},
-        {"resolved_s", summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr)},
-        {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
-    for (const auto& [outcome, count] : summary.fixes->outcomes) page["fixes"]["outcomes"][outcome] = count;
-  }
+  for (const AlignmentSummary& alignment : summary.alignments)
+    page["alignments"].push_back(object(alignment));
   if (summary.engagement) page["engagement"] = object(*summary.engagement);
   if (summary.wind) page["wind"] = object(*summary.wind);
   if (run.options.clock == run::ClockKind::real_time) {
@@ -120,6 +158,11 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                                {"bad_group", run.seen.counters->bad_group},
                                {"late", run.seen.counters->late}};
   }
+  for (const std::int64_t bitrate : {500'000, 1'000'000}) {
+    const checks::BusLoad load = checks::bus_load(run.seen, {.nominal = bitrate});
+    page["bus_load"].push_back(
+        {{"bitrate_bitps", bitrate}, {"mean", load.mean}, {"busiest_second", load.busiest}});
+  }
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},
                          {"los_answers", summary.los_answers},
@@ -127,6 +170,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                          {"frames_lost", run.seen.target_frames_lost},
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};
+  page["bus"] = object(run.seen.bus, run.seen.first_ns);
   // File and bus names need not be UTF-8.
   return page.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -14,10 +14,6 @@
 namespace canhil::report {
 namespace {
 
-using messages::AlignUpdate;
-using messages::AlignVelocityD;
-using messages::FixUpdate;
-
 // Of the heading, in the unit of the alignment: a fine one, or one that starts from anywhere and has fixes.
 constexpr double bands_mrad[] = {10, 3, 2, 1};
 constexpr double bands_deg[] = {30, 10, 3, 1};
@@ -82,13 +78,12 @@ WindSummary wind_summary(const checks::Observations& seen, const world::GlideRec
   return summary;
 }
 
-}  // namespace
-
-Summary summarise(const run::Run& run) {
-  Summary summary;
-  const auto errors = checks::navigation_errors(run.seen, run.truth);
-  const scenario::AngleUnit unit = run.seen.fixes.empty() ? scenario::mrad : scenario::degrees;
-  for (const double band : run.seen.fixes.empty() ? bands_mrad : bands_deg) {
+AlignmentSummary alignment_summary(scenario::Aligner aligner, const run::Run& run) {
+  const bool by_fixes = aligner == scenario::Aligner::inflight_alignment;
+  AlignmentSummary summary{.estimator = aligner, .heading_entries = {}, .final_error_rad = {}, .fixes = {}};
+  const auto errors = checks::navigation_errors(checks::navigation_of(run.seen, aligner), run.truth);
+  const scenario::AngleUnit unit = by_fixes ? scenario::degrees : scenario::mrad;
+  for (const double band : by_fixes ? bands_deg : bands_mrad) {
     const auto t_us = checks::convergence_us(errors, &world::Euler::heading, band * unit.factor);
     summary.heading_entries.push_back(
         {.within_rad = band * unit.factor,
@@ -99,10 +94,32 @@ Summary summarise(const run::Run& run) {
     summary.final_error_rad = errors.back().angles;
     summary.final_velocity_error_mps = errors.back().v_eb_n.norm();
   }
-  summary.navigation_answers = run.seen.navigation.size();
-  summary.filter_answers = run.seen.filter.size() + run.seen.fixes.size();
+  if (by_fixes && !run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
+  return summary;
+}
 
-  if (!run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
+// The message that closes each group of answers of the estimators in use.
+std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
+  std::vector<std::string_view> closing;
+  const auto add = [&](std::string_view estimator, std::initializer_list<std::string_view> messages) {
+    if (scenario.runs(estimator)) closing.insert(closing.end(), messages);
+  };
+  add("transfer_alignment", {messages::AlignVelocityD::info.name, messages::AlignUpdate::info.name});
+  add("inflight_alignment", {messages::FixVelocityD::info.name, messages::FixUpdate::info.name});
+  add("los_rate", {messages::LosRateTarget::info.name});
+  add("wind", {messages::WindUpdate::info.name});
+  return closing;
+}
+
+}  // namespace
+
+Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
+  Summary summary;
+  for (const auto aligner : {scenario::Aligner::transfer_alignment, scenario::Aligner::inflight_alignment}) {
+    if (scenario.runs(name(aligner))) summary.alignments.push_back(alignment_summary(aligner, run));
+  }
+  summary.navigation_answers = run.seen.navigation.size() + run.seen.fix_navigation.size();
+  summary.filter_answers = run.seen.filter.size() + run.seen.fixes.size();
 
   summary.wind_answers = run.seen.wind.size();
   if (run.own_truth.glide) summary.wind = wind_summary(run.seen, *run.own_truth.glide);
@@ -110,13 +127,7 @@ Summary summarise(const run::Run& run) {
   if (run.own_truth.engagement) summary.engagement = engagement_summary(run.seen, *run.own_truth.engagement);
 
   const scenario::Window everything{0, run.truth.end_us()};
-  const std::string_view update = run.seen.fixes.empty() ? AlignUpdate::info.name : FixUpdate::info.name;
-  std::vector<std::string_view> closing;
-  const bool navigates = !run.own_truth.engagement && !run.own_truth.glide;
-  if (navigates || !errors.empty()) closing = {AlignVelocityD::info.name, update};
-  if (run.own_truth.engagement) closing.push_back(messages::LosRateTarget::info.name);
-  if (run.own_truth.glide) closing.push_back(messages::WindUpdate::info.name);
-  for (const std::string_view message : closing) {
+  for (const std::string_view message : closing_answers(scenario)) {
     summary.latencies.push_back(
         {.message = std::string(message),
          .latency_s = checks::distribution(checks::latencies_s(run.seen, message, everything)),
@@ -125,10 +136,11 @@ Summary summarise(const run::Run& run) {
   std::vector<double> lateness(run.seen.lateness_ns.begin(), run.seen.lateness_ns.end());
   for (double& late : lateness) late *= 1e-9;
   summary.lateness_s = checks::distribution(std::move(lateness));
-  summary.stamp_source = run.options.clock == run::ClockKind::lockstep ? "virtual time"
-                         : run.seen.transmit_stamps_echoed
-                             ? "bus stamps of stimulus and answer"
-                             : "bench's stamp of the stimulus, bus stamp of the answer";
+  summary.stamp_source =
+      run.options.clock == run::ClockKind::lockstep ? "virtual time"
+      : checks::stamped_by_hardware(run.seen) ? "the controller's hardware stamps of stimulus and answer"
+      : run.seen.transmit_stamps_echoed       ? "bus stamps of stimulus and answer"
+                                              : "bench's stamp of the stimulus, bus stamp of the answer";
   return summary;
 }
 

@@ -56,13 +56,19 @@ struct WindSummary {
   std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< of the answers, and flags, that occurred
 };
 
-struct Summary {
+/// What an estimator of attitude and velocity made of the run.
+struct AlignmentSummary {
+  scenario::Aligner estimator{};
   std::vector<BandEntry> heading_entries;
-  std::optional<world::Euler> final_error_rad;  ///< of the last navigation answer
+  std::optional<world::Euler> final_error_rad;  ///< of the last navigation answer; none: there was none
   double final_velocity_error_mps = 0;
+  std::optional<FixSummary> fixes;  ///< none: the target answered no fix
+};
+
+struct Summary {
+  std::vector<AlignmentSummary> alignments;  ///< one for each that the scenario runs
   std::size_t navigation_answers = 0;
   std::size_t filter_answers = 0;
-  std::optional<FixSummary> fixes;  ///< none: the target answered no fix
   std::optional<EngagementSummary> engagement;
   std::size_t los_answers = 0;
   std::optional<WindSummary> wind;
@@ -72,7 +78,7 @@ struct Summary {
   std::string stamp_source;               ///< what the latencies were measured with
 };
 
-Summary summarise(const run::Run& run);
+Summary summarise(const scenario::Scenario& scenario, const run::Run& run);
 
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/report/summary.hpp"
 #include "bench/world/units.hpp"
 
@@ -33,7 +34,7 @@ std::string words(const FixSummary& fixes) {
                      fixes.heading_sigma_rad / world::units::deg);
 }
 
-std::string navigation_words(const Summary& summary) {
+std::string words(const AlignmentSummary& summary) {
   std::string lines = "  heading error for good within";
   auto out = std::back_inserter(lines);
   for (const BandEntry& entry : summary.heading_entries) {
@@ -49,6 +50,7 @@ std::string navigation_words(const Summary& summary) {
   } else {
     fmt::format_to(out, "\n  the target gave no navigation answers\n");
   }
+  if (summary.fixes) fmt::format_to(out, "  fixes                         {}\n", words(*summary.fixes));
   return lines;
 }
 
@@ -88,10 +90,29 @@ std::string words(const WindSummary& wind) {
   return lines + '\n';
 }
 
+// When, by the bench's first transmission; in the units of the events' own words.
+std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
+  constexpr std::size_t shown = 20;
+  std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
+  auto out = std::back_inserter(lines);
+  if (const std::string said = canhil::words(bus.errors); !said.empty()) fmt::format_to(out, " ({})", said);
+  fmt::format_to(out, "; interface down {} times; late in transmit queue {} frames\n", bus.downs,
+                 bus.late_in_queue);
+  for (const checks::BusIncident& incident : bus.incidents) {
+    if (&incident == bus.incidents.data() + shown) break;
+    fmt::format_to(out, "    t={:.3f} s  {} (tx {}, rx {})\n",
+                   static_cast<double>(incident.t_ns - first_ns) * 1e-9, name(incident.event),
+                   incident.tx_counter, incident.rx_counter);
+  }
+  const std::size_t more = bus.incidents.size() + bus.more_incidents;
+  if (more > shown) fmt::format_to(out, "    and {} more\n", more - shown);
+  return lines;
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
-  const Summary summary = summarise(run);
+  const Summary summary = summarise(scenario, run);
   std::string page;
   auto out = std::back_inserter(page);
 
@@ -117,9 +138,10 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   page += '\n';
   if (summary.engagement) page += words(*summary.engagement);
   if (summary.wind) page += words(*summary.wind);
-  const bool navigates = !summary.engagement && !summary.wind;
-  if (navigates || summary.final_error_rad) page += navigation_words(summary);
-  if (summary.fixes) fmt::format_to(out, "  fixes                         {}\n", words(*summary.fixes));
+  for (const AlignmentSummary& alignment : summary.alignments) {
+    if (summary.alignments.size() > 1) fmt::format_to(out, "  {}\n", name(alignment.estimator));
+    page += words(alignment);
+  }
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {
       fmt::format_to(out, "  latency {:<22}p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} answers\n",
@@ -136,6 +158,12 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                      run.seen.queue_max_us, run.seen.compute_max_us);
     }
   }
+  const checks::BusLoad half = checks::bus_load(run.seen, {.nominal = 500'000});
+  const checks::BusLoad full = checks::bus_load(run.seen, {.nominal = 1'000'000});
+  fmt::format_to(out,
+                 "  bus load at 500 kbit/s        mean {:.1f} %, busiest second {:.1f} %; at 1 Mbit/s {:.1f} "
+                 "%, {:.1f} %\n",
+                 half.mean * 100, half.busiest * 100, full.mean * 100, full.busiest * 100);
   const auto& counters = run.seen.counters;
   fmt::format_to(
       out, "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",
@@ -143,6 +171,8 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                              counters->bad_crc, counters->bad_group, counters->late)
                : "unknown",
       run.seen.target_frames_lost, run.seen.target_bad_crc, run.seen.receive_overflows);
+
+  page += words(run.seen.bus, run.seen.first_ns);
 
   fmt::format_to(out, "\n{}: {}\n", checks::name(run.verdict.outcome), run.verdict.reason);
   return page;

@@ -69,16 +69,21 @@ Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_
   return own;
 }
 
-Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                        const OwnTruth& own_truth, std::uint64_t run_index) {
-  world::Stream stream(scenario.seed, run_index, "initial_error");
-  const bool glides = own_truth.glide && scenario.target.estimator == "wind";
-  InitialState state =
-      glides ? state_at_release(*own_truth.glide, *scenario.glide, scenario.target.initial_sigma, stream)
-             : initial_state(initial_solution(truth.epochs().front(), scenario.initial_error, stream),
-                             scenario.target.initial_sigma);
-  if (auto fits = check_fits(state); !fits) return tl::unexpected(fits.error());
-  return state;
+Result<std::vector<InitialState>> make_initial_states(const scenario::Scenario& scenario,
+                                                      const world::FlightRecord& truth,
+                                                      const OwnTruth& own_truth, std::uint64_t run_index) {
+  std::vector<InitialState> states;
+  for (const scenario::TargetSetup& target : scenario.targets) {
+    world::Stream stream(scenario.seed, run_index, "initial_error");
+    const bool glides = own_truth.glide && target.estimator == "wind";
+    const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
+    states.push_back(
+        glides
+            ? state_at_release(*own_truth.glide, *scenario.glide, target.initial_sigma, stream)
+            : initial_state(initial_solution(truth.epochs().front(), error, stream), target.initial_sigma));
+    if (auto fits = check_fits(states.back()); !fits) return tl::unexpected(fits.error());
+  }
+  return states;
 }
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "bench/run/initial_state.hpp"
 #include "bench/run/schedule.hpp"
@@ -26,10 +27,11 @@ struct OwnTruth {
 /// Flies what run `run_index` flies by itself. Error: one line, if the flight ends before the run.
 Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index);
 
-/// What the target is told in run `run_index`: the truth with the errors that this run draws. Error: one
-/// line, if the bus cannot carry it.
-Result<InitialState> make_initial_state(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                        const OwnTruth& own_truth, std::uint64_t run_index);
+/// What each estimator of the target is told in run `run_index`: the truth with the errors that this run
+/// draws, the same draw for each. Error: one line, if the bus cannot carry it.
+Result<std::vector<InitialState>> make_initial_states(const scenario::Scenario& scenario,
+                                                      const world::FlightRecord& truth,
+                                                      const OwnTruth& own_truth, std::uint64_t run_index);
 
 /// The nodes of run `run_index`, in the order of precedence. All but the index must outlive the schedule.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,

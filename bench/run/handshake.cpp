@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bench/run/heard.hpp"
@@ -24,13 +25,27 @@ constexpr std::int64_t poll_ns = 20'000'000;
 class Mailbox final : public Observer {
  public:
   void received(const Received& received) override {
-    if (const auto beat = heard<TargetHeartbeat>(received)) heartbeat = beat;
+    if (const auto beat = heard<TargetHeartbeat>(received)) {
+      heartbeat = beat;
+      beats_[static_cast<std::size_t>(beat->estimator)] = *beat;
+    }
     if (const auto ack = heard<ParamAck>(received)) acknowledgement = ack;
     if (heard<Sync>(received)) other_bench = true;
   }
-  std::optional<TargetHeartbeat> heartbeat;
+  [[nodiscard]] bool is(Estimator estimator, TargetState state) const {
+    const auto& beat = beats_[static_cast<std::size_t>(estimator)];
+    return beat && beat->state == state;
+  }
+  void forget_heartbeats() {
+    heartbeat.reset();
+    beats_ = {};
+  }
+  std::optional<TargetHeartbeat> heartbeat;  // the last one
   std::optional<ParamAck> acknowledgement;
   bool other_bench = false;  // somebody else keeps the time base
+
+ private:
+  std::array<std::optional<TargetHeartbeat>, 8> beats_;  // of each estimator, by the three bits of its name
 };
 
 // Sends commands and waits for what they should bring about.
@@ -146,68 +161,88 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
   return {};
 }
 
-}  // namespace
-
-Result<void> configure(Link& link, nodes::Transmission& out, const scenario::TargetSetup& setup,
-                       const InitialState& initial, const std::function<std::optional<std::string>()>& gone) {
-  const auto estimator = from_name<Estimator>(setup.estimator);
-  const auto algorithm = from_name<Algorithm>(setup.algorithm);
-  if (!estimator || !algorithm) {
-    return failure(
-        fmt::format("estimator '{}' with algorithm '{}': not in the DBC", setup.estimator, setup.algorithm));
-  }
-  Dialogue dialogue(link, out, gone);
-  Mailbox& box = dialogue.mailbox();
-
+// Finds the target: the only one on the bus, and of this DBC.
+Result<void> find(Dialogue& dialogue, const std::string& bus) {
+  const Mailbox& box = dialogue.mailbox();
   auto found = dialogue.until(
       "waiting for its heartbeat", find_limit_ns, [](nodes::Transmission&) {},
       [](const Mailbox& mailbox) { return mailbox.heartbeat.has_value(); });
   if (!found) return found;
   if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
   if (box.other_bench) {
-    return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one",
-                               link.port().name()));
+    return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one", bus));
   }
   if (box.heartbeat->dbc_hash != dbc_hash24) {
     return failure(
         fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
                     "different DBC files",
-                    link.port().name(), box.heartbeat->dbc_hash, dbc_hash24));
+                    bus, box.heartbeat->dbc_hash, dbc_hash24));
   }
+  return {};
+}
 
-  box.heartbeat.reset();
-  auto reset = dialogue.until(
-      "being reset", answer_limit_ns,
-      [&](nodes::Transmission& o) { o.send(command(Command::reset, *estimator, *algorithm)); },
-      [&](const Mailbox& mailbox) {
-        return mailbox.heartbeat && mailbox.heartbeat->state == TargetState::idle &&
-               ((mailbox.heartbeat->estimator == *estimator && mailbox.heartbeat->algorithm == *algorithm) ||
-                mailbox.heartbeat->error_command != 0);
-      });
-  if (!reset) return reset;
-  if (box.heartbeat->error_command != 0) {
+// Selects an estimator, by a reset that forgets all others or beside them, and makes it ready.
+Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selection,
+                     const scenario::TargetSetup& setup, const InitialState& initial) {
+  const auto estimator = from_name<Estimator>(setup.estimator);
+  const auto algorithm = from_name<Algorithm>(setup.algorithm);
+  if (!estimator || !algorithm) {
     return failure(
-        fmt::format("{}: the target on '{}' does not offer '{}' for '{}', expected an algorithm of that "
-                    "estimator (docs/scenarios.md); its errors: {}",
-                    setup.algorithm_where, link.port().name(), setup.algorithm, setup.estimator,
-                    errors_of(*box.heartbeat)));
+        fmt::format("estimator '{}' with algorithm '{}': not in the DBC", setup.estimator, setup.algorithm));
+  }
+  dialogue.mailbox().forget_heartbeats();
+  auto selected = dialogue.until(
+      selection == Command::reset ? "being reset" : fmt::format("adding '{}'", setup.estimator),
+      answer_limit_ns, [&](nodes::Transmission& o) { o.send(command(selection, *estimator, *algorithm)); },
+      [&](const Mailbox& box) {
+        if (!box.heartbeat) return false;
+        const bool as_told = box.heartbeat->estimator == *estimator &&
+                             box.heartbeat->algorithm == *algorithm &&
+                             box.heartbeat->state == TargetState::idle;
+        return as_told || box.heartbeat->error_command != 0;
+      });
+  if (!selected) return selected;
+  if (dialogue.mailbox().heartbeat->error_command != 0) {
+    return failure(fmt::format(
+        "{}: the target on '{}' does not offer '{}' for '{}'{}, expected an algorithm of that "
+        "estimator (docs/scenarios.md); its errors: {}",
+        setup.algorithm_where, bus, setup.algorithm, setup.estimator,
+        selection == Command::add ? " beside others" : "", errors_of(*dialogue.mailbox().heartbeat)));
   }
   for (const scenario::Parameter& parameter : setup.parameters) {
     if (auto set = set_parameter(dialogue, parameter); !set) return set;
   }
-  auto ready = dialogue.until(
+  return dialogue.until(
       "taking its initial state", answer_limit_ns,
       [&](nodes::Transmission& o) {
         const auto send_all = [&](const auto&... message) { (o.send(message), ...); };
         if (initial.air) std::apply(send_all, *initial.air);
         std::apply(send_all, initial.navigation);
       },
-      [](const Mailbox& mailbox) { return mailbox.heartbeat->state == TargetState::ready; });
-  if (!ready) return ready;
+      [&](const Mailbox& box) { return box.is(*estimator, TargetState::ready); });
+}
+
+}  // namespace
+
+Result<void> configure(Link& link, nodes::Transmission& out,
+                       std::span<const scenario::TargetSetup> estimators,
+                       std::span<const InitialState> initial,
+                       const std::function<std::optional<std::string>()>& gone) {
+  Dialogue dialogue(link, out, gone);
+  const std::string& bus = link.port().name();
+  if (auto found = find(dialogue, bus); !found) return found;
+  for (std::size_t i = 0; i < estimators.size(); ++i) {
+    const Command selection = i == 0 ? Command::reset : Command::add;
+    if (auto ready = prepare(dialogue, bus, selection, estimators[i], initial[i]); !ready) return ready;
+  }
   return dialogue.until(
       "starting", answer_limit_ns,
-      [&](nodes::Transmission& o) { o.send(command(Command::start, *estimator, *algorithm)); },
-      [](const Mailbox& mailbox) { return mailbox.heartbeat->state == TargetState::running; });
+      [](nodes::Transmission& o) { o.send(command(Command::start, Estimator::none, Algorithm::kalman)); },
+      [&](const Mailbox& box) {
+        return std::ranges::all_of(estimators, [&](const scenario::TargetSetup& setup) {
+          return box.is(*from_name<Estimator>(setup.estimator), TargetState::running);
+        });
+      });
 }
 
 void stop(Link& link, nodes::Transmission& out) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "bench/nodes/node.hpp"
@@ -13,13 +14,16 @@
 
 namespace canhil::run {
 
-/// Waits for the target's heartbeat and checks its DBC hash, resets it, sets and reads back every parameter,
-/// sends the initial state with its sigmas, starts it. Each step is repeated until it is acknowledged. `gone`
-/// says why there is no point in waiting any more, if so ("target: exited with 1"). Error: one line.
-Result<void> configure(Link& link, nodes::Transmission& out, const scenario::TargetSetup& setup,
-                       const InitialState& initial, const std::function<std::optional<std::string>()>& gone);
+/// Waits for the target's heartbeat and checks its DBC hash; selects each estimator, sets and reads back its
+/// parameters, sends its initial state with its sigmas; starts them all. Each step is repeated until it is
+/// acknowledged. `initial` is in the order of `estimators`. `gone` says why there is no point in waiting any
+/// more, if so ("target: exited with 1"). Error: one line.
+Result<void> configure(Link& link, nodes::Transmission& out,
+                       std::span<const scenario::TargetSetup> estimators,
+                       std::span<const InitialState> initial,
+                       const std::function<std::optional<std::string>()>& gone);
 
-/// Stops the estimator, and waits a moment for the heartbeat that says so: it belongs to the session's
+/// Stops the estimators, and waits a moment for the heartbeat that says so: it belongs to the session's
 /// record.
 void stop(Link& link, nodes::Transmission& out);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/run/heard.hpp"
+
 namespace canhil::run {
 
 std::string errors_of(const messages::TargetHeartbeat& heartbeat) {
@@ -19,7 +21,14 @@ std::string errors_of(const messages::TargetHeartbeat& heartbeat) {
 }
 
 std::string fault_of(const messages::TargetHeartbeat& heartbeat) {
-  return fmt::format("the target reported a fault, its errors: {}", errors_of(heartbeat));
+  return fmt::format("the target reported a fault of its {}, its errors: {}", name_of(heartbeat.estimator),
+                     errors_of(heartbeat));
+}
+
+std::optional<messages::TargetHeartbeat> fault_in(const Received& received) {
+  auto beat = heard<messages::TargetHeartbeat>(received);
+  if (beat && beat->state != messages::TargetState::fault) beat.reset();
+  return beat;
 }
 
 }  // namespace canhil::run

@@ -16,14 +16,14 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
   static const std::atomic<bool> never = false;
   auto own_truth = make_own_truth(scenario, run_index);
   if (!own_truth) return tl::unexpected(own_truth.error());
-  const auto initial = make_initial_state(scenario, truth, *own_truth, run_index);
+  const auto initial = make_initial_states(scenario, truth, *own_truth, run_index);
   if (!initial) return tl::unexpected(initial.error());
 
   InProcessPort port;
   Link link(port);
   Schedule schedule = make_schedule(scenario, truth, *own_truth, run_index, true);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
-  if (auto ready = configure(link, schedule.outbox(), scenario.target, *initial, gone); !ready) {
+  if (auto ready = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !ready) {
     return tl::unexpected(ready.error());
   }
   Monitor monitor;

@@ -1,6 +1,13 @@
 #include "bench/run/link.hpp"
 
+#include "messages/canhil.hpp"
+
 namespace canhil::run {
+namespace {
+
+constexpr std::int64_t late_in_queue_ns = messages::Sync::info.cycle_time_us * 1000;
+
+}  // namespace
 
 LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns) {
   std::int64_t deadline_ns = 0;  // looked up when it matters: most frames are taken at once
@@ -8,19 +15,19 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
     // The stamp is taken before: the answer of a fast target must not precede it.
     const std::int64_t t_ns = port_.now_ns();
     const std::int64_t late_ns = due_ns ? clock_ns(CLOCK_MONOTONIC) - *due_ns : 0;
-    switch (port_.send(frame)) {
-      case SendOutcome::sent:
-        for (Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
-        return LinkState::up;
-      case SendOutcome::down:
-      case SendOutcome::refused:
-        return LinkState::down;
-      case SendOutcome::queue_full:
-        break;
+    const SendOutcome outcome = port_.send(frame);
+    look_at_interface();
+    if (outcome == SendOutcome::sent) {
+      const bool waited = deadline_ns != 0;
+      if (waited && late_ns > late_in_queue_ns) ++late_in_queue_;
+      for (Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
+      return LinkState::up;
     }
+    const bool may_return = outcome == SendOutcome::down && !port_.up();
+    if (outcome != SendOutcome::queue_full && !may_return) return LinkState::down;
     const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
     if (deadline_ns == 0) deadline_ns = now_ns + patience_ns;
-    if (now_ns >= deadline_ns) return LinkState::congested;
+    if (now_ns >= deadline_ns) return may_return ? LinkState::down : LinkState::congested;
     // What fills the queue may be a target that waits for us to read its answers.
     if (drain() == LinkState::down) return LinkState::down;
     wait(port_, WaitFor::room, deadline_ns);
@@ -31,7 +38,14 @@ LinkState Link::drain() {
   while (auto received = port_.receive()) {
     for (Observer* observer : observers_) observer->received(*received);
   }
+  look_at_interface();
   return port_.closed() ? LinkState::down : LinkState::up;
+}
+
+void Link::look_at_interface() {
+  if (port_.up() == up_) return;
+  up_ = port_.up();
+  for (Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
 }
 
 void Link::wait_until(std::int64_t deadline_ns) {

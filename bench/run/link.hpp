@@ -20,6 +20,8 @@ class Observer {
   virtual void transmitted(const Frame& /*frame*/, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {}
   /// A frame came from the bus; `received.own`: the echo of one of ours, with its transmit stamp.
   virtual void received(const Received& /*received*/) {}
+  /// The interface went down or was removed, or is back.
+  virtual void interface_changed(bool /*up*/, std::int64_t /*t_ns*/) {}
 };
 
 /// Result of handing over a frame.
@@ -33,8 +35,9 @@ class Link {
   void attach(Observer& observer) { observers_.push_back(&observer); }
   void detach(Observer& observer) { std::erase(observers_, &observer); }
 
-  /// Hands a frame to the bus. While the bus has no room it receives, until `patience_ns` from now; then
-  /// `congested`. `due_ns`: its deadline on CLOCK_MONOTONIC, if it has one; waiting for room makes it late.
+  /// Hands a frame to the bus. While the bus has no room, or its interface is down, it receives, until
+  /// `patience_ns` from now; then `congested` or `down`. `due_ns`: its deadline on CLOCK_MONOTONIC, if it has
+  /// one; waiting for room makes it late.
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
@@ -44,11 +47,18 @@ class Link {
   /// Sleeps until a frame arrives, or until `deadline_ns` on CLOCK_MONOTONIC.
   void wait_until(std::int64_t deadline_ns);
 
+  /// Frames that waited for room for longer than a period of Sync after they were due.
+  [[nodiscard]] std::uint64_t late_in_queue() const { return late_in_queue_; }
+
   [[nodiscard]] const Port& port() const { return port_; }
 
  private:
+  void look_at_interface();
+
   Port& port_;
   std::vector<Observer*> observers_;
+  bool up_ = true;
+  std::uint64_t late_in_queue_ = 0;
 };
 
 /// Keeps an observer attached while it lives.

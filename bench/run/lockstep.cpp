@@ -20,9 +20,7 @@ class StepWatch final : public Observer {
   }
   void received(const Received& received) override {
     if (const auto done = heard<messages::StepDone>(received)) done_ = done_ || done->step == awaited_;
-    if (const auto beat = heard<messages::TargetHeartbeat>(received)) {
-      if (beat->state == messages::TargetState::fault) fault_ = beat;
-    }
+    if (const auto beat = fault_in(received)) fault_ = beat;
   }
   [[nodiscard]] std::uint16_t awaited() const { return awaited_; }
   [[nodiscard]] bool done() const { return done_; }

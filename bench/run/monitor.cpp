@@ -19,6 +19,29 @@ constexpr Routes target_messages([](const MessageInfo& info) {
   return info.sender == TargetHeartbeat::info.sender;
 });
 
+// The groups of answers, and which of them each message belongs to.
+enum class AnswerGroup : std::uint8_t { none, align_nav, align_filter, fix_nav, fix_filter, los_rate, wind };
+
+constexpr AnswerGroup answer_group(const MessageInfo& info) {
+  constexpr std::pair<std::string_view, AnswerGroup> groups[] = {
+      {AlignVelocityD::info.sample_group, AnswerGroup::align_nav},
+      {AlignUpdate::info.sample_group, AnswerGroup::align_filter},
+      {FixVelocityD::info.sample_group, AnswerGroup::fix_nav},
+      {FixUpdate::info.sample_group, AnswerGroup::fix_filter},
+      {LosRateTarget::info.sample_group, AnswerGroup::los_rate},
+      {WindUpdate::info.sample_group, AnswerGroup::wind}};
+  for (const auto& [name, group] : groups) {
+    if (info.sample_group == name) return group;
+  }
+  return AnswerGroup::none;
+}
+
+constexpr auto answer_groups = [] {
+  std::array<AnswerGroup, all_messages.size()> groups{};
+  std::ranges::transform(all_messages, groups.begin(), answer_group);
+  return groups;
+}();
+
 constexpr bool is_answered(std::string_view group) {
   return std::ranges::any_of(all_messages, [&](const MessageInfo& info) {
     return std::ranges::find(info.answers, group) != info.answers.end();
@@ -74,7 +97,9 @@ void Monitor::echoed(const Received& received) {
   const auto found = std::find_if(
       stimuli.rbegin(), stimuli.rend(),
       [valid_us = unwrap_us(closed.valid_us, now_us_)](const auto& s) { return s.valid_us == valid_us; });
-  if (found != stimuli.rend()) found->t_ns = received.t_ns;
+  if (found == stimuli.rend()) return;
+  found->t_ns = received.t_ns;
+  found->hardware_ns = received.hardware_ns;
 }
 
 void Monitor::received(const Received& received) {
@@ -99,33 +124,42 @@ void Monitor::received(const Received& received) {
     case e2e::Check::ok:
       break;
   }
-  seen_.arrivals[index].push_back({.t_ns = received.t_ns});
-  decode(frame, e2e::counter(frame.payload()));
+  seen_.arrivals[index].push_back({.t_ns = received.t_ns, .hardware_ns = received.hardware_ns});
+  decode(frame, index);
 }
 
-void Monitor::decode(const Frame& frame, std::uint8_t counter) {
-  switch (frame.id) {
-    case TargetHeartbeat::info.id:
-      seen_.heartbeat = from_frame<TargetHeartbeat>(frame);
+void Monitor::decode(const Frame& frame, std::size_t index) {
+  const std::uint8_t counter = e2e::counter(frame.payload());
+  switch (answer_groups[index]) {
+    case AnswerGroup::align_nav:
+      if (put(navigation_, frame, counter)) on_navigation(navigation_, seen_.navigation);
       return;
-    case TargetCounters::info.id:
-      seen_.counters = from_frame<TargetCounters>(frame);
+    case AnswerGroup::fix_nav:
+      if (put(fix_navigation_, frame, counter)) on_navigation(fix_navigation_, seen_.fix_navigation);
       return;
-    case TargetTiming::info.id: {
-      const auto timing = from_frame<TargetTiming>(frame);
-      seen_.target_timing_seen = true;
-      seen_.queue_max_us = std::max(seen_.queue_max_us, timing.queue_max_us);
-      seen_.compute_max_us = std::max(seen_.compute_max_us, timing.compute_max_us);
+    case AnswerGroup::align_filter:
+      if (put(filter_, frame, counter)) on_filter();
       return;
-    }
-    default:
+    case AnswerGroup::fix_filter:
+      if (put(fix_, frame, counter)) on_fix();
+      return;
+    case AnswerGroup::los_rate:
+      if (put(los_, frame, counter)) on_los();
+      return;
+    case AnswerGroup::wind:
+      if (put(wind_, frame, counter)) on_wind();
+      return;
+    case AnswerGroup::none:
       break;
   }
-  if (put(navigation_, frame, counter)) on_navigation();
-  if (put(filter_, frame, counter)) on_filter();
-  if (put(fix_, frame, counter)) on_fix();
-  if (put(wind_, frame, counter)) on_wind();
-  if (put(los_, frame, counter)) on_los();
+  if (frame.id == TargetCounters::info.id) {
+    seen_.counters = from_frame<TargetCounters>(frame);
+  } else if (frame.id == TargetTiming::info.id) {
+    const auto timing = from_frame<TargetTiming>(frame);
+    seen_.target_timing_seen = true;
+    seen_.queue_max_us = std::max(seen_.queue_max_us, timing.queue_max_us);
+    seen_.compute_max_us = std::max(seen_.compute_max_us, timing.compute_max_us);
+  }
 }
 
 // Puts a frame into the group if it is one of its messages; true: the group is whole now.
@@ -152,18 +186,20 @@ void Monitor::attribute(const SampleGroup<Messages...>& /*group*/, std::int64_t 
   (to(seen_.arrivals[message_index<Messages>()].back()), ...);
 }
 
-void Monitor::on_navigation() {
-  const auto& attitude = navigation_.get<AlignAttitude>();
-  const auto& horizontal = navigation_.get<AlignVelocityNE>();
-  const auto& vertical = navigation_.get<AlignVelocityD>();
+template <class Attitude, class VelocityNE, class VelocityD>
+void Monitor::on_navigation(const SampleGroup<Attitude, VelocityNE, VelocityD>& group,
+                            std::vector<checks::NavigationAnswer>& answers) {
+  const auto& attitude = group.template get<Attitude>();
+  const auto& horizontal = group.template get<VelocityNE>();
+  const auto& vertical = group.template get<VelocityD>();
   const std::int64_t cause_us = unwrap_us(vertical.cause_time_us, now_us_);
-  seen_.navigation.push_back(
+  answers.push_back(
       {.cause_us = cause_us,
        .angles = {attitude.roll_deg * deg, attitude.pitch_deg * deg, attitude.heading_deg * deg},
        .v_eb_n =
            Vector3(horizontal.velocity_north_mps, horizontal.velocity_east_mps, vertical.velocity_down_mps),
        .coasting = attitude.coasting != 0});
-  attribute(navigation_, cause_us, AlignVelocityD::info.answers.front());
+  attribute(group, cause_us, VelocityD::info.answers.front());
 }
 
 void Monitor::on_filter() {
@@ -207,7 +243,7 @@ void Monitor::on_fix() {
   const std::int64_t cause_us = unwrap_us(update.cause_time_us, now_us_);
   seen_.fixes.push_back(
       {.cause_us = cause_us,
-       .navigation_us = seen_.navigation.empty() ? -1 : seen_.navigation.back().cause_us,
+       .navigation_us = seen_.fix_navigation.empty() ? -1 : seen_.fix_navigation.back().cause_us,
        .source = status.source,
        .outcome = status.outcome,
        .nis = update.nis,

@@ -22,8 +22,10 @@ class Monitor final : public Observer {
 
  private:
   void echoed(const Received& received);
-  void decode(const Frame& frame, std::uint8_t counter);
-  void on_navigation();
+  void decode(const Frame& frame, std::size_t index);
+  template <class Attitude, class VelocityNE, class VelocityD>
+  void on_navigation(const SampleGroup<Attitude, VelocityNE, VelocityD>& group,
+                     std::vector<checks::NavigationAnswer>& answers);
   void on_filter();
   void on_fix();
   void on_wind();
@@ -36,6 +38,7 @@ class Monitor final : public Observer {
   checks::Observations seen_;
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   SampleGroup<messages::AlignAttitude, messages::AlignVelocityNE, messages::AlignVelocityD> navigation_;
+  SampleGroup<messages::FixAttitude, messages::FixVelocityNE, messages::FixVelocityD> fix_navigation_;
   SampleGroup<messages::AlignInnovation, messages::AlignAttitudeSigma, messages::AlignAttitudeCorrelation,
               messages::AlignVelocitySigma, messages::AlignGyroBias, messages::AlignGyroBiasSigma,
               messages::AlignAccelBias, messages::AlignAccelBiasSigma, messages::AlignUpdate>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "bench/run/heard.hpp"
+#include "bench/run/bus_watch.hpp"
 #include "bench/run/heartbeat_errors.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
@@ -15,8 +15,9 @@ namespace {
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
 constexpr std::int64_t ns_per_us = 1000;
-constexpr std::int64_t lead_ns = 20'000'000;           // from here to the first deadline
-constexpr std::int64_t last_answers_ns = 150'000'000;  // longer than a heartbeat period
+constexpr std::int64_t lead_ns = 20'000'000;             // from here to the first deadline
+constexpr std::int64_t last_answers_ns = 150'000'000;    // longer than a heartbeat period
+constexpr std::int64_t outage_limit_ns = 5'000'000'000;  // an interface down and up, a restart after bus-off
 constexpr std::int64_t progress_period_us = 100'000;
 
 constexpr Routes target_messages([](const MessageInfo& info) {
@@ -30,9 +31,7 @@ class TargetWatch final : public Observer {
   void received(const Received& received) override {
     if (received.own || target_messages(received.frame) == Routes::nowhere) return;
     heard_ns_ = now_ns();
-    if (const auto beat = heard<messages::TargetHeartbeat>(received)) {
-      if (beat->state == messages::TargetState::fault) fault_ = beat;
-    }
+    if (const auto beat = fault_in(received)) fault_ = beat;
   }
   [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
   /// The heartbeat that said so.
@@ -51,8 +50,22 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
   TargetWatch watch(start_ns);
   const Attached attached(link, watch);
+  BusWatch bus;
+  const Attached bus_attached(link, bus);
   std::int64_t progress_due_us = 0;
 
+  // Nobody can be heard, nor hear, while the bus is away: then, and for as long after as always, silence says
+  // nothing.
+  const auto excused_until_ns = [&] {
+    if (bus.outage()) return bus.outage()->since_ns + outage_limit_ns;
+    return std::max(watch.heard_ns(), bus.ended_ns()) + silence_limit_ns;
+  };
+  const auto silent = [&] {
+    const std::int64_t since_us = bench_us(bus.outage() ? bus.outage()->since_ns : watch.heard_ns());
+    return Ending{bus.outage() ? Ending::Kind::bus_down : Ending::Kind::target_silent, since_us,
+                  fmt::format("{} since t={:.3f} s", bus.outage() ? bus.outage()->what : "target silent",
+                              static_cast<double>(since_us) * 1e-6)};
+  };
   // Receives until `deadline_ns`; says why the run is over, if it is.
   const auto receive_until = [&](std::int64_t deadline_ns) -> std::optional<Ending> {
     for (;;) {
@@ -61,14 +74,10 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
       if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), fault_of(*watch.fault())};
-      if (now - watch.heard_ns() > silence_limit_ns) {
-        return Ending{Ending::Kind::target_silent, bench_us(watch.heard_ns()),
-                      fmt::format("target silent since t={:.3f} s",
-                                  static_cast<double>(bench_us(watch.heard_ns())) * 1e-6)};
-      }
+      if (now > excused_until_ns()) return silent();
       if (now >= deadline_ns) return std::nullopt;
       if (now < deadline_ns - spin_ns)
-        link.wait_until(std::min(deadline_ns - spin_ns, watch.heard_ns() + silence_limit_ns + 1));
+        link.wait_until(std::min(deadline_ns - spin_ns, excused_until_ns() + 1));
     }
   };
 
@@ -77,7 +86,12 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
     const std::int64_t due_ns = start_ns + due_us * ns_per_us;
     if (auto ending = receive_until(due_ns)) return *ending;
     for (const Frame& frame : schedule.take()) {
-      switch (link.send(frame, silence_limit_ns, due_ns)) {
+      LinkState state = link.send(frame, silence_limit_ns, due_ns);
+      while (state != LinkState::up && bus.outage() && !stop && !link.port().closed()) {
+        if (now_ns() > excused_until_ns()) return silent();
+        state = link.send(frame, silence_limit_ns, due_ns);
+      }
+      switch (state) {
         case LinkState::up:
           break;
         case LinkState::congested:

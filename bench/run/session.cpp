@@ -4,10 +4,12 @@
 
 #include <memory>
 
+#include "bench/run/bus_watch.hpp"
 #include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/in_process_port.hpp"
+#include "bench/run/load_meter.hpp"
 #include "bench/run/lockstep.hpp"
 #include "bench/run/monitor.hpp"
 #include "bench/run/recorder.hpp"
@@ -45,7 +47,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (!truth) return in_file(truth.error());
   auto own_truth = make_own_truth(scenario, options.run_index);
   if (!own_truth) return in_file(own_truth.error());
-  const auto initial = make_initial_state(scenario, *truth, *own_truth, options.run_index);
+  const auto initial = make_initial_states(scenario, *truth, *own_truth, options.run_index);
   if (!initial) return in_file(initial.error());
 
   const std::vector<int> target_cpus =
@@ -56,6 +58,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   auto port = open(options.bus);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
+  BusWatch bus;
+  link.attach(bus);
   std::unique_ptr<Recorder> recorder;
   if (options.log_path) {
     auto opened = Recorder::open(*options.log_path, **port);
@@ -77,12 +81,14 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   };
 
   Schedule schedule = make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep);
-  if (auto configured = configure(link, schedule.outbox(), scenario.target, *initial, gone); !configured) {
+  if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !configured) {
     return tl::unexpected(configured.error());
   }
 
   Monitor monitor;
   link.attach(monitor);
+  LoadMeter meter;
+  link.attach(meter);
   Ears ears(schedule);
   link.attach(ears);
   const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
@@ -91,6 +97,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress, options.spin_ns);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
   link.detach(ears);
+  link.detach(meter);
   link.detach(monitor);
   if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
     ending.detail += fmt::format(" (its process {})", *why);
@@ -102,6 +109,9 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   }
 
   checks::Observations seen = std::move(monitor.observations());
+  seen.length_by_second = meter.lengths();
+  seen.bus = bus.record();
+  seen.bus.late_in_queue = link.late_in_queue();
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,

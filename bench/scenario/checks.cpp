@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <tuple>
 
+#include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::scenario {
 namespace {
 
+constexpr std::array<std::string_view, 2> aligners{"transfer_alignment", "inflight_alignment"};
 constexpr std::array<std::string_view, 3> attitude_axes{"roll", "pitch", "heading"};
 constexpr std::array<std::string_view, 4> velocity_axes{"north", "east", "down", "norm"};
 constexpr std::array<std::string_view, 5> position_axes{"north", "east", "down", "horizontal", "norm"};
@@ -26,16 +27,18 @@ constexpr std::array<std::string_view, 2> los_statistics{"rms", "max"};
 struct Context {
   std::int64_t duration_us;
   const Contract& contract;
+  const Truths& truths;
 };
 
-template <class Enum>
-Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names,
-               std::optional<Enum> fallback = {}) {
-  const std::vector<std::string> words(names.begin(), names.end());
-  std::optional<std::string> word;
-  if (fallback) word = words[static_cast<std::size_t>(*fallback)];
-  const auto found = std::ranges::find(words, section.one_of(key, words, word));
-  return found == words.end() ? Enum{} : static_cast<Enum>(found - words.begin());
+/// Whose answers: to be said where two estimators align.
+Aligner read_aligner(Section& section, const Context& context) {
+  const std::vector<Aligner>& there = context.truths.aligners;
+  if (there.size() > 1) return read_enum<Aligner>(section, "estimator", aligners);
+  const Aligner only = there.empty() ? Aligner::transfer_alignment : there.front();
+  const auto given = read_enum<Aligner>(section, "estimator", aligners, only);
+  if (given != only)
+    section.reject("estimator", fmt::format("'{}' is not run in this scenario", name(given)), name(only));
+  return given;
 }
 
 /// An angle as STEM_mrad or STEM_deg.
@@ -53,6 +56,7 @@ std::pair<double, AngleUnit> read_angle(Section& section, const std::string& ste
 }
 
 AttitudeError read(Section& section, const Context& context, AttitudeError rule) {
+  rule.of = read_aligner(section, context);
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
   rule.window = read_window(section, context.duration_us);
   std::tie(rule.below, rule.unit) = read_angle(section, "below");
@@ -60,6 +64,7 @@ AttitudeError read(Section& section, const Context& context, AttitudeError rule)
 }
 
 Convergence read(Section& section, const Context& context, Convergence rule) {
+  rule.of = read_aligner(section, context);
   rule.axis = read_enum<AttitudeAxis>(section, "axis", attitude_axes);
   std::tie(rule.within, rule.unit) = read_angle(section, "within");
   rule.before_us = read_time(section, "before_s", Limits::above(0), context.duration_us);
@@ -67,6 +72,7 @@ Convergence read(Section& section, const Context& context, Convergence rule) {
 }
 
 VelocityError read(Section& section, const Context& context, VelocityError rule) {
+  rule.of = read_aligner(section, context);
   rule.axis = read_enum<VelocityAxis>(section, "axis", velocity_axes, VelocityAxis::norm);
   rule.window = read_window(section, context.duration_us);
   rule.below = section.number("below_mps", Limits::above(0));
@@ -75,6 +81,9 @@ VelocityError read(Section& section, const Context& context, VelocityError rule)
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   rule.statistic = read_enum<Statistic>(section, "statistic", statistics);
+  const bool of_alignment = rule.statistic == Statistic::nis || rule.statistic == Statistic::attitude_nees ||
+                            rule.statistic == Statistic::heading_nees;
+  if (of_alignment) rule.of = read_aligner(section, context);
   rule.window = read_window(section, context.duration_us);
   if (!section.has("probability")) {
     const auto [low, high] = section.interval("mean_between", Limits::at_least(0));
@@ -127,6 +136,16 @@ Counters read(Section& section, const Context& /*context*/, Counters rule) {
   return rule;
 }
 
+BusErrorLimits read(Section& section, const Context& /*context*/, BusErrorLimits rule) {
+  rule = {.bus_off_at_most = section.optional_integer("bus_off_at_most", 0).value_or(0),
+          .down_at_most = section.optional_integer("down_at_most", 0).value_or(0),
+          .passive_at_most = section.optional_integer("passive_at_most", 0),
+          .warning_at_most = section.optional_integer("warning_at_most", 0),
+          .error_frames_at_most = section.optional_integer("error_frames_at_most", 0),
+          .late_in_queue_at_most = section.optional_integer("late_in_queue_at_most", 0)};
+  return rule;
+}
+
 Heartbeat read(Section& section, const Context& /*context*/, Heartbeat rule) {
   rule.silent_at_most_us = section.time_us("silent_at_most_s", Limits::above(0));
   return rule;
@@ -145,6 +164,7 @@ Fixes read(Section& section, const Context& context, Fixes rule) {
     Fixes::Count count{.outcome = outcome,
                        .at_least = section.optional_integer(outcome + "_at_least", 0),
                        .at_most = section.optional_integer(outcome + "_at_most", 0)};
+    expect_ordered(section, outcome + "_at_least", count.at_least, outcome + "_at_most", count.at_most);
     if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
   }
   rule.repairs_at_most = section.optional_integer("repairs_at_most", 0);
@@ -162,6 +182,7 @@ Coasting read(Section& section, const Context& context, Coasting rule) {
   rule.at_most = section.optional_integer("at_most", 0);
   if (!rule.at_least && !rule.at_most)
     section.reject("at_least", "is missing, as is 'at_most'", "at least one limit");
+  expect_ordered(section, "at_least", rule.at_least, "at_most", rule.at_most);
   return rule;
 }
 
@@ -180,6 +201,7 @@ WindAnswers read(Section& section, const Context& context, WindAnswers rule) {
                              .is_flag = is_flag,
                              .at_least = section.optional_integer(name + "_at_least", 0),
                              .at_most = section.optional_integer(name + "_at_most", 0)};
+    expect_ordered(section, name + "_at_least", count.at_least, name + "_at_most", count.at_most);
     if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
   };
   for (const std::string& outcome : context.contract.wind_outcomes) read_count(outcome, false);
@@ -199,6 +221,14 @@ LosRateError read(Section& section, const Context& /*context*/, LosRateError rul
 
 MissDistance read(Section& section, const Context& /*context*/, MissDistance rule) {
   rule.below = section.number("below_m", Limits::above(0));
+  return rule;
+}
+
+BusLoad read(Section& section, const Context& /*context*/, BusLoad rule) {
+  constexpr std::int64_t kilo = 1000;
+  rule.bitrate = section.integer("bitrate_kbitps", 1) * kilo;
+  rule.data_bitrate = section.optional_integer("data_bitrate_kbitps", 1).value_or(0) * kilo;
+  rule.below = section.plain_number("below_percent", Limits::above(0, 100)) / 100;
   return rule;
 }
 
@@ -249,6 +279,7 @@ std::string subject(const Consistency& rule) { return fmt::format(" {}", name(ru
 std::string subject(const OutputPeriod& rule) { return fmt::format(" {}", rule.message); }
 std::string subject(const Latency& rule) { return fmt::format(" {}", rule.message); }
 std::string subject(const Counters& /*rule*/) { return {}; }
+std::string subject(const BusErrorLimits& /*rule*/) { return {}; }
 std::string subject(const Heartbeat& /*rule*/) { return {}; }
 std::string subject(const PositionError& rule) { return fmt::format(" {}", name(rule.axis)); }
 std::string subject(const Fixes& /*rule*/) { return {}; }
@@ -261,9 +292,11 @@ std::string subject(const LosRateError& rule) {
   return fmt::format(" {} {} to {:g} s to go", name(rule.plane), rule.most_to_go, rule.least_to_go);
 }
 std::string subject(const MissDistance& /*rule*/) { return {}; }
+std::string subject(const BusLoad& rule) { return fmt::format(" at {} kbit/s", rule.bitrate / 1000); }
 
 }  // namespace
 
+std::string_view name(Aligner aligner) { return aligners[static_cast<std::size_t>(aligner)]; }
 std::string_view name(AttitudeAxis axis) { return attitude_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(VelocityAxis axis) { return velocity_axes[static_cast<std::size_t>(axis)]; }
 std::string_view name(PositionAxis axis) { return position_axes[static_cast<std::size_t>(axis)]; }
@@ -282,11 +315,18 @@ Check read_check(Section& section, std::int64_t duration_us, const Contract& con
   check.line = section.line();
   const std::string wanted = section.one_of("kind", kinds<Rule>());
   check.requirement = section.text("requirement", "");
-  const Context context{.duration_us = duration_us, .contract = contract};
+  const Context context{.duration_us = duration_us, .contract = contract, .truths = truths};
   check.rule = read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
   expect_truth(section, check.rule, truths);
-  const std::string by_default = fmt::format(
-      "{}{}", kind(check), std::visit([](const auto& rule) { return subject(rule); }, check.rule));
+  const auto whose = [&](const auto& rule) -> std::string {
+    if constexpr (requires { rule.of; }) {
+      if (truths.aligners.size() > 1) return fmt::format(" of {}", name(rule.of));
+    }
+    return {};
+  };
+  const std::string by_default = std::visit(
+      [&](const auto& rule) { return fmt::format("{}{}{}", rule.kind, subject(rule), whose(rule)); },
+      check.rule);
   check.name = section.text("name", by_default);
   section.finish();
   return check;

@@ -17,6 +17,8 @@ namespace canhil::scenario {
 
 class Section;
 
+/// The estimators of attitude and velocity.
+enum class Aligner : std::uint8_t { transfer_alignment, inflight_alignment };
 enum class AttitudeAxis : std::uint8_t { roll, pitch, heading };
 enum class VelocityAxis : std::uint8_t { north, east, down, norm };
 enum class PositionAxis : std::uint8_t { north, east, down, horizontal, norm };
@@ -43,6 +45,7 @@ struct Window {
 /// |estimated - true| Euler angle stays below a bar throughout the window.
 struct AttitudeError {
   static constexpr std::string_view kind = "attitude_error";
+  Aligner of = Aligner::transfer_alignment;
   AttitudeAxis axis = AttitudeAxis::heading;
   Window window;
   double below = 0;  ///< [rad]
@@ -52,6 +55,7 @@ struct AttitudeError {
 /// The error enters a band before a time, and stays there to the end of the run.
 struct Convergence {
   static constexpr std::string_view kind = "convergence";
+  Aligner of = Aligner::transfer_alignment;
   AttitudeAxis axis = AttitudeAxis::heading;
   double within = 0;  ///< [rad]
   std::int64_t before_us = 0;
@@ -61,6 +65,7 @@ struct Convergence {
 /// |estimated - true| velocity stays below a bar throughout the window.
 struct VelocityError {
   static constexpr std::string_view kind = "velocity_error";
+  Aligner of = Aligner::transfer_alignment;
   VelocityAxis axis = VelocityAxis::norm;
   Window window;
   double below = 0;  ///< [m/s]
@@ -144,6 +149,7 @@ struct Probability {
 };
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
+  Aligner of = Aligner::transfer_alignment;  ///< of the statistics of an alignment
   Statistic statistic =
       Statistic::nis;  ///< of 3 degrees of freedom; heading_nees: of 1, los_nis: of 2, wind_nis: of 9
   Window window;
@@ -183,17 +189,39 @@ struct Heartbeat {
   std::int64_t silent_at_most_us = 0;
 };
 
+/// The frames of everybody keep the bus busy for less than a share of each second, at a bit rate.
+struct BusLoad {
+  static constexpr std::string_view kind = "bus_load";
+  std::int64_t bitrate = 0;       ///< [bit/s]
+  std::int64_t data_bitrate = 0;  ///< of the data phase of FD frames [bit/s]; 0: as the other
+  double below = 0;               ///< share: 0.5 is 50 %
+};
+
+/// What went wrong on the bus itself. Absent: not judged; without such a check a bus-off or an outage fails
+/// every run.
+struct BusErrorLimits {
+  static constexpr std::string_view kind = "bus_errors";
+  std::int64_t bus_off_at_most = 0;
+  std::int64_t down_at_most = 0;  ///< of the bench's interface
+  std::optional<std::int64_t> passive_at_most;
+  std::optional<std::int64_t> warning_at_most;
+  std::optional<std::int64_t> error_frames_at_most;
+  std::optional<std::int64_t> late_in_queue_at_most;  ///< frames of the bench
+};
+
 struct Check {
   std::string
       name;  ///< unique in the scenario; by default kind and what it looks at: "attitude_error heading"
   std::string requirement;  ///< id carried to the reports; may be empty
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
-               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers>
+               Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers,
+               BusLoad, BusErrorLimits>
       rule;
 };
 
 std::string_view kind(const Check& check);
+std::string_view name(Aligner aligner);
 std::string_view name(AttitudeAxis axis);
 std::string_view name(VelocityAxis axis);
 std::string_view name(PositionAxis axis);
@@ -202,11 +230,12 @@ std::string_view name(WindAxis axis);
 std::string_view name(WindStatistic statistic);
 std::string_view name(LosPlane plane);
 
-/// What a scenario has that answers can be held against.
+/// What a scenario has that answers can be held against, and whose they may be.
 struct Truths {
   bool navigation = true;
   bool engagement = false;
   bool glide = false;
+  std::vector<Aligner> aligners{};
 };
 
 Check read_check(Section& section, std::int64_t duration_us, const Contract& contract, const Truths& truths);

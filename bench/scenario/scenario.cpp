@@ -29,8 +29,8 @@ std::optional<Node> read_node(Section& root, std::string_view key, bool needed, 
 /// The glider's truth and nodes: all of them are there, or none is.
 void read_glider(Section& root, Scenario& scenario) {
   constexpr std::array parts{"glide", "wind", "airframe", "glider_nav", "fins"};
-  const bool wanted = scenario.target.estimator == "wind" ||
-                      std::ranges::any_of(parts, [&](const char* key) { return root.has(key); });
+  const bool wanted =
+      scenario.runs("wind") || std::ranges::any_of(parts, [&](const char* key) { return root.has(key); });
   if (!wanted) {
     for (const char* key : parts) root.optional(key);
     return;
@@ -57,12 +57,21 @@ std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Co
   return checks;
 }
 
+std::vector<Aligner> aligners_of(const Scenario& scenario) {
+  std::vector<Aligner> aligners;
+  for (const Aligner one : {Aligner::transfer_alignment, Aligner::inflight_alignment}) {
+    if (scenario.runs(name(one))) aligners.push_back(one);
+  }
+  return aligners;
+}
+
 /// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
 /// may be.
 Truths read_navigation(Section& root, Scenario& scenario) {
   const Truths truths{.navigation = root.has("truth") || !(scenario.engagement || scenario.glide),
                       .engagement = scenario.engagement.has_value(),
-                      .glide = scenario.glide.has_value()};
+                      .glide = scenario.glide.has_value(),
+                      .aligners = aligners_of(scenario)};
   if (truths.navigation) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth);
@@ -73,6 +82,28 @@ Truths read_navigation(Section& root, Scenario& scenario) {
     if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
   }
   return truths;
+}
+
+/// In-flight alignment takes the fixes of one aid and refuses the other's; nobody else takes any.
+void expect_aid(Section& root, const Scenario& scenario, const Contract& contract) {
+  const auto target = std::ranges::find(scenario.targets, "inflight_alignment", &TargetSetup::estimator);
+  if (target == scenario.targets.end()) {
+    for (const std::string_view key : {"ssbl", "gps"}) {
+      if (root.has(key))
+        root.reject(key, "has fixes that no estimator takes", "estimator inflight_alignment beside it");
+    }
+    return;
+  }
+  if (!scenario.ssbl && !scenario.gps)
+    root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
+  if (std::ranges::find(contract.parameters, "aiding") == contract.parameters.end()) return;
+  const auto aiding = std::ranges::find(target->parameters, "aiding", &Parameter::name);
+  const bool takes_gps = aiding != target->parameters.end() && aiding->value == 1;
+  if (takes_gps && !scenario.gps)
+    root.reject("gps", "is missing, and parameter aiding = 1 takes no other fixes", "a table, or aiding = 0");
+  if (!takes_gps && !scenario.ssbl)
+    root.reject("ssbl", "is missing, and parameter aiding = 0 takes no other fixes",
+                "a table, or aiding = 1");
 }
 
 std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) {
@@ -92,8 +123,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   scenario.title = root.text("title");
   scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
-  Section target = root.table("target");
-  scenario.target = read_target(target, contract);
+  scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {
     scenario.engagement = read_engagement(*engagement);
   }
@@ -102,18 +132,15 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);
   }
-  const auto target_is = [&](std::string_view estimator) { return scenario.target.estimator == estimator; };
-  const bool transfer = target_is("transfer_alignment");
+  const bool transfer = scenario.runs("transfer_alignment");
   scenario.master_ins = read_node<MasterIns>(root, "master_ins", transfer, read_master_ins);
-  const bool inflight = target_is("inflight_alignment");
+  const bool inflight = scenario.runs("inflight_alignment");
   scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer || inflight, read_slave_imu);
   scenario.ssbl = read_node<Ssbl>(root, "ssbl", false, read_ssbl);
   scenario.gps = read_node<Gps>(root, "gps", false, read_gps);
-  if (inflight && !scenario.ssbl && !scenario.gps) {
-    root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
-  }
+  expect_aid(root, scenario, contract);
   scenario.seeker =
-      read_node<Seeker>(root, "seeker", scenario.engagement || target_is("los_rate"), read_seeker);
+      read_node<Seeker>(root, "seeker", scenario.engagement || scenario.runs("los_rate"), read_seeker);
   if (scenario.seeker && !scenario.engagement)
     root.reject("engagement", "is missing", "a table beside [seeker]");
   scenario.checks = read_checks(root, scenario.duration_us, contract, truths);

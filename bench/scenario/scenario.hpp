@@ -7,6 +7,7 @@
 // missing key ends it with one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -41,7 +42,7 @@ struct Scenario {
   std::int64_t duration_us = 0;
   std::uint64_t seed = 0;
 
-  TargetSetup target;
+  std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
   world::Flight truth;                     ///< at rest where nothing navigates
   world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start
   std::optional<MasterIns> master_ins;     ///< absent: not on the bus
@@ -54,6 +55,10 @@ struct Scenario {
   std::optional<world::EngagementPlan> engagement;
   std::optional<Seeker> seeker;
   std::vector<Check> checks;
+
+  [[nodiscard]] bool runs(std::string_view estimator) const {
+    return std::ranges::find(targets, estimator, &TargetSetup::estimator) != targets.end();
+  }
 };
 
 /// Reads a scenario file. The error is one line.

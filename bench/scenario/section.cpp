@@ -364,8 +364,18 @@ std::vector<Section> Section::tables(std::string_view key) {
   return sections;
 }
 
+std::vector<Section> Section::table_or_tables(std::string_view key) {
+  const bool several = state_->table != nullptr && (*state_->table)[key].is_array();
+  return several ? tables(key) : std::vector{table(key)};
+}
+
 void Section::reject(std::string_view key, std::string_view what, std::string_view expected) {
   state_->fail(key, state_->line_of_key(key), what, expected);
+}
+
+void Section::refuse(std::string_view key, std::string_view what, std::string_view expected) {
+  if (has(key)) reject(key, what, expected);
+  optional(key);
 }
 
 void Section::finish() {

@@ -2,18 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
+#include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
+#include "bench/world/units.hpp"
 
 namespace canhil::scenario {
 namespace {
 
-InitialSigma read_initial_sigma(Section section) {
+InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
   const InitialSigma sigma{.velocity = section.number("velocity_mps", Limits::above(0)),
                            .tilt = section.number("tilt_deg", Limits::above(0, 90)),
                            .heading = section.number("heading_deg", Limits::above(0, 600)),
                            .position = section.number("position_m", Limits::above(0))};
+  constexpr double half_turn = 180 * world::units::deg;
+  if (sigma.heading > half_turn && target.algorithm != "sin_cos")
+    section.reject("heading_deg", "is more than a heading can be wrong by",
+                   "at most 180, or algorithm sin_cos");
   section.finish();
   return sigma;
 }
@@ -33,8 +40,6 @@ std::vector<Parameter> read_parameters(Section section, const Contract& contract
   return parameters;
 }
 
-}  // namespace
-
 TargetSetup read_target(Section& section, const Contract& contract) {
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
@@ -43,13 +48,30 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   // Told at every start; an estimator that does not navigate makes nothing of it.
   const bool navigates = target.estimator != "los_rate";
   if (navigates || section.has("initial_sigma"))
-    target.initial_sigma = read_initial_sigma(section.table("initial_sigma"));
+    target.initial_sigma = read_initial_sigma(section.table("initial_sigma"), target);
   section.optional("initial_sigma");
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract);
   }
+  if (auto initial_error = section.optional_table("initial_error"))
+    target.initial_error = read_initial_error(*initial_error);
   section.finish();
   return target;
+}
+
+}  // namespace
+
+std::vector<TargetSetup> read_targets(Section& root, const Contract& contract) {
+  std::vector<TargetSetup> targets;
+  for (Section& section : root.table_or_tables("target")) {
+    TargetSetup target = read_target(section, contract);
+    if (std::ranges::find(targets, target.estimator, &TargetSetup::estimator) != targets.end()) {
+      section.reject("estimator", fmt::format("'{}' is that of another [[target]] too", target.estimator),
+                     "each estimator once");
+    }
+    targets.push_back(std::move(target));
+  }
+  return targets;
 }
 
 }  // namespace canhil::scenario

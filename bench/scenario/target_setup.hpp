@@ -1,10 +1,13 @@
-// [target]: what the bench tells the target before it starts it.
+// [target], or [[target]] once for each estimator that the target runs at the same time: what the bench tells
+// it before the start.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/scenario/contract.hpp"
+#include "bench/world/navigation_errors.hpp"
 
 namespace canhil::scenario {
 
@@ -30,9 +33,11 @@ struct TargetSetup {
   std::string algorithm;          ///< a name of Algorithm
   std::string algorithm_where{};  ///< in the scenario, for messages: "my.toml:9: key 'target.algorithm'"
   InitialSigma initial_sigma;
-  std::vector<Parameter> parameters;  ///< in the DBC's order
+  std::optional<world::InitialErrorModel> initial_error{};  ///< its own in place of the scenario's
+  std::vector<Parameter> parameters;                        ///< in the DBC's order
 };
 
-TargetSetup read_target(Section& section, const Contract& contract);
+/// Every estimator of the target, at least one, none of them twice.
+std::vector<TargetSetup> read_targets(Section& root, const Contract& contract);
 
 }  // namespace canhil::scenario

@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "dbc/wire/bit_length.hpp"
+
 namespace canhil::dbc {
 
 std::string load_table(const Database& database) {
@@ -20,8 +22,8 @@ std::string load_table(const Database& database) {
       continue;
     }
     ++load.cyclic;
-    load.bits_per_s += static_cast<double>(worst_case_bits(message.size, message.extended)) * 1e6 /
-                       static_cast<double>(message.cycle_time_us);
+    load.bits_per_s += static_cast<double>(wire::worst_case_length(message.size, message.extended).bits()) *
+                       1e6 / static_cast<double>(message.cycle_time_us);
   }
   const AttributeValue* rate = find_attribute(database, database.attributes, Owner::network, "Baudrate");
   const auto* given = rate != nullptr ? std::get_if<std::int64_t>(rate) : nullptr;

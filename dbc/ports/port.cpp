@@ -14,6 +14,7 @@ namespace canhil {
 namespace {
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
+constexpr std::int64_t look_again_ns = 20'000'000;
 
 timespec to_timespec(std::int64_t ns) {
   return {.tv_sec = static_cast<std::time_t>(ns / ns_per_s), .tv_nsec = static_cast<long>(ns % ns_per_s)};
@@ -28,18 +29,18 @@ std::int64_t clock_ns(int clock) {
 }
 
 bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns) {
-  const RoomWait how = what == WaitFor::frame ? RoomWait{.events = POLLIN} : port.room_wait();
+  RoomWait how = what == WaitFor::frame ? RoomWait{.events = POLLIN} : port.room_wait();
+  // An interface that is down or removed has room at any time, and its return is no event of the socket.
+  if (!port.up()) how = {.events = POLLIN, .pause_ns = look_again_ns};
   if (how.events == 0 && how.pause_ns == 0) return true;
-  const bool forever = deadline_ns == no_deadline && how.events != 0;  // saves a clock reading and a timer
+  const bool forever = deadline_ns == no_deadline && how.pause_ns == 0;  // saves a clock reading and a timer
   const std::int64_t left_ns =
       forever ? 0 : std::max<std::int64_t>(deadline_ns - clock_ns(CLOCK_MONOTONIC), 0);
-  if (how.events == 0) {
-    const timespec pause = to_timespec(std::min(how.pause_ns, left_ns));
-    return ::nanosleep(&pause, nullptr) == 0 && how.pause_ns <= left_ns;
-  }
-  const timespec timeout = to_timespec(left_ns);
-  pollfd entry{.fd = port.descriptor(), .events = how.events, .revents = 0};
-  return ::ppoll(&entry, 1, forever ? nullptr : &timeout, nullptr) > 0;
+  const bool pause = how.pause_ns != 0 && how.pause_ns <= left_ns;
+  const timespec timeout = to_timespec(pause ? how.pause_ns : left_ns);
+  pollfd entry{.fd = how.events == 0 ? -1 : port.descriptor(), .events = how.events, .revents = 0};
+  const int ready = ::ppoll(&entry, 1, forever ? nullptr : &timeout, nullptr);
+  return ready > 0 || (ready == 0 && pause);
 }
 
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options) {

@@ -30,7 +30,7 @@ struct Received {
 enum class SendOutcome : std::uint8_t {
   sent,        ///< taken over by the bus
   queue_full,  ///< no room now and nothing was taken: wait(port, WaitFor::room, ...), then try again
-  down,        ///< the bus is gone or the interface is down
+  down,        ///< the bus is gone or the interface is down, see Port::up()
   refused  ///< this bus cannot carry such a frame: FD on a classic bus, a size without DLC, an id too large
 };
 
@@ -52,7 +52,7 @@ struct PortOptions {
   bool own_echo = false;                  ///< receive own frames back, with their transmit time stamps
   std::vector<std::uint32_t> only_ids{};  ///< receive just these standard ids; empty: all
   std::string node_name{};                ///< who we are, for messages and for the hub's list of nodes
-  int receive_buffer_bytes = 0;           ///< SocketCAN: size of the receive queue; 0: as the kernel has it
+  int receive_buffer_bytes = 0;  ///< SocketCAN: size of the receive queue; 0: 4 MiB, or what is permitted
 };
 
 /// Now on a clock of clock_gettime() [ns].
@@ -69,8 +69,11 @@ class Port {
   /// gives nothing. For room to send see room_wait().
   [[nodiscard]] virtual int descriptor() const = 0;
   [[nodiscard]] virtual RoomWait room_wait() const = 0;
-  /// True once the bus is gone for good (hub closed, interface removed, log at its end).
+  /// True once the bus is gone for good (hub closed, log at its end).
   [[nodiscard]] virtual bool closed() const = 0;
+  /// False while an interface is down or removed: send() and receive() look for its return, wait() gives them
+  /// the occasion.
+  [[nodiscard]] virtual bool up() const { return true; }
   [[nodiscard]] virtual PortCounters counters() const = 0;
   /// The clock of Received::t_ns: CLOCK_REALTIME or CLOCK_MONOTONIC.
   [[nodiscard]] virtual int stamp_clock() const = 0;

@@ -13,9 +13,9 @@
 namespace canhil {
 
 /// Opens a SocketCAN interface by its name. Error: no CAN in this kernel, no such interface, not a CAN
-/// interface, interface down, FD on a classic one, or no permission. An interface that goes down later and up
-/// again is carried on with: send() says down meanwhile. An interface removed closes the port. Remote frames
-/// are not received.
+/// interface, interface down, FD on a classic one, or no permission. An interface that goes down later, or is
+/// removed, and comes back under its name, is carried on with: meanwhile up() is false and send() says down.
+/// Remote frames are not received.
 Result<std::unique_ptr<Port>> open_socketcan(std::string_view interface, const PortOptions& options);
 
 }  // namespace canhil

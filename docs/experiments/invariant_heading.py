@@ -94,7 +94,7 @@ def fly(bench, work, aid, start, tilt, run):
                         h - time["relative_down_m"]], -1)
     assert np.array_equal(time["time_of_validity_us"], 1e6 * np.arange(1, 301))
     at, over, v, euler, down = of(*("TargetInit" + n for n in ("Latitude", "Longitude", "VelocityNE", "Attitude", "VelocityD")))
-    when, answer, told = of("AlignVelocityD", "AlignAttitude", "FixAttitudeSigma")
+    when, answer, told = of("FixVelocityD", "FixAttitude", "FixAttitudeSigma")
     answer_t = when["cause_time_us"] / 1e6
     error = wrapped(answer["heading_deg"] * DEG - truth_heading(answer_t))
     end_mrad = float(re.search(r"error at the end .* heading ([-+.\d]+) mrad", said)[1])

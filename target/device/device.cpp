@@ -23,7 +23,10 @@ constexpr std::uint16_t saturated(std::uint32_t count) {
 
 }  // namespace
 
-Device::Device() : adapters_(make_adapters()) {}
+Device::Device() : adapters_(make_adapters()) {
+  selected_.reserve(adapters_.size());
+  selected_.emplace_back();
+}
 
 std::span<const Frame> Device::receive(const Frame& frame) {
   answers_.clear();
@@ -32,14 +35,14 @@ std::span<const Frame> Device::receive(const Frame& frame) {
   const MessageInfo& info = all_messages[route];
   if (frame.size != info.size || frame.fd != info.fd) {
     ++losses_.bad_crc;
-    errors_.input_lost = true;
+    raise(&Errors::input_lost);
     return {};
   }
   e2e::Receiver& receiver = receivers_[route];
   switch (receiver.check(frame.payload(), info.e2e_data_id)) {
     case e2e::Check::wrong_crc:
       ++losses_.bad_crc;
-      errors_.input_lost = true;
+      raise(&Errors::input_lost);
       return {};
     case e2e::Check::repeated:
       // A bench that starts anew may repeat the counter of the last one's command: commands are always heard.
@@ -50,7 +53,7 @@ std::span<const Frame> Device::receive(const Frame& frame) {
       break;
     case e2e::Check::some_lost:
       losses_.frames_lost += static_cast<std::uint32_t>(receiver.lost());
-      errors_.input_lost = true;
+      raise(&Errors::input_lost);
       break;
     case e2e::Check::ok:
       break;
@@ -84,20 +87,32 @@ void Device::dispatch(const Frame& frame, std::uint8_t counter) {
     case TargetInitAirVelocity::info.id:
       return on_initial_air<TargetInitAirVelocity>(frame, counter);
     default:
-      if (state_ != TargetState::running) return;
-      untouched_ = false;
-      apply(adapter_->receive(frame, counter, context()));
+      for_running([&](Estimation& estimation, const Context& context) {
+        estimation.untouched = false;
+        return estimation.adapter->receive(frame, counter, context);
+      });
+  }
+}
+
+// An estimator that faults stops; the others go on.
+template <class Step>
+void Device::for_running(Step&& step) {
+  for (Estimation& estimation : selected_) {
+    if (estimation.state != TargetState::running) continue;
+    const Context context{now_us_, answers_, losses_, estimation.errors};
+    if (step(estimation, context) == Health::fault) enter(estimation, TargetState::fault);
   }
 }
 
 void Device::on_sync(const Sync& sync) {
-  untouched_ = false;
   now_us_ = static_cast<std::int64_t>(sync.time_us);
   lockstep_ = sync.lockstep != 0;
-  if (state_ == TargetState::running) apply(adapter_->tick(context()));
+  for (Estimation& estimation : selected_) estimation.untouched = false;
+  for_running(
+      [](Estimation& estimation, const Context& context) { return estimation.adapter->tick(context); });
   if (now_us_ >= heartbeat_due_us_) {
     heartbeat_due_us_ = (now_us_ / heartbeat_period_us + 1) * heartbeat_period_us;
-    send_heartbeat();
+    send_heartbeats();
     send_counters();
   }
   if (lockstep_) answers_.send(StepDone{.step = sync.step});
@@ -105,74 +120,114 @@ void Device::on_sync(const Sync& sync) {
 
 void Device::on_command(const TargetCommand& command) {
   if (command.dbc_hash != dbc_hash24) {
-    errors_.dbc_mismatch = true;
-    return send_heartbeat();
+    raise(&Errors::dbc_mismatch);
+    return send_heartbeats();
   }
   switch (command.command) {
     case Command::reset:
       return reset(command.estimator, command.algorithm);
+    case Command::add:
+      return add(command.estimator, command.algorithm);
     case Command::start:
       return start();
     case Command::stop:
-      return enter(state_ == TargetState::running ? TargetState::idle : state_);
+      return stop();
     case Command::none:
       break;
   }
-  send_heartbeat();
+  send_heartbeats();
 }
 
 void Device::reset(Estimator estimator, Algorithm algorithm) {
   receivers_ = {};
   answers_.reset_counters();
   losses_ = {};
-  errors_ = {};
   initial_group_.discard();
   initial_air_group_.discard();
-  initial_air_.reset();
   now_us_ = 0;
   heartbeat_due_us_ = 0;
   lockstep_ = false;
-  algorithm_ = algorithm;
-  const auto found =
-      std::ranges::find_if(adapters_, [&](const auto& adapter) { return adapter->estimator() == estimator; });
-  adapter_ = found == adapters_.end() ? nullptr : found->get();
-  if (adapter_ != nullptr && !adapter_->reset(algorithm)) adapter_ = nullptr;
-  errors_.command = adapter_ == nullptr;
-  enter(TargetState::idle);
+  selected_.clear();
+  selected_.emplace_back();
+  Estimation& first = current();
+  first.algorithm = algorithm;
+  first.errors.command = !select(estimator, algorithm, first);
+  enter(first, TargetState::idle);
 }
 
+// Repeated by a bench that did not hear the answer in time: then it is selected anew.
+void Device::add(Estimator estimator, Algorithm algorithm) {
+  const bool again = current().adapter != nullptr && current().adapter->estimator() == estimator;
+  const bool elsewhere =
+      std::any_of(selected_.begin(), std::prev(selected_.end()),
+                  [&](const Estimation& other) { return other.adapter->estimator() == estimator; });
+  Estimation added;
+  if (running() || current().adapter == nullptr || elsewhere || !select(estimator, algorithm, added)) {
+    current().errors.command = true;
+    return send_heartbeats();
+  }
+  initial_group_.discard();
+  initial_air_group_.discard();
+  if (again) {
+    current() = added;
+  } else {
+    selected_.push_back(added);
+  }
+  enter(current(), TargetState::idle);
+}
+
+// False: the target has no such estimator, or the estimator no such algorithm.
+bool Device::select(Estimator estimator, Algorithm algorithm, Estimation& estimation) {
+  const auto found =
+      std::ranges::find_if(adapters_, [&](const auto& adapter) { return adapter->estimator() == estimator; });
+  if (found == adapters_.end() || !(*found)->reset(algorithm)) return false;
+  estimation.adapter = found->get();
+  estimation.algorithm = algorithm;
+  return true;
+}
+
+// All start together: their answers depend on this run's frames alone.
 void Device::start() {
   // A bench that did not hear the answer in time commands it again.
-  const bool again = state_ == TargetState::running && untouched_;
-  if (state_ == TargetState::ready || again) {
-    untouched_ = true;
-    initial_.air = initial_air_;
-    adapter_->start(initial_);
-    answers_.reset_counters();  // what follows depends on this run's frames alone, not on how often a command
-                                // was repeated
-    return enter(TargetState::running);
+  const bool again = all_in(TargetState::running) && std::ranges::all_of(selected_, &Estimation::untouched);
+  if (all_in(TargetState::ready) || again) {
+    answers_.reset_counters();  // not on how often a command was repeated
+    for (Estimation& estimation : selected_) {
+      estimation.untouched = true;
+      estimation.initial.air = estimation.initial_air;
+      estimation.adapter->start(estimation.initial);
+      enter(estimation, TargetState::running);
+    }
+    return;
   }
-  if (state_ == TargetState::idle) {
-    errors_.not_initialised = true;
-  } else {
-    errors_.command = true;
+  for (Estimation& estimation : selected_) {
+    if (estimation.state == TargetState::idle) {
+      estimation.errors.not_initialised = true;
+    } else {
+      estimation.errors.command = estimation.errors.command || estimation.state != TargetState::ready;
+    }
   }
-  send_heartbeat();
+  send_heartbeats();
+}
+
+void Device::stop() {
+  for (Estimation& estimation : selected_)
+    enter(estimation, estimation.state == TargetState::running ? TargetState::idle : estimation.state);
 }
 
 void Device::on_parameter(const ParamSet& request) {
   ParamAck ack{.parameter = request.parameter, .value = request.value, .status = ParameterStatus::unknown};
-  if (adapter_ != nullptr) {
-    ack.status = adapter_->set(request.parameter, request.value, state_ == TargetState::running);
-    ack.value = static_cast<float>(adapter_->get(request.parameter).value_or(request.value));
+  if (Adapter* adapter = current().adapter; adapter != nullptr) {
+    ack.status = adapter->set(request.parameter, request.value, current().state == TargetState::running);
+    ack.value = static_cast<float>(adapter->get(request.parameter).value_or(request.value));
   }
   answers_.send(ack);
 }
 
 template <class Message>
 void Device::on_initial(const Frame& frame, std::uint8_t counter) {
-  if (state_ == TargetState::running) {
-    errors_.command = true;
+  if (current().state == TargetState::running) {
+    current().errors.command = true;
     return;
   }
   const auto outcome = initial_group_.put(from_frame<Message>(frame), counter);
@@ -187,31 +242,31 @@ void Device::on_initial_state() {
   const auto& vertical = initial_group_.get<TargetInitVelocityD>();
   const auto& attitude = initial_group_.get<TargetInitAttitude>();
   const auto& sigma = initial_group_.get<TargetInitSigma>();
-  initial_ = {.t_us = unwrap_us(vertical.time_of_validity_us, now_us_),
-              .latitude = latitude.latitude_deg * radians,
-              .longitude = longitude.longitude_deg * radians,
-              .height = latitude.height_m,
-              .v_north = horizontal.velocity_north_mps,
-              .v_east = horizontal.velocity_east_mps,
-              .v_down = vertical.velocity_down_mps,
-              .roll = attitude.roll_deg * radians,
-              .pitch = attitude.pitch_deg * radians,
-              .heading = attitude.heading_deg * radians,
-              .position_sigma = longitude.position_sigma_m,
-              .velocity_sigma = sigma.velocity_sigma_mps,
-              .tilt_sigma = sigma.tilt_sigma_deg * radians,
-              .heading_sigma = sigma.heading_sigma_deg * radians};
-  if (adapter_ == nullptr || state_ == TargetState::fault) {
-    errors_.command = true;
-    return send_heartbeat();
+  current().initial = {.t_us = unwrap_us(vertical.time_of_validity_us, now_us_),
+                       .latitude = latitude.latitude_deg * radians,
+                       .longitude = longitude.longitude_deg * radians,
+                       .height = latitude.height_m,
+                       .v_north = horizontal.velocity_north_mps,
+                       .v_east = horizontal.velocity_east_mps,
+                       .v_down = vertical.velocity_down_mps,
+                       .roll = attitude.roll_deg * radians,
+                       .pitch = attitude.pitch_deg * radians,
+                       .heading = attitude.heading_deg * radians,
+                       .position_sigma = longitude.position_sigma_m,
+                       .velocity_sigma = sigma.velocity_sigma_mps,
+                       .tilt_sigma = sigma.tilt_sigma_deg * radians,
+                       .heading_sigma = sigma.heading_sigma_deg * radians};
+  if (current().adapter == nullptr || current().state == TargetState::fault) {
+    current().errors.command = true;
+    return send_heartbeat(current());
   }
-  enter(TargetState::ready);
+  enter(current(), TargetState::ready);
 }
 
 template <class Message>
 void Device::on_initial_air(const Frame& frame, std::uint8_t counter) {
-  if (state_ == TargetState::running) {
-    errors_.command = true;
+  if (current().state == TargetState::running) {
+    current().errors.command = true;
     return;
   }
   const auto outcome = initial_air_group_.put(from_frame<Message>(frame), counter);
@@ -219,40 +274,56 @@ void Device::on_initial_air(const Frame& frame, std::uint8_t counter) {
   if (outcome != InitialAirGroup::Outcome::complete) return;
   const auto& rate = initial_air_group_.get<TargetInitRate>();
   const auto& air = initial_air_group_.get<TargetInitAirVelocity>();
-  initial_air_ = {
+  current().initial_air = {
       .velocity = {air.air_velocity_x_mps, air.air_velocity_y_mps, air.air_velocity_z_mps},
       .rate = {rate.rate_x_degps * radians, rate.rate_y_degps * radians, rate.rate_z_degps * radians}};
 }
 
-void Device::apply(Health health) {
-  if (health == Health::fault) enter(TargetState::fault);
+void Device::enter(Estimation& estimation, TargetState state) {
+  estimation.state = state;
+  send_heartbeat(estimation);
 }
 
-void Device::enter(TargetState state) {
-  state_ = state;
-  send_heartbeat();
+// What is lost or wrong on the bus concerns every estimator.
+void Device::raise(bool Errors::*error) {
+  for (Estimation& estimation : selected_) estimation.errors.*error = true;
+}
+
+bool Device::all_in(TargetState state) const {
+  return std::ranges::all_of(selected_, [&](const Estimation& one) { return one.state == state; });
+}
+
+bool Device::running() const {
+  return std::ranges::any_of(selected_,
+                             [](const Estimation& one) { return one.state == TargetState::running; });
 }
 
 std::span<const Frame> Device::idle_heartbeat() {
   answers_.clear();
-  send_heartbeat();
+  send_heartbeats();
   return answers_.frames();
 }
 
-void Device::send_heartbeat() {
+void Device::send_heartbeats() {
+  for (const Estimation& estimation : selected_) send_heartbeat(estimation);
+}
+
+void Device::send_heartbeat(const Estimation& estimation) {
   const auto bit = [](bool set) { return static_cast<std::uint8_t>(set); };
-  answers_.send(TargetHeartbeat{.state = state_,
-                                .estimator = adapter_ == nullptr ? Estimator::none : adapter_->estimator(),
-                                .algorithm = algorithm_,
-                                .dbc_hash = dbc_hash24,
-                                .version_major = version_major,
-                                .version_minor = version_minor,
-                                .error_dbc_mismatch = bit(errors_.dbc_mismatch),
-                                .error_not_initialised = bit(errors_.not_initialised),
-                                .error_input_lost = bit(errors_.input_lost),
-                                .error_input_silent = bit(errors_.input_silent),
-                                .error_numeric = bit(errors_.numeric),
-                                .error_command = bit(errors_.command)});
+  const Errors& errors = estimation.errors;
+  answers_.send(TargetHeartbeat{
+      .state = estimation.state,
+      .estimator = estimation.adapter == nullptr ? Estimator::none : estimation.adapter->estimator(),
+      .algorithm = estimation.algorithm,
+      .dbc_hash = dbc_hash24,
+      .version_major = version_major,
+      .version_minor = version_minor,
+      .error_dbc_mismatch = bit(errors.dbc_mismatch),
+      .error_not_initialised = bit(errors.not_initialised),
+      .error_input_lost = bit(errors.input_lost),
+      .error_input_silent = bit(errors.input_silent),
+      .error_numeric = bit(errors.numeric),
+      .error_command = bit(errors.command)});
 }
 
 void Device::send_counters() {

@@ -15,8 +15,9 @@
 
 namespace canhil::target {
 
-/// hil-target without its process: commands, parameters, initial state, heartbeat, counters, and one
-/// estimator at work.
+/// hil-target without its process: commands, parameters, initial state, heartbeat, counters, and the
+/// estimators at work: one, or several side by side that hear the same sensors and know nothing of each
+/// other.
 class Device {
  public:
   Device();
@@ -28,14 +29,26 @@ class Device {
   /// Frames that are not for the target are ignored. Allocates nothing.
   std::span<const Frame> receive(const Frame& frame);
 
-  /// A heartbeat that no frame asked for: sent by the process while no bench keeps the time base.
+  /// Heartbeats that no frame asked for: sent by the process while no bench keeps the time base.
   std::span<const Frame> idle_heartbeat();
 
-  [[nodiscard]] messages::TargetState state() const { return state_; }
+  /// True while any estimator runs.
+  [[nodiscard]] bool running() const;
   /// True while the bench drives the time base step by step.
   [[nodiscard]] bool lockstep() const { return lockstep_; }
 
  private:
+  /// A selected estimator.
+  struct Estimation {
+    Adapter* adapter = nullptr;  // none: the target has no such estimator, or was told of none
+    messages::Algorithm algorithm{};
+    messages::TargetState state{};
+    Errors errors{};
+    InitialState initial{};
+    std::optional<InitialAir> initial_air{};
+    bool untouched = false;  // nothing has happened since start
+  };
+
   void dispatch(const Frame& frame, std::uint8_t counter);
   void on_sync(const messages::Sync& sync);
   void on_command(const messages::TargetCommand& command);
@@ -45,13 +58,21 @@ class Device {
   void on_initial_state();
   template <class Message>
   void on_initial_air(const Frame& frame, std::uint8_t counter);
-  void apply(Health health);
+  template <class Step>
+  void for_running(Step&& step);
   void reset(messages::Estimator estimator, messages::Algorithm algorithm);
+  void add(messages::Estimator estimator, messages::Algorithm algorithm);
+  bool select(messages::Estimator estimator, messages::Algorithm algorithm, Estimation& estimation);
   void start();
-  void enter(messages::TargetState state);
-  void send_heartbeat();
+  void stop();
+  void enter(Estimation& estimation, messages::TargetState state);
+  void raise(bool Errors::*error);
+  void send_heartbeat(const Estimation& estimation);
+  void send_heartbeats();
   void send_counters();
-  [[nodiscard]] Context context() { return {now_us_, answers_, losses_, errors_}; }
+  [[nodiscard]] bool all_in(messages::TargetState state) const;
+  /// The one selected last: parameters and initial state are for it.
+  [[nodiscard]] Estimation& current() { return selected_.back(); }
 
   using InitialGroup =
       SampleGroup<messages::TargetInitLatitude, messages::TargetInitLongitude, messages::TargetInitVelocityNE,
@@ -62,19 +83,13 @@ class Device {
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   Answers answers_;
   Losses losses_;
-  Errors errors_;
   InitialGroup initial_group_;
   InitialAirGroup initial_air_group_;
-  InitialState initial_;
-  std::optional<InitialAir> initial_air_;
   std::vector<std::unique_ptr<Adapter>> adapters_;  // all of them, made at start-up
-  Adapter* adapter_ = nullptr;                      // the selected one
-  messages::TargetState state_{};
-  messages::Algorithm algorithm_{};
+  std::vector<Estimation> selected_;                // never empty; has room for all from the start
   std::int64_t now_us_ = 0;
   std::int64_t heartbeat_due_us_ = 0;
   bool lockstep_ = false;
-  bool untouched_ = false;  // nothing has happened since start
 };
 
 }  // namespace canhil::target

@@ -1,5 +1,5 @@
 // The stream that drives an inertial estimator: groups SlaveImu in, increments without gaps out, groups
-// AlignNav as answers.
+// AlignNav or FixNav as answers.
 #pragma once
 
 #include <algorithm>
@@ -72,19 +72,19 @@ class ImuStream {
     return now_us_ - answered_us_ >= output_interval_us - interval_us_ / 2;
   }
 
-  /// Answers the last sample with group AlignNav.
+  /// Answers the last sample with the estimator's navigation group.
+  template <class Attitude, class VelocityNE, class VelocityD>
   void answer(const strapdown::NavState& nav, Answers& answers) {
-    using namespace messages;
     constexpr double deg = std::numbers::pi / 180;
     const strapdown::Euler angles = strapdown::euler_from_dcm(nav.C_bn);
-    answers.send(AlignAttitude{.roll_deg = angles.roll / deg,
-                               .pitch_deg = angles.pitch / deg,
-                               .heading_deg = angles.heading / deg,
-                               .coasting = static_cast<std::uint8_t>(coasting_)});
-    answers.send(AlignVelocityNE{.velocity_north_mps = nav.v_eb_n.x(),
-                                 .velocity_east_mps = nav.v_eb_n.y(),
-                                 .cause_counter = group_.counter()});
-    answers.send(AlignVelocityD{.velocity_down_mps = nav.v_eb_n.z(), .cause_time_us = wrap_us(now_us_)});
+    answers.send(Attitude{.roll_deg = angles.roll / deg,
+                          .pitch_deg = angles.pitch / deg,
+                          .heading_deg = angles.heading / deg,
+                          .coasting = static_cast<std::uint8_t>(coasting_)});
+    answers.send(VelocityNE{.velocity_north_mps = nav.v_eb_n.x(),
+                            .velocity_east_mps = nav.v_eb_n.y(),
+                            .cause_counter = group_.counter()});
+    answers.send(VelocityD{.velocity_down_mps = nav.v_eb_n.z(), .cause_time_us = wrap_us(now_us_)});
     answered_us_ = now_us_;
     coasting_ = false;
   }

@@ -1,4 +1,4 @@
-// In-flight alignment behind the bus: groups SlaveImu, Ssbl and Gps in, groups AlignNav and FixFilter out.
+// In-flight alignment behind the bus: groups SlaveImu, Ssbl and Gps in, groups FixNav and FixFilter out.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -152,7 +152,9 @@ class InflightAlignmentAdapter final : public Adapter {
         pending_.reached(imu_.now_us(), [&](const At<Fix>& fix) { return update(fix, context); });
     const strapdown::NavState best = ia::estimate(state_).nav;
     if (!best.v_eb_n.allFinite() || !best.C_bn.allFinite()) return numeric_fault(context);
-    if (imu_.answer_is_due(tuning_.output_interval_us)) imu_.answer(best, context.answers);
+    if (imu_.answer_is_due(tuning_.output_interval_us)) {
+      imu_.answer<FixAttitude, FixVelocityNE, FixVelocityD>(best, context.answers);
+    }
     return health;
   }
 

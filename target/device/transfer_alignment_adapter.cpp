@@ -150,7 +150,9 @@ class TransferAlignmentAdapter final : public Adapter {
     if (!state_.ins.nav.v_eb_n.allFinite() || !state_.ins.nav.C_bn.allFinite()) return numeric_fault(context);
     const Health health =
         pending_.reached(imu_.now_us(), [&](const At<Eigen::Vector3d>& fix) { return update(fix, context); });
-    if (imu_.answer_is_due(tuning_.output_interval_us)) imu_.answer(best_estimate().nav, context.answers);
+    if (imu_.answer_is_due(tuning_.output_interval_us)) {
+      imu_.answer<AlignAttitude, AlignVelocityNE, AlignVelocityD>(best_estimate().nav, context.answers);
+    }
     return health;
   }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 
 #include "dbc/ports/port.hpp"
 #include "target/device/device.hpp"
+#include "target/process/bus_notes.hpp"
 #include "target/process/timing_window.hpp"
 
 namespace canhil::target {
@@ -21,16 +23,31 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 // A start counts too: a heartbeat of the process between it and the first Sync would be one that no replay
 // has.
 bool from_bench(const Frame& frame) {
-  return !frame.error && !frame.extended &&
+  return !frame.extended &&
          (frame.id == messages::Sync::info.id || frame.id == messages::TargetCommand::info.id);
 }
 
-// Sends frames in order; a bus that stays full loses them, which the receiver sees by the E2E counters.
-void send(Port& port, std::span<const Frame> frames) {
-  const std::int64_t deadline_ns = now_ns() + send_patience_ns;
+// Sends frames in order. A bus that stays full up to the deadline loses them, as does an interface that is
+// down: counted, and the receiver sees it by the E2E counters.
+void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
+  std::int64_t deadline_ns = 0;  // looked up when it matters
   for (const Frame& frame : frames) {
-    while (port.send(frame) == SendOutcome::queue_full && wait(port, WaitFor::room, deadline_ns)) {
+    SendOutcome outcome = port.send(frame);
+    while (outcome == SendOutcome::queue_full) {
+      if (deadline_ns == 0) deadline_ns = now_ns() + send_patience_ns;
+      if (!wait(port, WaitFor::room, deadline_ns)) break;
+      outcome = port.send(frame);
     }
+    if (outcome == SendOutcome::queue_full) notes.late_in_queue();
+    if (outcome == SendOutcome::down) notes.met_interface_down();
+  }
+}
+
+void tell(const std::string& news) {
+  for (std::size_t begin = 0; begin < news.size();) {
+    const std::size_t end = news.find('\n', begin);
+    std::fprintf(stderr, "hil-target: %s\n", news.substr(begin, end - begin).c_str());
+    begin = end + 1;
   }
 }
 
@@ -45,6 +62,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
 
   Device device;
   TimingWindow window;
+  BusNotes notes;
   Outbox<1> reports;
   std::int64_t bench_ns = now_ns() - bench_silent_ns;  // when the bench last kept the time base or commanded
   // Before its first word a target listens for longer than a heartbeat: two on one bus would spoil each
@@ -56,9 +74,13 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     while (!stop) {
       const auto received = port.receive();
       if (!received) break;
+      if (received->frame.error) {
+        notes.error_frame(received->frame);
+        continue;
+      }
       if (!established) {
         const bool heartbeat =
-            received->frame.id == messages::TargetHeartbeat::info.id && !received->frame.error;
+            received->frame.id == messages::TargetHeartbeat::info.id && !received->frame.extended;
         if (!heartbeat) continue;
         return failure(
             fmt::format("bus '{}': a target answers here already, expected to be the only one", bus));
@@ -66,29 +88,30 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
       const std::int64_t start_ns = clock_ns(port.stamp_clock());
       const std::span<const Frame> answers = device.receive(received->frame);
       const std::int64_t end_ns = clock_ns(port.stamp_clock());
-      send(port, answers);
+      send(port, answers, notes);
       window.add(start_ns - received->t_ns, end_ns - start_ns, !answers.empty());
       if (from_bench(received->frame)) bench_ns = now_ns();
     }
     const std::int64_t now = now_ns();
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
+      tell(notes.news(port));
       established = true;
       // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the
       // device's frames are to be those of a replay. A target that a bench has left behind speaks up again
       // for the next one.
-      const std::int64_t patience_ns =
-          device.state() == messages::TargetState::running ? bench_gone_ns : bench_silent_ns;
+      const std::int64_t patience_ns = device.running() ? bench_gone_ns : bench_silent_ns;
       if (now - bench_ns >= patience_ns) {
-        send(port, device.idle_heartbeat());
+        send(port, device.idle_heartbeat(), notes);
       } else if (!device.lockstep()) {
         reports.clear();
         reports.send(window.take());
-        send(port, reports.frames());
+        send(port, reports.frames(), notes);
       }
     }
     wait(port, WaitFor::frame, report_due_ns);
   }
+  tell(notes.news(port));
   return {};
 }
 

@@ -38,6 +38,7 @@ inline Written reproduced(const char* paper, const char* folder) {
     return {};
   }
   EXPECT_NE(reproduced->outcome, Outcome::interrupted);
+  EXPECT_NE(reproduced->outcome, Outcome::bars_missed) << "by two runs";
   std::ostringstream content;
   content << std::ifstream(reproduced->page).rdbuf();
   return {.html = content.str(), .text = reproduced->text};

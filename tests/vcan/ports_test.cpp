@@ -2,17 +2,13 @@
 // can-utils.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <linux/can/error.h>
-#include <poll.h>
-
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <thread>
 
 #include "dbc/ports/candump_log.hpp"
 #include "dbc/ports/socketcan.hpp"
-#include "tests/unit/dbc/ports/frames.hpp"
+#include "tests/vcan/interface.hpp"
 
 namespace canhil {
 namespace {
@@ -22,19 +18,6 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::unique_ptr<Port> open(const std::string& interface, const PortOptions& options = {}) {
-  auto port = open_port(interface, options);
-  EXPECT_TRUE(port) << port.error().message;
-  return port ? std::move(*port) : nullptr;
-}
-
-std::string why_not(const std::string& interface, const PortOptions& options = {}) {
-  const auto port = open_port(interface, options);
-  return port ? "opened" : port.error().message;
-}
-
-void run(const std::string& command) { ASSERT_EQ(std::system(command.c_str()), 0) << command; }
-
 Frame fd_frame(std::uint32_t id, std::uint8_t size, bool brs) {
   Frame frame = frame_of(id);
   frame.fd = true;
@@ -43,29 +26,6 @@ Frame fd_frame(std::uint32_t id, std::uint8_t size, bool brs) {
   for (std::uint8_t i = 0; i < size; ++i) frame.data[i] = static_cast<std::uint8_t>(i * 7 + size);
   return frame;
 }
-
-/// Sends, waiting for room.
-SendOutcome send_all(Port& port, const Frame& frame) {
-  SendOutcome outcome = port.send(frame);
-  while (outcome == SendOutcome::queue_full && wait(port, WaitFor::room, in_seconds(5)))
-    outcome = port.send(frame);
-  return outcome;
-}
-
-/// An interface of the test's own, gone at its end.
-class Interface {
- public:
-  Interface(std::string name, int mtu) : name_(std::move(name)) {
-    run(fmt::format("ip link add dev {0} type vcan && ip link set {0} mtu {1} && ip link set {0} up", name_,
-                    mtu));
-  }
-  Interface(const Interface&) = delete;
-  Interface& operator=(const Interface&) = delete;
-  ~Interface() { (void)std::system(fmt::format("ip link del {} 2>/dev/null", name_).c_str()); }
-
- private:
-  std::string name_;
-};
 
 TEST(SocketCan, CarriesClassicFrames) {
   const auto a = open("vcan0");
@@ -139,19 +99,6 @@ TEST(SocketCan, EchoesOwnFramesOnRequest) {
   EXPECT_FALSE(b->receive()) << "an echo that was not asked for";
 }
 
-TEST(SocketCan, CountsWhatTheReceiveQueueLost) {
-  const auto a = open("vcan0");
-  const auto b = open("vcan0", {.receive_buffer_bytes = 1});
-  constexpr unsigned burst = 1000;
-  for (unsigned n = 0; n < burst; ++n) ASSERT_EQ(send_all(*a, numbered(1, n)), SendOutcome::sent);
-  while (b->receive()) {
-  }
-  EXPECT_LT(b->counters().received, burst);
-  a->send(frame_of(2));  // the kernel reports the loss with the next frame that it queues
-  ASSERT_TRUE(next_frame(*b));
-  EXPECT_EQ(b->counters().received + b->counters().overflowed, burst + 1);
-}
-
 TEST(SocketCan, FiltersStandardIds) {
   const auto a = open("vcan0");
   const auto b = open("vcan0", {.only_ids = {0x100, 0x7FF}});
@@ -165,50 +112,6 @@ TEST(SocketCan, FiltersStandardIds) {
   EXPECT_EQ(why_not("vcan0", {.only_ids = {0x800}}), "only_ids: 0x800 is not a standard id (0 to 0x7FF)");
 }
 
-TEST(SocketCan, ReceivesErrorFramesAndNoRemoteFrames) {
-  const auto port = open("vcan0", {.only_ids = {0x100}});
-  run("cansend vcan0 100#R; cansend vcan0 20000040#0000000000000000; cansend vcan0 "
-      "20000004#0030000000000000");
-  const auto bus_off = next_frame(*port);
-  ASSERT_TRUE(bus_off);
-  EXPECT_TRUE(bus_off->frame.error);
-  EXPECT_EQ(bus_off->frame.id, static_cast<std::uint32_t>(CAN_ERR_BUSOFF));
-  const auto passive = next_frame(*port);
-  ASSERT_TRUE(passive);
-  EXPECT_EQ(passive->frame.id, static_cast<std::uint32_t>(CAN_ERR_CRTL));
-  EXPECT_EQ(passive->frame.data[1], CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE);
-  EXPECT_EQ(port->counters().error_frames, 2U);
-}
-
-TEST(SocketCan, GoesOnWhenTheInterfaceIsUpAgain) {
-  const auto a = open("vcan0");
-  const auto b = open("vcan0");
-  run("ip link set vcan0 down");
-  EXPECT_EQ(a->send(frame_of(1)), SendOutcome::down);
-  EXPECT_TRUE(wait(*b, WaitFor::frame, 0)) << "a waiting receiver is woken";
-  EXPECT_FALSE(b->receive());
-  EXPECT_FALSE(b->closed());
-  EXPECT_FALSE(wait(*b, WaitFor::frame, 0)) << "once";
-  EXPECT_THAT(why_not("vcan0"), EndsWith("is down: `ip link set vcan0 up`"));
-  run("ip link set vcan0 up");
-  SendOutcome outcome = a->send(frame_of(2));
-  if (outcome == SendOutcome::down)
-    outcome = a->send(frame_of(2));  // a socket reports what happened meanwhile once
-  EXPECT_EQ(outcome, SendOutcome::sent);
-  EXPECT_EQ(next_frame(*b)->frame.id, 2U);
-}
-
-TEST(SocketCan, ClosesWhenTheInterfaceIsRemoved) {
-  const auto own = std::make_unique<Interface>("canhil7", 16);
-  const auto a = open("canhil7");
-  const auto b = open("canhil7");
-  run("ip link del canhil7");
-  EXPECT_TRUE(wait(*a, WaitFor::frame, in_seconds(5)));
-  while (a->receive() || !a->closed()) ASSERT_TRUE(wait(*a, WaitFor::frame, 0));
-  EXPECT_EQ(a->send(frame_of(1)), SendOutcome::down);
-  while (!b->closed()) EXPECT_EQ(b->send(frame_of(1)), SendOutcome::down);
-}
-
 TEST(SocketCan, ExplainsWhatItCannotOpen) {
   EXPECT_EQ(why_not("can7"), "no CAN interface 'can7' on this machine; it has: vcan0, vcan1");
   EXPECT_THAT(why_not("a-name-too-long-for-an-interface"), StartsWith("no CAN interface 'a-name-too-long"));
@@ -218,53 +121,6 @@ TEST(SocketCan, ExplainsWhatItCannotOpen) {
       why_not("canhil8", {.fd = true}),
       AllOf(StartsWith("CAN interface 'canhil8' is classic (mtu 16)"), HasSubstr("ip link set canhil8")));
   EXPECT_TRUE(open("canhil8"));
-}
-
-/// A wire of 100 kbit/s behind a queue of some bytes on vcan1.
-class SlowWire : public ::testing::Test {
- protected:
-  static void slow_down(int queue_bytes) {
-    run(fmt::format("tc qdisc add dev vcan1 root tbf rate 100kbit burst 100 limit {}", queue_bytes));
-  }
-  void TearDown() override { (void)std::system("tc qdisc del dev vcan1 root"); }
-
-  static void send_and_receive(int frames) {
-    const auto a = open("vcan1");
-    const auto b =
-        open("vcan1", {.only_ids = {2}});  // what filled the queue before has id 1 and may still come
-    int full = 0;
-    for (int n = 0; n < frames; ++n) {
-      const Frame frame = numbered(2, static_cast<std::uint32_t>(n));
-      for (SendOutcome outcome = a->send(frame); outcome != SendOutcome::sent; outcome = a->send(frame)) {
-        ASSERT_EQ(outcome, SendOutcome::queue_full);
-        ASSERT_LT(++full, 20 * frames) << "waiting does not wait";
-        ASSERT_TRUE(wait(*a, WaitFor::room, in_seconds(5)));
-      }
-    }
-    EXPECT_GT(full, 0);
-    for (int n = 0; n < frames; ++n)
-      ASSERT_EQ(number_of(next_frame(*b)->frame), static_cast<std::uint32_t>(n));
-  }
-};
-
-TEST_F(SlowWire, FillsTheSocketFirst) {
-  slow_down(100'000);
-  const auto port = open("vcan1");
-  while (port->send(frame_of(1)) == SendOutcome::sent)
-    ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";
-  EXPECT_EQ(port->room_wait().events, POLLOUT);
-  // The burst lets 6 frames of 16 bytes pass at once.
-  EXPECT_LE(port->counters().sent, 6U + 10U) << "more than an interface's queue holds";
-  send_and_receive(100);
-}
-
-TEST_F(SlowWire, PausesWhenTheInterfacesQueueIsFull) {
-  slow_down(40);
-  const auto port = open("vcan1");
-  while (port->send(frame_of(1)) == SendOutcome::sent)
-    ASSERT_LT(port->counters().sent, 1000U) << "no slow wire";
-  EXPECT_GT(port->room_wait().pause_ns, 0) << "ENOBUFS: poll() would say writable at once";
-  send_and_receive(100);
 }
 
 /// A program of can-utils that listens on vcan1, its output in a file.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <span>
 
 #include "bench/campaign/statistics.hpp"
@@ -16,13 +15,6 @@ namespace {
 constexpr std::size_t drawn_runs = 100;  // as many as the paper flew
 constexpr std::string_view heading_metric = "heading at 300 s";
 constexpr std::string_view repairs_metric = "repairs";
-
-double figure(const campaign::Answer& answer, std::string_view name) {
-  const auto found =
-      std::ranges::find(answer.figures, name, [](const auto& f) { return std::string_view(f.first); });
-  return found == answer.figures.end() ? std::numeric_limits<double>::quiet_NaN()
-                                       : found->second.value_or(std::numeric_limits<double>::quiet_NaN());
-}
 
 // The curves of the first runs of every variant of a campaign.
 Result<void> draw_first_runs(Results& results, const FlyOptions& options, std::string_view name) {
@@ -65,8 +57,7 @@ Result<std::optional<Results>> fly(const FlyOptions& options, const std::atomic<
   if (!*flown) return std::nullopt;
   Results results;
   results.campaigns = std::move(**flown);
-  for (const Flown& one : results.campaigns)
-    results.flights += one.campaign.variants.size() * one.campaign.runs;
+  results.flights = flights(results.campaigns);
   results.runs = results.of("ssbl").campaign.runs;
   for (const char* name : {"ssbl", "gps"}) {
     if (auto drawn = draw_first_runs(results, options, name); !drawn) return tl::unexpected(drawn.error());

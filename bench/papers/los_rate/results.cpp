@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "bench/papers/los_rate/embedded.hpp"
@@ -11,10 +10,7 @@ namespace canhil::papers::los_rate {
 
 double Results::figure(std::string_view campaign, std::string_view metric, std::string_view variant,
                        std::string_view name, std::string_view point) const {
-  const campaign::Answer& answer = of(campaign).answer(metric, variant, point);
-  const auto found =
-      std::ranges::find(answer.figures, name, [](const auto& f) { return std::string_view(f.first); });
-  return found == answer.figures.end() ? std::nan("") : found->second.value_or(std::nan(""));
+  return papers::figure(of(campaign).answer(metric, variant, point), name);
 }
 
 double Results::rms(std::string_view campaign, std::string_view variant, const Window& window) const {
@@ -39,8 +35,7 @@ Result<std::optional<Results>> fly(const FlyOptions& options, const std::atomic<
   if (!*flown) return std::nullopt;
   Results results;
   results.campaigns = std::move(**flown);
-  for (const Flown& one : results.campaigns)
-    results.flights += one.campaign.variants.size() * one.campaign.runs;
+  results.flights = flights(results.campaigns);
   results.runs = results.of("open_loop").campaign.runs;
   return results;
 }

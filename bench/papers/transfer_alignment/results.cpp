@@ -100,8 +100,7 @@ Result<std::optional<Results>> fly(const FlyOptions& options, const std::filesys
   Results results;
   results.rounded = run::frames_round();
   results.campaigns = std::move(**flown);
-  for (const Flown& one : results.campaigns)
-    results.flights += one.campaign.variants.size() * one.campaign.runs;
+  results.flights = flights(results.campaigns);
   const campaign::Campaign& table = results.of(main_campaign).campaign;
   results.runs = table.runs;
   const auto store = campaign::Store::open(results_file(options, main_campaign));

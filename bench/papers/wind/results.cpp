@@ -2,21 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "bench/papers/wind/embedded.hpp"
 
 namespace canhil::papers::wind {
-namespace {
-
-double figure(const campaign::Answer& answer, std::string_view name) {
-  const auto found = std::ranges::find(answer.figures, name, [](const auto& one) { return one.first; });
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return found == answer.figures.end() ? nan : found->second.value_or(nan);
-}
-
-}  // namespace
 
 std::string words(const Score& score) {
   return fmt::format("{:.2f} ({:.2f})", score.mean, score.standard_deviation);
@@ -37,8 +25,7 @@ Result<std::optional<Results>> fly(const FlyOptions& options, const std::atomic<
   if (!*flown) return std::nullopt;
   Results results;
   results.campaigns = std::move(**flown);
-  for (const Flown& one : results.campaigns)
-    results.flights += one.campaign.variants.size() * one.campaign.runs;
+  results.flights = flights(results.campaigns);
   results.runs = results.of("table1").campaign.runs;
   return results;
 }

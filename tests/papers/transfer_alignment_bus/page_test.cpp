@@ -27,8 +27,22 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
   EXPECT_THAT(html, Not(HasSubstr("rounding (hil-bench-exact)")));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
   EXPECT_THAT(html, Not(HasSubstr("url(")));
+  EXPECT_THAT(text, HasSubstr("The bars are for 300 runs: with fewer they may fail by chance."));
+  // Of two runs the first paragraph says no more than the verdicts below it.
+  EXPECT_THAT(html,
+              HasSubstr("errors are 5 deg. Table 2, Kalman filter: does not reproduce; its heading enters"));
+  EXPECT_THAT(html, HasSubstr("Table 2, H2 case 2 is faster: does not reproduce; its heading enters"));
   EXPECT_THAT(text, HasSubstr("Table 2"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
+TEST(PaperPage, BarsThatTooFewRunsMissSayNothing) {
+  const auto outcome = [](bool bars_met, std::uint64_t runs) {
+    return outcome_of({.page = {}, .bars_met = bars_met, .runs = runs, .enough = 50});
+  };
+  EXPECT_EQ(outcome(false, 49), Outcome::too_few_runs);
+  EXPECT_EQ(outcome(false, 50), Outcome::bars_missed);
+  EXPECT_EQ(outcome(true, 49), Outcome::bars_met);
 }
 
 TEST(PaperPage, NamesWhatIsWrongWithTheRequest) {

@@ -127,7 +127,7 @@ int compare(int groups) {
   if (!truth) return complain(truth.error().message);
   const auto own_truth = run::make_own_truth(*scenario, 0);
   if (!own_truth) return complain(own_truth.error().message);
-  const auto initial = run::make_initial_state(*scenario, *truth, *own_truth, 0);
+  const auto initial = run::make_initial_states(*scenario, *truth, *own_truth, 0);
   if (!initial) return complain(initial.error().message);
 
   const std::string bus = fmt::format("local:turnaround-{}", ::getpid()), echo_bus = bus + "-echo";
@@ -141,7 +141,7 @@ int compare(int groups) {
   Side device(**hub), bare(**echo_hub);
   run::Link link(**hub);
   const auto configured =
-      run::configure(link, device.out(), scenario->target, *initial, [&] { return target->ended(); });
+      run::configure(link, device.out(), scenario->targets, *initial, [&] { return target->ended(); });
   if (!configured) return complain(configured.error().message);
   while ((*echo_hub)->nodes().empty()) {  // until the echo has joined
     static_cast<void>((*echo_hub)->receive());

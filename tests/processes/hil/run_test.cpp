@@ -62,7 +62,7 @@ TEST(Run, AnAlignmentInFlightPassesInRealTime) {
   ASSERT_NE(ended.code, 2) << ended.err;
   expect_outputs_passed(ended, read_json(report));
   EXPECT_EQ(read_json(report)["from_target"]["navigation_answers"], 1500);
-  EXPECT_EQ(read_json(report)["fixes"]["outcomes"]["accepted"], 29);
+  EXPECT_EQ(read_json(report)["alignments"][0]["fixes"]["outcomes"]["accepted"], 29);
 }
 
 TEST(Run, AMissileIsGuidedByTheTargetInRealTime) {

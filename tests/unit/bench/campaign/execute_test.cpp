@@ -38,7 +38,7 @@ TEST(Execute, StoresWhatRunInProcessGives) {
   const scenario::Scenario& scenario = campaign->variants[1].scenario;
   const auto truth = run::make_truth(scenario);
   const auto flown = run::run_in_process(scenario, *truth, 2);
-  EXPECT_EQ(encode((*runs)[2].samples), encode(series_of(2, *flown, *truth).samples));
+  EXPECT_EQ(encode((*runs)[2].samples), encode(series_of(2, *flown, *truth, Family::alignment).samples));
   EXPECT_EQ((*runs)[2].run, 2U);
 }
 

@@ -96,9 +96,10 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   flown.seen.los[1].outcome = messages::LosRateOutcome::waiting;
   record.miss_n = world::Vector3(0, 0.3, -0.4);
   flown.own_truth.engagement = record;
-  const RunSeries series =
-      series_of(7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000));
-  ASSERT_EQ(series.samples.family(), Family::los_rate);
+  flown.seen.navigation.emplace_back();
+  const RunSeries series = series_of(
+      7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), Family::los_rate);
+  ASSERT_EQ(series.samples.family(), Family::los_rate) << "by what was asked for, whatever else was seen";
   // To go: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 | 10.5 ms.
   ASSERT_EQ(series.samples.size(), 5U);
   EXPECT_EQ(series.samples.times()[0], -100'000) << "begins at 100 ms to go";
@@ -118,12 +119,12 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   const auto truth = run::make_truth(*scenario);
   const auto flown = run::run_in_process(*scenario, *truth, 5);
   ASSERT_TRUE(flown) << flown.error().message;
-  const RunSeries series = series_of(5, *flown, *truth);
+  const RunSeries series = series_of(5, *flown, *truth, Family::alignment);
   EXPECT_EQ(series.run, 5U);
   EXPECT_EQ(series.ending.kind, run::Ending::Kind::completed);
   // 10 Hz for 3 s; the last update is followed by no answer.
   ASSERT_EQ(series.samples.size(), 29U);
-  const auto errors = checks::navigation_errors(flown->seen, *truth);
+  const auto errors = checks::navigation_errors(flown->seen.navigation, *truth);
   for (std::size_t i = 0; i < series.samples.size(); ++i) {
     const auto same_time = [&](const auto& error) {
       return error.t_us == series.samples.times()[i] + 10'000;
@@ -146,7 +147,7 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   const world::FlightRecord truth({.start = start, .motion = world::Rest{}}, 3'000'000, 20'000);
   run::InProcessRun flown{.ending = {}, .seen = {}};
   for (const std::int64_t t_us : {1'000'000, 1'500'000, 2'000'000})
-    flown.seen.navigation.push_back(
+    flown.seen.fix_navigation.push_back(
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});
   checks::FixAnswer fix{.cause_us = 500'000, .navigation_us = 1'000'000, .nis = 4};
   fix.position = displaced(start, {1, 2, 3});
@@ -155,7 +156,7 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   flown.seen.fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;
   flown.seen.fixes.push_back(fix);
-  const RunSeries series = series_of(5, flown, truth);
+  const RunSeries series = series_of(5, flown, truth, Family::alignment);
   ASSERT_EQ(series.samples.size(), 1U) << "only of fixes that were considered";
   const auto value = [&](Quantity quantity) { return series.samples.value(0, quantity); };
   EXPECT_EQ(series.samples.times()[0], 500'000);

@@ -81,9 +81,10 @@ TEST(WindSeries, IsWhatTheChecksSee) {
   const auto truth = run::make_truth(scenario);
   const auto flown = run::run_in_process(scenario, *truth, 2);
   ASSERT_TRUE(flown) << flown.error().message;
-  const RunSeries series = series_of(2, *flown, *truth);
+  const RunSeries series = series_of(2, *flown, *truth, family_of(scenario));
   const auto errors = checks::wind_errors(flown->seen, *flown->own_truth.glide);
   ASSERT_EQ(series.samples.family(), Family::wind);
+  EXPECT_TRUE(series_of(2, *flown, *truth, Family::los_rate).samples.empty()) << "flew no engagement";
   ASSERT_EQ(series.samples.size(), errors.size());
   const std::size_t last = errors.size() - 1;
   const auto value = [&](Quantity quantity) { return series.samples.value(last, quantity); };

@@ -25,7 +25,7 @@ TEST(NavigationErrors, AreEstimatedLessTrueAndWrapped) {
                              .angles = {.roll = 0.02, .pitch = 0, .heading = -std::numbers::pi + 0.01},
                              .v_eb_n = Vector3(0, 3, 0)});
   seen.navigation.push_back({.cause_us = 1'010'000, .angles = {}});  // after the end of the truth
-  const auto errors = navigation_errors(seen, truth);
+  const auto errors = navigation_errors(seen.navigation, truth);
   ASSERT_THAT(errors, SizeIs(1));
   EXPECT_NEAR(errors[0].angles.heading, 0.02, 1e-12);
   EXPECT_NEAR(errors[0].angles.roll, 0.02, 1e-12);

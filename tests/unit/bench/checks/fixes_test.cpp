@@ -25,7 +25,7 @@ class Fixed : public testing::Test {
       seen_.stimuli["Ssbl"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
       seen_.arrivals[message_index<messages::FixUpdate>()].push_back(
           {.t_ns = t_us * 1000, .cause_us = t_us, .cause_group = "Ssbl"});
-      seen_.navigation.push_back({.cause_us = t_us, .angles = {}});
+      seen_.fix_navigation.push_back({.cause_us = t_us, .angles = {}});
       FixAnswer fix{.cause_us = t_us, .navigation_us = t_us, .nis = 3};
       fix.position = start;
       fix.heading_sigma = 0.1;
@@ -33,7 +33,8 @@ class Fixed : public testing::Test {
     }
   }
   template <class Rule>
-  CheckResult judge(const Rule& rule) {
+  CheckResult judge(Rule rule) {
+    if constexpr (requires { rule.of; }) rule.of = scenario::Aligner::inflight_alignment;
     scenario::Scenario scenario;
     scenario.checks.push_back({.name = "it", .requirement = "", .rule = rule});
     return checks::judge(scenario, {.seen = seen_,
@@ -116,7 +117,7 @@ TEST_F(Fixed, HeadingNeesFailsAnOverconfidentFilter) {
   const scenario::Consistency rule{.statistic = scenario::Statistic::heading_nees,
                                    .window = whole,
                                    .bound = scenario::MeanBetween{0, 1.5}};
-  for (NavigationAnswer& answer : seen_.navigation) answer.angles.heading = 0.1;
+  for (NavigationAnswer& answer : seen_.fix_navigation) answer.angles.heading = 0.1;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).measured, "mean 1.000 of 19");
   for (FixAnswer& fix : seen_.fixes) fix.heading_sigma = 0.05;
@@ -159,7 +160,7 @@ TEST_F(Fixed, RepairsAndHandoverAreThoseOfTheWholeRun) {
 
 TEST_F(Fixed, SilenceNeverPasses) {
   seen_.fixes.clear();
-  seen_.navigation.clear();
+  seen_.fix_navigation.clear();
   EXPECT_EQ(judge(scenario::PositionError{.window = whole, .below = 1}).measured, "no answers");
   EXPECT_EQ(judge(scenario::Fixes{.window = whole,
                                   .counts = {{.outcome = "gated", .at_least = {}, .at_most = 3}},
@@ -171,7 +172,7 @@ TEST_F(Fixed, SilenceNeverPasses) {
 }
 
 TEST_F(Fixed, CoastingAnswersAreCounted) {
-  for (const std::size_t place : {3, 7}) seen_.navigation[place].coasting = true;
+  for (const std::size_t place : {3, 7}) seen_.fix_navigation[place].coasting = true;
   EXPECT_EQ(judge(scenario::Coasting{.window = whole, .at_least = 2, .at_most = 2}).outcome, Outcome::pass);
   EXPECT_EQ(judge(scenario::Coasting{.window = whole, .at_least = 3, .at_most = {}}).outcome, Outcome::fail);
   EXPECT_EQ(judge(scenario::Coasting{.window = whole, .at_least = {}, .at_most = 1}).outcome, Outcome::fail);
@@ -180,7 +181,7 @@ TEST_F(Fixed, CoastingAnswersAreCounted) {
 }
 
 TEST_F(Fixed, BarsInDegreesAreReportedInDegrees) {
-  seen_.navigation[5].angles.heading = 0.0349066;  // 2 deg
+  seen_.fix_navigation[5].angles.heading = 0.0349066;  // 2 deg
   const scenario::AttitudeError rule{.axis = scenario::AttitudeAxis::heading,
                                      .window = whole,
                                      .below = 3 * world::units::deg,

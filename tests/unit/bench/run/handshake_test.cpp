@@ -46,7 +46,8 @@ class Handshake : public testing::Test {
   Result<void> configure() {
     nodes::Transmission out;
     Link link(port_);
-    return run::configure(link, out, setup_, {}, [this] { return gone_; });
+    const InitialState nowhere;
+    return run::configure(link, out, std::span(&setup_, 1), std::span(&nowhere, 1), [this] { return gone_; });
   }
   [[nodiscard]] auto sent(std::uint32_t id) const { return std::ranges::count(port_.sent, id, &Frame::id); }
 

@@ -63,7 +63,7 @@ TEST(InFlight, AlignsFromNinetyDegreesOff) {
   EXPECT_EQ(flown.outcome("consistency nis"), checks::Outcome::pass);
   EXPECT_EQ(flown.outcome("counters"), checks::Outcome::pass);
   EXPECT_EQ(flown.count(FixOutcome::accepted), 29) << "of the 30, the last one would arrive after the end";
-  EXPECT_EQ(std::ranges::count(flown.seen.navigation, true, &checks::NavigationAnswer::coasting), 0);
+  EXPECT_EQ(std::ranges::count(flown.seen.fix_navigation, true, &checks::NavigationAnswer::coasting), 0);
 }
 
 TEST(InFlight, OutliersOfAKilometreAreGatedAndDoNoHarm) {
@@ -93,7 +93,8 @@ TEST(InFlight, LostImuGroupsAreBridgedAndFlagged) {
   const Flown flown = fly({set("slave_imu.loss_percent", "5")});
   const auto lost = 1500 - static_cast<std::int64_t>(flown.seen.stimuli.at("SlaveImu").size());
   EXPECT_NEAR(static_cast<double>(lost), 75, 5 * 8.5);
-  const auto flagged = std::ranges::count(flown.seen.navigation, true, &checks::NavigationAnswer::coasting);
+  const auto flagged =
+      std::ranges::count(flown.seen.fix_navigation, true, &checks::NavigationAnswer::coasting);
   EXPECT_LE(flagged, lost) << "two in a row are bridged by one answer";
   EXPECT_GE(flagged, lost * 8 / 10);
   expect_aligned(flown);

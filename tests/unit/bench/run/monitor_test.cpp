@@ -25,8 +25,8 @@ class Watched : public testing::Test {
     monitor_.transmitted(frame, t_ns, late_ns);
     return frame;
   }
-  void echo(const Frame& frame, std::int64_t t_ns) {
-    monitor_.received({.frame = frame, .t_ns = t_ns, .own = true});
+  void echo(const Frame& frame, std::int64_t t_ns, std::int64_t hardware_ns = 0) {
+    monitor_.received({.frame = frame, .t_ns = t_ns, .hardware_ns = hardware_ns, .own = true});
   }
   void imu(std::int64_t t_us, std::int64_t t_ns) {
     transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(t_us)}, t_ns);
@@ -39,6 +39,11 @@ class Watched : public testing::Test {
     receive(AlignAttitude{.heading_deg = 30}, t_ns);
     receive(AlignVelocityNE{.velocity_north_mps = 1, .velocity_east_mps = 2}, t_ns);
     receive(AlignVelocityD{.velocity_down_mps = 3, .cause_time_us = wrap_us(cause_us)}, t_ns);
+  }
+  void answer_in_flight(std::int64_t cause_us, std::int64_t t_ns = 0) {
+    receive(FixAttitude{.heading_deg = 42}, t_ns);
+    receive(FixVelocityNE{.velocity_north_mps = 4, .velocity_east_mps = 5}, t_ns);
+    receive(FixVelocityD{.velocity_down_mps = 6, .cause_time_us = wrap_us(cause_us)}, t_ns);
   }
   void answer_filter(std::int64_t cause_us) {
     receive(AlignInnovation{.innovation_down_mps = 0.5});
@@ -146,8 +151,19 @@ TEST_F(Watched, AFilterGroupIsOneAnswerThatKnowsTheNavigationBeforeIt) {
   EXPECT_NEAR(seen().filter[0].gyro_bias.x(), 1.7453293e-5, 1e-12);
 }
 
-TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
+TEST_F(Watched, TheTwoAlignmentsAreKeptApart) {
   answer(100'000);
+  answer_in_flight(100'000);
+  answer_in_flight(200'000);
+  EXPECT_EQ(seen().navigation.size(), 1U);
+  ASSERT_EQ(seen().fix_navigation.size(), 2U);
+  EXPECT_NEAR(seen().fix_navigation[1].angles.heading, 0.7330383, 1e-6);
+  EXPECT_TRUE(seen().fix_navigation[1].v_eb_n.isApprox(world::Vector3(4, 5, 6), 1e-12));
+  EXPECT_EQ(seen().fix_navigation[1].cause_us, 200'000);
+}
+
+TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
+  answer_in_flight(100'000);
   answer_fix(60'000, FixSource::gps);
   ASSERT_EQ(seen().fixes.size(), 1U);
   const checks::FixAnswer& fix = seen().fixes[0];
@@ -229,10 +245,18 @@ TEST_F(Watched, TheStampOfTheEchoReplacesTheBenchsOwn) {
   EXPECT_EQ(seen().stimuli.at("SlaveImu")[2].t_ns, 3'000);
 }
 
+TEST_F(Watched, TheControllersStampsAreKept) {
+  const Frame frame = transmit(SlaveImuStatus{.time_of_validity_us = 20'000}, 2'000);
+  echo(frame, 2'700, 42);
+  EXPECT_EQ(seen().stimuli.at("SlaveImu")[0].hardware_ns, 42);
+  monitor_.received({.frame = next(target_, TargetHeartbeat{}), .t_ns = 1, .hardware_ns = 43});
+  EXPECT_EQ(seen().arrivals[message_index<TargetHeartbeat>()].at(0).hardware_ns, 43);
+}
+
 TEST_F(Watched, AnEchoIsNoAnswer) {
   echo(next(target_, AlignVelocityD{}), 0);
   echo(next(target_, TargetHeartbeat{}), 0);
-  EXPECT_FALSE(seen().heartbeat);
+  EXPECT_THAT(seen().arrivals[message_index<TargetHeartbeat>()], IsEmpty());
   EXPECT_THAT(seen().arrivals[message_index<AlignVelocityD>()], IsEmpty());
 }
 
@@ -271,7 +295,7 @@ TEST_F(Watched, ABrokenFrameIsCountedAndNotUsed) {
   frame.size = 3;
   monitor_.received({.frame = frame});
   EXPECT_EQ(seen().target_bad_crc, 2U);
-  EXPECT_FALSE(seen().heartbeat);
+  EXPECT_THAT(seen().arrivals[message_index<TargetHeartbeat>()], IsEmpty());
 }
 
 TEST_F(Watched, ARepeatedFrameIsNotUsed) {

@@ -27,20 +27,21 @@ TEST(ScenarioFields, Top) {
 
 TEST(ScenarioFields, Target) {
   const Scenario s = parsed(valid);
-  EXPECT_EQ(s.target.estimator, "transfer_alignment");
-  EXPECT_EQ(s.target.algorithm, "kalman");
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.velocity, 1.0);
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.tilt, 2 * deg);
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.heading, 5 * deg);
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.position, 10.0);
-  EXPECT_TRUE(s.target.parameters.empty());
+  EXPECT_EQ(s.targets.front().estimator, "transfer_alignment");
+  EXPECT_EQ(s.targets.front().algorithm, "kalman");
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, 1.0);
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.tilt, 2 * deg);
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, 5 * deg);
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.position, 10.0);
+  EXPECT_TRUE(s.targets.front().parameters.empty());
 }
 
 TEST(ScenarioFields, ParametersKeepTheUnitOfTheirNameAndTheOrderOfTheDbc) {
   const auto parameters =
       parsed(with("[truth]",
                   "[target.parameters]\nvelocity_noise_m2ps = 0.01\naccel_bias_sigma_ug = 300\n[truth]"))
-          .target.parameters;
+          .targets.front()
+          .parameters;
   ASSERT_EQ(parameters.size(), 2U);
   EXPECT_EQ(parameters[0].name, "accel_bias_sigma_ug");
   EXPECT_EQ(parameters[0].value, 300.0);
@@ -50,7 +51,7 @@ TEST(ScenarioFields, ParametersKeepTheUnitOfTheirNameAndTheOrderOfTheDbc) {
   const Setting setting{.key = "target.parameters.h2_case", .value = "3", .elements = {}};
   const auto varied = parse(valid, "s.toml", contract, {&setting, 1});
   ASSERT_TRUE(varied) << varied.error().message;
-  EXPECT_EQ(varied->target.parameters.at(0).where, "s.toml: key 'target.parameters.h2_case'");
+  EXPECT_EQ(varied->targets.front().parameters.at(0).where, "s.toml: key 'target.parameters.h2_case'");
 }
 
 TEST(ScenarioFields, TruthAtRest) {
@@ -231,18 +232,21 @@ TEST(ScenarioFields, TruthRacetrackSpiralAndRestThenGo) {
   EXPECT_DOUBLE_EQ(going.depth.depth, 5.0);
 }
 
+std::string aided(const std::string& aid) {
+  return with("[slave_imu]", "[slave_imu]\n" + aid, with("transfer_alignment", "inflight_alignment"));
+}
+
 TEST(ScenarioFields, Ssbl) {
-  const auto bare = parsed(with("[slave_imu]", "[slave_imu]\n[ssbl]")).ssbl.value();
+  const auto bare = parsed(aided("[ssbl]")).ssbl.value();
   EXPECT_FALSE(bare.schedule.period_us.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero() && bare.ship_error.sigma.isZero());
   EXPECT_FALSE(bare.faults.silence_us.has_value());
   const auto node =
-      parsed(with("[slave_imu]",
-                  "[slave_imu]\n[ssbl]\nperiod_ms = 2000\nlatency_ms = 1500\n"
-                  "ship_offset_m = [100, 200, -10]\nship_velocity_mps = [1, 2, 0]\n"
-                  "ship_error_m = 4\nship_error_sigma_m = 3\nbias_m = [1, 0, 0]\nbias_sigma_m = 1\n"
-                  "noise_m = 2\nrange_noise_percent = 0.5\nloss_percent = 5\ninvalid_percent = 4\n"
-                  "outlier_percent = 3\noutlier_m = 1000\nsilence_s = [5, 6.5]"))
+      parsed(aided("[ssbl]\nperiod_ms = 2000\nlatency_ms = 1500\n"
+                   "ship_offset_m = [100, 200, -10]\nship_velocity_mps = [1, 2, 0]\n"
+                   "ship_error_m = 4\nship_error_sigma_m = 3\nbias_m = [1, 0, 0]\nbias_sigma_m = 1\n"
+                   "noise_m = 2\nrange_noise_percent = 0.5\nloss_percent = 5\ninvalid_percent = 4\n"
+                   "outlier_percent = 3\noutlier_m = 1000\nsilence_s = [5, 6.5]"))
           .ssbl.value();
   EXPECT_EQ(node.schedule.period_us, 2'000'000);
   EXPECT_EQ(node.schedule.latency_us, 1'500'000);
@@ -262,12 +266,11 @@ TEST(ScenarioFields, Ssbl) {
 }
 
 TEST(ScenarioFields, Gps) {
-  const auto bare = parsed(with("[slave_imu]", "[slave_imu]\n[gps]")).gps.value();
+  const auto bare = parsed(aided("[gps]")).gps.value();
   EXPECT_FALSE(bare.lowest_height.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero());
-  const auto node = parsed(with("[slave_imu]",
-                                "[slave_imu]\n[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
-                                "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7"))
+  const auto node = parsed(aided("[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
+                                 "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7"))
                         .gps.value();
   EXPECT_EQ(node.schedule.latency_us, 100'000);
   expect_near(node.bias.value, {1, 1, 1});

@@ -59,11 +59,11 @@ TEST(ScenarioFiles, AreAllValid) {
 
 TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
   const auto s = read_file(SOURCE_DIR "/bench/scenarios/transfer_alignment.toml", of_the_dbc()).value();
-  EXPECT_EQ(s.target.algorithm, "kalman");
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.heading, s.initial_error.attitude.sigma.z());
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.tilt, s.initial_error.attitude.sigma.x());
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.velocity, s.initial_error.velocity.sigma.x());
-  for (const Parameter& parameter : s.target.parameters) {
+  EXPECT_EQ(s.targets.front().algorithm, "kalman");
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, s.initial_error.attitude.sigma.z());
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.tilt, s.initial_error.attitude.sigma.x());
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, s.initial_error.velocity.sigma.x());
+  for (const Parameter& parameter : s.targets.front().parameters) {
     const auto& imu = s.slave_imu->errors;
     if (parameter.name == "velocity_noise_m2ps") {
       // The DBC's 100 ms between updates turn a sigma into a density.
@@ -78,8 +78,8 @@ TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
 
 TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
   const auto s = read_file(SOURCE_DIR "/bench/scenarios/transfer_alignment_h2.toml", of_the_dbc()).value();
-  EXPECT_EQ(s.target.algorithm, "robust_h2");
-  EXPECT_DOUBLE_EQ(s.target.initial_sigma.heading, 1 * world::units::deg);
+  EXPECT_EQ(s.targets.front().algorithm, "robust_h2");
+  EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, 1 * world::units::deg);
   EXPECT_DOUBLE_EQ(s.initial_error.attitude.sigma.z(), 5 * world::units::deg);
   EXPECT_TRUE(s.master_ins->errors.velocity.sigma.isZero());
 }
@@ -88,14 +88,14 @@ TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreToldTheTruth) {
   for (const std::string name : {"inflight_ssbl", "inflight_gps", "inflight_ssbl_180", "inflight_quick"}) {
     const auto s = read_file(SOURCE_DIR "/bench/scenarios/" + name + ".toml", of_the_dbc()).value();
     const auto parameter = [&](std::string_view wanted) {
-      const auto found = std::ranges::find(s.target.parameters, wanted, &Parameter::name);
-      return found == s.target.parameters.end() ? std::nan("") : found->value;
+      const auto found = std::ranges::find(s.targets.front().parameters, wanted, &Parameter::name);
+      return found == s.targets.front().parameters.end() ? std::nan("") : found->value;
     };
-    EXPECT_EQ(s.target.algorithm, "sin_cos");
-    EXPECT_DOUBLE_EQ(s.target.initial_sigma.tilt, s.initial_error.attitude.sigma.x());
-    EXPECT_DOUBLE_EQ(s.target.initial_sigma.velocity, s.initial_error.velocity.sigma.x());
-    EXPECT_DOUBLE_EQ(s.target.initial_sigma.position, s.initial_error.position.sigma.x());
-    EXPECT_GE(s.target.initial_sigma.heading, s.initial_error.heading_magnitude);
+    EXPECT_EQ(s.targets.front().algorithm, "sin_cos");
+    EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.tilt, s.initial_error.attitude.sigma.x());
+    EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, s.initial_error.velocity.sigma.x());
+    EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.position, s.initial_error.position.sigma.x());
+    EXPECT_GE(s.targets.front().initial_sigma.heading, s.initial_error.heading_magnitude);
     const auto& imu = s.slave_imu->errors;
     EXPECT_NEAR(parameter("accel_bias_sigma_ug") * world::units::ug, imu.accel.bias.sigma.x(), 1e-15);
     EXPECT_NEAR(parameter("gyro_bias_sigma_degph") * world::units::degph, imu.gyro.bias.sigma.x(), 1e-15);

@@ -22,7 +22,7 @@ void expect_a_scenario_or_one_line(const std::string& text) {
   if (result) {
     RC_ASSERT(result->duration_us > 0);
     RC_ASSERT(!result->checks.empty());
-    RC_ASSERT(result->target.initial_sigma.velocity > 0);
+    RC_ASSERT(result->targets.front().initial_sigma.velocity > 0);
     return;
   }
   const std::string& message = result.error().message;

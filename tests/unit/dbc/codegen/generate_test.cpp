@@ -6,6 +6,7 @@
 #include "dbc/codegen/names.hpp"
 #include "dbc/codegen/placement.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/wire/bit_length.hpp"
 
 namespace canhil::dbc {
 namespace {
@@ -122,13 +123,6 @@ BA_ "E2eDataId" BO_ 1 7;
             "8|4@1+");
 }
 
-// Davis, Burns, Bril, Lukkien 2007: 8 bytes take at most 135 bits with an 11-bit id, 160 with a 29-bit id.
-TEST(Load, WorstCaseFrameLengths) {
-  static_assert(worst_case_bits(8, false) == 135);
-  static_assert(worst_case_bits(8, true) == 160);
-  static_assert(worst_case_bits(0, false) == 55);
-}
-
 TEST(Load, SumsCyclicMessagesOfASender) {
   const Database database = database_of(R"(BS_:
 BU_: A B
@@ -153,8 +147,8 @@ TEST(Load, OfEveryNodeOfTheContractIsUnderHalfOfAMegabitPerSecond) {
   double bits_per_s = 0;
   for (const Message& message : database->messages) {
     if (message.cycle_time_us > 0)
-      bits_per_s += static_cast<double>(worst_case_bits(message.size, message.extended)) * 1e6 /
-                    static_cast<double>(message.cycle_time_us);
+      bits_per_s += static_cast<double>(wire::worst_case_length(message.size, message.extended).bits()) *
+                    1e6 / static_cast<double>(message.cycle_time_us);
   }
   EXPECT_GT(bits_per_s, 0);
   EXPECT_LT(bits_per_s, 0.5 * 1e6);

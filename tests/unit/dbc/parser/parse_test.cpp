@@ -28,7 +28,7 @@ TEST(Parse, TheContract) {
   ASSERT_TRUE(database) << database.error().message;
   EXPECT_EQ(database->version, "1");
   EXPECT_EQ(database->nodes.size(), 9U);
-  EXPECT_EQ(database->messages.size(), 78U);
+  EXPECT_EQ(database->messages.size(), 81U);
   const Message* message = find_message(*database, "SlaveImuDeltaTheta");
   ASSERT_NE(message, nullptr);
   EXPECT_EQ(message, find_message(*database, 128));

@@ -35,7 +35,7 @@ TEST(Device, RefusesAnEstimatorThatItDoesNotOffer) {
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_command, 1);
   bench.initialise();
   bench.command(Command::start);
-  EXPECT_EQ(bench.device().state(), TargetState::idle);
+  EXPECT_EQ(bench.last<TargetHeartbeat>()->state, TargetState::idle);
 }
 
 TEST(Device, DoesNotStartWithoutAWholeInitialState) {

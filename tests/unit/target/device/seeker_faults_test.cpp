@@ -50,7 +50,7 @@ TEST_P(BadSamples, AreNamedCoastedOverAndRecoveredFrom) {
     }
     // The classical filter's error is its lag, here and without the fault.
     EXPECT_LT(missile.rate_error(), algorithm == Algorithm::low_pass ? 3e-3 : 5e-4);
-    EXPECT_EQ(missile.device().state(), TargetState::running);
+    EXPECT_TRUE(missile.device().running());
     EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_lost, 1);
     EXPECT_EQ(missile.last<TargetHeartbeat>()->error_numeric, 0);
   }
@@ -198,7 +198,7 @@ TEST(SeekerLoss, ASeekerThatStaysAwayIsNamedAndTheTargetAcquiredAnew) {
   missile.fly_until(3.5);
   for (int k = 0; k < 120; ++k) missile.fly_unheard();
   EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_silent, 1);
-  EXPECT_EQ(missile.device().state(), TargetState::running);
+  EXPECT_TRUE(missile.device().running());
   missile.fly();
   EXPECT_EQ(missile.estimate().outcome, LosRateOutcome::started);
   EXPECT_EQ(missile.estimate().fault, LosRateFault::none);
@@ -301,7 +301,7 @@ TEST(SeekerLoss, AfterThePassTheSigmasGrowToTheirLimit) {
     sigma = missile.sigma().los_rate_sigma_pitch_radps;
   }
   EXPECT_NEAR(sigma, 0.327, 2e-5);
-  EXPECT_EQ(missile.device().state(), TargetState::running);
+  EXPECT_TRUE(missile.device().running());
 }
 
 TEST(SeekerLoss, TimeOfValidityMayWrap) {

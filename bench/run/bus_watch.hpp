@@ -1,0 +1,38 @@
+// The bus itself in a run: error frames and outages, recorded, and held against nobody's silence.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "bench/checks/bus.hpp"
+#include "bench/run/link.hpp"
+
+namespace canhil::run {
+
+class BusWatch final : public Observer {
+ public:
+  void received(const Received& received) override;
+  void interface_changed(bool up, std::int64_t t_ns) override;
+
+  /// What keeps every frame from the bus now, and since when on CLOCK_MONOTONIC.
+  struct Outage {
+    std::string_view what;
+    std::int64_t since_ns = 0;
+  };
+  [[nodiscard]] const std::optional<Outage>& outage() const { return outage_; }
+  /// When the last outage ended, on CLOCK_MONOTONIC; 0: there was none.
+  [[nodiscard]] std::int64_t ended_ns() const { return ended_ns_; }
+
+  [[nodiscard]] const checks::BusRecord& record() const { return record_; }
+
+ private:
+  void note(std::int64_t t_ns, BusEvent event);
+  void begin(std::string_view what);
+  void end();
+
+  checks::BusRecord record_;
+  std::optional<Outage> outage_;
+  std::int64_t ended_ns_ = 0;
+};
+
+}  // namespace canhil::run

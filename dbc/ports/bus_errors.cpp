@@ -1,0 +1,105 @@
+#include "dbc/ports/bus_errors.hpp"
+
+#include <fmt/format.h>
+#include <linux/can/error.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace canhil {
+namespace {
+
+// CAN_ERR_CNT is of Linux 6.0. Kernels before put the counters into frames of the class "controller" without
+// saying so.
+void take_counters(BusErrors& errors, const Frame& frame) {
+  const bool told = (frame.id & CAN_ERR_CNT) != 0;
+  const bool old = (frame.id & CAN_ERR_CRTL) != 0 && (frame.data[6] != 0 || frame.data[7] != 0);
+  if (frame.size < CAN_ERR_DLC || (!told && !old)) return;
+  errors.tx_counter = frame.data[6];
+  errors.rx_counter = frame.data[7];
+  errors.tx_counter_max = std::max(errors.tx_counter_max, frame.data[6]);
+  errors.rx_counter_max = std::max(errors.rx_counter_max, frame.data[7]);
+}
+
+}  // namespace
+
+std::string_view name(BusEvent event) {
+  switch (event) {
+    case BusEvent::error_active:
+      return "error active";
+    case BusEvent::error_warning:
+      return "error warning";
+    case BusEvent::error_passive:
+      return "error passive";
+    case BusEvent::bus_off:
+      return "bus off";
+    case BusEvent::restarted:
+      return "restarted";
+    case BusEvent::down:
+      return "down";
+    case BusEvent::up:
+      return "up";
+  }
+  return "?";
+}
+
+std::optional<BusEvent> add(BusErrors& errors, const Frame& frame) {
+  std::optional<BusEvent> event;
+  const auto count = [](bool said, std::uint64_t& counter) { counter += said ? 1 : 0; };
+  const auto change = [&](bool said, std::uint64_t& counter, BusEvent to) {
+    count(said, counter);
+    if (said) event = to;
+  };
+  const auto says = [&](std::uint32_t class_bit) { return (frame.id & class_bit) != 0; };
+  const auto controller = [&](unsigned bits) {
+    return says(CAN_ERR_CRTL) && frame.size > 1 && (frame.data[1] & bits) != 0;
+  };
+  ++errors.frames;
+  count(says(CAN_ERR_LOSTARB), errors.lost_arbitration);
+  count(says(CAN_ERR_ACK), errors.no_ack);
+  count(says(CAN_ERR_TX_TIMEOUT), errors.tx_timeout);
+  count(says(CAN_ERR_PROT), errors.protocol);
+  count(says(CAN_ERR_BUSERROR), errors.bus_error);
+  count(says(CAN_ERR_TRX), errors.transceiver);
+  count(controller(CAN_ERR_CRTL_RX_OVERFLOW), errors.rx_overflow);
+  count(controller(CAN_ERR_CRTL_TX_OVERFLOW), errors.tx_overflow);
+  take_counters(errors, frame);
+  // In the order of gravity: the last one stands.
+  change(controller(CAN_ERR_CRTL_ACTIVE), errors.active, BusEvent::error_active);
+  change(controller(CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING), errors.warning,
+         BusEvent::error_warning);
+  change(controller(CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE), errors.passive,
+         BusEvent::error_passive);
+  change(says(CAN_ERR_RESTARTED), errors.restarted, BusEvent::restarted);
+  change(says(CAN_ERR_BUSOFF), errors.bus_off, BusEvent::bus_off);
+  return event;
+}
+
+std::string words(const BusErrors& errors) {
+  const std::array<std::pair<std::string_view, std::uint64_t>, 13> said{
+      {{"bus off", errors.bus_off},
+       {"restarted", errors.restarted},
+       {"error passive", errors.passive},
+       {"error warning", errors.warning},
+       {"error active", errors.active},
+       {"no acknowledgement", errors.no_ack},
+       {"arbitration lost", errors.lost_arbitration},
+       {"transmit timeout", errors.tx_timeout},
+       {"protocol", errors.protocol},
+       {"bus error", errors.bus_error},
+       {"controller receive overflow", errors.rx_overflow},
+       {"controller transmit overflow", errors.tx_overflow},
+       {"transceiver", errors.transceiver}}};
+  std::string text;
+  for (const auto& [what, count] : said) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", what, count);
+  }
+  if (text.empty() && errors.frames > 0) text = "of no known class";
+  if (errors.tx_counter_max > 0 || errors.rx_counter_max > 0)
+    text +=
+        fmt::format("; error counters at most tx {}, rx {}", errors.tx_counter_max, errors.rx_counter_max);
+  return text;
+}
+
+}  // namespace canhil

@@ -1,0 +1,50 @@
+#include "target/process/bus_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+namespace canhil::target {
+namespace {
+
+constexpr std::int64_t flood_period_ns = 1'000'000'000;
+
+bool state_changed(const BusErrors& before, const BusErrors& now) {
+  return before.bus_off != now.bus_off || before.restarted != now.restarted || before.passive != now.passive;
+}
+
+}  // namespace
+
+std::string BusNotes::news(const Port& port) {
+  std::string lines;
+  const auto tell = [&](const std::string& what) { lines += fmt::format("{}: {}\n", port.name(), what); };
+  const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
+  if (errors_ != told_.errors &&
+      (state_changed(told_.errors, errors_) || now_ns - told_.errors_ns >= flood_period_ns)) {
+    tell(fmt::format("{} error frames ({})", errors_.frames, words(errors_)));
+    told_.errors = errors_;
+    told_.errors_ns = now_ns;
+  }
+  if (port.up() != told_.up) {
+    if (port.up()) {
+      tell(fmt::format("up again after {:.1f} s; {} frames were not sent meanwhile",
+                       static_cast<double>(now_ns - told_.down_ns) * 1e-9, unsent_));
+      unsent_ = 0;
+    } else {
+      tell("the interface is down or removed; waiting for it");
+      told_.down_ns = now_ns;
+    }
+    told_.up = port.up();
+  }
+  if (late_in_queue_ != told_.late_in_queue) {
+    tell(fmt::format("late in transmit queue: {} frames since the start, not sent", late_in_queue_));
+    told_.late_in_queue = late_in_queue_;
+  }
+  if (const std::uint64_t overflowed = port.counters().overflowed; overflowed != told_.overflowed) {
+    tell(fmt::format("the receive queue overflowed: {} frames lost since the start", overflowed));
+    told_.overflowed = overflowed;
+  }
+  return lines;
+}
+
+}  // namespace canhil::target

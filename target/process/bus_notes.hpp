@@ -1,0 +1,40 @@
+// What the process around the device has to say of the bus, which no frame can carry.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "dbc/ports/bus_errors.hpp"
+#include "dbc/ports/port.hpp"
+
+namespace canhil::target {
+
+/// Counts on the frame path, without a word; told from time to time beside it.
+class BusNotes {
+ public:
+  void error_frame(const Frame& frame) { add(errors_, frame); }
+  /// An answer found no room in the transmit queue by its deadline.
+  void late_in_queue() { ++late_in_queue_; }
+  /// An answer met an interface that is down.
+  void met_interface_down() { ++unsent_; }
+
+  /// One line for each thing that changed since it was asked last, with the bus's name; empty: nothing did.
+  /// Error frames that are no change of state, which may flood, are told of once a second.
+  std::string news(const Port& port);
+
+ private:
+  struct Told {
+    BusErrors errors;
+    std::int64_t errors_ns = 0;
+    std::uint64_t late_in_queue = 0;
+    std::uint64_t overflowed = 0;
+    bool up = true;
+    std::int64_t down_ns = 0;
+  };
+  BusErrors errors_;
+  std::uint64_t late_in_queue_ = 0;
+  std::uint64_t unsent_ = 0;  // since the interface went down
+  Told told_;
+};
+
+}  // namespace canhil::target

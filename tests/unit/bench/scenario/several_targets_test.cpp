@@ -1,0 +1,87 @@
+// [[target]]: several estimators on one target.
+#include <gmock/gmock.h>
+
+#include "tests/unit/bench/scenario/texts.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string second = R"([[target]]
+estimator = "inflight_alignment"
+algorithm = "kalman"
+initial_sigma = { velocity_mps = 0.1, tilt_deg = 1.0, heading_deg = 90.0, position_m = 5.0 }
+initial_error = { heading_magnitude_deg = 90.0 }
+)";
+
+// `valid` with another estimator, and GPS for it.
+std::string two(std::string_view other = second, std::string_view check = "") {
+  const std::string several = with("[target]", "[[target]]");
+  return with("[truth]", std::string(other) + "[gps]\n" + std::string(check) + "[truth]", several);
+}
+
+std::string refusal(const std::string& text) {
+  const auto scenario = parse(text, "s.toml", contract);
+  return scenario ? "accepted" : scenario.error().message;
+}
+
+TEST(SeveralTargets, EachHasItsOwnSettings) {
+  const Scenario s = parsed(two());
+  ASSERT_EQ(s.targets.size(), 2U);
+  EXPECT_TRUE(s.runs("transfer_alignment"));
+  EXPECT_TRUE(s.runs("inflight_alignment"));
+  EXPECT_FALSE(s.runs("los_rate"));
+  EXPECT_FALSE(s.targets[0].initial_error) << "the scenario's";
+  EXPECT_DOUBLE_EQ(s.targets[1].initial_error->heading_magnitude, 90 * world::units::deg);
+  EXPECT_DOUBLE_EQ(s.targets[1].initial_sigma.position, 5);
+}
+
+TEST(SeveralTargets, EachBringsItsNodes) {
+  const std::string without = with("[gps]\n", "", two());
+  EXPECT_THAT(refusal(without), HasSubstr("key 'ssbl': is missing, as is 'gps'"));
+}
+
+TEST(SeveralTargets, AnEstimatorIsThereOnce) {
+  const std::string twice = with("\"inflight_alignment\"", "\"transfer_alignment\"", two());
+  EXPECT_EQ(refusal(twice),
+            "s.toml:9: key 'target[2].estimator': 'transfer_alignment' is that of another [[target]] too, "
+            "expected each estimator once");
+}
+
+TEST(SeveralTargets, ErrorsNameWhichOne) {
+  EXPECT_THAT(refusal(with("heading_deg = 90.0, ", "", two())),
+              HasSubstr("key 'target[2].initial_sigma.heading_deg': is missing"));
+}
+
+TEST(SeveralTargets, ACheckSaysWhoseAnswersItIsAbout) {
+  const std::string check = "[[check]]\nkind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 5\n";
+  EXPECT_THAT(
+      refusal(two(second, check)),
+      HasSubstr(
+          "key 'check[1].estimator': is missing, expected one of: transfer_alignment, inflight_alignment"));
+  const Scenario s = parsed(two(second, check + "estimator = 'inflight_alignment'\n"));
+  EXPECT_EQ(std::get<AttitudeError>(s.checks.at(0).rule).of, Aligner::inflight_alignment);
+  EXPECT_EQ(s.checks.at(0).name, "attitude_error roll of inflight_alignment");
+}
+
+TEST(SeveralTargets, WhereOneAlignsItIsTheOneThatIsMeant) {
+  const std::string check = "[[check]]\nkind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 5\n";
+  const Scenario s = parsed(with("[[check]]", check + "[[check]]"));
+  EXPECT_EQ(std::get<AttitudeError>(s.checks.at(0).rule).of, Aligner::transfer_alignment);
+  EXPECT_THAT(refusal(with("[[check]]", check + "estimator = 'inflight_alignment'\n[[check]]")),
+              HasSubstr("'inflight_alignment' is not run in this scenario, expected transfer_alignment"));
+}
+
+TEST(BusLoadCheck, HasABitrateAndABar) {
+  const Scenario s = parsed(
+      with("[[check]]", "[[check]]\nkind = 'bus_load'\nbitrate_kbitps = 500\nbelow_percent = 40\n[[check]]"));
+  const auto rule = std::get<BusLoad>(s.checks.at(0).rule);
+  EXPECT_EQ(rule.bitrate, 500'000);
+  EXPECT_EQ(rule.data_bitrate, 0);
+  EXPECT_DOUBLE_EQ(rule.below, 0.4);
+  EXPECT_EQ(s.checks.at(0).name, "bus_load at 500 kbit/s");
+}
+
+}  // namespace
+}  // namespace canhil::scenario
