@@ -13,6 +13,7 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/whole_number.hpp"
+#include "bench/doctor/interface.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
@@ -150,6 +151,17 @@ Result<void> check_format(BusFormat format) {
   return failure("canhil-fd: this program carries every signal as a 64-bit float, expected one that rounds");
 }
 
+// Where bit rates differ, or nobody else is there, the controller is in trouble before a word is understood.
+Error with_controller(Error error, const std::string& bus) {
+  const auto interface = doctor::find_interface(bus);
+  if (!interface) return error;
+  for (const doctor::Line& line : doctor::interface_lines(*interface)) {
+    if (line.subject == "state" && line.grade != doctor::Grade::good)
+      error.message += fmt::format("; {} is {}: {}", bus, line.found, line.remedy);
+  }
+  return error;
+}
+
 ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_bus(arguments); !fine) return complain(fine.error());
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
@@ -166,7 +178,7 @@ ExitCode execute(const Arguments& arguments) {
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
-  if (!finished) return complain(finished.error());
+  if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) warn(*finished);
   if (auto written = write_reports(arguments, *scenario, *finished); !written)
     return complain(written.error());

@@ -7,15 +7,20 @@
 
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
+#include "bench/world/units.hpp"
 
 namespace canhil::scenario {
 namespace {
 
-InitialSigma read_initial_sigma(Section section) {
+InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
   const InitialSigma sigma{.velocity = section.number("velocity_mps", Limits::above(0)),
                            .tilt = section.number("tilt_deg", Limits::above(0, 90)),
                            .heading = section.number("heading_deg", Limits::above(0, 600)),
                            .position = section.number("position_m", Limits::above(0))};
+  constexpr double half_turn = 180 * world::units::deg;
+  if (sigma.heading > half_turn && target.algorithm != "sin_cos")
+    section.reject("heading_deg", "is more than a heading can be wrong by",
+                   "at most 180, or algorithm sin_cos");
   section.finish();
   return sigma;
 }
@@ -43,7 +48,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   // Told at every start; an estimator that does not navigate makes nothing of it.
   const bool navigates = target.estimator != "los_rate";
   if (navigates || section.has("initial_sigma"))
-    target.initial_sigma = read_initial_sigma(section.table("initial_sigma"));
+    target.initial_sigma = read_initial_sigma(section.table("initial_sigma"), target);
   section.optional("initial_sigma");
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract);

@@ -97,6 +97,20 @@ TEST(BadInput, UnknownOption) {
   expect_one_line(hil_target(""), "--bus");
 }
 
+TEST(BadInput, UnknownSubcommand) {
+  expect_one_line(hil_bench("runn x.toml"), "hil-bench: subcommand 'runn' is unknown, expected 'run'");
+  expect_one_line(hil_bench("zebra"),
+                  "subcommand 'zebra' is unknown, expected one of: run, bus, campaign, diverge");
+  expect_one_line(hil_bench(""), "subcommand is required");
+}
+
+TEST(BadInput, ALogThatIsAFolder) {
+  const std::string folder = testing::TempDir();
+  expect_one_line(hil_bench(fmt::format("run {} --bus in-process --log {}",
+                                        scenario("transfer_alignment_quick"), folder)),
+                  folder);
+}
+
 TEST(BadInput, NumberThatIsNone) {
   const auto run = [](const std::string& number) {
     return hil_bench(fmt::format("run {} --bus in-process {}", scenario("transfer_alignment_quick"), number));
