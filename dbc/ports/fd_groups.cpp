@@ -142,6 +142,18 @@ std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner) {
   return std::make_unique<FdGroups>(std::move(inner));
 }
 
+Result<std::optional<LogEntry>> ClassicLogReader::next() {
+  while (next_ == unpacked_.frames().size()) {
+    auto entry = reader_.next();
+    if (!entry || !*entry || !(*entry)->frame.fd || !takes_apart_) return entry;
+    unpacked_ = FdUnpacked((*entry)->frame);
+    next_ = 0;
+    envelope_ = std::move(**entry);
+  }
+  envelope_.frame = unpacked_.frames()[next_++];
+  return std::optional(envelope_);
+}
+
 Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options, BusFormat format) {
   options.fd = format == BusFormat::fd;
   auto port = open_port(bus, options);

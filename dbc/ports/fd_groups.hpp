@@ -12,6 +12,7 @@
 #include <optional>
 #include <string_view>
 
+#include "dbc/ports/candump_log.hpp"
 #include "dbc/ports/port.hpp"
 #include "dbc/wire/fd_container.hpp"
 
@@ -66,6 +67,25 @@ class FdUnpacked {
 /// are marked foreign and counted. `inner` must have been opened with fd; only_ids, if any, are ids of the
 /// wire.
 std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner);
+
+/// A log as classic frames, whichever contract's bus was recorded: `hil-bench run --log` writes classic
+/// frames in both, candump on an FD bus the containers.
+class ClassicLogReader {
+ public:
+  /// `contract_is_classic` is false in programs built on a contract of FD messages, whose logs are read as
+  /// they are.
+  ClassicLogReader(LogReader reader, bool contract_is_classic)
+      : reader_(std::move(reader)), takes_apart_(contract_is_classic) {}
+  /// As LogReader::next().
+  Result<std::optional<LogEntry>> next();
+
+ private:
+  LogReader reader_;
+  bool takes_apart_;
+  FdUnpacked unpacked_;
+  std::size_t next_ = 0;  // the first of unpacked_ that was not given yet
+  LogEntry envelope_;
+};
 
 /// open_port() for a contract.
 Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options, BusFormat format);

@@ -139,6 +139,14 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   EXPECT_EQ(compared.code, 0) << compared.out << compared.err;
   EXPECT_GT(std::atoi(compared.out.c_str()), 10'000);
 
+  // What was recorded on the FD bus replays and compares as well as the log of the bench.
+  const std::string replayed = scratch("replayed.log");
+  EXPECT_EQ(shell(fmt::format("{} --replay {} > {}", HIL_TARGET, raw, replayed)).code, 0);
+  for (const std::string& other : {raw, replayed}) {
+    const Ended same = hil_bench(fmt::format("diverge {} {}", log, other));
+    EXPECT_EQ(same.code, 0) << same.out << same.err;
+  }
+
   const auto load = read_json(json)["bus_load"][0];
   const wire::BitRates rates{.nominal = load["bitrate_bitps"], .data = load["data_bitrate_bitps"]};
   EXPECT_EQ(rates.data, 2'000'000);
