@@ -8,6 +8,7 @@ For every classic message the sequence of its values must be the same in both; p
 import collections
 import json
 import math
+import re
 import subprocess
 import sys
 
@@ -35,8 +36,7 @@ def on_the_wire(path, dbc):
         groups = {group.name: group.signals for group in frame.signalGroups} or {frame.name: frame.signals}
         for message, signals in groups.items():
             for signal in signals:
-                name = signal.name.rsplit("_", 1)[0] if signal.name.rsplit("_", 1)[1].isdigit() else signal.name
-                values[message][name].append(float(decoded[signal.name].phys_value))
+                values[message][re.sub(r"_\d+$", "", signal.name)].append(float(decoded[signal.name].phys_value))
     return values
 
 
