@@ -86,6 +86,7 @@ Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
             {"rx_counter_max", errors.rx_counter_max},
             {"interface_down", bus.downs},
             {"late_in_queue", bus.late_in_queue},
+            {"foreign_frames", bus.foreign},
             {"incidents", Json::array()},
             {"more_incidents", bus.more_incidents}};
   for (const checks::BusIncident& incident : bus.incidents) {
@@ -119,6 +120,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
   page["reason"] = run.verdict.reason;
   page["provenance"] = {{"scenario", scenario.file},
                         {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
+                        {"contract", name_of(run.options.format)},
                         {"dbc_hash", fmt::format("{:016x}", messages::dbc_hash)},
                         {"seed", scenario.seed},
                         {"run", run.options.run_index},
@@ -158,10 +160,12 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                                {"bad_group", run.seen.counters->bad_group},
                                {"late", run.seen.counters->late}};
   }
-  for (const std::int64_t bitrate : {500'000, 1'000'000}) {
-    const checks::BusLoad load = checks::bus_load(run.seen, {.nominal = bitrate});
-    page["bus_load"].push_back(
-        {{"bitrate_bitps", bitrate}, {"mean", load.mean}, {"busiest_second", load.busiest}});
+  for (const wire::BitRates& rates : bit_rates(run.options.format)) {
+    const checks::BusLoad load = checks::bus_load(run.seen, rates);
+    page["bus_load"].push_back({{"bitrate_bitps", rates.nominal},
+                                {"data_bitrate_bitps", rates.data},
+                                {"mean", load.mean},
+                                {"busiest_second", load.busiest}});
   }
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},

@@ -33,6 +33,10 @@ class Mailbox final : public Observer {
     if (const auto ack = heard<ParamAck>(received)) acknowledgement = ack;
     if (heard<Sync>(received)) other_bench = true;
   }
+  void foreign(const Received& received) override {
+    foreign_heartbeat = foreign_heartbeat || (received.frame.id == TargetHeartbeat::info.id &&
+                                              received.frame.extended == TargetHeartbeat::info.extended);
+  }
   [[nodiscard]] bool is(Estimator estimator, TargetState state) const {
     const auto& beat = beats_[static_cast<std::size_t>(estimator)];
     return beat && beat->state == state;
@@ -43,7 +47,8 @@ class Mailbox final : public Observer {
   }
   std::optional<TargetHeartbeat> heartbeat;  // the last one
   std::optional<ParamAck> acknowledgement;
-  bool other_bench = false;  // somebody else keeps the time base
+  bool foreign_heartbeat = false;  // in the format that this bus does not have
+  bool other_bench = false;        // somebody else keeps the time base
 
  private:
   std::array<std::optional<TargetHeartbeat>, 8> beats_;  // of each estimator, by the three bits of its name
@@ -172,12 +177,17 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
 }
 
 // Finds the target: the only one on the bus, and of this DBC.
-Result<void> find(Dialogue& dialogue, const std::string& bus) {
+Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) {
   const Mailbox& box = dialogue.mailbox();
   auto found = dialogue.until(
       "waiting for its heartbeat", find_limit_ns, [](nodes::Transmission&) {},
-      [](const Mailbox& mailbox) { return mailbox.heartbeat.has_value(); });
+      [](const Mailbox& mailbox) { return mailbox.heartbeat || mailbox.foreign_heartbeat; });
   if (!found) return found;
+  if (!box.heartbeat) {
+    const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
+    return failure(
+        fmt::format("target on '{}': answers in {}, expected {}", bus, words(other), words(format)));
+  }
   if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
   if (box.other_bench) {
     return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one", bus));
@@ -237,10 +247,10 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
 Result<void> configure(Link& link, nodes::Transmission& out,
                        std::span<const scenario::TargetSetup> estimators,
                        std::span<const InitialState> initial,
-                       const std::function<std::optional<std::string>()>& gone) {
+                       const std::function<std::optional<std::string>()>& gone, BusFormat format) {
   Dialogue dialogue(link, out, gone);
   const std::string& bus = link.port().name();
-  if (auto found = find(dialogue, bus); !found) return found;
+  if (auto found = find(dialogue, bus, format); !found) return found;
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const Command selection = i == 0 ? Command::reset : Command::add;
     if (auto ready = prepare(dialogue, bus, selection, estimators[i], initial[i]); !ready) return ready;

@@ -66,6 +66,16 @@ class Handshake : public testing::Test {
   ParameterStatus parameter_status_ = ParameterStatus::accepted;
 };
 
+TEST_F(Handshake, ATargetThatAnswersInTheOtherFormatIsNamed) {
+  Received foreign = port_.receive().value();
+  foreign.frame.fd = foreign.frame.brs = foreign.foreign = true;
+  port_.give(foreign);
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message,
+            "target on 'fake': answers in CAN FD frames (canhil-fd), expected classic frames (canhil)");
+}
+
 TEST_F(Handshake, ConfiguresAndStartsWithEachStepOnce) {
   const auto done = configure();
   ASSERT_TRUE(done) << done.error().message;
