@@ -58,7 +58,8 @@ TEST(FdContract, OneFrameASampleGroupOfUpToEightMessages) {
   for (const Message& message : fd.messages) ++frames[message.sample_group];
   ASSERT_EQ(members.size(), frames.size());
   for (const auto& [group, count] : members) {
-    if (!group.empty()) EXPECT_EQ(frames[group], (count + 7) / 8) << group;
+    if (group.empty()) continue;
+    EXPECT_EQ(frames[group], (count + 7) / 8) << group;
   }
   EXPECT_EQ(members[""], frames[""]);
   EXPECT_EQ(find_message(fd, "SlaveImu")->id, find_message(classic(), "SlaveImuDeltaTheta")->id);
@@ -89,7 +90,8 @@ TEST(FdContract, AContainerHoldsTheValuesOfItsMessages) {
     const auto all = decode(message, packed->payload()).value();
     auto next = all.begin();
     for (const Frame& frame : frames) {
-      for (const DecodedSignal& signal : decode(*find_message(old, frame.id), frame.payload()).value()) {
+      const auto alone = decode(*find_message(old, frame.id), frame.payload()).value();
+      for (const DecodedSignal& signal : alone) {
         ASSERT_NE(next, all.end());
         EXPECT_THAT(next->signal->name, testing::StartsWith(signal.signal->name));
         EXPECT_EQ(next->value, signal.value) << message.name << '.' << next->signal->name;
