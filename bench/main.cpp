@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "bench/commands/bus.hpp"
 #include "bench/commands/campaign.hpp"
@@ -14,11 +17,22 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/report.hpp"
 #include "bench/commands/run.hpp"
+#include "bench/commands/schedulability.hpp"
+#include "bench/scenario/nearest.hpp"
 #include "messages/canhil.hpp"
 
 namespace {
 
 using canhil::commands::ExitCode;
+
+/// What CLI11 makes of a word that is no subcommand says neither which there are nor which one was meant.
+std::string unknown_subcommand(const CLI::App& app, std::string_view word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return {};
+  return fmt::format("subcommand '{}' is unknown, expected {}", word,
+                     canhil::scenario::expected_instead(word, names));
+}
 
 int run(int argc, char** argv) {
   CLI::App app{
@@ -37,12 +51,15 @@ int run(int argc, char** argv) {
   canhil::commands::add_campaign(app, code);
   canhil::commands::add_diverge(app, code);
   canhil::commands::add_doctor(app, code);
+  canhil::commands::add_schedulability(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "hil-bench: %s; see hil-bench --help\n", error.what());
+    const std::string unknown = argc > 1 ? unknown_subcommand(app, argv[1]) : "";
+    std::fprintf(stderr, "hil-bench: %s; see hil-bench --help\n",
+                 unknown.empty() ? error.what() : unknown.c_str());
     return static_cast<int>(ExitCode::usage);
   }
   return code;

@@ -34,11 +34,14 @@ int run(int argc, char** argv) {
   });
   std::string bus;
   std::string log;
+  std::string dbc{canhil::name_of(canhil::BusFormat::classic)};
   auto* bus_option =
       app.add_option("--bus", bus, "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME");
   auto* replay_option = app.add_option(
       "--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
   bus_option->excludes(replay_option);
+  app.add_option("--dbc", dbc, "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them")
+      ->excludes(replay_option);
   canhil::realtime::Options realtime;
   canhil::realtime::add_options(app, realtime)->excludes(replay_option);
   try {
@@ -54,6 +57,8 @@ int run(int argc, char** argv) {
     const auto replayed = canhil::target::replay(log, stdout);
     return replayed ? 0 : complain(replayed.error());
   }
+  const auto format = canhil::named_contract(dbc);
+  if (!format) return complain(format.error());
   if (const auto request = realtime.request()) {
     if (auto entered = canhil::realtime::enter(*request); !entered) return complain(entered.error());
     const std::string warning = canhil::realtime::frequency_warning(canhil::realtime::standing());
@@ -61,7 +66,7 @@ int run(int argc, char** argv) {
   }
   std::signal(SIGTERM, request_stop);
   std::signal(SIGINT, request_stop);
-  const auto served = canhil::target::serve(bus, stop_requested);
+  const auto served = canhil::target::serve(bus, *format, stop_requested);
   return served ? 0 : complain(served.error());
 }
 

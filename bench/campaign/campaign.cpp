@@ -158,13 +158,19 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
   return metrics;
 }
 
-/// Quantities are of one family of estimators: nothing else tells them.
-void refuse_other_families(Section& root, const Campaign& campaign) {
+/// Whether the answers of a variant's estimator tell a quantity: it is of one family, or of one estimator.
+bool tells(const Variant& variant, Quantity quantity) {
+  const QuantityInfo& asked = info(quantity);
+  return family_of(variant.scenario) == asked.family &&
+         (asked.only_of.empty() || variant.scenario.runs(asked.only_of));
+}
+
+void refuse_untold(Section& root, const Campaign& campaign) {
   for (const Metric& metric : campaign.metrics) {
     const Quantity quantity = quantity_of(metric);
     for (const std::size_t place : variants_of(campaign, metric)) {
       const Variant& variant = campaign.variants[place];
-      if (family_of(variant.scenario) == info(quantity).family) continue;
+      if (tells(variant, quantity)) continue;
       root.reject("metric",
                   fmt::format("'{}' asks for {}, which variant '{}' does not tell", metric.name,
                               name(quantity), variant.name),
@@ -209,7 +215,7 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
     shortest_us = std::min(shortest_us, variant.scenario.duration_us);
   }
   if (root.has("metric")) campaign.metrics = read_metrics(root, given, shortest_us);
-  refuse_other_families(root, campaign);
+  refuse_untold(root, campaign);
   root.optional("metric");
   root.finish();
   if (const auto error = root.error()) return tl::unexpected(*error);

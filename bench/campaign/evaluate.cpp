@@ -115,7 +115,7 @@ void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, A
     return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
   };
   out.measured = fmt::format("RMS {} (of {} runs: {:.4g} to {:.4g}), median {}, p90 {}", words(found.rms),
-                             rule.batch, found.rms_low / unit.factor, found.rms_high / unit.factor,
+                             found.batch, found.rms_low / unit.factor, found.rms_high / unit.factor,
                              words(found.median), words(found.p90));
   if (rule.below)
     out.measured += fmt::format(", below {} in {:.1f} %", words(*rule.below), 100 * found.below);

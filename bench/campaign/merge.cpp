@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <system_error>
 
 #include "bench/campaign/store.hpp"
 
@@ -17,8 +18,21 @@ struct Shards {
   std::map<Key, std::vector<std::size_t>> holders;  ///< of a run: places in `stores`
 };
 
+/// Error: a file is given twice, under whatever name: then another one has probably been forgotten.
+Result<void> check_distinct(std::span<const std::filesystem::path> files) {
+  std::error_code ignored;  // what is not there is told when it is opened
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!std::filesystem::equivalent(files[k], files[i], ignored)) continue;
+      return failure(fmt::format("{}: is given twice, expected each shard once", files[i].string()));
+    }
+  }
+  return {};
+}
+
 Result<Shards> open_all(std::span<const std::filesystem::path> files) {
   Shards shards;
+  if (auto distinct = check_distinct(files); !distinct) return tl::unexpected(distinct.error());
   for (const std::filesystem::path& file : files) {
     auto store = Store::open(file);
     if (!store) return tl::unexpected(store.error());

@@ -50,6 +50,15 @@ std::optional<double> optional_number(Section& section, std::string_view key, Li
   return std::nullopt;
 }
 
+/// The bars STEM_at_least and STEM_at_most with what their keys end in; nothing could hold them in descending
+/// order.
+template <class Value>
+void expect_bars_ordered(Section& section, std::string_view stem, std::string_view ending,
+                         const std::optional<Value>& at_least, const std::optional<Value>& at_most) {
+  scenario::expect_ordered(section, fmt::format("{}at_least{}", stem, ending), at_least,
+                           fmt::format("{}at_most{}", stem, ending), at_most);
+}
+
 RmsCurve read(Section& section, const Context& /*context*/, RmsCurve rule) {
   rule.quantity = read_error(section);
   return rule;
@@ -60,6 +69,7 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   rule.within = section.number(key_of("within", rule.quantity), Limits::above(0));
   rule.at_most_us = section.optional_time_us("at_most_s", Limits::at_least(0));
   rule.never_before_us = section.optional_time_us("never_before_s", Limits::at_least(0));
+  scenario::expect_ordered(section, "never_before_s", rule.never_before_us, "at_most_s", rule.at_most_us);
   return rule;
 }
 
@@ -76,6 +86,7 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
   rule.at_most = optional_number(section, key_of("at_most", rule.quantity), Limits::at_least(0));
   rule.at_least = optional_number(section, key_of("at_least", rule.quantity), Limits::at_least(0));
+  expect_bars_ordered(section, "", unit_of(rule.quantity).ending, rule.at_least, rule.at_most);
   return rule;
 }
 
@@ -101,6 +112,9 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.p90_at_most = bar("p90_at_most");
   rule.fraction_at_least = optional_number(section, "fraction_at_least", Limits::between(0, 1));
   rule.fraction_at_most = optional_number(section, "fraction_at_most", Limits::between(0, 1));
+  expect_bars_ordered(section, "rms_", rule.unit.ending, rule.rms_at_least, rule.rms_at_most);
+  expect_bars_ordered(section, "median_", rule.unit.ending, rule.median_at_least, rule.median_at_most);
+  expect_bars_ordered(section, "fraction_", "", rule.fraction_at_least, rule.fraction_at_most);
   if (!rule.below && (rule.fraction_at_least || rule.fraction_at_most)) {
     section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
                    "is of no use without a bound", fmt::format("below{} beside it", rule.unit.ending));
@@ -127,6 +141,7 @@ Paired read(Section& section, const Context& context, Paired rule) {
   rule.confidence = section.number("confidence", Limits::between(0.5, 0.999999), rule.confidence);
   rule.at_most = optional_number(section, "at_most", Limits::between(0, 1));
   rule.at_least = optional_number(section, "at_least", Limits::between(0, 1));
+  expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
 
@@ -148,6 +163,7 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.beyond = section.number(key_of("beyond", rule.quantity), Limits::above(0));
   rule.at_most = section.optional_integer("at_most", 0);
   rule.at_least = section.optional_integer("at_least", 0);
+  expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
 
@@ -162,6 +178,8 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   section.optional("other");
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::above(0));
   rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::above(0));
+  expect_bars_ordered(section, "", unit_of(rule.quantity).ending, rule.at_least, rule.at_most);
+  expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
     section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "is of no use alone",
                    "other = a variant beside it");
@@ -181,6 +199,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   section.optional("mean_between");
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::at_least(0));
   rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::at_least(0));
+  expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
     section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "compares with nothing",
                    "other beside it");
@@ -245,6 +264,20 @@ std::string other_of(const Metric& metric) {
   return {};
 }
 
+namespace {
+
+/// Whoever is compared with himself is as good, whatever he does.
+void expect_another(Section& section, const Metric& metric, const std::vector<std::string>& variants) {
+  const std::string other = other_of(metric);
+  if (other.empty()) return;
+  const auto& asked = metric.variants;
+  const bool alone = asked.empty() && variants.size() == 1;
+  if (alone || std::ranges::find(asked, other) != asked.end())
+    section.reject("other", fmt::format("'{}' would be compared with itself", other), "another variant");
+}
+
+}  // namespace
+
 Metric read_metric(Section& section, const std::vector<std::string>& variants, std::int64_t duration_us) {
   Metric metric;
   const std::string wanted = section.one_of("kind", scenario::kinds<Rule>());
@@ -253,6 +286,7 @@ Metric read_metric(Section& section, const std::vector<std::string>& variants, s
   const Context context{.variants = variants, .duration_us = duration_us};
   metric.rule =
       scenario::read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
+  expect_another(section, metric, variants);
   const std::string by_default = std::visit(
       [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, name(rule.quantity), subject(rule)); },
       metric.rule);

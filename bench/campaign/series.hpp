@@ -75,6 +75,7 @@ struct QuantityInfo {
   Unit unit;
   int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: none
   bool may_be_untold = false;  ///< NaN tells of nothing wrong
+  std::string_view only_of{};  ///< the one estimator of the family that tells it; empty: all do
 };
 std::span<const QuantityInfo> quantities();
 const QuantityInfo& info(Quantity quantity);

@@ -61,6 +61,13 @@ double last_magnitude(const RunSeries& run, Quantity quantity, std::int64_t t_us
   return std::isfinite(value) ? value : nan;
 }
 
+// At least one value.
+double median(std::vector<double> values) {
+  std::ranges::sort(values);
+  const std::size_t above = values.size() / 2, below = (values.size() - 1) / 2;
+  return (values[below] + values[above]) / 2;
+}
+
 }  // namespace
 
 std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity) {
@@ -103,7 +110,7 @@ RunDistribution run_distribution(std::span<const RunSeries> runs, Quantity quant
     const double value = last_magnitude(run, quantity, t_us);
     if (!std::isnan(value)) values.push_back(value);
   }
-  RunDistribution found{.missing = runs.size() - values.size()};
+  RunDistribution found{.batch = std::min(batch, runs.size()), .missing = runs.size() - values.size()};
   if (values.empty()) {
     found.rms = found.mean = found.median = found.p90 = found.rms_low = found.rms_high = nan;
     return found;
@@ -118,18 +125,18 @@ RunDistribution run_distribution(std::span<const RunSeries> runs, Quantity quant
   }
   found.mean = sum / n;
   found.rms = std::sqrt(squares / n);
-  found.median = checks::quantile(values, 0.5);
+  found.median = median(values);
   found.p90 = checks::quantile(values, 0.9);
   found.below = static_cast<double>(inside) / static_cast<double>(runs.size());
   world::Stream stream(1, 0, "bootstrap");
   std::vector<double> resampled(resamples);
   for (double& rms : resampled) {
     double sum_of_batch = 0;
-    for (std::size_t i = 0; i < batch; ++i) {
+    for (std::size_t i = 0; i < found.batch; ++i) {
       const double value = values[static_cast<std::size_t>(stream.uniform() * n)];
       sum_of_batch += value * value;
     }
-    rms = std::sqrt(sum_of_batch / static_cast<double>(batch));
+    rms = std::sqrt(sum_of_batch / static_cast<double>(found.batch));
   }
   found.rms_low = checks::quantile(resampled, 0.05);
   found.rms_high = checks::quantile(resampled, 0.95);

@@ -33,9 +33,12 @@ std::optional<double> time_within(std::span<const CurvePoint> curve, double thre
 /// How a magnitude is spread over the runs at a time. Of each run its last update at or before it counts; a
 /// run that had ended by then, or has no finite value, is missing.
 struct RunDistribution {
-  double rms = 0, mean = 0, median = 0, p90 = 0;  ///< of the finite values [SI]; quantiles by nearest rank
-  double below = 0;                               ///< fraction of all runs below a bound
-  double rms_low = 0, rms_high = 0;               ///< 5 % and 95 % quantile of the RMS of `batch` runs
+  double rms = 0, mean = 0;          ///< of the finite values [SI]
+  double median = 0;                 ///< of an even number: the mean of the two middles
+  double p90 = 0;                    ///< by nearest rank
+  double below = 0;                  ///< fraction of all runs below a bound
+  double rms_low = 0, rms_high = 0;  ///< 5 % and 95 % quantile of the RMS of `batch` runs
+  std::size_t batch = 0;             ///< as asked for, or all runs if there are fewer
   std::size_t missing = 0;
 };
 /// `batch`: runs drawn with replacement for each of 2000 bootstrap samples (Efron, Tibshirani (1993), chapter

@@ -18,9 +18,14 @@ void show(const std::string& log, const std::optional<LogEntry>& entry) {
 ExitCode execute(const std::string& log_a, const std::string& log_b) {
   const auto comparison = run::compare(log_a, log_b);
   if (!comparison) return complain(comparison.error());
-  if (!comparison->first) {
-    if (comparison->compared == 0)
-      return complain({fmt::format("{}, {}: no frames of the target after a Sync in either", log_a, log_b)});
+  const auto& first = comparison->first;
+  if (comparison->compared == 0 && !(first && first->a && first->b)) {
+    std::string empty = log_a;
+    if (!first) empty += ", " + log_b;
+    if (first && first->a) empty = log_b;
+    return complain({empty + ": no frame of the target after a Sync, expected the log of a run"});
+  }
+  if (!first) {
     fmt::print("same: {} frames of the target\n", comparison->compared);
     return ExitCode::pass;
   }

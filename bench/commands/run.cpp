@@ -14,6 +14,7 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/whole_number.hpp"
+#include "bench/doctor/interface.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
@@ -36,6 +37,7 @@ struct Arguments {
   std::string scenario;
   std::string bus{private_bus};
   std::string target;  // empty: the hil-target beside this program
+  std::string dbc;     // empty: the scenario's
   bool lockstep = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;
@@ -49,13 +51,14 @@ struct Arguments {
 
 std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
 
-run::Options options_of(const Arguments& arguments) {
+run::Options options_of(const Arguments& arguments, BusFormat format) {
   run::Options options;
+  options.format = format;
   const bool external = arguments.target == "none";
   options.bus = arguments.bus;
   // Nobody else can know the name of a private bus, so two benches on one machine do not meet.
-  if (options.bus == private_bus)
-    options.bus = external ? "local:canhil" : fmt::format("local:canhil-{}", getpid());
+  if (options.bus == private_bus || options.bus.starts_with("local:?"))
+    options.bus.insert(private_bus.size(), external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
   const bool virtual_time = arguments.lockstep || options.bus == in_process;
   options.clock = virtual_time ? run::ClockKind::lockstep : run::ClockKind::real_time;
@@ -67,6 +70,9 @@ run::Options options_of(const Arguments& arguments) {
     if (arguments.target.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
   }
+  // Every target is told, ours or another: it is to speak the same contract.
+  if (format != BusFormat::classic)
+    options.target_arguments.insert(options.target_arguments.end(), {"--dbc", std::string(name_of(format))});
   options.target_cpu = arguments.target_cpu;
   options.spin_ns = std::int64_t{arguments.spin_us.value_or(0)} * 1000;
   return options;
@@ -139,20 +145,51 @@ void warn(const run::Run& run) {
   if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
 }
 
+// The contract of the bus: by the command line, by the scenario, or by both alike.
+Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario& scenario) {
+  if (arguments.dbc.empty()) return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
+  auto named = named_contract(arguments.dbc);
+  if (named && scenario.fd && *scenario.fd != (*named == BusFormat::fd)) {
+    return failure(fmt::format("--dbc '{}': {} has dbc = \"{}\", expected one of the two or both alike",
+                               arguments.dbc, scenario.file,
+                               name_of(*scenario.fd ? BusFormat::fd : BusFormat::classic)));
+  }
+  return named;
+}
+
+Result<void> check_format(BusFormat format) {
+  if (format == BusFormat::classic || run::frames_round()) return {};
+  return failure("canhil-fd: this program carries every signal as a 64-bit float, expected one that rounds");
+}
+
+// Where bit rates differ, or nobody else is there, the controller is in trouble before a word is understood.
+Error with_controller(Error error, const std::string& bus) {
+  const auto interface = doctor::find_interface(bus);
+  if (!interface) return error;
+  for (const doctor::Line& line : doctor::interface_lines(*interface)) {
+    if (line.subject == "state" && line.grade != doctor::Grade::good)
+      error.message += fmt::format("; {} is {}: {}", bus, line.found, line.remedy);
+  }
+  return error;
+}
+
 ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_bus(arguments); !fine) return complain(fine.error());
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
   if (!scenario) return complain(scenario.error());
+  const auto format = format_of(arguments, *scenario);
+  if (!format) return complain(format.error());
+  if (auto fine = check_format(*format); !fine) return complain(fine.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   catch_interrupts();
   Result<run::Run> finished = [&] {
     const ProgressLine line;
-    return run::run(*scenario, options_of(arguments), interrupted, [&](std::int64_t t_us) {
+    return run::run(*scenario, options_of(arguments, *format), interrupted, [&](std::int64_t t_us) {
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
-  if (!finished) return complain(finished.error());
+  if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) warn(*finished);
   if (auto written = write_reports(arguments, *scenario, *finished); !written)
     return complain(written.error());
@@ -171,8 +208,11 @@ void add_run(CLI::App& app, int& code) {
   command->add_option(
       "--target", arguments->target,
       "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
-  CLI::Option* lockstep =
-      command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
+  CLI::Option* lockstep = command->add_option(
+      "--dbc", arguments->dbc,
+      "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "
+      "scenario's, else canhil)");
+  command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
   realtime::add_options(*command, arguments->realtime)->excludes(lockstep);
   realtime::add_number(*command, "--target-cpu", arguments->target_cpu, 0, 1023,
                        "the only CPU of the target that this command starts");

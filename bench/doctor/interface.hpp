@@ -22,12 +22,12 @@ struct BitTiming {
 
 /// A CAN controller with its bit timing (kind "can"); vcan has none.
 struct Controller {
-  BitTiming nominal, data;
+  BitTiming nominal{}, data{};
   std::uint32_t state = 0;                                ///< CAN_STATE_*
   std::uint32_t mode = 0;                                 ///< CAN_CTRLMODE_*
   std::uint32_t restart_ms = 0;                           ///< after bus-off; 0: never by itself
   std::uint16_t transmit_errors = 0, receive_errors = 0;  ///< its error counters
-  std::optional<std::uint16_t> termination_ohm;           ///< where the driver can switch it
+  std::optional<std::uint16_t> termination_ohm{};         ///< where the driver can switch it
   std::uint32_t bus_errors = 0, warnings = 0, passives = 0, bus_offs = 0, restarts = 0;  ///< since it was up
 };
 
@@ -40,8 +40,8 @@ struct Interface {
   std::string driver;  ///< and where it sits: "gs_usb at usb-0000:00:14.0-1"
   std::uint32_t mtu = 0;
   std::uint32_t queue_length = 0;
-  std::optional<Controller> controller;
-  std::optional<std::uint32_t> stamping;  ///< SOF_TIMESTAMPING_*; none: the driver does not say
+  std::optional<Controller> controller{};
+  std::optional<std::uint32_t> stamping{};  ///< SOF_TIMESTAMPING_*; none: the driver does not say
 };
 
 /// Reads the payload of an RTM_NEWLINK message (from its ifinfomsg on) as the kernel sent it. Damaged ones
@@ -54,6 +54,9 @@ std::optional<Interface> find_interface(const std::string& name);
 /// Judges a CAN interface for this bench: a line each for interface, state, bit rate, sample point, frames,
 /// queue, restart, errors, stamps. Nothing beyond the first line if it is none or down.
 std::vector<Line> interface_lines(const Interface& interface);
+
+/// Two interfaces that are to share a bus: a line if their bit rates differ.
+std::vector<Line> mismatch_lines(const Interface& one, const Interface& other);
 
 /// In place of that for a name that no interface has.
 Line no_interface(const std::string& name);

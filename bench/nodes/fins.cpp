@@ -1,5 +1,6 @@
 #include "bench/nodes/fins.hpp"
 
+#include "bench/nodes/sample_loss.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
@@ -24,8 +25,7 @@ void Fins::transmit(Transmission& out) {
                           .aileron_deg = fins.y() / deg,
                           .rudder_deg = fins.z() / deg,
                           .time_of_validity_us = static_cast<double>(stamp_us)});
-  const bool lost = losses_.uniform() < config_.loss.probability;
-  if (lost || in_outage(config_.loss, t_us)) out.clear();  // counted as sent: the receiver sees the gap
+  if (is_lost(config_.loss, t_us, losses_)) out.clear();  // counted as sent: the receiver sees the gap
   sampling_.advance();
 }
 

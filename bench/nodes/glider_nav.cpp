@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bench/nodes/sample_loss.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
@@ -49,8 +50,7 @@ void GliderNav::transmit(Transmission& out) {
   out.send(messages::GliderNavRates{
       .rate_x_degps = rates.x() / deg, .rate_y_degps = rates.y() / deg, .rate_z_degps = rates.z() / deg});
   out.send(GliderNavVelocityD{.velocity_down_mps = velocity.z(), .time_of_validity_us = wrap_us(t_us)});
-  const bool lost = losses_.uniform() < config_.loss.probability;
-  if (lost || in_outage(config_.loss, t_us)) out.clear();  // counted as sent: the receiver sees the gap
+  if (is_lost(config_.loss, t_us, losses_)) out.clear();  // counted as sent: the receiver sees the gap
   sampling_.advance();
 }
 

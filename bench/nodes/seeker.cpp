@@ -1,5 +1,6 @@
 #include "bench/nodes/seeker.hpp"
 
+#include "bench/nodes/is_whole.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
@@ -91,11 +92,8 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
 
 void Seeker::hear(const Frame& frame) {
   const auto put = [&]<class Message>(std::type_identity<Message>) {
-    const bool whole = frame.id == Message::info.id && frame.extended == Message::info.extended &&
-                       frame.size == Message::size &&
-                       frame.data[0] == e2e::crc(frame.payload(), Message::info.e2e_data_id);
-    if (whole && answer_.put(from_frame<Message>(frame), e2e::counter(frame.payload())) ==
-                     decltype(answer_)::Outcome::complete) {
+    if (is_whole<Message>(frame) && answer_.put(from_frame<Message>(frame), e2e::counter(frame.payload())) ==
+                                        decltype(answer_)::Outcome::complete) {
       steer();
     }
   };

@@ -93,6 +93,7 @@ Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
             {"rx_counter_max", errors.rx_counter_max},
             {"interface_down", bus.downs},
             {"late_in_queue", bus.late_in_queue},
+            {"foreign_frames", bus.foreign},
             {"incidents", Json::array()},
             {"more_incidents", bus.more_incidents}};
   for (const checks::BusIncident& incident : bus.incidents) {
@@ -144,15 +145,18 @@ Json object(const Series& series) {
 }
 
 // By second; of a long run the busiest of each stretch of several.
-Json load_line(const checks::Observations& seen, std::int64_t bitrate) {
+Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   constexpr std::size_t most = 400;
   const std::size_t size = seen.length_by_second.size();
   const std::size_t stretch_s = (size + most - 1) / most;
-  Json json{{"bitrate_bitps", bitrate}, {"stretch_s", stretch_s}, {"busiest", Json::array()}};
+  Json json{{"bitrate_bitps", rates.nominal},
+            {"data_bitrate_bitps", rates.data},
+            {"stretch_s", stretch_s},
+            {"busiest", Json::array()}};
   for (std::size_t from = 0; from < size; from += stretch_s) {
     double busiest = 0;
     for (std::size_t i = from; i < std::min(size, from + stretch_s); ++i)
-      busiest = std::max(busiest, wire::bus_load(seen.length_by_second[i], 1.0, {.nominal = bitrate}));
+      busiest = std::max(busiest, wire::bus_load(seen.length_by_second[i], 1.0, rates));
     json["busiest"].push_back(rounded(busiest));
   }
   return json;
@@ -161,6 +165,7 @@ Json load_line(const checks::Observations& seen, std::int64_t bitrate) {
 Json provenance(const scenario::Scenario& scenario, const run::Run& run, const Summary& summary) {
   Json json{{"scenario", scenario.file},
             {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
+            {"contract", name_of(run.options.format)},
             {"dbc_hash", fmt::format("{:016x}", messages::dbc_hash)},
             {"seed", scenario.seed},
             {"run", run.options.run_index},
@@ -239,10 +244,12 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
                                {"bad_group", run.seen.counters->bad_group},
                                {"late", run.seen.counters->late}};
   }
-  for (const std::int64_t bitrate : {500'000, 1'000'000}) {
-    const checks::BusLoad load = checks::bus_load(run.seen, {.nominal = bitrate});
-    page["bus_load"].push_back(
-        {{"bitrate_bitps", bitrate}, {"mean", load.mean}, {"busiest_second", load.busiest}});
+  for (const wire::BitRates& rates : bit_rates(run.options.format)) {
+    const checks::BusLoad load = checks::bus_load(run.seen, rates);
+    page["bus_load"].push_back({{"bitrate_bitps", rates.nominal},
+                                {"data_bitrate_bitps", rates.data},
+                                {"mean", load.mean},
+                                {"busiest_second", load.busiest}});
   }
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},
@@ -252,7 +259,7 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};
   page["bus"] = object(run.seen.bus, run.seen.first_ns);
-  page["bus_load_line"] = load_line(run.seen, 500'000);
+  page["bus_load_line"] = load_line(run.seen, bit_rates(run.options.format)[0]);
   page["series"] = Json::array();
   for (const Series& one : series(scenario, run)) page["series"].push_back(object(one));
   return page;

@@ -96,8 +96,10 @@ std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
   auto out = std::back_inserter(lines);
   if (const std::string said = canhil::words(bus.errors); !said.empty()) fmt::format_to(out, " ({})", said);
-  fmt::format_to(out, "; interface down {} times; late in transmit queue {} frames\n", bus.downs,
+  fmt::format_to(out, "; interface down {} times; late in transmit queue {} frames", bus.downs,
                  bus.late_in_queue);
+  if (bus.foreign > 0) fmt::format_to(out, "; {} frames in the format that it is not to have", bus.foreign);
+  lines += '\n';
   for (const checks::BusIncident& incident : bus.incidents) {
     if (&incident == bus.incidents.data() + shown) break;
     fmt::format_to(out, "    t={:.3f} s  {} (tx {}, rx {})\n",
@@ -114,6 +116,16 @@ std::string milliseconds(const checks::Distribution& d) {
                      d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
 }
 
+std::string load_words(const run::Run& run) {
+  const bool fd = run.options.format == BusFormat::fd;
+  const auto rates = bit_rates(run.options.format);
+  const checks::BusLoad slow = checks::bus_load(run.seen, rates[0]);
+  const checks::BusLoad fast = checks::bus_load(run.seen, rates[1]);
+  return fmt::format("  bus load at {}mean {:.1f} %, busiest second {:.1f} %; at {} {:.1f} %, {:.1f} %\n",
+                     fd ? "0.5 and 2 Mbit/s  " : "500 kbit/s        ", slow.mean * 100, slow.busiest * 100,
+                     fd ? "1 and 5 Mbit/s" : "1 Mbit/s", fast.mean * 100, fast.busiest * 100);
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
@@ -122,7 +134,8 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   auto out = std::back_inserter(page);
 
   fmt::format_to(out, "{}\n", scenario.title);
-  fmt::format_to(out, "  scenario {} · bus {} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
+  fmt::format_to(out, "  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
+                 run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "",
                  run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time",
                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
@@ -161,12 +174,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                      run.seen.queue_max_us, run.seen.compute_max_us);
     }
   }
-  const checks::BusLoad half = checks::bus_load(run.seen, {.nominal = 500'000});
-  const checks::BusLoad full = checks::bus_load(run.seen, {.nominal = 1'000'000});
-  fmt::format_to(out,
-                 "  bus load at 500 kbit/s        mean {:.1f} %, busiest second {:.1f} %; at 1 Mbit/s {:.1f} "
-                 "%, {:.1f} %\n",
-                 half.mean * 100, half.busiest * 100, full.mean * 100, full.busiest * 100);
+  page += load_words(run);
   const auto& counters = run.seen.counters;
   fmt::format_to(
       out, "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",

@@ -25,15 +25,21 @@ constexpr std::int64_t silence_limit_ns =
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
 constexpr std::string_view in_process = "in-process";
 
-// A local bus is hosted by the bench, unless somebody does already.
-Result<std::unique_ptr<Port>> open(const std::string& bus) {
+// A local bus is hosted by the bench, unless somebody does already. In process there is no bus, and frames
+// travel as they are in both contracts.
+Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
   if (bus == in_process) return std::make_unique<InProcessPort>();
   PortOptions options;
   options.own_echo = true;
+  options.foreign = true;
   options.node_name = "hil-bench";
-  auto joined = open_port(bus, options);
+  auto joined = open_bus(bus, options, format);
   if (joined || !bus.starts_with("local:")) return joined;
-  return host_local_bus(bus, options).map([](auto hub) -> std::unique_ptr<Port> { return hub; });
+  options.fd = format == BusFormat::fd;
+  auto hosted = host_local_bus(bus, options);
+  // Somebody hosts it after all: why it could not be joined says more.
+  if (!hosted) return joined;
+  return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
 }
 
 }  // namespace
@@ -56,7 +62,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (options.realtime) {
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
   }
-  auto port = open(options.bus);
+  auto port = open(options.bus, options.format);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
   BusWatch bus;
@@ -82,13 +88,14 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   };
 
   Schedule schedule = make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep);
-  if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !configured) {
+  if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone, options.format);
+      !configured) {
     return tl::unexpected(configured.error());
   }
 
   Monitor monitor;
   link.attach(monitor);
-  LoadMeter meter;
+  LoadMeter meter(options.format);
   link.attach(meter);
   HostWatch host((*port)->stamp_clock());
   link.attach(host);
@@ -118,6 +125,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
   seen.bus.late_in_queue = link.late_in_queue();
+  seen.bus.foreign = (*port)->counters().foreign;
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   std::string timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen);
   const checks::Evidence evidence{.seen = seen,

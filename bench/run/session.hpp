@@ -12,6 +12,7 @@
 #include "bench/run/flight.hpp"
 #include "bench/run/real_time.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "dbc/ports/fd_groups.hpp"
 #include "dbc/realtime/process.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -23,6 +24,7 @@ enum class ClockKind : std::uint8_t { real_time, lockstep };
 struct Options {
   std::string bus;  ///< "local:NAME", a SocketCAN interface, or "in-process" (lockstep only)
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
+  BusFormat format = BusFormat::classic;
   ClockKind clock = ClockKind::real_time;
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments

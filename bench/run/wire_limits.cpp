@@ -117,7 +117,10 @@ Result<void> check_fits(const world::EngagementPlan& engagement, const scenario:
   using messages::SeekerAntenna;
   const std::int64_t interval_us =
       seeker.schedule.period_us.value_or(messages::SeekerRange::info.cycle_time_us);
-  if (auto fits = check_interval<messages::SeekerAngles>("seeker interval", interval_us); !fits) return fits;
+  if (auto fits =
+          check_interval<messages::SeekerAngles>("key 'seeker.period_ms': seeker interval", interval_us);
+      !fits)
+    return fits;
   const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
   const SignalInfo& signal = SeekerAntenna::info.signals[0];
   if (roll > signal.maximum) return failure(complaint("roll increment", roll, SeekerAntenna::info, signal));

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <tuple>
 
+#include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::scenario {
@@ -29,16 +29,6 @@ struct Context {
   const Contract& contract;
   const Truths& truths;
 };
-
-template <class Enum>
-Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names,
-               std::optional<Enum> fallback = {}) {
-  const std::vector<std::string> words(names.begin(), names.end());
-  std::optional<std::string> word;
-  if (fallback) word = words[static_cast<std::size_t>(*fallback)];
-  const auto found = std::ranges::find(words, section.one_of(key, words, word));
-  return found == words.end() ? Enum{} : static_cast<Enum>(found - words.begin());
-}
 
 /// Whose answers: to be said where two estimators align.
 Aligner read_aligner(Section& section, const Context& context) {
@@ -174,6 +164,7 @@ Fixes read(Section& section, const Context& context, Fixes rule) {
     Fixes::Count count{.outcome = outcome,
                        .at_least = section.optional_integer(outcome + "_at_least", 0),
                        .at_most = section.optional_integer(outcome + "_at_most", 0)};
+    expect_ordered(section, outcome + "_at_least", count.at_least, outcome + "_at_most", count.at_most);
     if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
   }
   rule.repairs_at_most = section.optional_integer("repairs_at_most", 0);
@@ -191,6 +182,7 @@ Coasting read(Section& section, const Context& context, Coasting rule) {
   rule.at_most = section.optional_integer("at_most", 0);
   if (!rule.at_least && !rule.at_most)
     section.reject("at_least", "is missing, as is 'at_most'", "at least one limit");
+  expect_ordered(section, "at_least", rule.at_least, "at_most", rule.at_most);
   return rule;
 }
 
@@ -209,6 +201,7 @@ WindAnswers read(Section& section, const Context& context, WindAnswers rule) {
                              .is_flag = is_flag,
                              .at_least = section.optional_integer(name + "_at_least", 0),
                              .at_most = section.optional_integer(name + "_at_most", 0)};
+    expect_ordered(section, name + "_at_least", count.at_least, name + "_at_most", count.at_most);
     if (count.at_least || count.at_most) rule.counts.push_back(std::move(count));
   };
   for (const std::string& outcome : context.contract.wind_outcomes) read_count(outcome, false);

@@ -1,8 +1,9 @@
 #include "bench/scenario/engagement.hpp"
 
 #include <array>
-#include <string>
+#include <string_view>
 
+#include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
@@ -10,22 +11,16 @@ namespace {
 
 using world::Manoeuvre;
 
-template <class Enum, std::size_t n>
-Enum read_enum(Section& section, std::string_view key, const std::array<std::string, n>& names,
-               const std::optional<std::string>& fallback) {
-  const std::string word = section.one_of(key, names, fallback);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (names[i] == word) return static_cast<Enum>(i);
-  }
-  return Enum{};
-}
-
 // A step or a weave begins at a time, or at a time to go.
 Manoeuvre read_manoeuvre(Section& section) {
-  static const std::array<std::string, 3> kinds{"none", "step", "weave"};
+  static constexpr std::array<std::string_view, 3> kinds{"none", "step", "weave"};
   Manoeuvre manoeuvre;
-  manoeuvre.kind = read_enum<Manoeuvre::Kind>(section, "manoeuvre", kinds, "step");
+  manoeuvre.kind = read_enum<Manoeuvre::Kind>(section, "manoeuvre", kinds, Manoeuvre::Kind::step);
+  if (manoeuvre.kind != Manoeuvre::Kind::weave)
+    section.refuse("manoeuvre_period_s", "has no effect here", "manoeuvre = \"weave\"");
   if (manoeuvre.kind == Manoeuvre::Kind::none) {
+    for (const char* key : {"manoeuvre_g", "manoeuvre_from_s", "manoeuvre_at_to_go_s"})
+      section.refuse(key, "has no effect here", "manoeuvre = \"step\" or \"weave\"");
     manoeuvre.acceleration = 0;
     return manoeuvre;
   }
@@ -45,8 +40,8 @@ Manoeuvre read_manoeuvre(Section& section) {
 }  // namespace
 
 world::EngagementPlan read_engagement(Section& section) {
-  static const std::array<std::string, 2> guidances{"truth", "target"};
-  static const std::array<std::string, 3> planes{"both", "pitch", "yaw"};
+  static constexpr std::array<std::string_view, 2> guidances{"truth", "target"};
+  static constexpr std::array<std::string_view, 3> planes{"both", "pitch", "yaw"};
   const Limits sigma = Limits::at_least(0);
   world::EngagementPlan plan;
   plan.range = section.number("range_m", Limits::between(100, 26'000), 5000);
@@ -55,14 +50,14 @@ world::EngagementPlan read_engagement(Section& section) {
   plan.heading_error = section.number("heading_error_deg", Limits::between(-45, 45), 0);
   plan.heading_error_sigma = section.number("heading_error_sigma_deg", Limits::between(0, 15), 3);
   plan.pointing_error_sigma = section.number("pointing_error_sigma_mrad", Limits::between(0, 100), 5);
-  plan.planes = read_enum<world::ActivePlanes>(section, "planes", planes, "both");
+  plan.planes = read_enum<world::ActivePlanes>(section, "planes", planes, world::ActivePlanes::both);
   plan.manoeuvre = read_manoeuvre(section);
   plan.navigation_constant = section.number("navigation_constant", sigma, 4);
   plan.autopilot_lag = section.number("autopilot_lag_s", Limits::between(0.01, 10), 0.15);
   plan.acceleration_limit = section.number("acceleration_limit_g", Limits::above(0, 100), 35);
   plan.servo_gain = section.number("antenna_servo_per_s", Limits::between(0, 200), 12);
   plan.roll_rate = section.number("roll_rate_radps", Limits::between(-20, 20), 0);
-  plan.guidance = read_enum<world::Guidance>(section, "guidance", guidances, {});
+  plan.guidance = read_enum<world::Guidance>(section, "guidance", guidances);
   plan.guidance_delay_us = section.time_us("guidance_delay_ms", Limits::between(0, 1000), 10);
   section.finish();
   return plan;

@@ -1,10 +1,9 @@
 #include "bench/scenario/glide.hpp"
 
-#include <algorithm>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "bench/scenario/read_enum.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
@@ -12,22 +11,11 @@ namespace {
 
 namespace glide = world::glide;
 
-template <class Enum>
-Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names, Enum usual) {
-  const std::vector<std::string> words(names.begin(), names.end());
-  const auto found =
-      std::ranges::find(words, section.one_of(key, words, words[static_cast<std::size_t>(usual)]));
-  return found == words.end() ? usual : static_cast<Enum>(found - words.begin());
-}
-
 glide::WindProfile read_profile(Section& section) {
   if (section.has("season") || !section.has("steady_mps")) {
     if (section.has("steady_mps")) section.reject("steady_mps", "is given beside season", "one of the two");
     section.optional("steady_mps");
-    const std::vector<std::string> words(glide::season_names.begin(), glide::season_names.end());
-    const auto found = std::ranges::find(words, section.one_of("season", words));
-    return glide::WindProfile(found == words.end() ? glide::Season::march
-                                                   : static_cast<glide::Season>(found - words.begin()));
+    return glide::WindProfile(read_enum<glide::Season>(section, "season", glide::season_names));
   }
   section.optional("season");
   return glide::WindProfile(section.three("steady_mps", Limits::between(-150, 150)));
@@ -36,6 +24,8 @@ glide::WindProfile read_profile(Section& section) {
 void read_wind(Section section, world::GlidePlan& plan) {
   plan.wind = read_profile(section);
   plan.gusts.sigma = section.number("gust_sigma_mps", Limits::between(0, 20), 0);
+  if (!section.has("gust_sigma_mps"))
+    section.refuse("gust_time_s", "has no effect alone", "gust_sigma_mps beside it");
   plan.gusts.time = section.number("gust_time_s", Limits::above(0), plan.gusts.time);
   section.finish();
 }
@@ -44,8 +34,10 @@ void read_airframe(Section section, world::GlidePlan& plan) {
   using glide::ErrorKind;
   glide::CoefficientErrorModel& errors = plan.coefficients;
   errors.level = section.number("coefficient_error_percent", Limits::between(0, 100), 0);
-  errors.kind = read_enum(section, "coefficient_error", glide::error_kind_names, ErrorKind::held);
+  errors.kind = read_enum<ErrorKind>(section, "coefficient_error", glide::error_kind_names, ErrorKind::held);
   const std::int64_t hold_us = section.time_us("hold_ms", Limits::between(10, 1e6), 50);
+  if (errors.kind != ErrorKind::markov)
+    section.refuse("markov_time_s", "has no effect here", "coefficient_error = \"markov\" beside it");
   const std::int64_t markov_us = section.time_us("markov_time_s", Limits::between(0.01, 1e4), 1);
   errors.time_us = errors.kind == ErrorKind::markov ? markov_us : hold_us;
   const std::vector<std::string> scopes{"term", "total"};

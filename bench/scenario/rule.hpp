@@ -4,7 +4,10 @@
 // A rule is a std::variant of structs, each with a constant `kind`.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -51,5 +54,13 @@ std::int64_t read_time(Section& section, std::string_view key, Limits limits, st
 
 /// `from_s` and `to_s`; by default the whole run.
 Window read_window(Section& section, std::int64_t duration_us);
+
+/// Rejects a lower limit above the upper one: nothing could hold both.
+template <class Value>
+void expect_ordered(Section& section, std::string_view least_key, const std::optional<Value>& least,
+                    std::string_view most_key, const std::optional<Value>& most) {
+  if (least && most && *least > *most)
+    section.reject(least_key, fmt::format("is more than {}", most_key), "a lower limit below the upper one");
+}
 
 }  // namespace canhil::scenario

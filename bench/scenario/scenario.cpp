@@ -41,6 +41,14 @@ void read_glider(Section& root, Scenario& scenario) {
   scenario.fins = read_node<Fins>(root, "fins", true, read_fins);
 }
 
+/// The contract that the bus is to carry, if the scenario says so.
+std::optional<bool> read_fd(Section& root) {
+  root.optional("dbc");
+  if (!root.has("dbc")) return std::nullopt;
+  static const std::vector<std::string> names{"canhil", "canhil-fd"};
+  return root.one_of("dbc", names) == "canhil-fd";
+}
+
 std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract,
                                const Truths& truths) {
   std::vector<Check> checks;
@@ -84,6 +92,28 @@ Truths read_navigation(Section& root, Scenario& scenario) {
   return truths;
 }
 
+/// In-flight alignment takes the fixes of one aid and refuses the other's; nobody else takes any.
+void expect_aid(Section& root, const Scenario& scenario, const Contract& contract) {
+  const auto target = std::ranges::find(scenario.targets, "inflight_alignment", &TargetSetup::estimator);
+  if (target == scenario.targets.end()) {
+    for (const std::string_view key : {"ssbl", "gps"}) {
+      if (root.has(key))
+        root.reject(key, "has fixes that no estimator takes", "estimator inflight_alignment beside it");
+    }
+    return;
+  }
+  if (!scenario.ssbl && !scenario.gps)
+    root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
+  if (std::ranges::find(contract.parameters, "aiding") == contract.parameters.end()) return;
+  const auto aiding = std::ranges::find(target->parameters, "aiding", &Parameter::name);
+  const bool takes_gps = aiding != target->parameters.end() && aiding->value == 1;
+  if (takes_gps && !scenario.gps)
+    root.reject("gps", "is missing, and parameter aiding = 1 takes no other fixes", "a table, or aiding = 0");
+  if (!takes_gps && !scenario.ssbl)
+    root.reject("ssbl", "is missing, and parameter aiding = 0 takes no other fixes",
+                "a table, or aiding = 1");
+}
+
 std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) {
   std::string all(text);
   for (const Setting& setting : settings) all += fmt::format("{} = {}\n", setting.key, setting.value);
@@ -100,6 +130,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   scenario.hash = hash_of(text, settings);
   scenario.title = root.text("title");
   scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
+  scenario.fd = read_fd(root);
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {
@@ -116,9 +147,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer || inflight, read_slave_imu);
   scenario.ssbl = read_node<Ssbl>(root, "ssbl", false, read_ssbl);
   scenario.gps = read_node<Gps>(root, "gps", false, read_gps);
-  if (inflight && !scenario.ssbl && !scenario.gps) {
-    root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
-  }
+  expect_aid(root, scenario, contract);
   scenario.seeker =
       read_node<Seeker>(root, "seeker", scenario.engagement || scenario.runs("los_rate"), read_seeker);
   if (scenario.seeker && !scenario.engagement)

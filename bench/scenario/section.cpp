@@ -373,6 +373,11 @@ void Section::reject(std::string_view key, std::string_view what, std::string_vi
   state_->fail(key, state_->line_of_key(key), what, expected);
 }
 
+void Section::refuse(std::string_view key, std::string_view what, std::string_view expected) {
+  if (has(key)) reject(key, what, expected);
+  optional(key);
+}
+
 void Section::finish() {
   if (state_->table == nullptr) return;
   // The first in the file, as the table itself is sorted by key.

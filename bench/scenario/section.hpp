@@ -75,6 +75,8 @@ class Section {
 
   /// Says what is wrong with the value of a key that is there, or should be.
   void reject(std::string_view key, std::string_view what, std::string_view expected);
+  /// Rejects a key that is there though it has no effect beside the others.
+  void refuse(std::string_view key, std::string_view what, std::string_view expected);
   /// To be called when all keys have been asked for: reports an unknown key, or else a missing one.
   void finish();
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/scenario/section.hpp"
@@ -45,6 +46,11 @@ world::Motion read_weave(Section& section) {
 world::DepthProfile read_depth(Section& section, double speed) {
   const world::DepthProfile profile{.depth = section.number("dive_depth_m", Limits::at_least(0), 0),
                                     .period = section.number("dive_period_s", Limits::above(0), 1)};
+  for (const auto& [key, other] :
+       {std::pair{"dive_depth_m", "dive_period_s"}, std::pair{"dive_period_s", "dive_depth_m"}}) {
+    if (section.has(key) && !section.has(other))
+      section.reject(key, "is given alone", fmt::format("{} beside it", other));
+  }
   constexpr double steepest_sine = 0.70710678118654752;  // 45 degrees
   if (world::steepest(profile) > steepest_sine * speed) {
     section.reject("dive_depth_m", "is too deep for the speed and dive_period_s",

@@ -5,7 +5,9 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "dbc/ports/frame_rules.hpp"
 
@@ -180,8 +182,11 @@ Result<void> LogWriter::close() {
 }
 
 Result<LogReader> LogReader::open(const std::string& path) {
+  std::error_code ignored;
+  const bool is_folder = std::filesystem::is_directory(path, ignored);  // opens, and cannot be read
   std::ifstream file(path);
-  if (!file) return failure(fmt::format("cannot read log '{}': {}", path, std::strerror(errno)));
+  if (!file || is_folder)
+    return failure(fmt::format("cannot read log '{}': {}", path, std::strerror(is_folder ? EISDIR : errno)));
   return LogReader(std::move(file), path);
 }
 

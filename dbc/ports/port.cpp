@@ -20,18 +20,8 @@ timespec to_timespec(std::int64_t ns) {
   return {.tv_sec = static_cast<std::time_t>(ns / ns_per_s), .tv_nsec = static_cast<long>(ns % ns_per_s)};
 }
 
-}  // namespace
-
-std::int64_t clock_ns(int clock) {
-  timespec now{};
-  ::clock_gettime(clock, &now);
-  return now.tv_sec * ns_per_s + now.tv_nsec;
-}
-
-bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns) {
-  RoomWait how = what == WaitFor::frame ? RoomWait{.events = POLLIN} : port.room_wait();
-  // An interface that is down or removed has room at any time, and its return is no event of the socket.
-  if (!port.up()) how = {.events = POLLIN, .pause_ns = look_again_ns};
+// Until one of the events, the pause or the deadline; see wait().
+bool wait_for(const Port& port, RoomWait how, std::int64_t deadline_ns) {
   if (how.events == 0 && how.pause_ns == 0) return true;
   const bool forever = deadline_ns == no_deadline && how.pause_ns == 0;  // saves a clock reading and a timer
   const std::int64_t left_ns =
@@ -41,6 +31,25 @@ bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns) {
   pollfd entry{.fd = how.events == 0 ? -1 : port.descriptor(), .events = how.events, .revents = 0};
   const int ready = ::ppoll(&entry, 1, forever ? nullptr : &timeout, nullptr);
   return ready > 0 || (ready == 0 && pause);
+}
+
+}  // namespace
+
+std::int64_t clock_ns(int clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return now.tv_sec * ns_per_s + now.tv_nsec;
+}
+
+bool Port::wait_for_frame(std::int64_t deadline_ns) {
+  return wait_for(*this, {.events = POLLIN}, deadline_ns);
+}
+
+bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
+  // An interface that is down or removed has room at any time, and its return is no event of the socket.
+  if (!port.up()) return wait_for(port, {.events = POLLIN, .pause_ns = look_again_ns}, deadline_ns);
+  if (what == WaitFor::frame) return port.wait_for_frame(deadline_ns);
+  return wait_for(port, port.room_wait(), deadline_ns);
 }
 
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options) {

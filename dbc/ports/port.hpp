@@ -25,6 +25,8 @@ struct Received {
   std::int64_t hardware_ns = 0;  ///< the controller's own stamp, on its own clock (differences only); 0: none
   StampSource source = StampSource::process;  ///< the best stamp at hand; hardware: hardware_ns is set too
   bool own = false;  ///< the echo of a frame that this port sent: its stamp is the transmit time
+  bool foreign =
+      false;  ///< FD where the bus's contract is classic, or classic where it is FD: not part of it
 };
 
 enum class SendOutcome : std::uint8_t {
@@ -45,11 +47,13 @@ struct PortCounters {
   std::uint64_t received = 0;
   std::uint64_t overflowed = 0;  ///< frames the receive queue lost
   std::uint64_t error_frames = 0;
+  std::uint64_t foreign = 0;  ///< see Received
 };
 
 struct PortOptions {
   bool fd = false;                        ///< CAN FD frames too
   bool own_echo = false;                  ///< receive own frames back, with their transmit time stamps
+  bool foreign = false;                   ///< SocketCAN without fd: FD frames too, marked as foreign
   std::vector<std::uint32_t> only_ids{};  ///< receive just these standard ids; empty: all
   std::string node_name{};                ///< who we are, for messages and for the hub's list of nodes
   int receive_buffer_bytes = 0;  ///< SocketCAN: size of the receive queue; 0: 4 MiB, or what is permitted
@@ -69,6 +73,8 @@ class Port {
   /// gives nothing. For room to send see room_wait().
   [[nodiscard]] virtual int descriptor() const = 0;
   [[nodiscard]] virtual RoomWait room_wait() const = 0;
+  /// Waits like wait() for a frame: a port that can take it by the same call does.
+  virtual bool wait_for_frame(std::int64_t deadline_ns);
   /// True once the bus is gone for good (hub closed, log at its end).
   [[nodiscard]] virtual bool closed() const = 0;
   /// False while an interface is down or removed: send() and receive() look for its return, wait() gives them
@@ -93,6 +99,6 @@ constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 
 /// Waits until the port is worth another receive() or send(): true; or until deadline_ns on CLOCK_MONOTONIC,
 /// or a signal came: false. A frame may turn out not to be there: receive() decides.
-bool wait(const Port& port, WaitFor what, std::int64_t deadline_ns);
+bool wait(Port& port, WaitFor what, std::int64_t deadline_ns);
 
 }  // namespace canhil

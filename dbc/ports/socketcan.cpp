@@ -18,11 +18,13 @@
 #include "dbc/ports/can_interface.hpp"
 #include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/frame_rules.hpp"
+#include "dbc/ports/receive_batch.hpp"
 
 namespace canhil {
 namespace {
 
 constexpr std::int64_t retry_ns = 200'000;          // about 1.5 full classic frames at 1 Mbit/s
+constexpr std::int64_t blocking_ns = 20'000'000;    // the longest that a call waits for a frame
 constexpr std::int64_t look_again_ns = 10'000'000;  // for an interface that is away
 constexpr int large_queue_bytes = 4 << 20;          // about 5000 frames: half a second of a full bus
 
@@ -71,13 +73,14 @@ bool configure(int socket, const PortOptions& options) {
                      SOF_TIMESTAMPING_RAW_HARDWARE;
   const int on = 1;
   const int own = options.own_echo ? 1 : 0;
+  const timeval blocking{.tv_sec = 0, .tv_usec = blocking_ns / 1000};
   const int smallest = 0;  // the kernel's minimum, see the header
   const int receive_bytes =
       options.receive_buffer_bytes == 0 ? large_queue_bytes : options.receive_buffer_bytes;
   return set_filters(socket, options.only_ids) && set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, own) &&
          set(socket, SOL_SOCKET, SO_TIMESTAMPING, stamps) && set(socket, SOL_SOCKET, SO_RXQ_OVFL, on) &&
-         set(socket, SOL_SOCKET, SO_SNDBUF, smallest) &&
-         (!options.fd || set(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) &&
+         set(socket, SOL_SOCKET, SO_RCVTIMEO, blocking) && set(socket, SOL_SOCKET, SO_SNDBUF, smallest) &&
+         ((!options.fd && !options.foreign) || set(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) &&
          // By force as the administrator; else up to net.core.rmem_max.
          (set(socket, SOL_SOCKET, SO_RCVBUFFORCE, receive_bytes) ||
           set(socket, SOL_SOCKET, SO_RCVBUF, receive_bytes));
@@ -107,7 +110,7 @@ class SocketCan final : public Port {
     if (!up_ && !is_back()) return SendOutcome::down;
     const canfd_frame raw = to_kernel(frame);
     interface_queue_full_ = false;
-    if (::write(socket_.get(), &raw, frame.fd ? CANFD_MTU : CAN_MTU) >= 0) {
+    if (::send(socket_.get(), &raw, frame.fd ? CANFD_MTU : CAN_MTU, MSG_DONTWAIT) >= 0) {
       ++counters_.sent;
       return SendOutcome::sent;
     }
@@ -115,27 +118,25 @@ class SocketCan final : public Port {
   }
 
   std::optional<Received> receive() override {
-    if (!up_) is_back();
-    canfd_frame raw{};
-    iovec part{.iov_base = &raw, .iov_len = sizeof raw};
-    alignas(cmsghdr) std::array<char, 256> control;
-    msghdr message{};
-    message.msg_iov = &part;
-    message.msg_iovlen = 1;
-    message.msg_control = control.data();
-    message.msg_controllen = control.size();
-    const ssize_t bytes = ::recvmsg(socket_.get(), &message, 0);
-    if (bytes < 0) {
-      note_outage(errno);
-      return std::nullopt;
-    }
-    if (bytes != CAN_MTU && bytes != CANFD_MTU) return std::nullopt;
-    Received received{.frame = from_kernel(raw, bytes == CANFD_MTU),
-                      .own = (message.msg_flags & MSG_CONFIRM) != 0};
-    take(read_ancillary(message), received);
+    if (batch_.empty() && !fetch()) return std::nullopt;
+    const ReceiveBatch::Item item = batch_.take();
+    Received received{.frame = from_kernel(item.frame, item.fd), .own = item.own};
+    stamp(received, item.ancillary);
+    if (item.ancillary.lost) add_lost(*item.ancillary.lost, counters_);
     ++counters_.received;
     if (received.frame.error) ++counters_.error_frames;
+    received.foreign = received.frame.fd && !options_.fd;
+    if (received.foreign) ++counters_.foreign;
     return received;
+  }
+
+  /// The frame is taken by the call that waits for it, which saves one from its way. Such a call wakes by
+  /// itself every few milliseconds: the end is left to poll(), whose timer is exact.
+  bool wait_for_frame(std::int64_t deadline_ns) override {
+    if (!batch_.empty()) return true;
+    if (deadline_ns != no_deadline && deadline_ns - clock_ns(CLOCK_MONOTONIC) < 2 * blocking_ns)
+      return Port::wait_for_frame(deadline_ns);
+    return fetch(MSG_WAITFORONE) || errno != EINTR;
   }
 
   [[nodiscard]] int descriptor() const override { return socket_.get(); }
@@ -157,6 +158,23 @@ class SocketCan final : public Port {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
+  /// Takes what waits. False: nothing does, as far as is known.
+  bool fetch() {
+    if (!up_) is_back();
+    if (took_all_) {  // saves a call that finds nothing: what came since, wait() sees
+      took_all_ = false;
+      return false;
+    }
+    return fetch(MSG_DONTWAIT);
+  }
+
+  bool fetch(int flags) {
+    const bool any = batch_.fetch(socket_.get(), flags);
+    if (!any) note_outage(errno);
+    took_all_ = any && batch_.took_all();
+    return any;
+  }
+
   SendOutcome send_failure(int error) {
     switch (error) {
       case ENOBUFS:
@@ -204,8 +222,7 @@ class SocketCan final : public Port {
     counters.overflowed += lost - static_cast<std::uint32_t>(counters.overflowed);
   }
 
-  void take(const Ancillary& said, Received& received) {
-    if (said.lost) add_lost(*said.lost, counters_);
+  static void stamp(Received& received, const Ancillary& said) {
     received.t_ns = said.software_ns;
     received.hardware_ns = said.hardware_ns;
     received.source = said.hardware_ns != 0 ? StampSource::hardware : StampSource::kernel;
@@ -222,6 +239,8 @@ class SocketCan final : public Port {
   bool up_ = true;
   std::int64_t look_ns_ = 0;  // when to look for an interface that is away
   bool interface_queue_full_ = false;
+  ReceiveBatch batch_;
+  bool took_all_ = false;  // the queue was empty after the last frame that receive() gave
   PortCounters counters_;
 };
 
@@ -247,7 +266,7 @@ Result<std::unique_ptr<Port>> open_socketcan(std::string_view interface, const P
   if (wide != options.only_ids.end()) {
     return failure(fmt::format("only_ids: 0x{:X} is not a standard id (0 to 0x7FF)", *wide));
   }
-  Descriptor socket(::socket(AF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
+  Descriptor socket(::socket(AF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
   if (!socket) return failure(no_socket(interface, errno));
   if (auto why = objection(socket.get(), interface, options.fd)) return failure(std::move(*why));
 

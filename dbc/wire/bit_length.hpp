@@ -152,6 +152,16 @@ constexpr double duration_s(const BitLength& length, const BitRates& rates) {
          static_cast<double>(length.data) / static_cast<double>(data_rate);
 }
 
+/// The same for a single frame, in ns, rounded up.
+constexpr std::int64_t duration_ns(const BitLength& length, const BitRates& rates) {
+  constexpr std::int64_t ns_per_s = 1'000'000'000;
+  const auto rounded_up = [](std::int64_t bits, std::int64_t rate) {
+    return rate > 0 ? (bits * ns_per_s + rate - 1) / rate : 0;
+  };
+  return rounded_up(length.nominal, rates.nominal) +
+         rounded_up(length.data, rates.data > 0 ? rates.data : rates.nominal);
+}
+
 /// The share of an interval (above 0) for which frames of these lengths in sum keep the bus busy: 1 is a full
 /// bus.
 constexpr double bus_load(const BitLength& sum, double interval_s, const BitRates& rates) {

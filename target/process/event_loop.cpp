@@ -53,10 +53,11 @@ void tell(const std::string& news) {
 
 }  // namespace
 
-Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
+Result<void> serve(const std::string& bus, BusFormat format, const std::atomic<bool>& stop) {
   PortOptions options;
   options.node_name = "hil-target";
-  auto opened = open_port(bus, options);
+  options.foreign = true;
+  auto opened = open_bus(bus, options, format);
   if (!opened) return tl::unexpected(opened.error());
   Port& port = **opened;
 
@@ -74,6 +75,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     while (!stop) {
       const auto received = port.receive();
       if (!received) break;
+      if (received->foreign) continue;  // counted
       if (received->frame.error) {
         notes.error_frame(received->frame);
         continue;
@@ -95,7 +97,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     const std::int64_t now = now_ns();
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
-      tell(notes.news(port));
+      tell(notes.news(port, format));
       established = true;
       // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the
       // device's frames are to be those of a replay. A target that a bench has left behind speaks up again
@@ -111,7 +113,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     }
     wait(port, WaitFor::frame, report_due_ns);
   }
-  tell(notes.news(port));
+  tell(notes.news(port, format));
   return {};
 }
 

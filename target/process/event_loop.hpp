@@ -4,11 +4,12 @@
 #include <atomic>
 #include <string>
 
+#include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::target {
 
-/// Serves a bus until `stop` is set or the bus is gone. Error: the bus cannot be opened.
-Result<void> serve(const std::string& bus, const std::atomic<bool>& stop);
+/// Serves a bus of either contract until `stop` is set or the bus is gone. Error: the bus cannot be opened.
+Result<void> serve(const std::string& bus, BusFormat format, const std::atomic<bool>& stop);
 
 }  // namespace canhil::target

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "tests/processes/hil/program.hpp"
 
 namespace canhil::test {
@@ -16,20 +18,20 @@ std::string record(const std::string& name, const std::string& options,
   return log;
 }
 
-// A record in real time on which nothing was lost: a host that keeps a program waiting for half a second
-// loses frames of vcan in its receive queue, both programs say so, and the property says nothing of such a
-// run.
+// A record in real time that is whole: a host that keeps a program waiting for half a second loses frames of
+// vcan in its receive queue, or the target is silent for too long; the programs say so, and the property says
+// nothing of such a run.
 std::string record_in_real_time(const std::string& name,
                                 const std::string& file = "transfer_alignment_quick") {
   const std::string report = scratch(name + ".json");
   for (int attempt = 0; attempt < 4; ++attempt) {
     std::string log = record(name, fmt::format("--bus {} --json {}", bus(), report), file);
     const auto json = read_json(report);
-    if (json["target_counters"]["frames_lost"] == 0 && json["from_target"]["frames_lost"] == 0 &&
-        json["from_target"]["bench_overflows"] == 0)
+    if (json["ending"]["completed"] == true && json["target_counters"]["frames_lost"] == 0 &&
+        json["from_target"]["frames_lost"] == 0 && json["from_target"]["bench_overflows"] == 0)
       return log;
   }
-  ADD_FAILURE() << "frames were lost in each of four runs";
+  ADD_FAILURE() << "frames were lost in each of four runs, or the run ended early";
   return scratch(name);
 }
 
@@ -124,6 +126,20 @@ TEST(Bits, DivergeNamesTheFirstFrameThatDiffers) {
   EXPECT_EQ(shorter.code, 1);
   EXPECT_THAT(shorter.out, testing::HasSubstr("has no more frames of the target"));
   EXPECT_EQ(hil_bench(fmt::format("diverge {} no_such.log", log)).code, 2);
+
+  std::ofstream(scratch("empty.log")).close();
+  const auto expect_refused = [](const std::string& logs, const std::string& why) {
+    const Ended refused = hil_bench("diverge " + logs);
+    EXPECT_EQ(refused.code, 2) << logs;
+    EXPECT_EQ(refused.err, "hil-bench: " + why + "\n");
+    EXPECT_EQ(refused.out, "");
+  };
+  const std::string empty = scratch("empty.log"), folder = testing::TempDir();
+  const std::string none = ": no frame of the target after a Sync, expected the log of a run";
+  expect_refused(empty + " " + log, empty + none);
+  expect_refused(log + " " + empty, empty + none);
+  expect_refused(empty + " " + empty, empty + ", " + empty + none);
+  expect_refused(log + " " + folder, "cannot read log '" + folder + "': Is a directory");
 }
 
 }  // namespace

@@ -77,6 +77,10 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   expect_refused({even}, "4 of 8 runs are in no shard (first: run 1 of variant 'A')");
   expect_refused({even, shard("all.sqlite", all_keys, 2e-3)}, "run 0 of variant 0 differs from that in");
   expect_refused({even, scratch("absent.sqlite")}, "absent.sqlite: cannot be read or written");
+  expect_refused({even, even}, "even.sqlite: is given twice, expected each shard once");
+  const auto link = scratch("link.sqlite");
+  std::filesystem::create_symlink(even, link);
+  expect_refused({even, link}, "link.sqlite: is given twice");
   const auto text = scratch("text.sqlite");
   std::ofstream(text) << std::string(5000, 'x');
   expect_refused({text}, "text.sqlite: is no SQLite file");

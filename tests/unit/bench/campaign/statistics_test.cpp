@@ -65,9 +65,25 @@ TEST(RunDistribution, IsOfEachRunsLastUpdateAtOrBeforeTheTime) {
   EXPECT_EQ(found.missing, 0U);
   EXPECT_DOUBLE_EQ(found.rms, std::sqrt(38.5));
   EXPECT_DOUBLE_EQ(found.mean, 5.5);
-  EXPECT_DOUBLE_EQ(found.median, 5);
+  EXPECT_DOUBLE_EQ(found.median, 5.5) << "the mean of the two middles";
   EXPECT_DOUBLE_EQ(found.p90, 9);
   EXPECT_DOUBLE_EQ(found.below, 0.4);
+}
+
+TEST(RunDistribution, TheMedianOfAnOddNumberIsTheMiddle) {
+  EXPECT_DOUBLE_EQ(run_distribution(std::vector{run_with(0, {7}), run_with(1, {-2}), run_with(2, {1})},
+                                    heading, 100'000, 1, 100)
+                       .median,
+                   2);
+}
+
+TEST(RunDistribution, ABatchHasNoMoreRunsThanThereAre) {
+  std::vector<RunSeries> runs;
+  for (std::uint64_t run = 0; run < 20; ++run) runs.push_back(run_with(run, {run % 4 == 0 ? 10.0 : 0.0}));
+  const auto found = run_distribution(runs, heading, 100'000, 1, 100);
+  EXPECT_EQ(found.batch, 20U);
+  EXPECT_EQ(found.rms_high, run_distribution(runs, heading, 100'000, 1, 20).rms_high);
+  EXPECT_EQ(run_distribution(runs, heading, 100'000, 1, 5).batch, 5U);
 }
 
 TEST(RunDistribution, BootstrapsTheRmsOfABatch) {

@@ -222,6 +222,61 @@ TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   EXPECT_EQ(judge(period).outcome, Outcome::fail) << "the target's own stall";
 }
 
+TEST_F(Judged, TheBusByEachBar) {
+  scenario::BusErrorLimits rule;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  seen_.bus.errors = {.frames = 9, .warning = 9, .passive = 9};
+  seen_.bus.late_in_queue = 9;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "not asked for";
+  EXPECT_EQ(judge(rule).measured, "bus off 0, interface down 0");
+  for (auto bar :
+       {&scenario::BusErrorLimits::passive_at_most, &scenario::BusErrorLimits::warning_at_most,
+        &scenario::BusErrorLimits::error_frames_at_most, &scenario::BusErrorLimits::late_in_queue_at_most}) {
+    scenario::BusErrorLimits one;
+    one.*bar = 9;
+    EXPECT_EQ(judge(one).outcome, Outcome::pass);
+    one.*bar = 8;
+    EXPECT_EQ(judge(one).outcome, Outcome::fail);
+  }
+  seen_.bus.errors.bus_off = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  rule.bus_off_at_most = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  seen_.bus.downs = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, ABusThatFailedFailsARunThatSaysNothingOfIt) {
+  judge(attitude);
+  EXPECT_EQ(verdict_.checks.size(), 1U);
+  seen_.bus.errors.bus_off = 1;
+  judge(attitude);
+  ASSERT_EQ(verdict_.checks.size(), 2U);
+  EXPECT_EQ(verdict_.checks[1].kind, "bus_errors");
+  EXPECT_EQ(verdict_.checks[1].outcome, Outcome::fail);
+  EXPECT_EQ(verdict_.outcome, Outcome::fail);
+  scenario::BusErrorLimits allowed;
+  allowed.bus_off_at_most = 1;
+  judge(allowed);
+  EXPECT_EQ(verdict_.checks.size(), 1U) << "the scenario says something";
+  EXPECT_EQ(verdict_.outcome, Outcome::pass);
+}
+
+TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
+  EXPECT_FALSE(stamped_by_hardware(seen_));
+  for (auto& [group, stimuli] : seen_.stimuli)
+    for (Stimulus& stimulus : stimuli) stimulus.hardware_ns = stimulus.t_ns + 1'000'000'000'000;
+  for (auto& arrivals : seen_.arrivals)  // 30 us where the host's stamps say 200 us
+    for (Arrival& arrival : arrivals) arrival.hardware_ns = arrival.t_ns + 999'999'830'000;
+  EXPECT_TRUE(stamped_by_hardware(seen_));
+  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(7), 30e-6, 1e-9);
+  EXPECT_NEAR(periods_s(seen_, "AlignAttitude", whole).at(7), 10e-3, 1e-9);
+  arrivals<messages::AlignAttitude>()[7].hardware_ns = 0;
+  EXPECT_FALSE(stamped_by_hardware(seen_));
+  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(7), 200e-6, 1e-9) << "never one of each clock";
+  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(8), 30e-6, 1e-9);
+}
+
 TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
   const scenario::Latency latency{.message = "AlignAttitude", .window = whole, .below_us = 1000};
   const scenario::Heartbeat heartbeat{.silent_at_most_us = 500'000};

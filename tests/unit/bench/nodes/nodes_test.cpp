@@ -1,7 +1,9 @@
 // What the emulated nodes send, and when.
 #include <gmock/gmock.h>
 
+#include "bench/nodes/is_whole.hpp"
 #include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/sample_loss.hpp"
 #include "bench/nodes/slave_imu.hpp"
 #include "bench/nodes/time_keeper.hpp"
 #include "bench/world/motion/rest.hpp"
@@ -44,6 +46,31 @@ TEST(IncrementRounding, SendsWhatTheCodecCarriesExactly) {
     const double sent = rounding.round({1.23456e-3, 0, 0}).x();
     const auto frame = to_frame(SlaveImuDeltaTheta{.delta_theta_x_rad = sent}, 0);
     ASSERT_EQ(from_frame<SlaveImuDeltaTheta>(frame).delta_theta_x_rad, sent);
+  }
+}
+
+TEST(IsWhole, AFrameOfTheMessageWithItsCrcAndNoErrorFrame) {
+  const Frame whole = to_frame(SlaveImuDeltaTheta{}, 3);
+  EXPECT_TRUE(is_whole<SlaveImuDeltaTheta>(whole));
+  EXPECT_FALSE(is_whole<messages::SlaveImuDeltaV>(whole)) << "another id";
+  const auto changed = [&](auto&& change) {
+    Frame frame = whole;
+    change(frame);
+    return is_whole<SlaveImuDeltaTheta>(frame);
+  };
+  EXPECT_FALSE(changed([](Frame& frame) { frame.error = true; }));
+  EXPECT_FALSE(changed([](Frame& frame) { frame.extended = true; }));
+  EXPECT_FALSE(changed([](Frame& frame) { --frame.size; }));
+  EXPECT_FALSE(changed([](Frame& frame) { frame.data[5] ^= 1U; }));
+}
+
+TEST(SampleLoss, DrawsForEverySampleAlsoInAnOutage) {
+  const scenario::SampleLoss chance{.probability = 0.5, .outage_us = 0, .outage_every_us = 0};
+  const scenario::SampleLoss both{.probability = 0.5, .outage_us = 200'000, .outage_every_us = 1'000'000};
+  world::Stream alone(1, 0, "loss"), beside(1, 0, "loss");
+  for (std::int64_t t_us = 0; t_us < 3'000'000; t_us += 10'000) {
+    const bool by_chance = is_lost(chance, t_us, alone);
+    EXPECT_EQ(is_lost(both, t_us, beside), by_chance || t_us % 1'000'000 >= 800'000) << t_us;
   }
 }
 

@@ -41,6 +41,7 @@ run::Run run_of() {
           .seen = {},
           .truth = {{.start = {}, .motion = world::Rest{}}, 1'000'000, 10'000},
           .options = {},
+          .host = {},
           .wall_s = 1.5};
 }
 
@@ -124,6 +125,37 @@ TEST(Reports, TellWhatBecameOfFixes) {
   EXPECT_EQ(page["alignments"][0]["fixes"]["outcomes"]["gated"], 1);
   EXPECT_EQ(page["alignments"][0]["fixes"]["resolved_s"], 0.2);
   EXPECT_EQ(page["alignments"][0]["fixes"]["repairs"], 4);
+}
+
+TEST(Reports, TellWhatTheBusDid) {
+  run::Run run = run_of();
+  EXPECT_THAT(text(scenario_of(), run), HasSubstr("0 error frames; interface down 0 times; late in transmit "
+                                                  "queue 0 frames"));
+  run.seen.first_ns = 1'000'000'000;
+  run.seen.bus.errors = {.frames = 2, .bus_off = 1, .restarted = 1, .tx_counter_max = 136};
+  run.seen.bus.incidents = {{.t_ns = 1'500'000'000, .event = BusEvent::bus_off, .tx_counter = 136},
+                            {.t_ns = 1'600'000'000, .event = BusEvent::restarted}};
+  run.seen.bus.late_in_queue = 7;
+  const std::string page = text(scenario_of(), run);
+  EXPECT_THAT(page, HasSubstr("2 error frames (bus off 1, restarted 1; error counters at most tx 136, rx 0); "
+                              "interface down 0 times; late in transmit queue 7 frames\n"
+                              "    t=0.500 s  bus off (tx 136, rx 0)\n"
+                              "    t=0.600 s  restarted (tx 0, rx 0)\n"));
+  const auto report = nlohmann::json::parse(json(scenario_of(), run));
+  EXPECT_EQ(report["bus"]["bus_off"], 1);
+  EXPECT_EQ(report["bus"]["late_in_queue"], 7);
+  EXPECT_EQ(report["bus"]["incidents"][0]["t_s"], 0.5);
+  EXPECT_EQ(report["bus"]["incidents"][0]["event"], "bus off");
+  run.seen.bus.incidents.resize(25);
+  run.seen.bus.more_incidents = 10;
+  EXPECT_THAT(text(scenario_of(), run), HasSubstr("    and 15 more\n"));
+}
+
+TEST(Reports, NameTheControllersStamps) {
+  run::Run run = run_of();
+  EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("hardware")));
+  run.seen.stimuli["SlaveImu"] = {{.valid_us = 1, .t_ns = 1, .hardware_ns = 1}};
+  EXPECT_THAT(text(scenario_of(), run), HasSubstr("latency by the controller's hardware stamps"));
 }
 
 TEST(File, IsWholeOrNotThere) {

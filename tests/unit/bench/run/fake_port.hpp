@@ -16,6 +16,9 @@ class FakePort : public Port {
  public:
   SendOutcome send(const Frame& frame) override {
     if (outcome != SendOutcome::sent) return outcome;
+    const bool troubled = clock_ns(CLOCK_MONOTONIC) < trouble_until_ns;
+    interface_up = !troubled || trouble != SendOutcome::down;
+    if (troubled) return trouble;
     sent.push_back(frame);
     if (on_send) on_send(frame);
     return SendOutcome::sent;
@@ -29,6 +32,7 @@ class FakePort : public Port {
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] RoomWait room_wait() const override { return {.events = 0, .pause_ns = 1'000'000}; }
   [[nodiscard]] bool closed() const override { return gone; }
+  [[nodiscard]] bool up() const override { return interface_up; }
   [[nodiscard]] PortCounters counters() const override { return {}; }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return name_; }
@@ -41,10 +45,14 @@ class FakePort : public Port {
     give(target.frames().front());
   }
   void give(const Frame& frame) { waiting_.push_back({.frame = frame}); }
+  void give(const Received& received) { waiting_.push_back(received); }
 
   std::function<void(const Frame&)> on_send;
   SendOutcome outcome = SendOutcome::sent;
   bool gone = false;
+  SendOutcome trouble = SendOutcome::down;  ///< the outcome until trouble_until_ns on CLOCK_MONOTONIC
+  std::int64_t trouble_until_ns = 0;
+  bool interface_up = true;
   std::vector<Frame> sent;
   Outbox<1> target;
 

@@ -25,8 +25,8 @@ class Watched : public testing::Test {
     monitor_.transmitted(frame, t_ns, late_ns);
     return frame;
   }
-  void echo(const Frame& frame, std::int64_t t_ns) {
-    monitor_.received({.frame = frame, .t_ns = t_ns, .own = true});
+  void echo(const Frame& frame, std::int64_t t_ns, std::int64_t hardware_ns = 0) {
+    monitor_.received({.frame = frame, .t_ns = t_ns, .hardware_ns = hardware_ns, .own = true});
   }
   void imu(std::int64_t t_us, std::int64_t t_ns) {
     transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(t_us)}, t_ns);
@@ -243,6 +243,14 @@ TEST_F(Watched, TheStampOfTheEchoReplacesTheBenchsOwn) {
               ElementsAre(testing::DoubleEq(1e-6)));
   EXPECT_EQ(seen().stimuli.at("SlaveImu")[0].t_ns, 1'000);
   EXPECT_EQ(seen().stimuli.at("SlaveImu")[2].t_ns, 3'000);
+}
+
+TEST_F(Watched, TheControllersStampsAreKept) {
+  const Frame frame = transmit(SlaveImuStatus{.time_of_validity_us = 20'000}, 2'000);
+  echo(frame, 2'700, 42);
+  EXPECT_EQ(seen().stimuli.at("SlaveImu")[0].hardware_ns, 42);
+  monitor_.received({.frame = next(target_, TargetHeartbeat{}), .t_ns = 1, .hardware_ns = 43});
+  EXPECT_EQ(seen().arrivals[message_index<TargetHeartbeat>()].at(0).hardware_ns, 43);
 }
 
 TEST_F(Watched, AnEchoIsNoAnswer) {

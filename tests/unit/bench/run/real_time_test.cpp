@@ -1,6 +1,7 @@
 #include "bench/run/real_time.hpp"
 
 #include <gmock/gmock.h>
+#include <linux/can/error.h>
 #include <unistd.h>
 
 #include <array>
@@ -77,9 +78,10 @@ TEST_F(RealTime, NamesASilentTarget) {
 }
 
 TEST_F(RealTime, AnErrorFrameIsNoSignOfLife) {
-  // Error classes "bus error" and "bus off" together look like the id of AlignAttitude.
+  static_assert(CAN_ERR_CNT == messages::AlignInnovation::info.id);
+  // The class of error frames that tell the error counters looks like the id of AlignInnovation.
   port_.on_send = [&](const Frame&) {
-    port_.give(Frame{.id = messages::AlignAttitude::info.id, .size = 8, .error = true});
+    port_.give(Frame{.id = CAN_ERR_CNT, .size = 8, .error = true});
   };
   EXPECT_EQ(run(impatient_ns).kind, Ending::Kind::target_silent);
 }
@@ -98,6 +100,63 @@ TEST_F(RealTime, EndsWhenTheBusIsDownOrFullOrTheUserSaysSo) {
   port_.outcome = SendOutcome::sent;
   stop_ = true;
   EXPECT_EQ(run(patient_ns).kind, Ending::Kind::interrupted);
+}
+
+// A target that is heard with every frame sent; after the second, trouble for half as long again as silence
+// is borne.
+class Trouble : public RealTime {
+ protected:
+  static constexpr std::int64_t silence_limit_ns = 1'000'000'000;
+  Ending run_with(
+      SendOutcome trouble, const std::function<void()>& begin = [] {}) {
+    port_.on_send = [&, trouble, begin](const Frame&) {
+      if (port_.sent.size() == 2) {
+        port_.trouble = trouble;
+        port_.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + silence_limit_ns * 3 / 2;
+        return begin();  // the target is not heard any more
+      }
+      port_.give(TargetHeartbeat{.state = TargetState::running});
+    };
+    return run(silence_limit_ns);
+  }
+};
+
+TEST_F(Trouble, AnInterfaceThatComesBackIsWaitedFor) {
+  EXPECT_EQ(run_with(SendOutcome::down).kind, Ending::Kind::completed);
+  EXPECT_EQ(port_.sent.size(), 6U) << "nothing was left out";
+}
+
+TEST_F(Trouble, ABusOffIsWaitedForToo) {
+  const Ending ending = run_with(SendOutcome::queue_full, [&] {
+    port_.give(Frame{.id = CAN_ERR_BUSOFF, .size = 8, .error = true});
+  });
+  EXPECT_EQ(ending.kind, Ending::Kind::completed) << ending.detail;
+  EXPECT_EQ(port_.sent.size(), 6U);
+}
+
+TEST_F(Trouble, AFullQueueIsNot) {
+  const Ending ending = run_with(SendOutcome::queue_full);
+  EXPECT_EQ(ending.kind, Ending::Kind::target_silent);
+  EXPECT_THAT(ending.detail, testing::HasSubstr("the bus took no frame since t="));
+}
+
+TEST(LateInQueue, CountsFramesThatWaitedBeyondTheirDeadline) {
+  FakePort port;
+  Link link(port);
+  const auto now_ns = [] { return clock_ns(CLOCK_MONOTONIC); };
+  constexpr std::int64_t patient_ns = 60'000'000'000;
+  ASSERT_EQ(link.send({.id = 1}, patient_ns, now_ns() - 1'000'000'000), LinkState::up);
+  EXPECT_EQ(link.late_in_queue(), 0U) << "late, but not for want of room";
+  port.trouble = SendOutcome::queue_full;
+  port.trouble_until_ns = now_ns() + 30'000'000;
+  ASSERT_EQ(link.send({.id = 1}, patient_ns, now_ns()), LinkState::up);
+  EXPECT_EQ(link.late_in_queue(), 1U);
+  port.trouble_until_ns = now_ns() + 1'000'000;
+  ASSERT_EQ(link.send({.id = 1}, patient_ns, now_ns() + 60'000'000'000), LinkState::up);
+  EXPECT_EQ(link.late_in_queue(), 1U) << "it waited, and was in time";
+  port.trouble_until_ns = now_ns() + 30'000'000;
+  ASSERT_EQ(link.send({.id = 1}, patient_ns), LinkState::up);
+  EXPECT_EQ(link.late_in_queue(), 1U) << "no deadline";
 }
 
 // Sees how late the bench says that it was.

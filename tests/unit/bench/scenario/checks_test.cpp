@@ -128,6 +128,23 @@ TEST(ScenarioChecks, Counters) {
   EXPECT_FALSE(rest.bad_crc_at_most);
 }
 
+TEST(ScenarioChecks, BusErrorLimits) {
+  const auto one = rule_of<BusErrorLimits>("kind = 'bus_errors'");
+  EXPECT_EQ(one.bus_off_at_most, 0);
+  EXPECT_EQ(one.down_at_most, 0);
+  EXPECT_FALSE(one.passive_at_most || one.warning_at_most || one.error_frames_at_most ||
+               one.late_in_queue_at_most);
+  const auto rest = rule_of<BusErrorLimits>(
+      "kind = 'bus_errors'\nbus_off_at_most = 1\ndown_at_most = 2\npassive_at_most = 3\n"
+      "warning_at_most = 4\nerror_frames_at_most = 5\nlate_in_queue_at_most = 6");
+  EXPECT_EQ(rest.bus_off_at_most, 1);
+  EXPECT_EQ(rest.down_at_most, 2);
+  EXPECT_EQ(rest.passive_at_most, 3);
+  EXPECT_EQ(rest.warning_at_most, 4);
+  EXPECT_EQ(rest.error_frames_at_most, 5);
+  EXPECT_EQ(rest.late_in_queue_at_most, 6);
+}
+
 TEST(ScenarioChecks, AnglesMayBeInDegrees) {
   const auto error = rule_of<AttitudeError>("kind = 'attitude_error'\naxis = 'heading'\nbelow_deg = 5");
   EXPECT_DOUBLE_EQ(error.below, 5 * world::units::deg);

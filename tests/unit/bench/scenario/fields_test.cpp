@@ -232,18 +232,21 @@ TEST(ScenarioFields, TruthRacetrackSpiralAndRestThenGo) {
   EXPECT_DOUBLE_EQ(going.depth.depth, 5.0);
 }
 
+std::string aided(const std::string& aid) {
+  return with("[slave_imu]", "[slave_imu]\n" + aid, with("transfer_alignment", "inflight_alignment"));
+}
+
 TEST(ScenarioFields, Ssbl) {
-  const auto bare = parsed(with("[slave_imu]", "[slave_imu]\n[ssbl]")).ssbl.value();
+  const auto bare = parsed(aided("[ssbl]")).ssbl.value();
   EXPECT_FALSE(bare.schedule.period_us.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero() && bare.ship_error.sigma.isZero());
   EXPECT_FALSE(bare.faults.silence_us.has_value());
   const auto node =
-      parsed(with("[slave_imu]",
-                  "[slave_imu]\n[ssbl]\nperiod_ms = 2000\nlatency_ms = 1500\n"
-                  "ship_offset_m = [100, 200, -10]\nship_velocity_mps = [1, 2, 0]\n"
-                  "ship_error_m = 4\nship_error_sigma_m = 3\nbias_m = [1, 0, 0]\nbias_sigma_m = 1\n"
-                  "noise_m = 2\nrange_noise_percent = 0.5\nloss_percent = 5\ninvalid_percent = 4\n"
-                  "outlier_percent = 3\noutlier_m = 1000\nsilence_s = [5, 6.5]"))
+      parsed(aided("[ssbl]\nperiod_ms = 2000\nlatency_ms = 1500\n"
+                   "ship_offset_m = [100, 200, -10]\nship_velocity_mps = [1, 2, 0]\n"
+                   "ship_error_m = 4\nship_error_sigma_m = 3\nbias_m = [1, 0, 0]\nbias_sigma_m = 1\n"
+                   "noise_m = 2\nrange_noise_percent = 0.5\nloss_percent = 5\ninvalid_percent = 4\n"
+                   "outlier_percent = 3\noutlier_m = 1000\nsilence_s = [5, 6.5]"))
           .ssbl.value();
   EXPECT_EQ(node.schedule.period_us, 2'000'000);
   EXPECT_EQ(node.schedule.latency_us, 1'500'000);
@@ -263,12 +266,11 @@ TEST(ScenarioFields, Ssbl) {
 }
 
 TEST(ScenarioFields, Gps) {
-  const auto bare = parsed(with("[slave_imu]", "[slave_imu]\n[gps]")).gps.value();
+  const auto bare = parsed(aided("[gps]")).gps.value();
   EXPECT_FALSE(bare.lowest_height.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero());
-  const auto node = parsed(with("[slave_imu]",
-                                "[slave_imu]\n[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
-                                "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7"))
+  const auto node = parsed(aided("[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
+                                 "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7"))
                         .gps.value();
   EXPECT_EQ(node.schedule.latency_us, 100'000);
   expect_near(node.bias.value, {1, 1, 1});

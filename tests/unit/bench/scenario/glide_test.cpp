@@ -167,6 +167,15 @@ TEST(GlideSections, WrongOnesGiveOneLine) {
   EXPECT_EQ(
       complaint("[glider_nav]", "[glider_nav]\ncorrelated_fraction = 1.5"),
       "g.toml:16: key 'glider_nav.correlated_fraction': 1.5 is out of range, expected a number from 0 to 1");
+  EXPECT_EQ(complaint("[wind]", "[wind]\ngust_time_s = 3"),
+            "g.toml:13: key 'wind.gust_time_s': has no effect alone, expected gust_sigma_mps beside it");
+  for (const std::string kind : {"", "coefficient_error = \"constant\"\n"}) {
+    EXPECT_EQ(
+        complaint("[fins]", "[airframe]\n" + kind + "markov_time_s = 3\n[fins]"),
+        std::string("g.toml:") + (kind.empty() ? "15" : "16") +
+            ": key 'airframe.markov_time_s': has no effect here, expected coefficient_error = \"markov\" "
+            "beside it");
+  }
   EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"wind_answers\"\n[[check]]"),
             "g.toml:16: key 'check[1].updated_at_least': is missing, as are all its like, expected at least "
             "one limit");

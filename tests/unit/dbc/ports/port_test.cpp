@@ -1,6 +1,7 @@
 #include "dbc/ports/port.hpp"
 
 #include <gmock/gmock.h>
+#include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 
@@ -69,17 +70,19 @@ class WaitingPort final : public Port {
   [[nodiscard]] int descriptor() const override { return event.get(); }
   [[nodiscard]] RoomWait room_wait() const override { return room; }
   [[nodiscard]] bool closed() const override { return false; }
+  [[nodiscard]] bool up() const override { return is_up; }
   [[nodiscard]] PortCounters counters() const override { return {}; }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return label; }
 
   Descriptor event{::eventfd(0, EFD_NONBLOCK)};
   RoomWait room;
+  bool is_up = true;
   std::string label = "waiting";
 };
 
 TEST(Wait, EndsAtItsDeadlineNotBefore) {
-  const WaitingPort port;
+  WaitingPort port;
   const std::int64_t deadline = clock_ns(CLOCK_MONOTONIC) + 3'000'000;
   EXPECT_FALSE(wait(port, WaitFor::frame, deadline));
   EXPECT_GE(clock_ns(CLOCK_MONOTONIC), deadline);
@@ -87,7 +90,7 @@ TEST(Wait, EndsAtItsDeadlineNotBefore) {
 }
 
 TEST(Wait, EndsWithTheDescriptor) {
-  const WaitingPort port;
+  WaitingPort port;
   ::eventfd_write(port.event.get(), 1);
   EXPECT_TRUE(wait(port, WaitFor::frame, no_deadline));
 }
@@ -102,6 +105,18 @@ TEST(Wait, ForRoomDoesAsThePortSays) {
   EXPECT_TRUE(wait(port, WaitFor::room, no_deadline));
   EXPECT_GE(clock_ns(CLOCK_MONOTONIC), start + 2'000'000);
   EXPECT_FALSE(wait(port, WaitFor::room, clock_ns(CLOCK_MONOTONIC) + 1'000'000)) << "the deadline came first";
+}
+
+TEST(Wait, LooksAgainWhereAnInterfaceIsAway) {
+  WaitingPort port;
+  port.is_up = false;
+  port.room = {.events = POLLOUT};  // which an interface that is down always has
+  for (const WaitFor what : {WaitFor::frame, WaitFor::room}) {
+    const std::int64_t start = clock_ns(CLOCK_MONOTONIC);
+    EXPECT_TRUE(wait(port, what, no_deadline)) << "worth another try";
+    EXPECT_GE(clock_ns(CLOCK_MONOTONIC), start + 10'000'000) << "but not at once";
+    EXPECT_FALSE(wait(port, what, clock_ns(CLOCK_MONOTONIC) + 1'000'000)) << "the deadline came first";
+  }
 }
 
 }  // namespace

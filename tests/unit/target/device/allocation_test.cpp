@@ -33,8 +33,24 @@ std::atomic<std::size_t> allocations = 0;
 namespace canhil::target {
 namespace {
 
+/// What shows that a session went its way to the end.
+struct Session {
+  std::size_t answers_above;
+  bool running;  ///< at the end
+};
+
+void expect_no_allocation(const std::vector<Frame>& frames, const Session& session) {
+  Device device;
+  std::size_t answers = 0;
+  const std::size_t before = allocations;
+  for (const Frame& frame : frames) answers += device.receive(frame).size();
+  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_GT(answers, session.answers_above);
+  EXPECT_EQ(device.running(), session.running);
+}
+
 // The frames of a session with everything in it: parameters, both algorithms, losses, late fixes, faults.
-std::vector<Frame> session(messages::Algorithm algorithm) {
+std::vector<Frame> transfer_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;
   bench.command(Command::reset, Estimator::transfer_alignment, algorithm);
@@ -56,14 +72,7 @@ std::vector<Frame> session(messages::Algorithm algorithm) {
 
 TEST(Allocation, TheFramePathOfTheDeviceHasNone) {
   for (const auto algorithm : {messages::Algorithm::kalman, messages::Algorithm::robust_h2}) {
-    const std::vector<Frame> frames = session(algorithm);
-    Device device;
-    std::size_t answers = 0;
-    const std::size_t before = allocations;
-    for (const Frame& frame : frames) answers += device.receive(frame).size();
-    EXPECT_EQ(allocations - before, 0U);
-    EXPECT_GT(answers, 500U);
-    EXPECT_FALSE(device.running());
+    expect_no_allocation(transfer_session(algorithm), {.answers_above = 500, .running = false});
   }
 }
 
@@ -102,14 +111,7 @@ std::vector<Frame> inflight_session(messages::Algorithm algorithm) {
 TEST(Allocation, TheFramePathOfInflightAlignmentHasNone) {
   using messages::Algorithm;
   for (const auto algorithm : {Algorithm::ekf, Algorithm::ukf, Algorithm::sin_cos}) {
-    const std::vector<Frame> frames = inflight_session(algorithm);
-    Device device;
-    std::size_t answers = 0;
-    const std::size_t before = allocations;
-    for (const Frame& frame : frames) answers += device.receive(frame).size();
-    EXPECT_EQ(allocations - before, 0U);
-    EXPECT_GT(answers, 1500U);
-    EXPECT_FALSE(device.running());
+    expect_no_allocation(inflight_session(algorithm), {.answers_above = 1500, .running = false});
   }
 }
 
@@ -135,14 +137,7 @@ TEST(Allocation, TheFramePathOfTheLosRateHasNone) {
   using messages::Algorithm;
   for (const auto algorithm :
        {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman, Algorithm::low_pass}) {
-    const std::vector<Frame> frames = los_rate_session(algorithm);
-    Device device;
-    std::size_t answers = 0;
-    const std::size_t before = allocations;
-    for (const Frame& frame : frames) answers += device.receive(frame).size();
-    EXPECT_EQ(allocations - before, 0U);
-    EXPECT_GT(answers, 2500U);
-    EXPECT_TRUE(device.running());
+    expect_no_allocation(los_rate_session(algorithm), {.answers_above = 2500, .running = true});
   }
 }
 
@@ -184,14 +179,7 @@ std::vector<Frame> wind_session(messages::Algorithm algorithm) {
 TEST(Allocation, TheFramePathOfTheWindHasNone) {
   using messages::Algorithm;
   for (const auto algorithm : {Algorithm::ekf, Algorithm::h_infinity, Algorithm::adaptive_q}) {
-    const std::vector<Frame> frames = wind_session(algorithm);
-    Device device;
-    std::size_t answers = 0;
-    const std::size_t before = allocations;
-    for (const Frame& frame : frames) answers += device.receive(frame).size();
-    EXPECT_EQ(allocations - before, 0U);
-    EXPECT_GT(answers, 3500U);
-    EXPECT_TRUE(device.running());
+    expect_no_allocation(wind_session(algorithm), {.answers_above = 3500, .running = true});
   }
 }
 

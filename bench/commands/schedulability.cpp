@@ -1,0 +1,88 @@
+#include "bench/commands/schedulability.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/whole_number.hpp"
+#include "bench/schedulability/message_set.hpp"
+#include "bench/schedulability/report.hpp"
+#include "dbc/parser/parse.hpp"
+
+namespace canhil::commands {
+namespace {
+
+// As typed.
+struct Arguments {
+  std::string file;
+  std::optional<std::uint64_t> bitrate;
+  std::optional<std::uint64_t> data_bitrate;
+  std::optional<std::uint64_t> error_burst;
+  std::optional<std::uint64_t> jitter_us;
+  double errors_per_second = 0;
+  double event_interval_ms = 0;
+  bool json = false;
+};
+
+schedulability::ErrorModel errors_of(const Arguments& arguments) {
+  if (arguments.errors_per_second <= 0) return {};
+  return {.burst = static_cast<std::int64_t>(arguments.error_burst.value_or(1)),
+          .interval_ns = std::llround(1e9 / arguments.errors_per_second)};
+}
+
+ExitCode execute(const Arguments& arguments) {
+  if (arguments.error_burst && arguments.errors_per_second <= 0)
+    return complain({"--error-burst: expected --errors-per-second with it"});
+  const auto database = dbc::read_file(arguments.file);
+  if (!database) return complain(database.error());
+  const auto in_file = [&arguments](const Error& error) {
+    return complain({fmt::format("{}: {}", arguments.file, error.message)});
+  };
+  const auto rates = schedulability::bit_rates(
+      *database, {.nominal = static_cast<std::int64_t>(arguments.bitrate.value_or(0)),
+                  .data = static_cast<std::int64_t>(arguments.data_bitrate.value_or(0))});
+  if (!rates) return in_file(rates.error());
+  const schedulability::Assumptions assumptions{
+      .event_interval_ns = std::llround(arguments.event_interval_ms * 1e6),
+      .jitter_ns = static_cast<std::int64_t>(arguments.jitter_us.value_or(0)) * 1000};
+  auto streams = schedulability::streams_of(*database, assumptions, *rates);
+  if (!streams) return in_file(streams.error());
+  const auto analysis = schedulability::analyse(arguments.file, std::move(*streams),
+                                                {.rates = *rates, .errors = errors_of(arguments)});
+  fmt::print("{}", arguments.json ? schedulability::json(analysis) : schedulability::table(analysis));
+  return schedulability::schedulable(analysis) ? ExitCode::pass : ExitCode::fail;
+}
+
+}  // namespace
+
+void add_schedulability(CLI::App& app, int& code) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("schedulability", "worst-case response time of every message of a DBC");
+  command->add_option("FILE", arguments->file, "the DBC")->required();
+  constexpr std::uint64_t slowest = 1'000;
+  add_whole_number(*command, "--bitrate", arguments->bitrate, "bit/s (the DBC's Baudrate)", slowest,
+                   1'000'000);
+  add_whole_number(*command, "--data-bitrate", arguments->data_bitrate,
+                   "bit/s of the data phase of FD frames (the DBC's BaudrateCANFD)", slowest, 20'000'000);
+  command
+      ->add_option("--errors-per-second", arguments->errors_per_second,
+                   "bus errors, each an error frame and a retransmission")
+      ->check(CLI::Range(1e-6, 1e5));
+  add_whole_number(*command, "--error-burst", arguments->error_burst, "so many of them may come at once (1)",
+                   1, 10'000);
+  command
+      ->add_option("--event-interval-ms", arguments->event_interval_ms,
+                   "least interval of event messages that give none")
+      ->check(CLI::Range(1e-3, 1e9));
+  add_whole_number(*command, "--jitter-us", arguments->jitter_us,
+                   "how late messages without GenMsgJitter may be queued (0)", 0, 1'000'000'000);
+  command->add_flag("--json", arguments->json, "JSON instead of a table");
+  command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+}
+
+}  // namespace canhil::commands

@@ -1,0 +1,27 @@
+// Words of a scenario that stand for the values of an enumeration.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+
+/// The value whose name the key holds; `names` in the order of the enumeration. Error: another word, or,
+/// without a fallback, none.
+template <class Enum>
+Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names,
+               std::optional<Enum> fallback = {}) {
+  const std::vector<std::string> words(names.begin(), names.end());
+  std::optional<std::string> usual;
+  if (fallback) usual = words[static_cast<std::size_t>(*fallback)];
+  const auto found = std::ranges::find(words, section.one_of(key, words, usual));
+  return found == words.end() ? Enum{} : static_cast<Enum>(found - words.begin());
+}
+
+}  // namespace canhil::scenario

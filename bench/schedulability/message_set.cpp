@@ -1,0 +1,101 @@
+#include "bench/schedulability/message_set.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "dbc/wire/arbitration.hpp"
+
+namespace canhil::schedulability {
+namespace {
+
+constexpr std::int64_t ns_per_us = 1'000;
+constexpr double ns_per_ms = 1e6;
+
+/// A number among the attributes, else 0.
+double number(const dbc::AttributeValue* value) {
+  if (value == nullptr) return 0;
+  if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
+  const auto* real = std::get_if<double>(value);
+  return real != nullptr ? *real : 0;
+}
+
+/// A time attribute of a message, given in ms; 0: it has none.
+std::int64_t time_ns(const dbc::Database& database, const dbc::Message& message, std::string_view attribute) {
+  return std::llround(
+      number(dbc::find_attribute(database, message.attributes, dbc::Owner::message, attribute)) * ns_per_ms);
+}
+
+bool switches_bit_rate(const dbc::Database& database, const dbc::Message& message) {
+  const auto* value = dbc::find_attribute(database, message.attributes, dbc::Owner::message, "CANFD_BRS");
+  const auto* label = value != nullptr ? std::get_if<std::string>(value) : nullptr;
+  return label != nullptr ? *label != "0" : value == nullptr || number(value) != 0;
+}
+
+void set_period(Stream& stream, const dbc::Database& database, const dbc::Message& message,
+                const Assumptions& assumptions) {
+  const std::int64_t least_ns = time_ns(database, message, "GenMsgDelayTime");
+  if (message.cycle_time_us > 0) {
+    stream.release = Release::cycle;
+    stream.period_ns = message.cycle_time_us * ns_per_us;
+  } else if (least_ns > 0) {
+    stream.release = Release::interval;
+    stream.period_ns = least_ns;
+  } else if (assumptions.event_interval_ns > 0) {
+    stream.release = Release::option;
+    stream.period_ns = assumptions.event_interval_ns;
+  } else {
+    stream.release = Release::once;
+  }
+}
+
+Stream stream_of(const dbc::Database& database, const dbc::Message& message, const Assumptions& assumptions) {
+  Stream stream{
+      .name = message.name, .id = message.id, .extended = message.extended, .sender = message.sender};
+  set_period(stream, database, message, assumptions);
+  const std::int64_t deadline_ns = time_ns(database, message, "GenMsgDeadline");
+  if (deadline_ns > 0)
+    stream.deadline_ns = deadline_ns;
+  else if (stream.period_ns > 0)
+    stream.deadline_ns = stream.period_ns;
+  const std::int64_t jitter_ns = time_ns(database, message, "GenMsgJitter");
+  stream.jitter_ns = jitter_ns > 0 ? jitter_ns : assumptions.jitter_ns;
+  stream.length = message.fd ? wire::worst_case_fd_length(message.size, message.extended,
+                                                          switches_bit_rate(database, message))
+                             : wire::worst_case_length(message.size, message.extended);
+  return stream;
+}
+
+}  // namespace
+
+Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assumptions& assumptions,
+                                       const wire::BitRates& rates) {
+  std::vector<Stream> streams;
+  for (const dbc::Message& message : database.messages) {
+    const Stream& stream = streams.emplace_back(stream_of(database, message, assumptions));
+    if (stream.length.data > 0 && rates.data == 0) {
+      return failure(
+          fmt::format("message {} is CAN FD and switches the bit rate, expected --data-bitrate or the DBC's "
+                      "BaudrateCANFD",
+                      message.name));
+    }
+  }
+  if (streams.empty()) return failure("no messages in the DBC, expected one at least");
+  std::ranges::sort(streams, {}, [](const Stream& s) { return wire::arbitration_rank(s.id, s.extended); });
+  return streams;
+}
+
+Result<wire::BitRates> bit_rates(const dbc::Database& database, const wire::BitRates& given) {
+  const auto network = [&database](std::string_view attribute) {
+    return std::llround(
+        number(dbc::find_attribute(database, database.attributes, dbc::Owner::network, attribute)));
+  };
+  const wire::BitRates rates{.nominal = given.nominal > 0 ? given.nominal : network("Baudrate"),
+                             .data = given.data > 0 ? given.data : network("BaudrateCANFD")};
+  if (rates.nominal <= 0) return failure("no bit rate, expected --bitrate or the DBC's attribute Baudrate");
+  return rates;
+}
+
+}  // namespace canhil::schedulability

@@ -1,0 +1,32 @@
+// What the analysis found, as a table for people and as JSON for programs.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "bench/schedulability/analysis.hpp"
+
+namespace canhil::schedulability {
+
+/// What was asked, and what came out; responses[i] is that of streams[i].
+struct Analysis {
+  std::string file;
+  Bus bus;
+  std::vector<Stream> streams;
+  std::vector<Response> responses;
+};
+
+/// Analyses the streams, which are sorted by priority.
+Analysis analyse(std::string file, std::vector<Stream> streams, const Bus& bus);
+
+/// True if every message meets its deadline.
+bool schedulable(const Analysis& analysis);
+
+/// A line each message by priority, times in ms; then the utilisation, what was taken for granted, and the
+/// verdict.
+std::string table(const Analysis& analysis);
+
+/// One JSON object, times in s; null where there is no value. docs/schedulability.md names the keys.
+std::string json(const Analysis& analysis);
+
+}  // namespace canhil::schedulability

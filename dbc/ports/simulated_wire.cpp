@@ -1,0 +1,227 @@
+#include "dbc/ports/simulated_wire.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "dbc/wire/arbitration.hpp"
+
+namespace canhil {
+namespace {
+
+// ISO 11898-1:2015, 12.1.4: the counters and what they lead to.
+constexpr int error_passive_above = 127;
+constexpr int bus_off_above = 255;
+constexpr int transmit_error = 8;
+constexpr int receive_error = 1;
+constexpr int first_to_notice = 8;  // a dominant bit follows its own error flag
+constexpr int receive_errors_after_success = 119;
+constexpr std::int64_t recovery_runs = 128;
+constexpr std::int64_t recessive_run_bits = 11;
+
+constexpr std::int64_t intermission_bits = 3;
+constexpr std::int64_t delimiter_bits = 8;
+constexpr std::int64_t suspend_bits = 8;
+constexpr std::int64_t after_acknowledgement_bits = 1 + 7 + intermission_bits;  // delimiter, end of frame
+
+bool is_passive(int tec, int rec) { return std::max(tec, rec) > error_passive_above; }
+
+}  // namespace
+
+SimulatedWire::SimulatedWire(const wire::BitRates& rates, std::vector<WireNode> nodes, Disturb disturb)
+    : rates_(rates),
+      bit_ns_(wire::duration_ns({.nominal = 1}, rates)),
+      disturb_(std::move(disturb)),
+      nodes_(nodes.size()) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) nodes_[i].setup = nodes[i];
+}
+
+std::size_t SimulatedWire::add_node(const WireNode& setup) {
+  nodes_.push_back({.setup = setup});
+  return nodes_.size() - 1;
+}
+
+bool SimulatedWire::queue(std::size_t node, const Frame& frame, std::int64_t t_ns) {
+  idle_until(t_ns);
+  Node& sender = nodes_[node];
+  if (sender.off || sender.queue.size() >= sender.setup.depth) return false;
+  sender.queue.push_back(
+      {.frame = frame, .rank = wire::arbitration_rank(frame.id, frame.extended), .queued_ns = t_ns});
+  return true;
+}
+
+std::optional<Carried> SimulatedWire::next(std::int64_t until_ns) {
+  for (;;) {
+    if (running_) {
+      if (running_->over_ns > until_ns) return std::nullopt;
+      if (!running_->error) return succeed();
+      fail();
+      continue;
+    }
+    const std::int64_t start_ns = first_start_ns();
+    if (start_ns == never || until_ns < start_ns + bit_ns_) {  // someone may still join
+      idle_until(until_ns);
+      return std::nullopt;
+    }
+    idle_until(start_ns);
+    if (const auto from = winner(start_ns)) start(*from, start_ns);
+  }
+}
+
+std::int64_t SimulatedWire::next_event_ns() const {
+  if (running_) return running_->over_ns;
+  const std::int64_t start_ns = first_start_ns();
+  return start_ns == never ? never : start_ns + bit_ns_;
+}
+
+NodeState SimulatedWire::state(std::size_t node) const {
+  const Node& n = nodes_[node];
+  if (n.off) return NodeState::bus_off;
+  return is_passive(n.tec, n.rec) ? NodeState::error_passive : NodeState::error_active;
+}
+
+/// When the first node that has a frame may begin to send it.
+std::int64_t SimulatedWire::first_start_ns() const {
+  std::int64_t first = never;
+  for (const Node& node : nodes_) {
+    if (node.queue.empty()) continue;
+    first = std::min(first, std::max({free_ns_, node.silent_until_ns, node.queue.front().queued_ns}));
+  }
+  return first;
+}
+
+/// The frame that wins the arbitration among all that are ready before the first bit is over.
+std::optional<SimulatedWire::Candidate> SimulatedWire::winner(std::int64_t start_ns) const {
+  const std::int64_t closed_ns = start_ns + bit_ns_;
+  std::optional<Candidate> best;
+  std::uint32_t best_rank = 0;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    if (node.silent_until_ns >= closed_ns) continue;
+    const std::size_t in_reach = node.setup.order == QueueOrder::fifo
+                                     ? std::min<std::size_t>(1, node.queue.size())
+                                     : node.queue.size();
+    for (std::size_t i = 0; i < in_reach && node.queue[i].queued_ns < closed_ns; ++i) {
+      if (best && node.queue[i].rank >= best_rank) continue;
+      best = Candidate{.node = n, .position = i};
+      best_rank = node.queue[i].rank;
+    }
+  }
+  return best;
+}
+
+/// True if another node is on the bus to acknowledge.
+bool SimulatedWire::acknowledged(std::size_t sender) const {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    if (n != sender && !nodes_[n].off) return true;
+  }
+  return false;
+}
+
+/// The error that hits the attempt, if one does: no earlier than its second bit, no later than its end.
+std::optional<WireError> SimulatedWire::error_of(const Attempt& attempt, bool acknowledged) {
+  const std::int64_t length_ns = attempt.end_ns - attempt.start_ns;
+  std::optional<WireError> error = disturb_ ? disturb_(attempt) : std::nullopt;
+  if (error && error->at && state(*error->at) != NodeState::error_active) {
+    if (!nodes_[*error->at].off) nodes_[*error->at].rec += receive_error;
+    error.reset();  // the flag of an error passive receiver is recessive: nobody sees it
+  }
+  if (error) {
+    error->after_ns = std::clamp(error->after_ns, bit_ns_, length_ns - intermission_bits * bit_ns_);
+    error->flag_bits = std::clamp(error->flag_bits, 6, 12);
+  } else if (!acknowledged) {
+    error = WireError{.after_ns = length_ns - after_acknowledgement_bits * bit_ns_};
+  }
+  return error;
+}
+
+void SimulatedWire::start(Candidate from, std::int64_t start_ns) {
+  Pending& pending = nodes_[from.node].queue[from.position];
+  const std::int64_t end_ns = start_ns + wire::duration_ns(wire::bit_length(pending.frame), rates_);
+  Running running{.from = from,
+                  .attempt = {.node = from.node,
+                              .frame = pending.frame,
+                              .number = ++pending.attempts,
+                              .start_ns = start_ns,
+                              .end_ns = end_ns},
+                  .acknowledged = acknowledged(from.node),
+                  .over_ns = end_ns};
+  running.error = error_of(running.attempt, running.acknowledged);
+  if (running.error) {
+    running.over_ns = start_ns + running.error->after_ns +
+                      (running.error->flag_bits + delimiter_bits + intermission_bits) * bit_ns_;
+  }
+  running_ = running;
+}
+
+Carried SimulatedWire::succeed() {
+  const auto [node, position] = running_->from;
+  Node& sender = nodes_[node];
+  const auto at = sender.queue.begin() + static_cast<std::ptrdiff_t>(position);
+  const Carried carried{.node = node,
+                        .frame = at->frame,
+                        .attempts = at->attempts,
+                        .queued_ns = at->queued_ns,
+                        .start_ns = running_->attempt.start_ns,
+                        .delivered_ns = running_->over_ns - intermission_bits * bit_ns_,
+                        .end_ns = running_->over_ns};
+  sender.queue.erase(at);
+  sender.tec = std::max(sender.tec - 1, 0);
+  for (Node& other : nodes_) {
+    if (&other == &sender || other.off) continue;
+    other.rec = other.rec > error_passive_above ? receive_errors_after_success : std::max(other.rec - 1, 0);
+  }
+  ++counters_.frames;
+  finish();
+  return carried;
+}
+
+/// An error frame: the frame stays in its queue for the next attempt.
+void SimulatedWire::fail() {
+  Node& sender = nodes_[running_->from.node];
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Node& other = nodes_[n];
+    if (&other == &sender || other.off) continue;
+    other.rec += receive_error + (running_->error->at == n ? first_to_notice : 0);
+  }
+  // Alone on the bus an error passive sender counts no further: it must not go off for lack of company.
+  if (running_->acknowledged || !is_passive(sender.tec, sender.rec)) sender.tec += transmit_error;
+  ++counters_.error_frames;
+  finish();
+  if (sender.tec > bus_off_above) go_off(sender);
+}
+
+void SimulatedWire::go_off(Node& node) {
+  node.off = true;
+  node.recessive_runs = 0;
+  counters_.dropped += node.queue.size();
+  node.queue.clear();
+}
+
+void SimulatedWire::finish() {
+  Node& sender = nodes_[running_->from.node];
+  free_ns_ = running_->over_ns;
+  idle_ns_ = free_ns_;
+  counters_.busy_ns += running_->over_ns - running_->attempt.start_ns;
+  if (is_passive(sender.tec, sender.rec)) sender.silent_until_ns = free_ns_ + suspend_bits * bit_ns_;
+  running_.reset();
+  see_recessive(1);  // a delimiter, the end of frame or the rest of an error frame, the intermission
+}
+
+/// Counts the recessive bits of an idle bus.
+void SimulatedWire::idle_until(std::int64_t t_ns) {
+  if (running_ || t_ns <= idle_ns_) return;
+  const std::int64_t runs = (t_ns - idle_ns_) / (recessive_run_bits * bit_ns_);
+  idle_ns_ += runs * recessive_run_bits * bit_ns_;
+  see_recessive(runs);
+}
+
+/// A node that is off comes back after 128 times 11 recessive bits.
+void SimulatedWire::see_recessive(std::int64_t runs) {
+  for (Node& node : nodes_) {
+    if (!node.off) continue;
+    node.recessive_runs += std::min(runs, recovery_runs);
+    if (node.recessive_runs >= recovery_runs) node = Node{.setup = node.setup};
+  }
+}
+
+}  // namespace canhil

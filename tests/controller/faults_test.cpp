@@ -1,0 +1,193 @@
+// What goes wrong on a wire, in a controller, with an interface: told, survived where it can be, never a
+// hang. The wire is that of wire/canhil_wire.c; the driver, the kernel and the programs do not know it from a
+// real one.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <functional>
+#include <thread>
+
+#include "messages/canhil.hpp"
+#include "tests/controller/guest.hpp"
+#include "tests/vcan/interface.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Outcome {
+  Ended ended;
+  nlohmann::json report;
+  std::string target_said;
+  [[nodiscard]] std::vector<std::string> incidents() const {
+    std::vector<std::string> events;
+    for (const auto& incident : report["bus"]["incidents"]) events.push_back(incident["event"]);
+    return events;
+  }
+};
+
+/// A run in real time; once it is under way, the trouble.
+Outcome run_with(const std::function<void()>& trouble, const std::string& name = "transfer_alignment_quick") {
+  const std::string json = scratch("fault.json");
+  Outcome outcome;
+  const Target target;
+  std::thread bench([&] { outcome.ended = bench_run(fmt::format("{} --json {}", scenario(name), json)); });
+  await_syncs(50);
+  trouble();
+  bench.join();
+  EXPECT_NE(outcome.ended.code, 2) << outcome.ended.err;
+  EXPECT_NE(outcome.ended.code, 124) << "it hung";
+  outcome.report = read_json(json);
+  outcome.target_said = target.said();
+  return outcome;
+}
+
+TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
+  set_up_on_wire();
+  const Outcome outcome = run_with([] {
+    set_interface("can1", false);
+    ::usleep(200'000);
+    set_interface("can1", true);
+  });
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;
+  EXPECT_THAT(outcome.incidents(), testing::IsSupersetOf({"down", "up"}));
+  EXPECT_EQ(outcome.report["bus"]["interface_down"], 1);
+  EXPECT_EQ(outcome_of(outcome.report, "bus_errors"), "fail");
+  EXPECT_EQ(outcome.ended.code, 1);
+}
+
+TEST(Interface, DownForGoodOnTheBenchsSideEndsTheRun) {
+  set_up_on_wire();
+  const Outcome outcome = run_with([] { set_interface("can1", false); });
+  EXPECT_FALSE(outcome.report["ending"]["completed"]);
+  EXPECT_THAT(outcome.ended.out, HasSubstr("fail: the interface is down since t="));
+  EXPECT_EQ(outcome.ended.code, 1);
+}
+
+TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndTold) {
+  set_up_on_wire();
+  const Outcome outcome = run_with([] {
+    set_interface("can0", false);
+    ::usleep(100'000);
+    set_interface("can0", true);
+  });
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;
+  EXPECT_THAT(outcome.target_said,
+              HasSubstr("hil-target: can0: the interface is down or removed; waiting for it"));
+  EXPECT_THAT(outcome.target_said, HasSubstr("hil-target: can0: up again after "));
+  EXPECT_THAT(outcome.incidents(), Contains("error passive"))
+      << "nobody acknowledged the bench's frames meanwhile";
+}
+
+// With nobody to acknowledge, the bench's controller tries its first frame for ever and its queue fills.
+TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
+  set_up_on_wire();
+  const Outcome outcome = run_with([] { set_interface("can0", false); });
+  EXPECT_FALSE(outcome.report["ending"]["completed"]);
+  EXPECT_THAT(outcome.ended.out, HasSubstr("fail: the bus took no frame since t="));
+  EXPECT_THAT(outcome.incidents(), Contains("error passive"));
+  EXPECT_EQ(outcome.ended.code, 1);
+}
+
+TEST(Interface, AdapterPulledAndPluggedInAgainOnTheBenchsSideIsSurvived) {
+  set_up_on_wire();
+  run("rmmod canhil_wire");  // it does not follow a controller that goes
+  const Outcome outcome = run_with([] {
+    run("echo 1 >/sys/class/net/can1/device/remove && echo 1 >/sys/bus/pci/rescan && "
+        "ip link set can1 up type can bitrate 1000000");
+  });
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;
+  EXPECT_EQ(outcome.report["bus"]["interface_down"], 1);
+  EXPECT_EQ(outcome_of(outcome.report, "bus_errors"), "fail");
+}
+
+TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndTold) {
+  set_up_on_wire("", "restart-ms 50");
+  const Outcome outcome = run_with([] {
+    wire("can1 broken");
+    await_carrier("can1", false);
+    wire("can1 sound");
+  });
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;
+  EXPECT_THAT(outcome.incidents(), testing::IsSupersetOf({"error passive", "bus off", "restarted"}));
+  EXPECT_GE(outcome.report["bus"]["bus_off"], 1);
+  EXPECT_EQ(outcome.report["bus"]["bus_off"], outcome.report["bus"]["restarted"]);
+  EXPECT_EQ(outcome_of(outcome.report, "bus_errors"), "fail");
+  EXPECT_EQ(outcome.ended.code, 1);
+  EXPECT_GE(outcome.report["target_counters"]["frames_lost"], 1)
+      << "the frame that failed is lost, and counted";
+}
+
+TEST(BusOff, OnTheBenchsSideWithoutRestartEndsTheRun) {
+  set_up_on_wire();
+  const Outcome outcome = run_with([] { wire("can1 broken"); }, "transfer_alignment");
+  EXPECT_FALSE(outcome.report["ending"]["completed"]);
+  EXPECT_THAT(outcome.ended.out, HasSubstr("fail: the bus is off since t="));
+  EXPECT_EQ(outcome.ended.code, 1);
+}
+
+TEST(BusOff, OnTheTargetsSideWithRestartIsSurvivedAndTold) {
+  set_up_on_wire("restart-ms 50", "");
+  const Outcome outcome = run_with([] {
+    wire("can0 broken");
+    await_carrier("can0", false);
+    wire("can0 sound");
+  });
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;
+  EXPECT_THAT(outcome.target_said, HasSubstr("hil-target: can0: "));
+  EXPECT_THAT(outcome.target_said, HasSubstr("bus off "));
+  EXPECT_THAT(outcome.target_said, HasSubstr("restarted "));
+}
+
+TEST(BusErrors, AreDecodedAndCounted) {
+  set_up_on_wire("", "berr-reporting on");
+  const Outcome outcome = run_with([] {
+    wire("can1 raise 40 0 0 b 0 0");    // arbitration lost in bit 11
+    wire("can1 raise 80 0 8b 0 8 0");   // a stuff error
+    wire("can1 raise 04 40 0 0 60 0");  // error warning, tx 96
+    wire("can1 raise 04 0 0 0 0 0");    // error active
+  });
+  const auto& bus = outcome.report["bus"];
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;
+  EXPECT_EQ(bus["lost_arbitration"], 1);
+  EXPECT_EQ(bus["bus_error"], 1);
+  EXPECT_EQ(bus["protocol"], 1);
+  EXPECT_EQ(bus["error_warning"], 1);
+  EXPECT_EQ(bus["tx_counter_max"], 96);
+  EXPECT_EQ(bus["error_frames"], 4) << bus;
+  EXPECT_EQ(outcome.report["target_counters"]["frames_lost"], 0);
+}
+
+void expect_clear_refusal(const Ended& ended) {
+  EXPECT_EQ(ended.code, 2) << ended.out;
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("target on 'can1': no answer within 5 s while waiting for its heartbeat"));
+  EXPECT_THAT(ended.err, HasSubstr("; can1 is error-passive, error counters tx 0 rx 128: "));
+  EXPECT_THAT(ended.err, HasSubstr("with the same bit rate"));
+  EXPECT_EQ(ended.out, "");
+}
+
+TEST(Bitrates, ThatDifferAreAConfigurationErrorNotAHang) {
+  set_up_on_wire();
+  set_up("bitrate 500000", "bitrate 1000000");
+  const Target target;
+  expect_clear_refusal(bench_run(scenario("transfer_alignment_quick")));
+}
+
+TEST(Bitrates, ThatDifferDoNotHoldUpTheNextRun) {
+  set_up_on_wire();
+  set_up("bitrate 500000 restart-ms 100", "bitrate 1000000 restart-ms 100");
+  const Target target;
+  expect_clear_refusal(bench_run(scenario("transfer_alignment_quick") + " --lockstep"));
+  run("ip link set can1 down && ip link set can1 up type can bitrate 500000");
+  const Ended ended = bench_run(scenario("transfer_alignment_quick") + " --lockstep");
+  EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
+  EXPECT_THAT(target.said(), HasSubstr("bus off ")) << "the target has been through it";
+}
+
+}  // namespace
+}  // namespace canhil::test

@@ -1,0 +1,109 @@
+// hil-bench doctor as a user meets it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::string some_bus() { return bus() == "local:" ? "local:doctor" : bus(); }
+
+nlohmann::json line_of(const nlohmann::json& page, const std::string& subject) {
+  for (const auto& line : page["lines"]) {
+    if (line["subject"] == subject) return line;
+  }
+  return nullptr;
+}
+
+// A machine under load may be bad at timing: the code is to say what the lines say.
+void expect_code_of_its_lines(const Ended& ended, const nlohmann::json& page) {
+  const bool bad =
+      std::ranges::any_of(page["lines"], [](const auto& line) { return line["grade"] == "bad"; });
+  EXPECT_EQ(ended.code, bad ? 1 : 0);
+  EXPECT_EQ(page["verdict"] == "bad", bad);
+}
+
+TEST(Doctor, ExaminesABusAndItsMachine) {
+  const std::string report = scratch("doctor.json");
+  const Ended ended = hil_bench(
+      fmt::format("doctor --bus {0} --loop {0} --frames 200 --seconds 1 --json {1}", some_bus(), report));
+  EXPECT_EQ(ended.err, "");
+  const nlohmann::json page = read_json(report);
+  expect_code_of_its_lines(ended, page);
+  EXPECT_EQ(line_of(page, "interface")["grade"], "good");
+  for (const char* subject : {"kernel", "real time", "frequency", "CPUs", "timer jitter", "target"})
+    EXPECT_FALSE(line_of(page, subject).is_null()) << subject;
+  EXPECT_GE(page["jitter_s"]["count"], 1);
+  EXPECT_LE(page["jitter_s"]["count"], 1000);
+  EXPECT_EQ(page["loop"]["sent"], 200);
+  EXPECT_EQ(page["loop"]["lost"], 0);
+  EXPECT_EQ(page["loop"]["round_trip_s"]["count"], 200);
+  for (const auto& line : page["lines"]) {
+    EXPECT_THAT(ended.out, HasSubstr(line["found"].get<std::string>()));
+    EXPECT_THAT(ended.out, HasSubstr(line["remedy"].get<std::string>()));
+  }
+  EXPECT_TRUE(ended.out.ends_with(fmt::format("\n{}\n", page["verdict"].get<std::string>()))) << ended.out;
+}
+
+TEST(Doctor, FindsATargetOnTheBus) {
+  const std::string host =
+      bus() == "local:" ? fmt::format("{} bus {} >{} & hub=$!;", HIL_BENCH, some_bus(), scratch("bus.out"))
+                        : "";
+  const Ended ended = shell(
+      fmt::format("{} sleep 0.3; {} --bus {} & target=$!; {} doctor --bus {} --seconds 1 --json -; code=$?; "
+                  "kill $target $hub; exit $code",
+                  host, HIL_TARGET, some_bus(), HIL_BENCH, some_bus()));
+  const nlohmann::json page = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(line_of(page, "target")["grade"], "good") << page;
+  EXPECT_THAT(line_of(page, "target")["found"].get<std::string>(), HasSubstr("idle, DBC hash"));
+}
+
+TEST(Doctor, AnInterfaceThatIsNotThereIsBadAndTheRestIsStillTold) {
+  const Ended ended = hil_bench("doctor --bus nocan7 --loop nocan8 --seconds 1 --json -");
+  EXPECT_EQ(ended.code, 1);
+  const nlohmann::json page = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(line_of(page, "interface")["grade"], "bad");
+  EXPECT_THAT(line_of(page, "interface")["found"].get<std::string>(), HasSubstr("nocan7"));
+  EXPECT_EQ(line_of(page, "loop")["grade"], "bad");
+  EXPECT_FALSE(line_of(page, "timer jitter").is_null());
+  EXPECT_FALSE(page.contains("loop"));
+}
+
+TEST(Doctor, WithoutRightsItSaysHowToGetThemAndMeasuresAllTheSame) {
+  const std::string drop = shell("id -u").out == "0\n" ? "setpriv --bounding-set -sys_nice,-ipc_lock " : "";
+  const Ended ended = shell(fmt::format(
+      "prlimit --rtprio=0 --memlock=65536 {}{} doctor --bus local:doctor-rights --seconds 1 --json -", drop,
+      HIL_BENCH));
+  const nlohmann::json page = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(line_of(page, "real time")["grade"], "weak");
+  EXPECT_THAT(line_of(page, "real time")["remedy"].get<std::string>(),
+              HasSubstr("setcap cap_sys_nice,cap_ipc_lock+ep"));
+  EXPECT_THAT(line_of(page, "timer jitter")["found"].get<std::string>(), HasSubstr("SCHED_OTHER"));
+}
+
+TEST(Doctor, WhatIsNoBusIsOneLine) {
+  const auto refused = [](const std::string& arguments, const std::string& what) {
+    const Ended ended = hil_bench("doctor " + arguments);
+    EXPECT_EQ(ended.code, 2) << ended.out;
+    EXPECT_EQ(ended.out, "");
+    EXPECT_THAT(ended.err, HasSubstr(what));
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  };
+  refused("", "--bus is required");
+  refused("--bus a/b", "--bus 'a/b': expected a CAN interface such as can0, or local:NAME");
+  refused("--bus local:", "expected local:NAME");
+  refused("--bus can0 --loop log:x", "--loop 'log:x': expected a CAN interface");
+  refused("--bus can0 --seconds 0", "is not a whole number from 1 to 86400");
+  refused("--bus can0 --cpu 1023", "--cpu 1023: this process may not run there");
+  refused("--bus can0 --json /no/such/folder/x.json", "/no/such/folder/x.json");
+}
+
+}  // namespace
+}  // namespace canhil::test

@@ -1,0 +1,206 @@
+#include "dbc/ports/simulated_wire.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace canhil {
+namespace {
+
+using testing::ElementsAre;
+
+constexpr wire::BitRates rates{.nominal = 500'000, .data = 2'000'000};
+constexpr std::int64_t bit_ns = 2'000;
+constexpr std::int64_t long_enough = 1'000'000'000'000;
+
+Frame frame(std::uint32_t id, std::uint8_t size = 8) { return {.id = id, .size = size}; }
+
+std::int64_t duration_ns(const Frame& f) { return wire::duration_ns(wire::bit_length(f), rates); }
+
+/// Ids in the order in which they were sent.
+std::vector<std::uint32_t> sent(SimulatedWire& wire) {
+  std::vector<std::uint32_t> ids;
+  while (const auto carried = wire.next(long_enough)) ids.push_back(carried->frame.id);
+  return ids;
+}
+
+/// Every attempt of frames with this id fails, the first `times` times.
+Disturb failing(std::uint32_t id, int times, WireError error = {.after_ns = 20 * bit_ns}) {
+  return [id, times, error, n = 0](const Attempt& attempt) mutable {
+    return attempt.frame.id == id && n++ < times ? std::optional(error) : std::nullopt;
+  };
+}
+
+TEST(SimulatedWire, AFrameTakesItsExactLength) {
+  SimulatedWire wire(rates, std::vector<WireNode>(2));
+  ASSERT_TRUE(wire.queue(0, frame(0x123), 1'000));
+  const auto carried = wire.next(long_enough);
+  ASSERT_TRUE(carried);
+  EXPECT_EQ(carried->start_ns, 1'000);
+  EXPECT_EQ(carried->end_ns, 1'000 + duration_ns(frame(0x123)));
+  EXPECT_EQ(carried->delivered_ns, carried->end_ns - 3 * bit_ns);
+  EXPECT_EQ(wire.counters().busy_ns, duration_ns(frame(0x123)));
+}
+
+TEST(SimulatedWire, FdFramesSwitchTheBitRate) {
+  Frame fd = frame(0x123, 64);
+  fd.fd = fd.brs = true;
+  SimulatedWire wire(rates, std::vector<WireNode>(2));
+  wire.queue(0, fd, 0);
+  const wire::BitLength length = wire::bit_length(fd);
+  EXPECT_EQ(wire.next(long_enough)->end_ns, length.nominal * 2'000 + length.data * 500);
+}
+
+TEST(SimulatedWire, TheLowestIdWinsAmongTheNodesWhateverTheirOrder) {
+  SimulatedWire wire(rates, std::vector<WireNode>(3));
+  wire.queue(0, frame(0x300), 0);
+  wire.queue(1, frame(0x200), 0);
+  wire.queue(2, frame(0x100), 0);
+  EXPECT_THAT(sent(wire), ElementsAre(0x100, 0x200, 0x300));
+}
+
+TEST(SimulatedWire, AFifoHoldsUrgentFramesBack) {
+  SimulatedWire wire(rates, {{.order = QueueOrder::fifo}, {.order = QueueOrder::priority}});
+  for (const std::uint32_t id : {0x700, 0x100}) wire.queue(0, frame(id), 0);
+  for (const std::uint32_t id : {0x600, 0x200}) wire.queue(1, frame(id), 0);
+  EXPECT_THAT(sent(wire), ElementsAre(0x200, 0x600, 0x700, 0x100));
+}
+
+TEST(SimulatedWire, AFrameOnTheWireIsNotInterrupted) {
+  SimulatedWire wire(rates, std::vector<WireNode>(2));
+  wire.queue(0, frame(0x700), 0);
+  wire.queue(1, frame(0x100), bit_ns);  // the first bit is over
+  EXPECT_THAT(sent(wire), ElementsAre(0x700, 0x100));
+}
+
+TEST(SimulatedWire, TheArbitrationIsOpenForOneBit) {
+  SimulatedWire wire(rates, std::vector<WireNode>(2));
+  wire.queue(0, frame(0x700), 0);
+  wire.queue(1, frame(0x100), bit_ns - 1);
+  EXPECT_THAT(sent(wire), ElementsAre(0x100, 0x700));
+}
+
+TEST(SimulatedWire, SaysNothingBeforeItCanKnow) {
+  SimulatedWire wire(rates, std::vector<WireNode>(2));
+  EXPECT_EQ(wire.next_event_ns(), SimulatedWire::never);
+  wire.queue(0, frame(0x700), 0);
+  EXPECT_EQ(wire.next_event_ns(), bit_ns);
+  EXPECT_FALSE(wire.next(bit_ns));
+  EXPECT_EQ(wire.next_event_ns(), duration_ns(frame(0x700)));
+  EXPECT_FALSE(wire.next(wire.next_event_ns() - 1));
+  EXPECT_TRUE(wire.next(wire.next_event_ns()));
+  EXPECT_EQ(wire.next_event_ns(), SimulatedWire::never);
+}
+
+TEST(SimulatedWire, AQueueHasAnEnd) {
+  SimulatedWire wire(rates, {{.depth = 2}, {}});
+  EXPECT_TRUE(wire.queue(0, frame(1), 0));
+  EXPECT_TRUE(wire.queue(0, frame(2), 0));
+  EXPECT_FALSE(wire.queue(0, frame(3), 0));
+  ASSERT_TRUE(wire.next(long_enough));
+  EXPECT_TRUE(wire.queue(0, frame(3), long_enough));
+}
+
+TEST(SimulatedWire, AnErrorFrameThenTheFrameAgain) {
+  SimulatedWire wire(rates, std::vector<WireNode>(3), failing(0x123, 1));
+  wire.queue(0, frame(0x123), 0);
+  const auto carried = wire.next(long_enough);
+  ASSERT_TRUE(carried);
+  EXPECT_EQ(carried->attempts, 2);
+  EXPECT_EQ(carried->start_ns, (20 + 6 + 8 + 3) * bit_ns);
+  EXPECT_EQ(wire.counters().error_frames, 1);
+  EXPECT_EQ(wire.transmit_errors(0), 8 - 1);
+  EXPECT_EQ(wire.receive_errors(1), 0);  // 1 for the error, less 1 for the success
+}
+
+TEST(SimulatedWire, AfterAnErrorTheArbitrationIsOpenAgain) {
+  SimulatedWire wire(rates, std::vector<WireNode>(2), failing(0x700, 1));
+  wire.queue(0, frame(0x700), 0);
+  wire.queue(1, frame(0x100), 10 * bit_ns);
+  EXPECT_THAT(sent(wire), ElementsAre(0x100, 0x700));
+}
+
+TEST(SimulatedWire, TheReceiverThatNoticesFirstCountsMore) {
+  SimulatedWire wire(rates, std::vector<WireNode>(3), failing(0x123, 3, {.after_ns = 20 * bit_ns, .at = 1}));
+  wire.queue(0, frame(0x123), 0);
+  ASSERT_TRUE(wire.next(long_enough));
+  EXPECT_EQ(wire.receive_errors(1), 3 * 9 - 1);
+  EXPECT_EQ(wire.receive_errors(2), 3 - 1);
+}
+
+TEST(SimulatedWire, AnErrorPassiveReceiverDisturbsNobody) {
+  SimulatedWire wire(rates, std::vector<WireNode>(3),
+                     failing(0x123, 1000, {.after_ns = 20 * bit_ns, .at = 1}));
+  wire.queue(0, frame(0x123), 0);
+  const auto carried = wire.next(long_enough);
+  ASSERT_TRUE(carried);
+  EXPECT_EQ(carried->attempts, 16);        // 15 times 9 are 135, above 127
+  EXPECT_EQ(wire.receive_errors(1), 119);  // passive nodes start from here after a frame without error
+  EXPECT_EQ(wire.state(1), NodeState::error_active);
+}
+
+TEST(SimulatedWire, AfterSixteenErrorsASenderIsPassiveAndLetsOthersGoFirst) {
+  SimulatedWire wire(rates, std::vector<WireNode>(2), failing(0x100, 16));
+  wire.queue(0, frame(0x100), 0);
+  wire.queue(0, frame(0x101), 0);
+  const std::int64_t error_ns = (20 + 6 + 8 + 3) * bit_ns;
+  const auto first = wire.next(long_enough);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->start_ns, 16 * error_ns + 8 * bit_ns);  // suspended for 8 bits
+  EXPECT_EQ(wire.transmit_errors(0), 127);
+  EXPECT_EQ(wire.state(0), NodeState::error_active);  // that success was the one it took
+  EXPECT_EQ(wire.next(long_enough)->start_ns, first->end_ns);
+}
+
+TEST(SimulatedWire, WhileASenderIsSuspendedALessUrgentFrameGoes) {
+  SimulatedWire wire(rates, std::vector<WireNode>(2), failing(0x100, 16));
+  wire.queue(0, frame(0x100), 0);
+  const std::int64_t passive_ns = 16 * (20 + 6 + 8 + 3) * bit_ns;
+  ASSERT_FALSE(wire.next(passive_ns));
+  EXPECT_EQ(wire.state(0), NodeState::error_passive);
+  wire.queue(1, frame(0x700), passive_ns + bit_ns);
+  EXPECT_THAT(sent(wire), ElementsAre(0x700, 0x100));
+}
+
+TEST(SimulatedWire, After32ErrorsOffTheBusAndBackAfter128RecessiveRuns) {
+  SimulatedWire wire(rates, std::vector<WireNode>(3), failing(0x100, 1000));
+  wire.queue(0, frame(0x100), 0);
+  wire.queue(0, frame(0x101), 0);
+  EXPECT_FALSE(wire.next(3'000'000));
+  EXPECT_EQ(wire.counters().error_frames, 32);
+  EXPECT_EQ(wire.state(0), NodeState::bus_off);
+  EXPECT_EQ(wire.counters().dropped, 2);
+  // 16 error frames of 37 bits, 16 more after which it was silent for 8 bits, but not after the last.
+  const std::int64_t off_ns = (32 * 37 + 16 * 8) * bit_ns;
+  const std::int64_t back_ns = off_ns + 128 * 11 * bit_ns;
+  EXPECT_FALSE(wire.queue(0, frame(0x200), back_ns - bit_ns));
+  EXPECT_TRUE(wire.queue(0, frame(0x200), back_ns));
+  EXPECT_EQ(wire.state(0), NodeState::error_active);
+  EXPECT_EQ(wire.transmit_errors(0), 0);
+  EXPECT_THAT(sent(wire), ElementsAre(0x200));
+}
+
+TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
+  SimulatedWire wire(rates, {{}, {.depth = 200}, {}}, failing(0x100, 32));
+  wire.queue(0, frame(0x100), 0);
+  for (int i = 0; i < 200; ++i) wire.queue(1, frame(0x700), bit_ns);
+  // The other node's frames go where the passive sender is silent, and all the time once it is off.
+  while (wire.state(0) != NodeState::bus_off) ASSERT_TRUE(wire.next(long_enough));
+  for (int i = 0; i < 126; ++i) ASSERT_TRUE(wire.next(long_enough));
+  EXPECT_EQ(wire.state(0), NodeState::bus_off);
+  ASSERT_TRUE(wire.next(long_enough));  // with the one that went as it was off already: 128
+  EXPECT_EQ(wire.state(0), NodeState::error_active);
+}
+
+TEST(SimulatedWire, AloneOnTheBusASenderGoesPassiveButNeverOff) {
+  SimulatedWire wire(rates, std::vector<WireNode>(1));
+  wire.queue(0, frame(0x100), 0);
+  EXPECT_FALSE(wire.next(1'000'000'000));
+  EXPECT_EQ(wire.state(0), NodeState::error_passive);
+  EXPECT_EQ(wire.transmit_errors(0), 128);
+  EXPECT_GT(wire.counters().error_frames, 1000);
+  EXPECT_EQ(wire.counters().frames, 0);
+}
+
+}  // namespace
+}  // namespace canhil
