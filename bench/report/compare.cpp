@@ -91,7 +91,8 @@ class Comparer {
   }
 
   [[nodiscard]] std::optional<std::string> not_comparable() const {
-    for (const auto& [key, what] : {std::pair("scenario_hash", "scenario"), std::pair("clock", "clock")}) {
+    for (const auto& [key, what] : {std::pair("scenario_hash", "scenario"), std::pair("contract", "contract"),
+                                    std::pair("clock", "clock")}) {
       const Json &of_a = a_.at("provenance").at(key), &of_b = b_.at("provenance").at(key);
       if (of_a != of_b) return fmt::format("the {} differs: {} and {}", what, of_a.dump(), of_b.dump());
     }

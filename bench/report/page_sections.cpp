@@ -249,8 +249,11 @@ std::string bus_section(const Json& report) {
     plot.high.push_back(share.get<double>() * 100);
   }
   std::string out = "<section id=\"bus\"><h2>Bus</h2>\n<div class=\"grid\">\n";
+  const double data_bitrate = load.at("data_bitrate_bitps").get<double>();
   out += figure(
-      fmt::format("Load at {:g} kbit/s", load.at("bitrate_bitps").get<double>() / 1e3), svg(plot),
+      fmt::format("Load at {:g} kbit/s{}", load.at("bitrate_bitps").get<double>() / 1e3,
+                  data_bitrate > 0 ? fmt::format(", data {:g} kbit/s", data_bitrate / 1e3) : ""),
+      svg(plot),
       fmt::format("by {:g} s, from the exact length of every frame; the last is not a whole one", stretch_s));
   out += "</div>\n<h3>Lost and broken</h3>\n";
   std::vector<std::vector<std::string>> rows = incidents(report.at("bus"), "bus");

@@ -100,7 +100,7 @@ Json distribution(const std::vector<int>& sample_us) {
 Json report_of(const std::vector<int>& sample_us) {
   return {{"verdict", "pass"},
           {"reason", "1 checks passed"},
-          {"provenance", {{"scenario_hash", "1"}, {"clock", "real time"}}},
+          {"provenance", {{"scenario_hash", "1"}, {"contract", "classic"}, {"clock", "real time"}}},
           {"checks",
            Json::array({{{"name", "x"}, {"kind", "latency"}, {"outcome", "pass"}, {"measured", "5 ms"}}})},
           {"timing", {{"judged", true}, {"why_not", ""}}},
@@ -176,6 +176,9 @@ TEST(Compare, AnotherScenarioOrClockIsNotComparable) {
   const Json one = report_of(latencies_us(1, 200));
   Json other = one;
   other["provenance"]["scenario_hash"] = "2";
+  EXPECT_EQ(compared(one, other).outcome, Comparison::not_comparable);
+  other = one;
+  other["provenance"]["contract"] = "fd";
   EXPECT_EQ(compared(one, other).outcome, Comparison::not_comparable);
   other = one;
   other["provenance"]["clock"] = "lockstep";
