@@ -17,14 +17,14 @@ kernel=$("$here/kernel.sh") || exit 125
 
 dir=$(mktemp -d /var/tmp/canhil-controller.XXXXXX)
 qemu=0
-trap 'kill -KILL -- -$qemu 2>/dev/null; cp "$dir/console" /tmp/controller/console; rm -rf "$dir"' EXIT
+trap 'kill -KILL -- -$qemu 2>/dev/null; rm -rf "$dir"' EXIT
 trap 'exit 130' INT TERM HUP
 export -p >"$dir/environment"
 { printf 'cd %q && exec' "$PWD"; printf ' %q' "$@"; echo; } >"$dir/command"
 
-# The wire that can fail: the command loads it (insmod "$CANHIL_WIRE") if it wants it.
+# The wire that can fail (wire/canhil_wire.c): the command loads it (insmod "$CANHIL_WIRE") if it wants it.
 cp -r "$here/wire" "$dir/wire"
-make -C "$kernel/build" M="$dir/wire" modules >"$dir/make" 2>&1 ||
+env -u MAKEFLAGS -u ARCH -u CROSS_COMPILE make -C "$kernel/build" M="$dir/wire" modules >"$dir/make" 2>&1 ||
   { say "cannot build wire/canhil_wire.c: $(grep -m1 -iE 'error|not found' "$dir/make")"; exit 125; }
 echo "export CANHIL_WIRE=$dir/wire/canhil_wire.ko" >>"$dir/environment"
 
