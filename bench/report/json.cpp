@@ -126,6 +126,7 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                         {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
                         {"latency_stamps", summary.stamp_source},
                         {"period_overrides", period_overrides(scenario)}};
+  for (const auto& [node, bus] : run.options.bus_of) page["provenance"]["bus_of"][node] = bus;
   if (run.host) page["provenance"]["bench_process"] = object(*run.host, run.options.spin_ns);
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;

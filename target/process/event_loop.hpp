@@ -3,12 +3,14 @@
 
 #include <atomic>
 #include <string>
+#include <vector>
 
 #include "dbc/wire/result.hpp"
 
 namespace canhil::target {
 
-/// Serves a bus until `stop` is set or the bus is gone. Error: the bus cannot be opened.
-Result<void> serve(const std::string& bus, const std::atomic<bool>& stop);
+/// Listens on every bus and answers on the first, until `stop` is set or a bus is gone. Error: a bus cannot
+/// be opened.
+Result<void> serve(const std::vector<std::string>& buses, const std::atomic<bool>& stop);
 
 }  // namespace canhil::target
