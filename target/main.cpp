@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "dbc/realtime/command_line.hpp"
 #include "messages/canhil.hpp"
@@ -32,11 +33,13 @@ int run(int argc, char** argv) {
     return fmt::format("hil-target {}.{} · DBC {:016x}", canhil::target::version_major,
                        canhil::target::version_minor, canhil::messages::dbc_hash);
   });
-  std::string bus;
+  std::vector<std::string> buses;
   std::string log;
   std::string dbc{canhil::name_of(canhil::BusFormat::classic)};
-  auto* bus_option =
-      app.add_option("--bus", bus, "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME");
+  auto* bus_option = app.add_option("--bus", buses,
+                                    "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME; "
+                                    "several: listen on all, answer on the first")
+                         ->allow_extra_args(false);
   auto* replay_option = app.add_option(
       "--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
   bus_option->excludes(replay_option);
@@ -46,7 +49,7 @@ int run(int argc, char** argv) {
   canhil::realtime::add_options(app, realtime)->excludes(replay_option);
   try {
     app.parse(argc, argv);
-    if (bus.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");
+    if (buses.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
@@ -66,7 +69,7 @@ int run(int argc, char** argv) {
   }
   std::signal(SIGTERM, request_stop);
   std::signal(SIGINT, request_stop);
-  const auto served = canhil::target::serve(bus, *format, stop_requested);
+  const auto served = canhil::target::serve(buses, *format, stop_requested);
   return served ? 0 : complain(served.error());
 }
 

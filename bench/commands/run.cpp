@@ -1,9 +1,12 @@
 #include "bench/commands/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <net/if.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -24,6 +27,7 @@
 #include "bench/run/session.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/realtime/command_line.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -36,8 +40,9 @@ constexpr std::size_t heap_bytes = 64 << 20;  // what a run of some minutes reco
 struct Arguments {
   std::string scenario;
   std::string bus{private_bus};
-  std::string target;  // empty: the hil-target beside this program
-  std::string dbc;     // empty: the scenario's
+  std::vector<std::string> bus_of;  // NODE=BUS
+  std::string target;               // empty: the hil-target beside this program
+  std::string dbc;                  // empty: the scenario's
   bool lockstep = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;
@@ -50,6 +55,37 @@ struct Arguments {
 };
 
 std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
+
+// gps, GPS and Gps are one node, as are master_ins and MasterIns.
+bool same_name(std::string_view a, std::string_view b) {
+  const auto plain = [](std::string_view name) {
+    std::string letters;
+    for (const char c : name) {
+      if (c != '_') letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return letters;
+  };
+  return plain(a) == plain(b);
+}
+
+// NODE=BUS with the node as the DBC names it. The bench's own frames and the target's stay on --bus.
+Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text) {
+  std::vector<std::string_view> nodes;
+  for (const MessageInfo& info : messages::all_messages) {
+    if (info.sender == messages::Sync::info.sender || info.sender == messages::TargetHeartbeat::info.sender)
+      continue;
+    if (std::ranges::find(nodes, info.sender) == nodes.end()) nodes.push_back(info.sender);
+  }
+  const std::size_t equals = text.find('=');
+  const auto node = std::ranges::find_if(
+      nodes, [&](std::string_view name) { return same_name(name, text.substr(0, equals)); });
+  const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
+  if (node == nodes.end() || bus.empty() || bus == private_bus || bus == in_process)
+    return failure(
+        fmt::format("--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME",
+                    text, fmt::join(nodes, ", ")));
+  return std::pair(std::string(*node), bus);
+}
 
 run::Options options_of(const Arguments& arguments, BusFormat format) {
   run::Options options;
@@ -73,6 +109,11 @@ run::Options options_of(const Arguments& arguments, BusFormat format) {
   // Every target is told, ours or another: it is to speak the same contract.
   if (format != BusFormat::classic)
     options.target_arguments.insert(options.target_arguments.end(), {"--dbc", std::string(name_of(format))});
+  for (const std::string& text : arguments.bus_of) {
+    options.bus_of.push_back(*node_and_bus(text));
+    for (const std::string& word : {std::string("--bus"), options.bus_of.back().second})
+      if (!external) options.target_arguments.push_back(word);
+  }
   options.target_cpu = arguments.target_cpu;
   options.spin_ns = std::int64_t{arguments.spin_us.value_or(0)} * 1000;
   return options;
@@ -126,6 +167,12 @@ Result<void> check_bus(const Arguments& arguments) {
   if (arguments.bus == in_process && (arguments.realtime.wanted || arguments.spin_us))
     return failure(
         "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
+  for (const std::string& text : arguments.bus_of) {
+    if (auto named = node_and_bus(text); !named) return tl::unexpected(named.error());
+  }
+  // Two wires deliver in an order of their own: the answer to a step could miss what the other brings.
+  if (!arguments.bus_of.empty() && (arguments.lockstep || arguments.bus == in_process))
+    return failure("--bus-of: one step over two buses has no order, expected real time");
   if (arguments.target_cpu && (arguments.target == "none" || arguments.bus == in_process))
     return failure("--target-cpu: no target is started here, expected one with --target and a bus");
   if (arguments.target_cpu) {
@@ -205,6 +252,11 @@ void add_run(CLI::App& app, int& code) {
   command->add_option(
       "--bus", arguments->bus,
       "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process");
+  command
+      ->add_option("--bus-of", arguments->bus_of,
+                   "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
+                   "target is to listen there too")
+      ->allow_extra_args(false);
   command->add_option(
       "--target", arguments->target,
       "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");

@@ -178,6 +178,7 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
             {"kernel", kernel()},
             {"preemption", realtime::preemption()},
             {"cpu_model", cpu_model()}};
+  for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
   if (run.host) json["bench_process"] = object(*run.host, run.options.spin_ns);
   return json;
 }

@@ -139,6 +139,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
                  run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time",
                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
+  for (const auto& [node, bus] : run.options.bus_of) fmt::format_to(out, "  {} on bus {}\n", node, bus);
   if (run.host) {
     fmt::format_to(out, "  bench {}{}\n", realtime::words(*run.host),
                    run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");

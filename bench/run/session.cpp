@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "bench/run/bus_watch.hpp"
@@ -16,6 +17,8 @@
 #include "bench/run/recorder.hpp"
 #include "bench/run/target_process.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/several.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::run {
 namespace {
@@ -42,6 +45,33 @@ Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
   return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
 }
 
+// The bus of each node that has one of its own, each once, after the first.
+std::vector<std::string> buses_of(const Options& options) {
+  std::vector<std::string> buses{options.bus};
+  for (const auto& [node, bus] : options.bus_of) {
+    if (std::ranges::find(buses, bus) == buses.end()) buses.push_back(bus);
+  }
+  return buses;
+}
+
+// One port over all of them; a frame goes to the bus of its sender.
+Result<std::unique_ptr<Port>> open_all(const Options& options) {
+  const std::vector<std::string> buses = buses_of(options);
+  std::vector<std::unique_ptr<Port>> ports;
+  for (const std::string& bus : buses) {
+    auto opened = open(bus, options.format);
+    if (!opened) return opened;
+    ports.push_back(std::move(*opened));
+  }
+  return join_ports(std::move(ports), [&options, buses](const Frame& frame) {
+    const MessageInfo* info = messages::find_message(frame.id);
+    const auto own = std::ranges::find_if(
+        options.bus_of, [&](const auto& entry) { return info != nullptr && info->sender == entry.first; });
+    const std::string& bus = own == options.bus_of.end() ? options.bus : own->second;
+    return static_cast<std::size_t>(std::ranges::find(buses, bus) - buses.begin());
+  });
+}
+
 }  // namespace
 
 Result<Run> run(const scenario::Scenario& scenario, const Options& options,
@@ -62,7 +92,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (options.realtime) {
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
   }
-  auto port = open(options.bus, options.format);
+  auto port = open_all(options);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
   BusWatch bus;

@@ -23,6 +23,7 @@ enum class ClockKind : std::uint8_t { real_time, lockstep };
 /// What the command line decides.
 struct Options {
   std::string bus;  ///< "local:NAME", a SocketCAN interface, or "in-process" (lockstep only)
+  std::vector<std::pair<std::string, std::string>> bus_of;  ///< node of the DBC, bus of its own
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
   BusFormat format = BusFormat::classic;
   ClockKind clock = ClockKind::real_time;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "dbc/ports/port.hpp"
+#include "dbc/ports/several.hpp"
 #include "target/device/device.hpp"
 #include "target/process/bus_notes.hpp"
 #include "target/process/timing_window.hpp"
@@ -53,11 +53,11 @@ void tell(const std::string& news) {
 
 }  // namespace
 
-Result<void> serve(const std::string& bus, BusFormat format, const std::atomic<bool>& stop) {
+Result<void> serve(const std::vector<std::string>& buses, BusFormat format, const std::atomic<bool>& stop) {
   PortOptions options;
   options.node_name = "hil-target";
   options.foreign = true;
-  auto opened = open_bus(bus, options, format);
+  auto opened = open_buses(buses, options, format);
   if (!opened) return tl::unexpected(opened.error());
   Port& port = **opened;
 
@@ -85,7 +85,7 @@ Result<void> serve(const std::string& bus, BusFormat format, const std::atomic<b
             received->frame.id == messages::TargetHeartbeat::info.id && !received->frame.extended;
         if (!heartbeat) continue;
         return failure(
-            fmt::format("bus '{}': a target answers here already, expected to be the only one", bus));
+            fmt::format("bus '{}': a target answers here already, expected to be the only one", port.name()));
       }
       const std::int64_t start_ns = clock_ns(port.stamp_clock());
       const std::span<const Frame> answers = device.receive(received->frame);
