@@ -50,9 +50,9 @@ TEST_P(FdBitsOfScenario, ClassicAndFdAgree) {
     if (kind == "latency" || kind == "output_period" || kind == "heartbeat") continue;
     EXPECT_EQ(check["outcome"], "pass") << check;
   }
-  // The nominal rate alone, 500 kbit/s: groups share their overhead. With the data phase much less.
+  // 0.5 and 2 Mbit/s against 500 kbit/s.
   const auto load = [](const Recorded& run) { return run.report["bus_load"][0]["mean"].get<double>(); };
-  EXPECT_LT(load(fd), 0.6 * load(classic));
+  EXPECT_LT(load(fd), 0.4 * load(classic));
 }
 
 INSTANTIATE_TEST_SUITE_P(Fd, FdBitsOfScenario,
