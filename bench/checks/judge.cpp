@@ -36,12 +36,6 @@ double dimension(scenario::Statistic statistic) {
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
 constexpr double lateness_share = 0.5;
 
-// A process of a few hundred frames a second that is ready to run and is not let run, for this share of the
-// run, meets a CPU that has no room for it; nor, on the same machine, for the target.
-constexpr double most_waited = 0.05;
-// A machine that loses this share of its time to others does so at instants that nobody on it sees.
-constexpr double most_stolen = 0.05;
-
 // Judged is what was answered; a target that falls silent for longer than this, or than two of its periods,
 // leaves a part of the window unjudged.
 constexpr double longest_stretch_s = 1;
@@ -358,24 +352,6 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
 std::string seconds(const scenario::Window& window) {
   return fmt::format("from {:g} to {:g} s", static_cast<double>(window.from_us) * 1e-6,
                      static_cast<double>(window.to_us) * 1e-6);
-}
-
-std::string unfit_for_timing(const Observations& seen) {
-  if (seen.receive_overflows > 0)
-    return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
-  if (seen.target_frames_lost > 0)
-    return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
-  const HostRecord& host = seen.host;
-  if (host.clock_step_ns != 0)
-    return fmt::format("the clock of the stamps was set by {:.3f} ms in mid-run",
-                       static_cast<double>(host.clock_step_ns) * 1e-6);
-  if (host.stolen_share > most_stolen)
-    return fmt::format("the hypervisor gave {:.1f} % of this machine's CPU time to others",
-                       host.stolen_share * 100);
-  if (host.cpu_wait_s > most_waited * host.wall_s)
-    return fmt::format("no CPU was free for the bench for {:.1f} % of the run",
-                       host.cpu_wait_s / host.wall_s * 100);
-  return "";
 }
 
 Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
