@@ -67,7 +67,7 @@ TEST_F(Reports, WhatIsNoReportIsRefusedInOneLine) {
   std::ofstream(scratch("torn.json")) << "{\"schema\"";
   const std::string hollow = altered("hollow.json", [](auto& report) { report.erase("checks"); });
   for (const std::string& arguments :
-       {"report " + scratch("torn.json"), "report " + hollow, "report /no/such.json",
+       {"report " + scratch("torn.json"), "report " + hollow, std::string("report /no/such.json"),
         "report " + scratch("one.json") + " " + scratch("one.json"),
         "compare " + scratch("one.json") + " " + scratch("torn.json"),
         "compare " + hollow + " " + scratch("one.json"), std::string("compare /no/a.json /no/b.json")}) {
