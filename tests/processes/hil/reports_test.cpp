@@ -17,9 +17,8 @@ using testing::StartsWith;
 class Reports : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const Ended run =
-        hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --json " +
-                  scratch("one.json") + " --html " + scratch("one.html"));
+    const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --json " +
+                                scratch("one.json") + " --html " + scratch("one.html"));
     ASSERT_THAT(run.err, testing::IsEmpty());
   }
   static std::string altered(const std::string& name, const auto& alter) {
@@ -79,8 +78,8 @@ TEST_F(Reports, WhatIsNoReportIsRefusedInOneLine) {
 }
 
 TEST_F(Reports, APageThatCannotBeWrittenIsToldBeforeTheRun) {
-  const Ended ended = hil_bench("run " + scenario("transfer_alignment_quick") +
-                                " --bus in-process --html /no/such/a.html");
+  const Ended ended =
+      hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --html /no/such/a.html");
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("'/no/such/a.html'"));
 }
