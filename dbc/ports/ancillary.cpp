@@ -15,17 +15,11 @@ std::int64_t to_ns(const timespec& t) { return t.tv_sec * 1'000'000'000LL + t.tv
 Ancillary read_ancillary(msghdr& message) {
   Ancillary said;
   for (cmsghdr* part = CMSG_FIRSTHDR(&message); part != nullptr; part = CMSG_NXTHDR(&message, part)) {
-    if (part->cmsg_level != SOL_SOCKET) continue;
-    if (part->cmsg_type == SO_TIMESTAMPING) {
-      scm_timestamping stamps{};  // [0] software, [2] raw hardware
-      std::memcpy(&stamps, CMSG_DATA(part), sizeof stamps);
-      said.software_ns = to_ns(stamps.ts[0]);
-      said.hardware_ns = to_ns(stamps.ts[2]);
-    } else if (part->cmsg_type == SO_RXQ_OVFL) {
-      std::uint32_t lost = 0;
-      std::memcpy(&lost, CMSG_DATA(part), sizeof lost);
-      said.lost = lost;
-    }
+    if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SO_TIMESTAMPING) continue;
+    scm_timestamping stamps{};  // [0] software, [2] raw hardware
+    std::memcpy(&stamps, CMSG_DATA(part), sizeof stamps);
+    said.software_ns = to_ns(stamps.ts[0]);
+    said.hardware_ns = to_ns(stamps.ts[2]);
   }
   return said;
 }

@@ -4,17 +4,15 @@
 #include <sys/socket.h>
 
 #include <cstdint>
-#include <optional>
 
 namespace canhil {
 
 struct Ancillary {
-  std::int64_t software_ns = 0;       ///< CLOCK_REALTIME as the driver handed the frame over; 0: none
-  std::int64_t hardware_ns = 0;       ///< the controller's own clock; 0: none
-  std::optional<std::uint32_t> lost;  ///< by the receive queue since the socket was opened, modulo 2^32
+  std::int64_t software_ns = 0;  ///< CLOCK_REALTIME as the driver handed the frame over; 0: none
+  std::int64_t hardware_ns = 0;  ///< the controller's own clock; 0: none
 };
 
-/// Reads the control messages SO_TIMESTAMPING and SO_RXQ_OVFL of one recvmsg().
+/// Reads the control messages of one received frame: SO_TIMESTAMPING.
 Ancillary read_ancillary(msghdr& message);
 
 }  // namespace canhil

@@ -37,7 +37,7 @@ class ReceiveBatch {
   [[nodiscard]] bool took_all() const { return count_ < capacity; }
 
  private:
-  // Both control messages that read_ancillary() knows.
+  // Enough for the control message that read_ancillary() knows.
   static constexpr std::size_t control_bytes = 128;
   struct alignas(cmsghdr) Control {
     std::array<char, control_bytes> bytes;

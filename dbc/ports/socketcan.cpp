@@ -78,8 +78,8 @@ bool configure(int socket, const PortOptions& options) {
   const int receive_bytes =
       options.receive_buffer_bytes == 0 ? large_queue_bytes : options.receive_buffer_bytes;
   return set_filters(socket, options.only_ids) && set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, own) &&
-         set(socket, SOL_SOCKET, SO_TIMESTAMPING, stamps) && set(socket, SOL_SOCKET, SO_RXQ_OVFL, on) &&
-         set(socket, SOL_SOCKET, SO_RCVTIMEO, blocking) && set(socket, SOL_SOCKET, SO_SNDBUF, smallest) &&
+         set(socket, SOL_SOCKET, SO_TIMESTAMPING, stamps) && set(socket, SOL_SOCKET, SO_RCVTIMEO, blocking) &&
+         set(socket, SOL_SOCKET, SO_SNDBUF, smallest) &&
          ((!options.fd && !options.foreign) || set(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) &&
          // By force as the administrator; else up to net.core.rmem_max.
          (set(socket, SOL_SOCKET, SO_RCVBUFFORCE, receive_bytes) ||
@@ -91,18 +91,14 @@ class SocketCan final : public Port {
   SocketCan(Descriptor socket, std::string name, PortOptions options)
       : socket_(std::move(socket)), name_(std::move(name)), options_(std::move(options)) {}
 
-  /// Binds to the interface that has the name now, if it is not bound to it yet. False: errno says why.
+  /// Binds to the interface that has the name now; nothing new if the socket is bound to it. One that is
+  /// removed takes the socket's filters with it. False: errno says why.
   bool bind_to_interface() {
     sockaddr_can at{};
     at.can_family = AF_CAN;
     at.can_ifindex = interface_index(name_);
-    if (at.can_ifindex == index_) return true;
-    // An interface that is removed takes the socket's filters with it.
-    if (at.can_ifindex == 0 || !set_filters(socket_.get(), options_.only_ids) ||
-        ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0)
-      return false;
-    index_ = at.can_ifindex;
-    return true;
+    return at.can_ifindex != 0 && set_filters(socket_.get(), options_.only_ids) &&
+           ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) == 0;
   }
 
   SendOutcome send(const Frame& frame) override {
@@ -122,7 +118,6 @@ class SocketCan final : public Port {
     const ReceiveBatch::Item item = batch_.take();
     Received received{.frame = from_kernel(item.frame, item.fd), .own = item.own};
     stamp(received, item.ancillary);
-    if (item.ancillary.lost) add_lost(*item.ancillary.lost, counters_);
     ++counters_.received;
     if (received.frame.error) ++counters_.error_frames;
     received.foreign = received.frame.fd && !options_.fd;
@@ -145,13 +140,14 @@ class SocketCan final : public Port {
   }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] bool up() const override { return up_; }
-  /// SO_RXQ_OVFL tells of a loss with the next frame that is queued; the socket's own count needs none.
+  /// The count behind SO_RXQ_OVFL, asked for: that message tells of a loss only with the next frame that is
+  /// queued.
   [[nodiscard]] PortCounters counters() const override {
     PortCounters counters = counters_;
     std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
     socklen_t size = sizeof memory;
     if (::getsockopt(socket_.get(), SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0)
-      add_lost(memory[SK_MEMINFO_DROPS], counters);
+      counters.overflowed = memory[SK_MEMINFO_DROPS];
     return counters;
   }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_REALTIME; }
@@ -193,19 +189,16 @@ class SocketCan final : public Port {
   }
 
   void note_outage(int error) {
-    const bool removed = error == ENODEV || error == ENXIO;
-    if (!removed && error != ENETDOWN) return;
-    if (removed) index_ = 0;
+    if (error != ENETDOWN && error != ENODEV && error != ENXIO) return;
     up_ = false;
-    if (pending_error() == ENODEV) index_ = 0;
+    clear_error();
   }
 
-  /// The error that wakes a waiting receiver; none is left behind.
-  int pending_error() {
+  /// The error that wakes a waiting receiver is told; it must not wake it again.
+  void clear_error() {
     int pending = 0;
     socklen_t size = sizeof pending;
     ::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &pending, &size);
-    return pending;
   }
 
   /// Whether the interface is up again, perhaps made anew. Asks the kernel at most every look_again_ns.
@@ -213,13 +206,9 @@ class SocketCan final : public Port {
     const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
     if (now_ns < look_ns_) return false;
     look_ns_ = now_ns + look_again_ns;
-    if (pending_error() == ENODEV) index_ = 0;
+    clear_error();
     up_ = !objection(socket_.get(), name_, options_.fd) && bind_to_interface();
     return up_;
-  }
-
-  static void add_lost(std::uint32_t lost, PortCounters& counters) {
-    counters.overflowed += lost - static_cast<std::uint32_t>(counters.overflowed);
   }
 
   static void stamp(Received& received, const Ancillary& said) {
@@ -235,7 +224,6 @@ class SocketCan final : public Port {
   Descriptor socket_;
   std::string name_;
   PortOptions options_;
-  int index_ = 0;  // of the interface that the socket is bound to; 0: none
   bool up_ = true;
   std::int64_t look_ns_ = 0;  // when to look for an interface that is away
   bool interface_queue_full_ = false;

@@ -15,6 +15,18 @@ bool state_changed(const BusErrors& before, const BusErrors& now) {
 
 }  // namespace
 
+void BusNotes::interface_is(bool up) {
+  if (up == up_) return;
+  const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
+  if (up) {
+    last_outage_ns_ = now_ns - changed_ns_;
+  } else {
+    ++downs_;
+  }
+  up_ = up;
+  changed_ns_ = now_ns;
+}
+
 std::string BusNotes::news(const Port& port, BusFormat format) {
   std::string lines;
   const auto tell = [&](const std::string& what) { lines += fmt::format("{}: {}\n", port.name(), what); };
@@ -25,17 +37,15 @@ std::string BusNotes::news(const Port& port, BusFormat format) {
     told_.errors = errors_;
     told_.errors_ns = now_ns;
   }
-  if (port.up() != told_.up) {
-    if (port.up()) {
-      tell(fmt::format("up again after {:.1f} s; {} frames were not sent meanwhile",
-                       static_cast<double>(now_ns - told_.down_ns) * 1e-9, unsent_));
-      unsent_ = 0;
-    } else {
-      tell("the interface is down or removed; waiting for it");
-      told_.down_ns = now_ns;
-    }
-    told_.up = port.up();
+  if (up_ && (!told_.up || downs_ != told_.downs)) {
+    tell(fmt::format("up again after {:.1f} s; {} frames were not sent meanwhile",
+                     static_cast<double>(last_outage_ns_) * 1e-9, unsent_));
+    unsent_ = 0;
+  } else if (!up_ && downs_ != told_.downs) {
+    tell("the interface is down or removed; waiting for it");
   }
+  told_.up = up_;
+  told_.downs = downs_;
   if (late_in_queue_ != told_.late_in_queue) {
     tell(fmt::format("late in transmit queue: {} frames since the start, not sent", late_in_queue_));
     told_.late_in_queue = late_in_queue_;

@@ -17,6 +17,8 @@ class BusNotes {
   void late_in_queue() { ++late_in_queue_; }
   /// An answer met an interface that is down.
   void met_interface_down() { ++unsent_; }
+  /// Whether it is up; asked so often that no outage is missed between two news.
+  void interface_is(bool up);
 
   /// One line for each thing that changed since it was asked last, with the bus's name; empty: nothing did.
   /// What may flood, error frames that are no change of state and frames of the other contract, is told of
@@ -31,12 +33,16 @@ class BusNotes {
     std::uint64_t overflowed = 0;
     std::uint64_t foreign = 0;
     std::int64_t foreign_ns = 0;
+    std::uint64_t downs = 0;
     bool up = true;
-    std::int64_t down_ns = 0;
   };
   BusErrors errors_;
   std::uint64_t late_in_queue_ = 0;
-  std::uint64_t unsent_ = 0;  // since the interface went down
+  std::uint64_t unsent_ = 0;  // since the last outage was told
+  std::uint64_t downs_ = 0;
+  bool up_ = true;
+  std::int64_t changed_ns_ = 0;
+  std::int64_t last_outage_ns_ = 0;
   Told told_;
 };
 

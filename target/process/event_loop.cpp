@@ -94,6 +94,7 @@ Result<void> serve(const std::vector<std::string>& buses, BusFormat format, cons
       window.add(start_ns - received->t_ns, end_ns - start_ns, !answers.empty());
       if (from_bench(received->frame)) bench_ns = now_ns();
     }
+    notes.interface_is(port.up());
     const std::int64_t now = now_ns();
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;

@@ -41,7 +41,7 @@ as_text() { # as_text NAME COMMAND...
 while read -r program; do
   name=${program##*/}
   case $name in
-    *_instructions) ;; # for callgrind, below
+    *_instructions | vcan_node) ;; # for callgrind, and on vcan: below
     *_benchmark)
       printf '\n== %s\n' "$name"
       "$program" --benchmark_context="${context%,}" --benchmark_out="$records/$name.json" --benchmark_out_format=json "$@" ||
@@ -51,6 +51,7 @@ while read -r program; do
     *) as_text "$name" "$program" ;;
   esac
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
+as_text ports_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py "$build/tests/perf/ports/vcan_node"
 as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
 as_text estimators_instructions sh tests/perf/estimators/count_instructions.sh "$build"
 as_text run_stages python3 tests/perf/run/stages.py "$build"

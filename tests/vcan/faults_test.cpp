@@ -143,6 +143,22 @@ TEST(SocketCan, BindsToAnInterfaceThatWasMadeAnew) {
   }
 }
 
+TEST(SocketCan, BindsToAnInterfaceThatWasMadeAnewWithItsOldIndex) {
+  const std::string make = "ip link add dev canhil7 index 77 type vcan && ip link set canhil7 up";
+  run(make);
+  const auto a = open("canhil7");
+  const auto b = open("canhil7");
+  run("ip link del canhil7");
+  wait_until(*b, false);
+  EXPECT_EQ(a->send(frame_of(1)), SendOutcome::down);
+  run(make);
+  wait_until(*a, true);
+  wait_until(*b, true);
+  EXPECT_EQ(a->send(frame_of(1)), SendOutcome::sent);
+  EXPECT_TRUE(next_frame(*b));
+  run("ip link del canhil7");
+}
+
 TEST(SocketCan, ASenderAloneFindsTheInterfaceThatWasMadeAnew) {
   const Interface interface("canhil7", 16);
   const auto port = open("canhil7");

@@ -2,6 +2,8 @@
 // can-utils.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <linux/net_tstamp.h>
+#include <sys/socket.h>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -81,6 +83,23 @@ TEST(SocketCan, GivesTheKernelsStamps) {
     ASSERT_LE(received->t_ns, clock_ns(CLOCK_REALTIME));
     last = std::min(received->t_ns, sent);
   }
+}
+
+TEST(SocketCan, AFrameWithoutAStampCostsNoLaterOneItsOwn) {
+  const auto a = open("vcan0");
+  const auto b = open("vcan0");
+  const int none = 0;
+  const int software = SOF_TIMESTAMPING_RX_SOFTWARE | SOF_TIMESTAMPING_SOFTWARE;
+  ASSERT_EQ(::setsockopt(b->descriptor(), SOL_SOCKET, SO_TIMESTAMPING, &none, sizeof none), 0);
+  for (int n = 0; n < 40; ++n) a->send(frame_of(1));
+  for (int n = 0; n < 40; ++n) ASSERT_EQ(next_frame(*b)->source, StampSource::process);
+  ASSERT_EQ(::setsockopt(b->descriptor(), SOL_SOCKET, SO_TIMESTAMPING, &software, sizeof software), 0);
+  bool stamping = false;
+  for (const std::int64_t deadline = in_seconds(5); !stamping && clock_ns(CLOCK_MONOTONIC) < deadline;) {
+    a->send(frame_of(1));
+    stamping = next_frame(*b)->source == StampSource::kernel;
+  }
+  EXPECT_TRUE(stamping);
 }
 
 TEST(SocketCan, EchoesOwnFramesOnRequest) {

@@ -20,12 +20,10 @@ class StatePort final : public Port {
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] RoomWait room_wait() const override { return {}; }
   [[nodiscard]] bool closed() const override { return false; }
-  [[nodiscard]] bool up() const override { return is_up; }
   [[nodiscard]] PortCounters counters() const override { return count; }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return label; }
 
-  bool is_up = true;
   PortCounters count;
   std::string label = "can7";
 };
@@ -62,13 +60,20 @@ TEST_F(Notes, DoNotFlood) {
 }
 
 TEST_F(Notes, TellAnOutageAndItsEnd) {
-  port_.is_up = false;
+  notes_.interface_is(false);
   EXPECT_EQ(news(), "can7: the interface is down or removed; waiting for it\n");
   EXPECT_EQ(news(), "");
   notes_.met_interface_down();
   notes_.met_interface_down();
-  port_.is_up = true;
+  notes_.interface_is(true);
   EXPECT_THAT(news(), AllOf(StartsWith("can7: up again after "), HasSubstr("2 frames were not sent")));
+  EXPECT_EQ(news(), "");
+}
+
+TEST_F(Notes, TellAnOutageThatIsOverAlready) {
+  notes_.interface_is(false);
+  notes_.interface_is(true);
+  EXPECT_THAT(news(), StartsWith("can7: up again after "));
   EXPECT_EQ(news(), "");
 }
 
