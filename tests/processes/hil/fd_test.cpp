@@ -28,8 +28,8 @@ struct Recorded {
   nlohmann::json report;
 };
 
-Recorded record(const std::string& name, const std::string& options) {
-  const std::string log = scratch("fd.log"), json = scratch("fd.json");
+Recorded record(const std::string& name, const std::string& options, const std::string& file = "fd") {
+  const std::string log = scratch(file + ".log"), json = scratch(file + ".json");
   const Ended ended =
       hil_bench(fmt::format("run {} {} --log {} --json {}", scenario(name), options, log, json));
   EXPECT_NE(ended.code, 2) << ended.err;
@@ -39,10 +39,11 @@ Recorded record(const std::string& name, const std::string& options) {
 class FdBitsOfScenario : public testing::TestWithParam<const char*> {};
 
 TEST_P(FdBitsOfScenario, ClassicAndFdAgree) {
-  const Recorded classic = record(GetParam(), "--bus in-process");
+  const Recorded classic = record(GetParam(), "--bus in-process", "classic");
   const Recorded fd = record(GetParam(), fmt::format("--bus {} --lockstep --dbc canhil-fd", bus()));
   EXPECT_GT(classic.target.size(), 500U);
-  EXPECT_TRUE(classic.target == fd.target);
+  EXPECT_TRUE(classic.target == fd.target)
+      << hil_bench(fmt::format("diverge {} {}", scratch("classic.log"), scratch("fd.log"))).out;
   EXPECT_EQ(classic.report["provenance"]["contract"], "canhil");
   EXPECT_EQ(fd.report["provenance"]["contract"], "canhil-fd");
   for (const auto& check : fd.report["checks"]) {
@@ -150,8 +151,9 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   const auto load = read_json(json)["bus_load"][0];
   const wire::BitRates rates{.nominal = load["bitrate_bitps"], .data = load["data_bitrate_bitps"]};
   EXPECT_EQ(rates.data, 2'000'000);
-  // Before the first Sync there are commands, and the frames of time 0.
-  EXPECT_NEAR(load["mean"].get<double>(), mean_load(frames, rates), 2e-3 * mean_load(frames, rates));
+  // In lockstep the bench may read the answers of a second's last step, one of 100, when it has begun the
+  // next second.
+  EXPECT_NEAR(load["mean"].get<double>(), mean_load(frames, rates), 0.01 * mean_load(frames, rates));
 }
 
 void expect_one_line(const Ended& ended, const std::string& what) {

@@ -87,12 +87,12 @@ TEST(FdContract, AContainerHoldsTheValuesOfItsMessages) {
     }
     ASSERT_TRUE(packed);
     const Message& message = *find_message(fd, container.id);
-    const auto all = decode(message, packed->payload()).value();
-    auto next = all.begin();
+    const auto all = decode(message, packed->payload());
+    auto next = all->begin();
     for (const Frame& frame : frames) {
-      const auto alone = decode(*find_message(old, frame.id), frame.payload()).value();
-      for (const DecodedSignal& signal : alone) {
-        ASSERT_NE(next, all.end());
+      const auto alone = decode(*find_message(old, frame.id), frame.payload());
+      for (const DecodedSignal& signal : *alone) {
+        ASSERT_NE(next, all->end());
         EXPECT_THAT(next->signal->name, testing::StartsWith(signal.signal->name));
         EXPECT_EQ(next->value, signal.value) << message.name << '.' << next->signal->name;
         EXPECT_EQ(next->signal->values, signal.signal->values);
@@ -100,7 +100,7 @@ TEST(FdContract, AContainerHoldsTheValuesOfItsMessages) {
         ++values;
       }
     }
-    EXPECT_EQ(next, all.end());
+    EXPECT_EQ(next, all->end());
   }
   EXPECT_GT(values, 300U);
 }

@@ -183,8 +183,11 @@ TEST_F(FdGroups, AContainerOfAnotherSizeIsNotTakenApart) {
   Frame odd = frame_of(SlaveImuDeltaTheta::info.id);
   odd.size = 16;
   odd.fd = odd.brs = true;
+  odd.data.fill(1);
   wire_->waiting.push_back({.frame = odd});
-  EXPECT_EQ(port_->receive()->frame, odd);
+  const auto received = port_->receive();
+  ASSERT_TRUE(received);
+  EXPECT_EQ(received->frame, odd);
 }
 
 TEST(FdBus, BothEndsOfALocalBus) {
