@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "tests/processes/hil/program.hpp"
 
@@ -17,9 +19,8 @@ using testing::StartsWith;
 class Reports : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const Ended run =
-        hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --json " +
-                  scratch("one.json") + " --html " + scratch("one.html"));
+    const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --json " +
+                                scratch("one.json") + " --html " + scratch("one.html"));
     ASSERT_THAT(run.err, testing::IsEmpty());
   }
   static std::string altered(const std::string& name, const auto& alter) {
@@ -66,11 +67,14 @@ TEST_F(Reports, AnotherScenarioIsNotComparable) {
 TEST_F(Reports, WhatIsNoReportIsRefusedInOneLine) {
   std::ofstream(scratch("torn.json")) << "{\"schema\"";
   const std::string hollow = altered("hollow.json", [](auto& report) { report.erase("checks"); });
-  for (const std::string& arguments :
-       {"report " + scratch("torn.json"), "report " + hollow, "report /no/such.json",
-        "report " + scratch("one.json") + " " + scratch("one.json"),
-        "compare " + scratch("one.json") + " " + scratch("torn.json"),
-        "compare " + hollow + " " + scratch("one.json"), std::string("compare /no/a.json /no/b.json")}) {
+  const std::vector<std::string> wrong{"report " + scratch("torn.json"),
+                                       "report " + hollow,
+                                       "report /no/such.json",
+                                       "report " + scratch("one.json") + " " + scratch("one.json"),
+                                       "compare " + scratch("one.json") + " " + scratch("torn.json"),
+                                       "compare " + hollow + " " + scratch("one.json"),
+                                       "compare /no/a.json /no/b.json"};
+  for (const std::string& arguments : wrong) {
     const Ended ended = hil_bench(arguments);
     EXPECT_EQ(ended.code, 2) << arguments;
     EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
@@ -79,8 +83,8 @@ TEST_F(Reports, WhatIsNoReportIsRefusedInOneLine) {
 }
 
 TEST_F(Reports, APageThatCannotBeWrittenIsToldBeforeTheRun) {
-  const Ended ended = hil_bench("run " + scenario("transfer_alignment_quick") +
-                                " --bus in-process --html /no/such/a.html");
+  const Ended ended =
+      hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --html /no/such/a.html");
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("'/no/such/a.html'"));
 }
