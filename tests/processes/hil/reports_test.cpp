@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "tests/processes/hil/program.hpp"
 
@@ -65,11 +67,14 @@ TEST_F(Reports, AnotherScenarioIsNotComparable) {
 TEST_F(Reports, WhatIsNoReportIsRefusedInOneLine) {
   std::ofstream(scratch("torn.json")) << "{\"schema\"";
   const std::string hollow = altered("hollow.json", [](auto& report) { report.erase("checks"); });
-  for (const std::string& arguments :
-       {"report " + scratch("torn.json"), "report " + hollow, std::string("report /no/such.json"),
-        "report " + scratch("one.json") + " " + scratch("one.json"),
-        "compare " + scratch("one.json") + " " + scratch("torn.json"),
-        "compare " + hollow + " " + scratch("one.json"), std::string("compare /no/a.json /no/b.json")}) {
+  const std::vector<std::string> wrong{"report " + scratch("torn.json"),
+                                       "report " + hollow,
+                                       "report /no/such.json",
+                                       "report " + scratch("one.json") + " " + scratch("one.json"),
+                                       "compare " + scratch("one.json") + " " + scratch("torn.json"),
+                                       "compare " + hollow + " " + scratch("one.json"),
+                                       "compare /no/a.json /no/b.json"};
+  for (const std::string& arguments : wrong) {
     const Ended ended = hil_bench(arguments);
     EXPECT_EQ(ended.code, 2) << arguments;
     EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
