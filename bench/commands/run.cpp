@@ -260,11 +260,12 @@ void add_run(CLI::App& app, int& code) {
   command->add_option(
       "--target", arguments->target,
       "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
-  CLI::Option* lockstep = command->add_option(
+  command->add_option(
       "--dbc", arguments->dbc,
       "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "
       "scenario's, else canhil)");
-  command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
+  CLI::Option* lockstep =
+      command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
   realtime::add_options(*command, arguments->realtime)->excludes(lockstep);
   realtime::add_number(*command, "--target-cpu", arguments->target_cpu, 0, 1023,
                        "the only CPU of the target that this command starts");

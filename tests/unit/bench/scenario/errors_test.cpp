@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(
     Keys, ScenarioError,
     testing::Values(
         Wrong{"seed = 7", "seed = 7\nzebra_crossing = 1\nape_house = 1",
-              "4: key 'zebra_crossing': is unknown, expected one of: title, duration_s, seed, target, "
+              "4: key 'zebra_crossing': is unknown, expected one of: title, duration_s, dbc, seed, target, "
               "engagement, glide, wind, "
               "airframe, glider_nav, fins, truth, initial_error, master_ins, slave_imu, ssbl, gps, seeker, "
               "check"},
@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
               "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
               "silent_at_most_s, name"},
         Wrong{"seed = 7", "seed = 7\n\"a\\nb\" = 1",
-              "4: key 'a?b': is unknown, expected one of: title, duration_s, seed, target, engagement, "
+              "4: key 'a?b': is unknown, expected one of: title, duration_s, dbc, seed, target, engagement, "
               "glide, wind, "
               "airframe, glider_nav, fins, truth, initial_error, master_ins, slave_imu, ssbl, gps, seeker, "
               "check"},
