@@ -80,9 +80,7 @@ TEST_F(RealTime, NamesASilentTarget) {
 TEST_F(RealTime, AnErrorFrameIsNoSignOfLife) {
   static_assert(CAN_ERR_CNT == messages::AlignInnovation::info.id);
   // The class of error frames that tell the error counters looks like the id of AlignInnovation.
-  port_.on_send = [&](const Frame&) {
-    port_.give(Frame{.id = CAN_ERR_CNT, .size = 8, .error = true});
-  };
+  port_.on_send = [&](const Frame&) { port_.give(Frame{.id = CAN_ERR_CNT, .size = 8, .error = true}); };
   EXPECT_EQ(run(impatient_ns).kind, Ending::Kind::target_silent);
 }
 
@@ -127,9 +125,8 @@ TEST_F(Trouble, AnInterfaceThatComesBackIsWaitedFor) {
 }
 
 TEST_F(Trouble, ABusOffIsWaitedForToo) {
-  const Ending ending = run_with(SendOutcome::queue_full, [&] {
-    port_.give(Frame{.id = CAN_ERR_BUSOFF, .size = 8, .error = true});
-  });
+  const Ending ending = run_with(SendOutcome::queue_full,
+                                 [&] { port_.give(Frame{.id = CAN_ERR_BUSOFF, .size = 8, .error = true}); });
   EXPECT_EQ(ending.kind, Ending::Kind::completed) << ending.detail;
   EXPECT_EQ(port_.sent.size(), 6U);
 }
@@ -138,6 +135,15 @@ TEST_F(Trouble, AFullQueueIsNot) {
   const Ending ending = run_with(SendOutcome::queue_full);
   EXPECT_EQ(ending.kind, Ending::Kind::target_silent);
   EXPECT_THAT(ending.detail, testing::HasSubstr("the bus took no frame since t="));
+}
+
+TEST(LinkWaits, ForAnInterfaceThatIsAway) {
+  FakePort port;
+  Link link(port);
+  port.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + 50'000'000;
+  EXPECT_EQ(link.send({.id = 1}, 60'000'000'000), LinkState::up);
+  port.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + 60'000'000'000;
+  EXPECT_EQ(link.send({.id = 1}, 50'000'000), LinkState::down) << "but not for ever";
 }
 
 TEST(LateInQueue, CountsFramesThatWaitedBeyondTheirDeadline) {
