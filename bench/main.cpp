@@ -15,6 +15,7 @@
 #include "bench/commands/diverge.hpp"
 #include "bench/commands/doctor.hpp"
 #include "bench/commands/exit_code.hpp"
+#include "bench/commands/report.hpp"
 #include "bench/commands/run.hpp"
 #include "bench/commands/schedulability.hpp"
 #include "bench/scenario/nearest.hpp"
@@ -45,6 +46,7 @@ int run(int argc, char** argv) {
               SIG_IGN);  // a file at its size limit is an error of write(), with a line that names the file
   int code = 0;
   canhil::commands::add_run(app, code);
+  canhil::commands::add_report(app, code);
   canhil::commands::add_bus(app, code);
   canhil::commands::add_campaign(app, code);
   canhil::commands::add_diverge(app, code);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "dbc/realtime/command_line.hpp"
 #include "messages/canhil.hpp"
@@ -32,18 +33,23 @@ int run(int argc, char** argv) {
     return fmt::format("hil-target {}.{} · DBC {:016x}", canhil::target::version_major,
                        canhil::target::version_minor, canhil::messages::dbc_hash);
   });
-  std::string bus;
+  std::vector<std::string> buses;
   std::string log;
-  auto* bus_option =
-      app.add_option("--bus", bus, "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME");
+  std::string dbc{canhil::name_of(canhil::BusFormat::classic)};
+  auto* bus_option = app.add_option("--bus", buses,
+                                    "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME; "
+                                    "several: listen on all, answer on the first")
+                         ->allow_extra_args(false);
   auto* replay_option = app.add_option(
       "--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
   bus_option->excludes(replay_option);
+  app.add_option("--dbc", dbc, "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them")
+      ->excludes(replay_option);
   canhil::realtime::Options realtime;
   canhil::realtime::add_options(app, realtime)->excludes(replay_option);
   try {
     app.parse(argc, argv);
-    if (bus.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");
+    if (buses.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
@@ -54,6 +60,8 @@ int run(int argc, char** argv) {
     const auto replayed = canhil::target::replay(log, stdout);
     return replayed ? 0 : complain(replayed.error());
   }
+  const auto format = canhil::named_contract(dbc);
+  if (!format) return complain(format.error());
   if (const auto request = realtime.request()) {
     if (auto entered = canhil::realtime::enter(*request); !entered) return complain(entered.error());
     const std::string warning = canhil::realtime::frequency_warning(canhil::realtime::standing());
@@ -61,7 +69,7 @@ int run(int argc, char** argv) {
   }
   std::signal(SIGTERM, request_stop);
   std::signal(SIGINT, request_stop);
-  const auto served = canhil::target::serve(bus, stop_requested);
+  const auto served = canhil::target::serve(buses, *format, stop_requested);
   return served ? 0 : complain(served.error());
 }
 

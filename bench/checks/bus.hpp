@@ -25,6 +25,7 @@ struct BusRecord {
   std::uint64_t more_incidents = 0;    ///< those after
   std::uint64_t downs = 0;             ///< how often the interface went down or was removed
   std::uint64_t late_in_queue = 0;     ///< frames of the bench that waited for room beyond their deadline
+  std::uint64_t foreign = 0;  ///< frames of others in the format that the bus's contract does not have
 };
 
 }  // namespace canhil::checks

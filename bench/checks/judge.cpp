@@ -139,6 +139,13 @@ class Judge {
     if (auto why = unfit(rule.quantile, nominal * rule.within); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
     }
+    // A bench that would fail the check itself cannot fail the target by it.
+    if (auto own = stimulus_deviations_s(evidence_.seen, rule.message, rule.window); !own.empty()) {
+      const double off_s = quantile(std::move(own), rule.quantile);
+      if (off_s > lateness_share * nominal * rule.within)
+        return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),
+                expected};
+    }
     std::vector<double> periods = periods_s(evidence_.seen, rule.message, rule.window);
     if (periods.empty()) return {Outcome::fail, "fewer than two arrivals", expected};
     if (const double end_s = ended_before_s(evidence_.seen, rule.message, rule.window); end_s > nominal)
@@ -266,9 +273,9 @@ class Judge {
   // Why timing with this bar cannot be judged; empty: it can.
   [[nodiscard]] std::string unfit(double q, double bar_s) const {
     if (!evidence_.timing_unfit.empty()) return evidence_.timing_unfit;
-    const auto& lateness = evidence_.seen.lateness_ns;
-    if (lateness.empty()) return "the bench sent nothing";
-    const double late_s = quantile({lateness.begin(), lateness.end()}, q) * 1e-9;
+    const Histogram& lateness = evidence_.seen.timing.lateness;
+    if (lateness.count() == 0) return "the bench sent nothing";
+    const double late_s = lateness.quantile_ns(q) * 1e-9;
     if (late_s <= lateness_share * bar_s) return "";
     return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the bar",
                        late_s * 1e3, quantile_name(q), lateness_share * 100);
@@ -345,14 +352,6 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
 std::string seconds(const scenario::Window& window) {
   return fmt::format("from {:g} to {:g} s", static_cast<double>(window.from_us) * 1e-6,
                      static_cast<double>(window.to_us) * 1e-6);
-}
-
-std::string unfit_for_timing(const Observations& seen) {
-  if (seen.receive_overflows > 0)
-    return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
-  if (seen.target_frames_lost > 0)
-    return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
-  return "";
 }
 
 Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "bench/checks/bus.hpp"
+#include "bench/checks/host.hpp"
+#include "bench/checks/timing_record.hpp"
 #include "bench/world/earth.hpp"
 #include "bench/world/engagement/plan.hpp"
 #include "dbc/wire/bit_length.hpp"
@@ -120,6 +122,7 @@ struct Stimulus {
   std::int64_t valid_us = 0;
   std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
   std::int64_t hardware_ns = 0;  ///< the controller's own, of the echo; 0: none
+  std::int64_t due_ns = 0;       ///< when it was to be sent, by the clock of t_ns
 };
 
 /// Everything that the checks judge, apart from the truth.
@@ -135,8 +138,8 @@ struct Observations {
   std::map<std::string_view, std::vector<Stimulus>> stimuli;  ///< by sample group, those that are answered
   std::int64_t first_ns = 0;                                  ///< stamp of the bench's first transmission
   std::int64_t last_ns = 0;                                   ///< and of its last one
-  std::vector<std::int64_t> lateness_ns;  ///< of every transmission of the bench against its deadline
-  bool transmit_stamps_echoed = false;    ///< stamps of stimuli are the bus's, not the bench's
+  TimingRecord timing;                  ///< beside the arrivals: what the reports tell of timing
+  bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus, by second of the time base
@@ -147,6 +150,7 @@ struct Observations {
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
   BusRecord bus;
+  HostRecord host;
 };
 
 }  // namespace canhil::checks

@@ -36,6 +36,13 @@ std::vector<const std::vector<Stimulus>*> all_stimuli_of(const Observations& see
 
 }  // namespace
 
+const Stimulus* find_stimulus(const Observations& seen, std::string_view group, std::int64_t valid_us) {
+  const std::vector<Stimulus>* stimuli = stimuli_of(seen, group);
+  if (stimuli == nullptr) return nullptr;
+  const auto found = std::ranges::lower_bound(*stimuli, valid_us, {}, &Stimulus::valid_us);
+  return found == stimuli->end() || found->valid_us != valid_us ? nullptr : &*found;
+}
+
 double quantile(std::vector<double> sample, double q) {
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
   const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
@@ -50,8 +57,24 @@ Distribution distribution(std::vector<double> sample) {
     const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
     return sample[std::max<std::size_t>(rank, 1) - 1];
   };
-  return {
-      .count = sample.size(), .min = sample.front(), .p50 = at(0.5), .p99 = at(0.99), .max = sample.back()};
+  return {.count = sample.size(),
+          .min = sample.front(),
+          .p50 = at(0.5),
+          .p90 = at(0.9),
+          .p99 = at(0.99),
+          .p999 = at(0.999),
+          .max = sample.back()};
+}
+
+Distribution distribution_s(const Histogram& histogram) {
+  const auto at = [&](double q) { return histogram.quantile_ns(q) * 1e-9; };
+  return {.count = histogram.count(),
+          .min = static_cast<double>(histogram.min_ns()) * 1e-9,
+          .p50 = at(0.5),
+          .p90 = at(0.9),
+          .p99 = at(0.99),
+          .p999 = at(0.999),
+          .max = static_cast<double>(histogram.max_ns()) * 1e-9};
 }
 
 std::vector<double> latencies_s(const Observations& seen, std::string_view message,
@@ -60,13 +83,27 @@ std::vector<double> latencies_s(const Observations& seen, std::string_view messa
   const MessageInfo* info = info_of(message);
   if (info == nullptr) return sample;
   for (const Arrival& arrival : arrivals_of(seen, *info)) {
-    const std::vector<Stimulus>* stimuli = stimuli_of(seen, arrival.cause_group);
-    if (stimuli == nullptr || !within(window, arrival.cause_us)) continue;
-    const auto cause = std::ranges::lower_bound(*stimuli, arrival.cause_us, {}, &Stimulus::valid_us);
-    if (cause == stimuli->end() || cause->valid_us != arrival.cause_us) continue;
-    sample.push_back(elapsed_s(*cause, arrival));
+    if (!within(window, arrival.cause_us)) continue;
+    const Stimulus* cause = find_stimulus(seen, arrival.cause_group, arrival.cause_us);
+    if (cause != nullptr) sample.push_back(elapsed_s(*cause, arrival));
   }
   return sample;
+}
+
+std::size_t unanswered(const Observations& seen, std::string_view message) {
+  const MessageInfo* info = info_of(message);
+  if (info == nullptr) return 0;
+  const auto all = all_stimuli_of(seen, *info);
+  std::size_t due = 0;
+  for (const std::vector<Stimulus>* stimuli : all) due += stimuli->size();
+  const double period_s = nominal_period_s(seen, message);
+  if (all.size() == 1 && period_s > 0) {
+    const double span_s = static_cast<double>(all[0]->back().valid_us - all[0]->front().valid_us) * 1e-6;
+    due = std::min(due, static_cast<std::size_t>(std::lround(span_s / period_s)) + 1);
+  }
+  const auto came = static_cast<std::size_t>(
+      std::ranges::count_if(arrivals_of(seen, *info), [](const Arrival& a) { return a.cause_us >= 0; }));
+  return due - std::min(due, came);
 }
 
 std::vector<double> periods_s(const Observations& seen, std::string_view message,
@@ -80,6 +117,24 @@ std::vector<double> periods_s(const Observations& seen, std::string_view message
     if (answers && !within(window, arrival.cause_us)) continue;
     if (before != nullptr) sample.push_back(elapsed_s(*before, arrival));
     before = &arrival;
+  }
+  return sample;
+}
+
+std::vector<double> stimulus_deviations_s(const Observations& seen, std::string_view message,
+                                          const scenario::Window& window) {
+  std::vector<double> sample;
+  const MessageInfo* info = info_of(message);
+  if (info == nullptr) return sample;
+  for (const std::vector<Stimulus>* stimuli : all_stimuli_of(seen, *info)) {
+    for (std::size_t i = 1; i < stimuli->size(); ++i) {
+      const Stimulus &from = (*stimuli)[i - 1], &to = (*stimuli)[i];
+      if (!within(window, to.valid_us)) continue;
+      const double period_s = elapsed_s(from, to);
+      const double due_s = static_cast<double>(to.due_ns - from.due_ns) * 1e-9;
+      const double times = due_s > 0 ? std::max(1.0, std::round(period_s / due_s)) : 1.0;
+      sample.insert(sample.end(), static_cast<std::size_t>(times), std::abs(period_s - due_s));
+    }
   }
   return sample;
 }

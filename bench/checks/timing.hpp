@@ -9,17 +9,24 @@
 
 namespace canhil::checks {
 
+/// What an answer of this cause answers; null: nothing that the bench sent.
+const Stimulus* find_stimulus(const Observations& seen, std::string_view group, std::int64_t valid_us);
+
 /// Order statistics of a sample. Empty sample: count 0.
 struct Distribution {
   std::size_t count = 0;
   double min = 0;
   double p50 = 0;
+  double p90 = 0;
   double p99 = 0;
+  double p999 = 0;
   double max = 0;
 };
 
 /// Nearest-rank quantiles; the maximum is the true one.
 Distribution distribution(std::vector<double> sample);
+/// Of a histogram, in s.
+Distribution distribution_s(const Histogram& histogram);
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
 double quantile(std::vector<double> sample, double q);
 
@@ -38,9 +45,19 @@ bool stamped_by_hardware(const Observations& seen);
 std::vector<double> latencies_s(const Observations& seen, std::string_view message,
                                 const scenario::Window& window);
 
+/// How many answers of a message never came: one is due to each stimulus of its groups, or one in each
+/// period where the message keeps a period of its own.
+std::size_t unanswered(const Observations& seen, std::string_view message);
+
 /// Time [s] between successive arrivals of a message: of answers, to causes within the window.
 std::vector<double> periods_s(const Observations& seen, std::string_view message,
                               const scenario::Window& window);
+
+/// How far [s] the bench was off the period of what a message answers: by stimulus within the window, the
+/// time between two on the bus less that between their deadlines; one in whose place several were due counts
+/// as many times.
+std::vector<double> stimulus_deviations_s(const Observations& seen, std::string_view message,
+                                          const scenario::Window& window);
 
 /// The longest time [s] without a message, the beginning and the end of the run included.
 double longest_silence_s(const Observations& seen, std::string_view message);

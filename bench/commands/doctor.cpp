@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -73,12 +74,24 @@ Result<void> check_name(const std::string& option, const std::string& bus) {
   return {};
 }
 
+// None where the kernel knows of none, as of an embedded bus.
+std::optional<doctor::Interface> interface_of(const std::string& bus) {
+  return is_local(bus) ? std::nullopt : doctor::find_interface(bus);
+}
+
 std::vector<Line> bus_lines(const std::string& bus) {
   if (is_local(bus))
     return {{Grade::good, "interface",
              bus + ": embedded bus of this machine; no controller, no wire, no bit rate"}};
-  const auto interface = doctor::find_interface(bus);
+  const auto interface = interface_of(bus);
   return interface ? doctor::interface_lines(*interface) : std::vector{doctor::no_interface(bus)};
+}
+
+std::vector<Line> pair_lines(const std::string& bus, const std::string& loop) {
+  std::vector<Line> lines = bus_lines(loop);
+  const auto one = interface_of(bus), other = interface_of(loop);
+  if (one && other) std::ranges::move(doctor::mismatch_lines(*one, *other), std::back_inserter(lines));
+  return lines;
 }
 
 // Enters real time if it may: what follows is measured as a run with --realtime would find it.
@@ -122,7 +135,8 @@ Line loop_line(const Arguments& arguments, Examination& found) {
 Examination examine(const Arguments& arguments) {
   Examination found;
   found.add(bus_lines(arguments.bus));
-  if (!arguments.loop.empty() && arguments.loop != arguments.bus) found.add(bus_lines(arguments.loop));
+  if (!arguments.loop.empty() && arguments.loop != arguments.bus)
+    found.add(pair_lines(arguments.bus, arguments.loop));
   found.add(machine_lines(arguments));
   found.add({jitter_line(arguments, found)});
   found.add(who_is_there(arguments.bus));

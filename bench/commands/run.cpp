@@ -1,10 +1,14 @@
 #include "bench/commands/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <net/if.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,11 +21,13 @@
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
+#include "bench/report/page.hpp"
 #include "bench/report/text.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/session.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/realtime/command_line.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -34,7 +40,9 @@ constexpr std::size_t heap_bytes = 64 << 20;  // what a run of some minutes reco
 struct Arguments {
   std::string scenario;
   std::string bus{private_bus};
-  std::string target;  // empty: the hil-target beside this program
+  std::vector<std::string> bus_of;  // NODE=BUS
+  std::string target;               // empty: the hil-target beside this program
+  std::string dbc;                  // empty: the scenario's
   bool lockstep = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;
@@ -42,18 +50,51 @@ struct Arguments {
   std::optional<int> spin_us;
   std::string json;
   std::string junit;
+  std::string html;
   std::string log;
 };
 
 std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
 
-run::Options options_of(const Arguments& arguments) {
+// gps, GPS and Gps are one node, as are master_ins and MasterIns.
+bool same_name(std::string_view a, std::string_view b) {
+  const auto plain = [](std::string_view name) {
+    std::string letters;
+    for (const char c : name) {
+      if (c != '_') letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return letters;
+  };
+  return plain(a) == plain(b);
+}
+
+// NODE=BUS with the node as the DBC names it. The bench's own frames and the target's stay on --bus.
+Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text) {
+  std::vector<std::string_view> nodes;
+  for (const MessageInfo& info : messages::all_messages) {
+    if (info.sender == messages::Sync::info.sender || info.sender == messages::TargetHeartbeat::info.sender)
+      continue;
+    if (std::ranges::find(nodes, info.sender) == nodes.end()) nodes.push_back(info.sender);
+  }
+  const std::size_t equals = text.find('=');
+  const auto node = std::ranges::find_if(
+      nodes, [&](std::string_view name) { return same_name(name, text.substr(0, equals)); });
+  const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
+  if (node == nodes.end() || bus.empty() || bus == private_bus || bus == in_process)
+    return failure(
+        fmt::format("--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME",
+                    text, fmt::join(nodes, ", ")));
+  return std::pair(std::string(*node), bus);
+}
+
+run::Options options_of(const Arguments& arguments, BusFormat format) {
   run::Options options;
+  options.format = format;
   const bool external = arguments.target == "none";
   options.bus = arguments.bus;
   // Nobody else can know the name of a private bus, so two benches on one machine do not meet.
-  if (options.bus == private_bus)
-    options.bus = external ? "local:canhil" : fmt::format("local:canhil-{}", getpid());
+  if (options.bus == private_bus || options.bus.starts_with("local:?"))
+    options.bus.insert(private_bus.size(), external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
   const bool virtual_time = arguments.lockstep || options.bus == in_process;
   options.clock = virtual_time ? run::ClockKind::lockstep : run::ClockKind::real_time;
@@ -64,6 +105,14 @@ run::Options options_of(const Arguments& arguments) {
     // Another program inherits policy and priority; ours also locks its memory.
     if (arguments.target.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
+  }
+  // Every target is told, ours or another: it is to speak the same contract.
+  if (format != BusFormat::classic)
+    options.target_arguments.insert(options.target_arguments.end(), {"--dbc", std::string(name_of(format))});
+  for (const std::string& text : arguments.bus_of) {
+    options.bus_of.push_back(*node_and_bus(text));
+    for (const std::string& word : {std::string("--bus"), options.bus_of.back().second})
+      if (!external) options.target_arguments.push_back(word);
   }
   options.target_cpu = arguments.target_cpu;
   options.spin_ns = std::int64_t{arguments.spin_us.value_or(0)} * 1000;
@@ -85,13 +134,18 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
   if (!arguments.json.empty()) {
     if (auto written = report::write(arguments.json, report::json(scenario, run)); !written) return written;
   }
-  if (!arguments.junit.empty()) return report::write(arguments.junit, report::junit(scenario, run));
-  return {};
+  if (!arguments.junit.empty()) {
+    if (auto written = report::write(arguments.junit, report::junit(scenario, run)); !written) return written;
+  }
+  if (arguments.html.empty()) return {};
+  const auto page = report::html(report::document(scenario, run));
+  if (!page) return tl::unexpected(page.error());
+  return report::write_file(arguments.html, *page);
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
-  if (auto distinct =
-          report::check_distinct({arguments.scenario, arguments.json, arguments.junit, arguments.log});
+  if (auto distinct = report::check_distinct(
+          {arguments.scenario, arguments.json, arguments.junit, arguments.html, arguments.log});
       !distinct) {
     return distinct;
   }
@@ -99,8 +153,11 @@ Result<void> check_outputs(const Arguments& arguments) {
     if (path.empty() || path == report::to_stdout) continue;
     if (auto writable = report::check_writable(path); !writable) return writable;
   }
-  if (arguments.log.empty()) return {};
-  return report::check_writable(arguments.log);
+  for (const std::string& path : {arguments.html, arguments.log}) {
+    if (path.empty()) continue;
+    if (auto writable = report::check_writable(path); !writable) return writable;
+  }
+  return {};
 }
 
 Result<void> check_bus(const Arguments& arguments) {
@@ -110,6 +167,12 @@ Result<void> check_bus(const Arguments& arguments) {
   if (arguments.bus == in_process && (arguments.realtime.wanted || arguments.spin_us))
     return failure(
         "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
+  for (const std::string& text : arguments.bus_of) {
+    if (auto named = node_and_bus(text); !named) return tl::unexpected(named.error());
+  }
+  // Two wires deliver in an order of their own: the answer to a step could miss what the other brings.
+  if (!arguments.bus_of.empty() && (arguments.lockstep || arguments.bus == in_process))
+    return failure("--bus-of: one step over two buses has no order, expected real time");
   if (arguments.target_cpu && (arguments.target == "none" || arguments.bus == in_process))
     return failure("--target-cpu: no target is started here, expected one with --target and a bus");
   if (arguments.target_cpu) {
@@ -129,6 +192,23 @@ void warn(const run::Run& run) {
   if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
 }
 
+// The contract of the bus: by the command line, by the scenario, or by both alike.
+Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario& scenario) {
+  if (arguments.dbc.empty()) return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
+  auto named = named_contract(arguments.dbc);
+  if (named && scenario.fd && *scenario.fd != (*named == BusFormat::fd)) {
+    return failure(fmt::format("--dbc '{}': {} has dbc = \"{}\", expected one of the two or both alike",
+                               arguments.dbc, scenario.file,
+                               name_of(*scenario.fd ? BusFormat::fd : BusFormat::classic)));
+  }
+  return named;
+}
+
+Result<void> check_format(BusFormat format) {
+  if (format == BusFormat::classic || run::frames_round()) return {};
+  return failure("canhil-fd: this program carries every signal as a 64-bit float, expected one that rounds");
+}
+
 // Where bit rates differ, or nobody else is there, the controller is in trouble before a word is understood.
 Error with_controller(Error error, const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
@@ -144,12 +224,15 @@ ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_bus(arguments); !fine) return complain(fine.error());
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
   if (!scenario) return complain(scenario.error());
+  const auto format = format_of(arguments, *scenario);
+  if (!format) return complain(format.error());
+  if (auto fine = check_format(*format); !fine) return complain(fine.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   catch_interrupts();
   Result<run::Run> finished = [&] {
     const ProgressLine line;
-    return run::run(*scenario, options_of(arguments), interrupted, [&](std::int64_t t_us) {
+    return run::run(*scenario, options_of(arguments, *format), interrupted, [&](std::int64_t t_us) {
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
@@ -169,11 +252,19 @@ void add_run(CLI::App& app, int& code) {
   command->add_option(
       "--bus", arguments->bus,
       "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process");
+  command
+      ->add_option("--bus-of", arguments->bus_of,
+                   "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
+                   "target is to listen there too")
+      ->allow_extra_args(false);
   command->add_option(
       "--target", arguments->target,
       "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
-  CLI::Option* lockstep =
-      command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
+  CLI::Option* lockstep = command->add_option(
+      "--dbc", arguments->dbc,
+      "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "
+      "scenario's, else canhil)");
+  command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
   realtime::add_options(*command, arguments->realtime)->excludes(lockstep);
   realtime::add_number(*command, "--target-cpu", arguments->target_cpu, 0, 1023,
                        "the only CPU of the target that this command starts");
@@ -185,6 +276,7 @@ void add_run(CLI::App& app, int& code) {
                       "write the report as JSON to a file; -: to stdout, in place of the text");
   command->add_option("--junit", arguments->junit,
                       "write the checks as JUnit XML to a file; -: to stdout, in place of the text");
+  command->add_option("--html", arguments->html, "write the report as one HTML page to a file");
   command->add_option("--log", arguments->log, "record every frame in candump's log format");
   command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }

@@ -55,6 +55,9 @@ std::optional<Interface> find_interface(const std::string& name);
 /// queue, restart, errors, stamps. Nothing beyond the first line if it is none or down.
 std::vector<Line> interface_lines(const Interface& interface);
 
+/// Two interfaces that are to share a bus: a line if their bit rates differ.
+std::vector<Line> mismatch_lines(const Interface& one, const Interface& other);
+
 /// In place of that for a name that no interface has.
 Line no_interface(const std::string& name);
 

@@ -1,18 +1,25 @@
 #include "bench/report/json.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/checks/bus_load.hpp"
+#include "bench/report/json_timing.hpp"
+#include "bench/report/provenance.hpp"
+#include "bench/report/series.hpp"
 #include "bench/report/summary.hpp"
+#include "dbc/realtime/host.hpp"
 
 namespace canhil::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json object(const checks::Distribution& d) {
-  return {{"count", d.count}, {"min", d.min}, {"p50", d.p50}, {"p99", d.p99}, {"max", d.max}};
+// As many digits as a picture shows.
+double rounded(double value) {
+  if (value == 0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 4);
+  return std::round(value / unit) * unit;
 }
 
 Json object(const EngagementSummary& engagement) {
@@ -86,6 +93,7 @@ Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
             {"rx_counter_max", errors.rx_counter_max},
             {"interface_down", bus.downs},
             {"late_in_queue", bus.late_in_queue},
+            {"foreign_frames", bus.foreign},
             {"incidents", Json::array()},
             {"more_incidents", bus.more_incidents}};
   for (const checks::BusIncident& incident : bus.incidents) {
@@ -109,24 +117,105 @@ Json object(const realtime::Standing& host, std::int64_t spin_ns) {
           {"spin_us", spin_ns / 1000}};
 }
 
+constexpr std::string_view kind_name(Series::Kind kind) {
+  switch (kind) {
+    case Series::Kind::error:
+      return "error";
+    case Series::Kind::innovation:
+      return "innovation";
+    case Series::Kind::statistic:
+      break;
+  }
+  return "statistic";
+}
+
+Json object(const Series& series) {
+  Json json{{"estimator", series.estimator},  {"quantity", series.quantity}, {"unit", series.unit},
+            {"kind", kind_name(series.kind)}, {"t_s", Json::array()},        {"low", Json::array()},
+            {"high", Json::array()}};
+  for (const Series::Point& point : series.points) {
+    json["t_s"].push_back(point.t_s);
+    json["low"].push_back(rounded(point.low));
+    json["high"].push_back(rounded(point.high));
+    if (series.kind == Series::Kind::error)
+      json["sigma"].push_back(point.sigma ? Json(rounded(*point.sigma)) : Json(nullptr));
+  }
+  if (!series.between.empty()) json["between_95_percent"] = series.between;
+  return json;
+}
+
+// By second; of a long run the busiest of each stretch of several.
+Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
+  constexpr std::size_t most = 400;
+  const std::size_t size = seen.length_by_second.size();
+  const std::size_t stretch_s = (size + most - 1) / most;
+  Json json{{"bitrate_bitps", rates.nominal},
+            {"data_bitrate_bitps", rates.data},
+            {"stretch_s", stretch_s},
+            {"busiest", Json::array()}};
+  for (std::size_t from = 0; from < size; from += stretch_s) {
+    double busiest = 0;
+    for (std::size_t i = from; i < std::min(size, from + stretch_s); ++i)
+      busiest = std::max(busiest, wire::bus_load(seen.length_by_second[i], 1.0, rates));
+    json["busiest"].push_back(rounded(busiest));
+  }
+  return json;
+}
+
+Json provenance(const scenario::Scenario& scenario, const run::Run& run, const Summary& summary) {
+  Json json{{"scenario", scenario.file},
+            {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
+            {"contract", name_of(run.options.format)},
+            {"dbc_hash", fmt::format("{:016x}", messages::dbc_hash)},
+            {"seed", scenario.seed},
+            {"run", run.options.run_index},
+            {"bus", run.options.bus},
+            {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
+            {"latency_stamps", summary.stamp_source},
+            {"period_overrides", period_overrides(scenario)},
+            {"date", date_utc(run.started_s)},
+            {"revision", revision()},
+            {"kernel", kernel()},
+            {"preemption", realtime::preemption()},
+            {"cpu_model", cpu_model()}};
+  for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
+  if (run.host) json["bench_process"] = object(*run.host, run.options.spin_ns);
+  return json;
+}
+
+void print(std::string& out, const Json& json, std::size_t indent) {
+  // File and bus names need not be UTF-8.
+  const auto plain = [](const Json& value) {
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
+  const bool open =
+      (json.is_object() && !json.empty()) ||
+      (json.is_array() && std::ranges::any_of(json, [](const Json& j) { return j.is_object(); }));
+  if (!open) {
+    out += plain(json);
+    return;
+  }
+  out += json.is_object() ? "{" : "[";
+  bool first = true;
+  for (const auto& [key, value] : json.items()) {
+    out += (first ? "\n" : ",\n") + std::string(indent + 2, ' ');
+    if (json.is_object()) out += plain(Json(key)) + ": ";
+    print(out, value, indent + 2);
+    first = false;
+  }
+  out += "\n" + std::string(indent, ' ') + (json.is_object() ? "}" : "]");
+}
+
 }  // namespace
 
-std::string json(const scenario::Scenario& scenario, const run::Run& run) {
+Json document(const scenario::Scenario& scenario, const run::Run& run) {
   const Summary summary = summarise(scenario, run);
   Json page;
+  page["schema"] = schema;
   page["title"] = scenario.title;
   page["verdict"] = checks::name(run.verdict.outcome);
   page["reason"] = run.verdict.reason;
-  page["provenance"] = {{"scenario", scenario.file},
-                        {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
-                        {"dbc_hash", fmt::format("{:016x}", messages::dbc_hash)},
-                        {"seed", scenario.seed},
-                        {"run", run.options.run_index},
-                        {"bus", run.options.bus},
-                        {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
-                        {"latency_stamps", summary.stamp_source},
-                        {"period_overrides", period_overrides(scenario)}};
-  if (run.host) page["provenance"]["bench_process"] = object(*run.host, run.options.spin_ns);
+  page["provenance"] = provenance(scenario, run, summary);
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
   page["ending"] = {{"completed", run.ending.kind == run::Ending::Kind::completed},
@@ -145,23 +234,23 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
     page["alignments"].push_back(object(alignment));
   if (summary.engagement) page["engagement"] = object(*summary.engagement);
   if (summary.wind) page["wind"] = object(*summary.wind);
-  if (run.options.clock == run::ClockKind::real_time) {
-    for (const MessageLatency& row : summary.latencies) {
-      page["latency_s"][row.message] = object(row.latency_s);
-      page["period_s"][row.message] = object(row.period_s);
-    }
-    page["bench_lateness_s"] = object(summary.lateness_s);
-  }
+  page["timing"] = timing_judged(run);
+  if (run.options.clock == run::ClockKind::real_time) add_timing(page, scenario, run);
+  if (run.seen.target_timing_seen)
+    page["target_timing_us"] = {{"queue_max", run.seen.queue_max_us},
+                                {"compute_max", run.seen.compute_max_us}};
   if (run.seen.counters) {
     page["target_counters"] = {{"frames_lost", run.seen.counters->frames_lost},
                                {"bad_crc", run.seen.counters->bad_crc},
                                {"bad_group", run.seen.counters->bad_group},
                                {"late", run.seen.counters->late}};
   }
-  for (const std::int64_t bitrate : {500'000, 1'000'000}) {
-    const checks::BusLoad load = checks::bus_load(run.seen, {.nominal = bitrate});
-    page["bus_load"].push_back(
-        {{"bitrate_bitps", bitrate}, {"mean", load.mean}, {"busiest_second", load.busiest}});
+  for (const wire::BitRates& rates : bit_rates(run.options.format)) {
+    const checks::BusLoad load = checks::bus_load(run.seen, rates);
+    page["bus_load"].push_back({{"bitrate_bitps", rates.nominal},
+                                {"data_bitrate_bitps", rates.data},
+                                {"mean", load.mean},
+                                {"busiest_second", load.busiest}});
   }
   page["from_target"] = {{"navigation_answers", summary.navigation_answers},
                          {"filter_answers", summary.filter_answers},
@@ -171,8 +260,20 @@ std::string json(const scenario::Scenario& scenario, const run::Run& run) {
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};
   page["bus"] = object(run.seen.bus, run.seen.first_ns);
-  // File and bus names need not be UTF-8.
-  return page.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  page["bus_load_line"] = load_line(run.seen, bit_rates(run.options.format)[0]);
+  page["series"] = Json::array();
+  for (const Series& one : series(scenario, run)) page["series"].push_back(object(one));
+  return page;
+}
+
+std::string text_of(const Json& document) {
+  std::string out;
+  print(out, document, 0);
+  return out + "\n";
+}
+
+std::string json(const scenario::Scenario& scenario, const run::Run& run) {
+  return text_of(document(scenario, run));
 }
 
 }  // namespace canhil::report

@@ -3,12 +3,24 @@
 
 #include <string>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "bench/run/session.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::report {
 
-/// One JSON object: verdict, checks, figures, provenance. Times in s, angles in rad, unit in every key.
+/// The value of "schema" in a report.
+inline constexpr std::string_view schema = "canhil-report-1";
+
+/// One JSON object: verdict, checks, figures, provenance, and all that the page shows. Times in s, angles in
+/// rad, unit in every key; docs/report.md describes it.
+nlohmann::ordered_json document(const scenario::Scenario& scenario, const run::Run& run);
+
+/// As text: an object a line for each key, an array of numbers on one line.
+std::string text_of(const nlohmann::ordered_json& document);
+
+/// Both in one.
 std::string json(const scenario::Scenario& scenario, const run::Run& run);
 
 }  // namespace canhil::report

@@ -98,7 +98,8 @@ AlignmentSummary alignment_summary(scenario::Aligner aligner, const run::Run& ru
   return summary;
 }
 
-// The message that closes each group of answers of the estimators in use.
+}  // namespace
+
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
   std::vector<std::string_view> closing;
   const auto add = [&](std::string_view estimator, std::initializer_list<std::string_view> messages) {
@@ -110,8 +111,6 @@ std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario
   add("wind", {messages::WindUpdate::info.name});
   return closing;
 }
-
-}  // namespace
 
 Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   Summary summary;
@@ -126,16 +125,16 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   summary.los_answers = run.seen.los.size();
   if (run.own_truth.engagement) summary.engagement = engagement_summary(run.seen, *run.own_truth.engagement);
 
-  const scenario::Window everything{0, run.truth.end_us()};
   for (const std::string_view message : closing_answers(scenario)) {
-    summary.latencies.push_back(
-        {.message = std::string(message),
-         .latency_s = checks::distribution(checks::latencies_s(run.seen, message, everything)),
-         .period_s = checks::distribution(checks::periods_s(run.seen, message, everything))});
+    const auto place = std::ranges::find(messages::all_messages, message, &MessageInfo::name);
+    const checks::AnswerTiming& timing =
+        run.seen.timing.answers[static_cast<std::size_t>(place - messages::all_messages.begin())];
+    summary.latencies.push_back({.message = std::string(message),
+                                 .latency_s = checks::distribution_s(timing.latency),
+                                 .jitter_s = checks::distribution_s(timing.jitter),
+                                 .unanswered = checks::unanswered(run.seen, message)});
   }
-  std::vector<double> lateness(run.seen.lateness_ns.begin(), run.seen.lateness_ns.end());
-  for (double& late : lateness) late *= 1e-9;
-  summary.lateness_s = checks::distribution(std::move(lateness));
+  summary.lateness_s = checks::distribution_s(run.seen.timing.lateness);
   summary.stamp_source =
       run.options.clock == run::ClockKind::lockstep ? "virtual time"
       : checks::stamped_by_hardware(run.seen) ? "the controller's hardware stamps of stimulus and answer"

@@ -1,6 +1,7 @@
 // What a run measured, apart from its checks: the figures that every report shows.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,7 +23,8 @@ struct BandEntry {
 struct MessageLatency {
   std::string message;
   checks::Distribution latency_s;
-  checks::Distribution period_s;
+  checks::Distribution jitter_s;
+  std::size_t unanswered = 0;
 };
 
 /// What became of the fixes of an alignment in flight, as the target says.
@@ -79,6 +81,17 @@ struct Summary {
 };
 
 Summary summarise(const scenario::Scenario& scenario, const run::Run& run);
+
+/// The message that closes each group of answers of the estimators in use.
+std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);
+
+/// The bit rates that reports tell the bus load at: 500 kbit/s and 1 Mbit/s, on CAN FD with a data phase of 2
+/// and 5 Mbit/s.
+constexpr std::array<wire::BitRates, 2> bit_rates(BusFormat format) {
+  const bool fd = format == BusFormat::fd;
+  return {
+      {{.nominal = 500'000, .data = fd ? 2'000'000 : 0}, {.nominal = 1'000'000, .data = fd ? 5'000'000 : 0}}};
+}
 
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario);

@@ -96,8 +96,10 @@ std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
   auto out = std::back_inserter(lines);
   if (const std::string said = canhil::words(bus.errors); !said.empty()) fmt::format_to(out, " ({})", said);
-  fmt::format_to(out, "; interface down {} times; late in transmit queue {} frames\n", bus.downs,
+  fmt::format_to(out, "; interface down {} times; late in transmit queue {} frames", bus.downs,
                  bus.late_in_queue);
+  if (bus.foreign > 0) fmt::format_to(out, "; {} frames in the format that it is not to have", bus.foreign);
+  lines += '\n';
   for (const checks::BusIncident& incident : bus.incidents) {
     if (&incident == bus.incidents.data() + shown) break;
     fmt::format_to(out, "    t={:.3f} s  {} (tx {}, rx {})\n",
@@ -109,6 +111,21 @@ std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
   return lines;
 }
 
+std::string milliseconds(const checks::Distribution& d) {
+  return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  p99.9 {:.3f}  max {:.3f} ms", d.p50 * 1e3,
+                     d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
+}
+
+std::string load_words(const run::Run& run) {
+  const bool fd = run.options.format == BusFormat::fd;
+  const auto rates = bit_rates(run.options.format);
+  const checks::BusLoad slow = checks::bus_load(run.seen, rates[0]);
+  const checks::BusLoad fast = checks::bus_load(run.seen, rates[1]);
+  return fmt::format("  bus load at {}mean {:.1f} %, busiest second {:.1f} %; at {} {:.1f} %, {:.1f} %\n",
+                     fd ? "0.5 and 2 Mbit/s  " : "500 kbit/s        ", slow.mean * 100, slow.busiest * 100,
+                     fd ? "1 and 5 Mbit/s" : "1 Mbit/s", fast.mean * 100, fast.busiest * 100);
+}
+
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
@@ -117,10 +134,12 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   auto out = std::back_inserter(page);
 
   fmt::format_to(out, "{}\n", scenario.title);
-  fmt::format_to(out, "  scenario {} · bus {} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
+  fmt::format_to(out, "  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
+                 run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "",
                  run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time",
                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
+  for (const auto& [node, bus] : run.options.bus_of) fmt::format_to(out, "  {} on bus {}\n", node, bus);
   if (run.host) {
     fmt::format_to(out, "  bench {}{}\n", realtime::words(*run.host),
                    run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
@@ -144,26 +163,19 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
   if (run.options.clock == run::ClockKind::real_time) {
     for (const MessageLatency& row : summary.latencies) {
-      fmt::format_to(out, "  latency {:<22}p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} answers\n",
-                     row.message, row.latency_s.p50 * 1e3, row.latency_s.p99 * 1e3, row.latency_s.max * 1e3,
-                     row.latency_s.count);
+      fmt::format_to(out, "  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
+                     row.latency_s.count,
+                     row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
+      fmt::format_to(out, "    its period's deviation      {}\n", milliseconds(row.jitter_s));
     }
-    fmt::format_to(out,
-                   "  bench's own lateness          p50 {:.3f}  p99 {:.3f}  max {:.3f} ms  of {} frames  "
-                   "(latency by {})\n",
-                   summary.lateness_s.p50 * 1e3, summary.lateness_s.p99 * 1e3, summary.lateness_s.max * 1e3,
-                   summary.lateness_s.count, summary.stamp_source);
+    fmt::format_to(out, "  bench's own lateness          {}  of {} frames  (latency by {})\n",
+                   milliseconds(summary.lateness_s), summary.lateness_s.count, summary.stamp_source);
     if (run.seen.target_timing_seen) {
       fmt::format_to(out, "  target's own account          queue max {} us  compute max {} us\n",
                      run.seen.queue_max_us, run.seen.compute_max_us);
     }
   }
-  const checks::BusLoad half = checks::bus_load(run.seen, {.nominal = 500'000});
-  const checks::BusLoad full = checks::bus_load(run.seen, {.nominal = 1'000'000});
-  fmt::format_to(out,
-                 "  bus load at 500 kbit/s        mean {:.1f} %, busiest second {:.1f} %; at 1 Mbit/s {:.1f} "
-                 "%, {:.1f} %\n",
-                 half.mean * 100, half.busiest * 100, full.mean * 100, full.busiest * 100);
+  page += load_words(run);
   const auto& counters = run.seen.counters;
   fmt::format_to(
       out, "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",

@@ -1,6 +1,7 @@
 #include "bench/run/contract.hpp"
 
 #include "messages/canhil.hpp"
+#include "target/device/device.hpp"
 
 namespace canhil::run {
 namespace {
@@ -13,9 +14,20 @@ std::vector<std::string> names() {
   return all;
 }
 
-}  // namespace
+/// Of the target that comes with this bench; another one's may differ.
+std::map<std::string, std::vector<std::string>, std::less<>> parameters_by_estimator() {
+  std::map<std::string, std::vector<std::string>, std::less<>> all;
+  const target::Device device;
+  for (const auto estimator : messages::enumerators<messages::Estimator>) {
+    for (const auto parameter : messages::enumerators<messages::Parameter>) {
+      if (device.range(estimator, parameter))
+        all[std::string(name_of(estimator))].emplace_back(name_of(parameter));
+    }
+  }
+  return all;
+}
 
-scenario::Contract contract() {
+scenario::Contract make_contract() {
   scenario::Contract contract{.estimators = names<messages::Estimator>(),
                               .algorithms = names<messages::Algorithm>(),
                               .parameters = names<messages::Parameter>(),
@@ -23,12 +35,20 @@ scenario::Contract contract() {
                               .fix_outcomes = names<messages::FixOutcome>(),
                               .answers = {},
                               .wind_outcomes = names<messages::WindOutcome>()};
+  contract.parameters_of = parameters_by_estimator();
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);
     if (!info.answers.empty()) contract.answers.emplace_back(info.name);
   }
   return contract;
+}
+
+}  // namespace
+
+scenario::Contract contract() {
+  static const scenario::Contract built_in = make_contract();
+  return built_in;
 }
 
 bool frames_round() { return wire::lsb(messages::SlaveImuDeltaTheta::info.signals[0]) != 0; }

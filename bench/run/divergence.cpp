@@ -4,6 +4,8 @@
 
 #include <tuple>
 
+#include "bench/run/contract.hpp"
+#include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
@@ -18,7 +20,7 @@ constexpr Routes comparable([](const MessageInfo& info) {
 // The frames of one log that count, one after the other.
 class Answers {
  public:
-  explicit Answers(LogReader reader) : reader_(std::move(reader)) {}
+  explicit Answers(LogReader reader) : reader_(std::move(reader), frames_round()) {}
 
   // The next one; none at the end.
   Result<std::optional<LogEntry>> next() {
@@ -36,7 +38,7 @@ class Answers {
   [[nodiscard]] double t_s() const { return t_s_; }
 
  private:
-  LogReader reader_;
+  ClassicLogReader reader_;
   bool synchronised_ = false;
   double t_s_ = 0;
 };

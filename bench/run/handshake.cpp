@@ -7,6 +7,7 @@
 
 #include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
+#include "target/device/device.hpp"
 
 namespace canhil::run {
 namespace {
@@ -32,6 +33,10 @@ class Mailbox final : public Observer {
     if (const auto ack = heard<ParamAck>(received)) acknowledgement = ack;
     if (heard<Sync>(received)) other_bench = true;
   }
+  void foreign(const Received& received) override {
+    foreign_heartbeat = foreign_heartbeat || (received.frame.id == TargetHeartbeat::info.id &&
+                                              received.frame.extended == TargetHeartbeat::info.extended);
+  }
   [[nodiscard]] bool is(Estimator estimator, TargetState state) const {
     const auto& beat = beats_[static_cast<std::size_t>(estimator)];
     return beat && beat->state == state;
@@ -42,7 +47,8 @@ class Mailbox final : public Observer {
   }
   std::optional<TargetHeartbeat> heartbeat;  // the last one
   std::optional<ParamAck> acknowledgement;
-  bool other_bench = false;  // somebody else keeps the time base
+  bool foreign_heartbeat = false;  // in the format that this bus does not have
+  bool other_bench = false;        // somebody else keeps the time base
 
  private:
   std::array<std::optional<TargetHeartbeat>, 8> beats_;  // of each estimator, by the three bits of its name
@@ -120,14 +126,23 @@ TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
   return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
 }
 
+// What hil-target takes; another target may take something else.
+std::string range_of(Estimator estimator, Parameter parameter) {
+  const auto range = target::Device().range(estimator, parameter);
+  if (!range) return "a value in its range";
+  return fmt::format("a {}number from {:g} to {:g}", range->whole ? "whole " : "", range->minimum,
+                     range->maximum);
+}
+
 // Why, what was expected, and what becomes of the old value.
-std::string refusal(const ParamAck& ack) {
+std::string refusal(const ParamAck& ack, Estimator estimator) {
   const auto in_force = static_cast<double>(ack.value);
   switch (ack.status) {
     case ParameterStatus::out_of_range:
-      return fmt::format("out_of_range, expected a value in its range; {:g} stays in force", in_force);
+      return fmt::format("out_of_range, expected {}; {:g} stays in force", range_of(estimator, ack.parameter),
+                         in_force);
     case ParameterStatus::unknown:
-      return "unknown, expected a parameter of the estimator in use";
+      return fmt::format("unknown, expected a parameter of {}", name_of(estimator));
     case ParameterStatus::wrong_state:
       return fmt::format("wrong_state, expected to be set before the start; {:g} stays in force", in_force);
     case ParameterStatus::accepted:
@@ -136,7 +151,7 @@ std::string refusal(const ParamAck& ack) {
   return fmt::format("status {}, which is none of the DBC's", static_cast<int>(ack.status));
 }
 
-Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted) {
+Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenario::Parameter& wanted) {
   const auto parameter = from_name<Parameter>(wanted.name);
   if (!parameter) return failure(fmt::format("{}: not in the DBC", wanted.where));
   const auto value = static_cast<float>(wanted.value);
@@ -151,7 +166,7 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
   const ParamAck& ack = *dialogue.mailbox().acknowledgement;
   if (ack.status != ParameterStatus::accepted) {
     return failure(fmt::format("{}: {:g} was sent and refused by the target: {}", wanted.where,
-                               static_cast<double>(value), refusal(ack)));
+                               static_cast<double>(value), refusal(ack, estimator)));
   }
   // Read-back: the value in force is the one sent, up to the rounding of a conversion of units in the target.
   if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
@@ -162,12 +177,17 @@ Result<void> set_parameter(Dialogue& dialogue, const scenario::Parameter& wanted
 }
 
 // Finds the target: the only one on the bus, and of this DBC.
-Result<void> find(Dialogue& dialogue, const std::string& bus) {
+Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) {
   const Mailbox& box = dialogue.mailbox();
   auto found = dialogue.until(
       "waiting for its heartbeat", find_limit_ns, [](nodes::Transmission&) {},
-      [](const Mailbox& mailbox) { return mailbox.heartbeat.has_value(); });
+      [](const Mailbox& mailbox) { return mailbox.heartbeat || mailbox.foreign_heartbeat; });
   if (!found) return found;
+  if (!box.heartbeat) {
+    const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
+    return failure(
+        fmt::format("target on '{}': answers in {}, expected {}", bus, words(other), words(format)));
+  }
   if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
   if (box.other_bench) {
     return failure(fmt::format("bus '{}': another bench is at work here, expected to be the only one", bus));
@@ -210,7 +230,7 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
         selection == Command::add ? " beside others" : "", errors_of(*dialogue.mailbox().heartbeat)));
   }
   for (const scenario::Parameter& parameter : setup.parameters) {
-    if (auto set = set_parameter(dialogue, parameter); !set) return set;
+    if (auto set = set_parameter(dialogue, *estimator, parameter); !set) return set;
   }
   return dialogue.until(
       "taking its initial state", answer_limit_ns,
@@ -227,10 +247,10 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
 Result<void> configure(Link& link, nodes::Transmission& out,
                        std::span<const scenario::TargetSetup> estimators,
                        std::span<const InitialState> initial,
-                       const std::function<std::optional<std::string>()>& gone) {
+                       const std::function<std::optional<std::string>()>& gone, BusFormat format) {
   Dialogue dialogue(link, out, gone);
   const std::string& bus = link.port().name();
-  if (auto found = find(dialogue, bus); !found) return found;
+  if (auto found = find(dialogue, bus, format); !found) return found;
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const Command selection = i == 0 ? Command::reset : Command::add;
     if (auto ready = prepare(dialogue, bus, selection, estimators[i], initial[i]); !ready) return ready;

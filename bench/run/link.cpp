@@ -36,7 +36,8 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
 
 LinkState Link::drain() {
   while (auto received = port_.receive()) {
-    for (Observer* observer : observers_) observer->received(*received);
+    for (Observer* observer : observers_)
+      received->foreign ? observer->foreign(*received) : observer->received(*received);
   }
   look_at_interface();
   return port_.closed() ? LinkState::down : LinkState::up;

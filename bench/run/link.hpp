@@ -20,6 +20,8 @@ class Observer {
   virtual void transmitted(const Frame& /*frame*/, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {}
   /// A frame came from the bus; `received.own`: the echo of one of ours, with its transmit stamp.
   virtual void received(const Received& /*received*/) {}
+  /// A frame came that is not of this bus's format: no part of the run.
+  virtual void foreign(const Received& /*received*/) {}
   /// The interface went down or was removed, or is back.
   virtual void interface_changed(bool /*up*/, std::int64_t /*t_ns*/) {}
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/checks/timing.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/routes.hpp"
 #include "dbc/wire/time_base.hpp"
@@ -78,18 +79,20 @@ Closed closed_by(const Frame& frame) {
 }  // namespace
 
 void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
-  if (seen_.lateness_ns.empty()) seen_.first_ns = t_ns;
+  if (seen_.timing.lateness.count() == 0) seen_.first_ns = t_ns;
   seen_.last_ns = t_ns;
-  seen_.lateness_ns.push_back(late_ns);
+  stopwatch_.sent(frame, t_ns, late_ns);
   if (frame.id == Sync::info.id) {
     now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
   } else if (const Closed closed = closed_by(frame); !closed.group.empty()) {
-    seen_.stimuli[closed.group].push_back({unwrap_us(closed.valid_us, now_us_), t_ns});
+    seen_.stimuli[closed.group].push_back(
+        {.valid_us = unwrap_us(closed.valid_us, now_us_), .t_ns = t_ns, .due_ns = t_ns - late_ns});
   }
 }
 
 // The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
 void Monitor::echoed(const Received& received) {
+  stopwatch_.echoed(received);
   const Closed closed = closed_by(received.frame);
   if (closed.group.empty()) return;
   seen_.transmit_stamps_echoed = true;
@@ -125,6 +128,7 @@ void Monitor::received(const Received& received) {
       break;
   }
   seen_.arrivals[index].push_back({.t_ns = received.t_ns, .hardware_ns = received.hardware_ns});
+  stopwatch_.arrived(index, received);
   decode(frame, index);
 }
 
@@ -179,11 +183,14 @@ bool Monitor::put(SampleGroup<Messages...>& group, const Frame& frame, std::uint
 template <class... Messages>
 void Monitor::attribute(const SampleGroup<Messages...>& /*group*/, std::int64_t cause_us,
                         std::string_view cause_group) {
-  const auto to = [&](checks::Arrival& arrival) {
+  const checks::Stimulus* stimulus = find_stimulus(seen_, cause_group, cause_us);
+  const auto to = [&](std::size_t index) {
+    checks::Arrival& arrival = seen_.arrivals[index].back();
     arrival.cause_us = cause_us;
     arrival.cause_group = cause_group;
+    stopwatch_.answered(index, arrival, stimulus);
   };
-  (to(seen_.arrivals[message_index<Messages>()].back()), ...);
+  (to(message_index<Messages>()), ...);
 }
 
 template <class Attitude, class VelocityNE, class VelocityD>

@@ -5,6 +5,7 @@
 
 #include "bench/checks/observations.hpp"
 #include "bench/run/link.hpp"
+#include "bench/run/stopwatch.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/sample_group.hpp"
 #include "dbc/wire/transmit.hpp"
@@ -36,6 +37,7 @@ class Monitor final : public Observer {
   void attribute(const SampleGroup<Messages...>& group, std::int64_t cause_us, std::string_view cause_group);
 
   checks::Observations seen_;
+  Stopwatch stopwatch_{seen_.timing};
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   SampleGroup<messages::AlignAttitude, messages::AlignVelocityNE, messages::AlignVelocityD> navigation_;
   SampleGroup<messages::FixAttitude, messages::FixVelocityNE, messages::FixVelocityD> fix_navigation_;

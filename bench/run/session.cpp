@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "bench/run/bus_watch.hpp"
 #include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
+#include "bench/run/host_watch.hpp"
 #include "bench/run/in_process_port.hpp"
 #include "bench/run/load_meter.hpp"
 #include "bench/run/lockstep.hpp"
@@ -15,6 +17,8 @@
 #include "bench/run/recorder.hpp"
 #include "bench/run/target_process.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/several.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::run {
 namespace {
@@ -24,15 +28,48 @@ constexpr std::int64_t silence_limit_ns =
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
 constexpr std::string_view in_process = "in-process";
 
-// A local bus is hosted by the bench, unless somebody does already.
-Result<std::unique_ptr<Port>> open(const std::string& bus) {
+// A local bus is hosted by the bench, unless somebody does already. In process there is no bus, and frames
+// travel as they are in both contracts.
+Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
   if (bus == in_process) return std::make_unique<InProcessPort>();
   PortOptions options;
   options.own_echo = true;
+  options.foreign = true;
   options.node_name = "hil-bench";
-  auto joined = open_port(bus, options);
+  auto joined = open_bus(bus, options, format);
   if (joined || !bus.starts_with("local:")) return joined;
-  return host_local_bus(bus, options).map([](auto hub) -> std::unique_ptr<Port> { return hub; });
+  options.fd = format == BusFormat::fd;
+  auto hosted = host_local_bus(bus, options);
+  // Somebody hosts it after all: why it could not be joined says more.
+  if (!hosted) return joined;
+  return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
+}
+
+// The bus of each node that has one of its own, each once, after the first.
+std::vector<std::string> buses_of(const Options& options) {
+  std::vector<std::string> buses{options.bus};
+  for (const auto& [node, bus] : options.bus_of) {
+    if (std::ranges::find(buses, bus) == buses.end()) buses.push_back(bus);
+  }
+  return buses;
+}
+
+// One port over all of them; a frame goes to the bus of its sender.
+Result<std::unique_ptr<Port>> open_all(const Options& options) {
+  const std::vector<std::string> buses = buses_of(options);
+  std::vector<std::unique_ptr<Port>> ports;
+  for (const std::string& bus : buses) {
+    auto opened = open(bus, options.format);
+    if (!opened) return opened;
+    ports.push_back(std::move(*opened));
+  }
+  return join_ports(std::move(ports), [&options, buses](const Frame& frame) {
+    const MessageInfo* info = messages::find_message(frame.id);
+    const auto own = std::ranges::find_if(
+        options.bus_of, [&](const auto& entry) { return info != nullptr && info->sender == entry.first; });
+    const std::string& bus = own == options.bus_of.end() ? options.bus : own->second;
+    return static_cast<std::size_t>(std::ranges::find(buses, bus) - buses.begin());
+  });
 }
 
 }  // namespace
@@ -55,7 +92,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (options.realtime) {
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
   }
-  auto port = open(options.bus);
+  auto port = open_all(options);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
   BusWatch bus;
@@ -81,22 +118,28 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   };
 
   Schedule schedule = make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep);
-  if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !configured) {
+  if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone, options.format);
+      !configured) {
     return tl::unexpected(configured.error());
   }
 
   Monitor monitor;
   link.attach(monitor);
-  LoadMeter meter;
+  LoadMeter meter(options.format);
   link.attach(meter);
+  HostWatch host((*port)->stamp_clock());
+  link.attach(host);
   Ears ears(schedule);
   link.attach(ears);
   const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
+  const std::int64_t started_s = clock_ns(CLOCK_REALTIME) / 1'000'000'000;
   Ending ending =
       lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
                : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress, options.spin_ns);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
+  monitor.observations().host = host.record();
   link.detach(ears);
+  link.detach(host);
   link.detach(meter);
   link.detach(monitor);
   if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
@@ -112,14 +155,16 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
   seen.bus.late_in_queue = link.late_in_queue();
+  seen.bus.foreign = (*port)->counters().foreign;
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
+  std::string timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
                                   .glide = own_truth->glide ? &*own_truth->glide : nullptr,
                                   .engagement = own_truth->engagement ? &*own_truth->engagement : nullptr,
                                   .duration_us = scenario.duration_us,
                                   .ended_early = ending.detail,
-                                  .timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen)};
+                                  .timing_unfit = timing_unfit};
   checks::Verdict verdict = judge(scenario, evidence);
   if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return Run{.verdict = std::move(verdict),
@@ -128,8 +173,10 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
              .truth = std::move(*truth),
              .own_truth = std::move(*own_truth),
              .options = options,
+             .timing_unfit = std::move(timing_unfit),
              .host = lockstep ? std::nullopt : std::optional(realtime::standing()),
-             .wall_s = wall_s};
+             .wall_s = wall_s,
+             .started_s = started_s};
 }
 
 }  // namespace canhil::run

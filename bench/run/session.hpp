@@ -12,6 +12,7 @@
 #include "bench/run/flight.hpp"
 #include "bench/run/real_time.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "dbc/ports/fd_groups.hpp"
 #include "dbc/realtime/process.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -22,7 +23,9 @@ enum class ClockKind : std::uint8_t { real_time, lockstep };
 /// What the command line decides.
 struct Options {
   std::string bus;  ///< "local:NAME", a SocketCAN interface, or "in-process" (lockstep only)
+  std::vector<std::pair<std::string, std::string>> bus_of;  ///< node of the DBC, bus of its own
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
+  BusFormat format = BusFormat::classic;
   ClockKind clock = ClockKind::real_time;
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments
@@ -40,8 +43,10 @@ struct Run {
   world::FlightRecord truth;
   OwnTruth own_truth{};
   Options options;
-  std::optional<realtime::Standing> host;  ///< of the bench, in real time
-  double wall_s = 0;                       ///< from the start of the estimator to the end
+  std::string timing_unfit{};                ///< why no timing of the run is judged; empty: it is
+  std::optional<realtime::Standing> host{};  ///< of the bench, in real time
+  double wall_s = 0;                         ///< from the start of the estimator to the end
+  std::int64_t started_s = 0;                ///< since 1970, UTC; 0: unknown
 };
 
 /// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a

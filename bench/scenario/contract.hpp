@@ -2,6 +2,8 @@
 // depend on one bus: the generated header or a DBC read at run time can fill it.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,8 @@ struct Contract {
   std::vector<std::string> fix_outcomes;     ///< value table FixOutcome
   std::vector<std::string> answers;          ///< of those that answer a sample group
   std::vector<std::string> wind_outcomes{};  ///< value table WindOutcome
+  /// By estimator, those of `parameters` that it has: what a misspelt one may mean. Not there: any.
+  std::map<std::string, std::vector<std::string>, std::less<>> parameters_of{};
 };
 
 }  // namespace canhil::scenario

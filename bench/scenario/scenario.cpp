@@ -41,6 +41,14 @@ void read_glider(Section& root, Scenario& scenario) {
   scenario.fins = read_node<Fins>(root, "fins", true, read_fins);
 }
 
+/// The contract that the bus is to carry, if the scenario says so.
+std::optional<bool> read_fd(Section& root) {
+  root.optional("dbc");
+  if (!root.has("dbc")) return std::nullopt;
+  static const std::vector<std::string> names{"canhil", "canhil-fd"};
+  return root.one_of("dbc", names) == "canhil-fd";
+}
+
 std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract,
                                const Truths& truths) {
   std::vector<Check> checks;
@@ -122,6 +130,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   scenario.hash = hash_of(text, settings);
   scenario.title = root.text("title");
   scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
+  scenario.fd = read_fd(root);
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {

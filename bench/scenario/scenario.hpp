@@ -41,6 +41,7 @@ struct Scenario {
   std::string title;
   std::int64_t duration_us = 0;
   std::uint64_t seed = 0;
+  std::optional<bool> fd;  ///< what it says of the bus's contract: canhil-fd, or canhil
 
   std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
   world::Flight truth;                     ///< at rest where nothing navigates

@@ -25,11 +25,18 @@ InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
   return sigma;
 }
 
-std::vector<Parameter> read_parameters(Section section, const Contract& contract) {
+std::vector<Parameter> read_parameters(Section section, const Contract& contract,
+                                       const std::string& estimator) {
+  const auto own = contract.parameters_of.find(estimator);
+  const auto may_be_meant = [&](const std::string& name) {
+    return own == contract.parameters_of.end() || std::ranges::find(own->second, name) != own->second.end();
+  };
   constexpr double largest = 3.4e38;  // ParamSet carries an IEEE single
   std::vector<Parameter> parameters;
   for (const std::string& name : contract.parameters) {
-    const bool given = section.has(name);
+    const bool given =
+        section.has(name);  // one of another estimator may be the target's too: that refuses it
+    if (!given && !may_be_meant(name)) continue;
     const double value = section.plain_number(name, Limits::between(-largest, largest), 0.0);
     if (!given) continue;
     parameters.push_back({.name = name,
@@ -51,7 +58,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
     target.initial_sigma = read_initial_sigma(section.table("initial_sigma"), target);
   section.optional("initial_sigma");
   if (auto parameters = section.optional_table("parameters")) {
-    target.parameters = read_parameters(*std::move(parameters), contract);
+    target.parameters = read_parameters(*std::move(parameters), contract, target.estimator);
   }
   if (auto initial_error = section.optional_table("initial_error"))
     target.initial_error = read_initial_error(*initial_error);

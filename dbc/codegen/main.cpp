@@ -6,8 +6,10 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "dbc/codegen/exact.hpp"
+#include "dbc/codegen/fd.hpp"
 #include "dbc/codegen/generate.hpp"
 #include "dbc/codegen/json.hpp"
 #include "dbc/codegen/load.hpp"
@@ -24,6 +26,8 @@ struct Options {
   bool quantisation = false;
   bool load = false;
   bool json = false;
+  bool fd = false;
+  bool fd_header = false;
 };
 
 int complain(const std::string& line) {
@@ -36,23 +40,36 @@ int print(const std::string& text) {
   return 0;
 }
 
-int write_header(const canhil::dbc::Database& database, const Options& options) {
-  const auto text = canhil::dbc::generate_header(database, options.name_space,
-                                                 std::filesystem::path(options.dbc).filename().string());
+canhil::Result<std::string> text_for(const canhil::dbc::Database& database, const Options& options) {
+  const std::string name = std::filesystem::path(options.dbc).filename().string();
+  if (options.fd) return canhil::dbc::fd_text(database, name);
+  if (options.fd_header) return canhil::dbc::fd_header(database, options.name_space, name);
+  return canhil::dbc::generate_header(database, options.name_space, name);
+}
+
+bool holds(const std::string& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
+}
+
+int write(const canhil::dbc::Database& database, const Options& options) {
+  const auto text = text_for(database, options);
   if (!text) return complain(text.error().message);
   if (options.output.empty()) return print(*text);
+  // A file that is the same already stays as it is: nobody who includes it need be compiled again.
+  if (holds(options.output, *text)) return 0;
   std::ofstream file(options.output, std::ios::binary);
   file << *text << std::flush;
   return file
              ? 0
-             : complain(fmt::format("{}: cannot be written, expected a path for the header", options.output));
+             : complain(fmt::format("{}: cannot be written, expected a path for the result", options.output));
 }
 
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Turns a DBC file into a C++ header of constexpr codecs."};
   app.add_option("dbc", options.dbc, "the DBC file")->required();
-  app.add_option("-o,--output", options.output, "the header to write; standard output if not given");
+  app.add_option("-o,--output", options.output, "the file to write; standard output if not given");
   app.add_option("-n,--namespace", options.name_space, "namespace of the header");
   app.add_flag("--exact", options.exact,
                "carry every scaled signal as a 64-bit float in CAN FD frames: nothing is rounded");
@@ -60,6 +77,9 @@ int run(int argc, char** argv) {
                "print the resolution of every measurement against its sensor");
   app.add_flag("--load", options.load, "print the worst-case bus load of every sender");
   app.add_flag("--json", options.json, "print the database as JSON");
+  app.add_flag("--fd", options.fd,
+               "write the same contract for CAN FD, one frame a sample group, as a DBC file");
+  app.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
   CLI11_PARSE(app, argc, argv);
 
   auto database = canhil::dbc::read_file(options.dbc);
@@ -68,7 +88,7 @@ int run(int argc, char** argv) {
   if (options.quantisation) return print(canhil::dbc::quantisation_table(*database));
   if (options.load) return print(canhil::dbc::load_table(*database));
   if (options.json) return print(canhil::dbc::to_json(*database) + "\n");
-  return write_header(*database, options);
+  return write(*database, options);
 }
 
 }  // namespace

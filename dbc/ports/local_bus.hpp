@@ -5,6 +5,12 @@
 // (CLOCK_MONOTONIC). Nothing is ever lost: a frame that send() took reaches every node, in the same order at
 // each. Where one node has no room the bus stands still until it reads or dies, which senders see as
 // queue_full. So every node must read.
+//
+// `local:NAME?bitrate=500000` gives the bus a wire (simulated_wire.hpp) that runs in real time: a frame takes
+// as long as its bits, the lowest id wins, every node has a queue of 64 frames, in the order of sending or,
+// with
+// `&queue=priority`, of priority; `&data-bitrate=2000000` is for CAN FD. The stamp is the end of the frame on
+// that wire, to the nanosecond, however late the hub's process gets to run. Only the host needs to say so.
 #pragma once
 
 #include <functional>

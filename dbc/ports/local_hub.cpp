@@ -14,58 +14,54 @@
 
 #include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/frame_rules.hpp"
+#include "dbc/ports/hub_wire.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/local_peer.hpp"
 #include "dbc/ports/local_wire.hpp"
 
 namespace canhil {
 namespace {
 
 using local::Datagram;
+using local::HubWire;
+using local::Peer;
 using local::Place;
+using local::Reading;
 
-constexpr int backlog = 64;               // nodes that wait to be accepted
-constexpr std::size_t echo_limit = 4096;  // own frames that the host has not read back
-constexpr int accept_every = 64;          // frames in a row after which new nodes get their turn
-
-struct Peer {
-  Descriptor socket;
-  std::string name;
-  bool joined = false;  ///< has said Hello
-  bool own_echo = false;
-  bool only_some = false;
-  bool mute = false;    ///< takes no more frames; what it sent before still counts
-  bool behind = false;  ///< pending_ is still to be delivered
-  local::IdSet wanted;
-};
-
-enum class Reading : std::uint8_t { nothing, joined, frame, gone };
+constexpr int backlog = 64;                // nodes that wait to be accepted
+constexpr std::size_t ready_limit = 4096;  // own frames that the host has not read back
+constexpr int accept_every = 64;           // frames in a row after which new nodes get their turn
 
 class Hub final : public LocalHub {
  public:
   Hub(Descriptor claim, Descriptor listener, std::string name, const PortOptions& options,
-      local::IdSet wanted)
+      local::IdSet wanted, std::optional<HubWire> wire)
       : claim_(std::move(claim)),
         listener_(std::move(listener)),
         epoll_(::epoll_create1(EPOLL_CLOEXEC)),
         name_(std::move(name)),
         fd_(options.fd),
         only_some_(!options.only_ids.empty()),
-        wanted_(wanted) {
-    if (options.own_echo) {
-      echo_event_ = Descriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
-      watch(echo_event_, EPOLLIN);
+        wanted_(wanted),
+        own_echo_(options.own_echo),
+        wire_(std::move(wire)) {
+    if (own_echo_ || wire_) {
+      ready_event_ = Descriptor(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+      watch(ready_event_.get(), EPOLLIN);
     }
-    watch(listener_, EPOLLIN);
+    if (wire_) watch(wire_->descriptor(), EPOLLIN);
+    watch(listener_.get(), EPOLLIN);
   }
 
   SendOutcome send(const Frame& frame) override {
     if (!can_carry(frame, fd_)) return SendOutcome::refused;
-    if (!catch_up() || echoes_.size() >= echo_limit) return SendOutcome::queue_full;
+    if (wire_ && !frame.error) return send_over_wire(frame);
+    if (!catch_up() || ready_.size() >= ready_limit) return SendOutcome::queue_full;
     Datagram datagram;
     local::encode(frame, datagram);
     datagram.t_ns = clock_ns(CLOCK_MONOTONIC);
     deliver(datagram, no_origin);
-    if (echo_event_ && wants(frame)) queue_echo(frame, datagram.t_ns);
+    if (own_echo_ && wants(frame)) queue_ready(frame, datagram.t_ns, true);
     ++counters_.sent;
     return SendOutcome::sent;
   }
@@ -74,7 +70,9 @@ class Hub final : public LocalHub {
   /// a host that waits in between is woken by them, and one that is only between two frames need not pay for
   /// the look.
   std::optional<Received> receive() override {
-    if (!echoes_.empty()) return next_echo();  // older than anything still to be read
+    if (wire_) run_wire();
+    if (!ready_.empty()) return next_ready();  // older than anything still to be read
+    if (wire_) return std::nullopt;
     std::optional<Received> received(std::in_place);
     Datagram datagram;
     while (catch_up()) {
@@ -102,7 +100,8 @@ class Hub final : public LocalHub {
   /// has room.
   [[nodiscard]] RoomWait room_wait() const override {
     if (behind_ > 0) return {.events = POLLIN};
-    return {.pause_ns = echoes_.size() >= echo_limit ? 1'000'000 : 0};
+    if (wire_) return {.pause_ns = wire_->frame_ns()};
+    return {.pause_ns = ready_.size() >= ready_limit ? 1'000'000 : 0};
   }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
@@ -124,20 +123,21 @@ class Hub final : public LocalHub {
  private:
   static constexpr int no_origin = -1;
 
-  void watch(const Descriptor& descriptor, std::uint32_t events) {
-    epoll_event event{.events = events, .data = {.fd = descriptor.get()}};
+  void watch(int descriptor, std::uint32_t events) {
+    epoll_event event{.events = events, .data = {.fd = descriptor}};
     if (events == 0) {
-      ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, descriptor.get(), nullptr);
-    } else if (::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, descriptor.get(), &event) != 0) {
-      ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, descriptor.get(), &event);
+      ::epoll_ctl(epoll_.get(), EPOLL_CTL_DEL, descriptor, nullptr);
+    } else if (::epoll_ctl(epoll_.get(), EPOLL_CTL_MOD, descriptor, &event) != 0) {
+      ::epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, descriptor, &event);
     }
   }
 
   /// While the bus stands still only the nodes it waits for may wake the host: nobody else's frames can pass.
   void watch_all() {
     const std::uint32_t others = behind_ > 0 ? 0 : std::uint32_t{EPOLLIN};
-    watch(listener_, others);
-    for (const Peer& peer : peers_) watch(peer.socket, peer.behind ? std::uint32_t{EPOLLOUT} : others);
+    watch(listener_.get(), others);
+    for (const Peer& peer : peers_)
+      watch(peer.socket.get(), peer.behind ? std::uint32_t{EPOLLOUT} : peer.held ? 0 : others);
   }
 
   /// Delivers the pending frame to the nodes that had no room for it; true if none is left.
@@ -145,7 +145,7 @@ class Hub final : public LocalHub {
     if (behind_ == 0) return true;
     const int before = behind_;
     for (Peer& peer : peers_) {
-      if (peer.behind && offer(peer, pending_, pending_origin_)) {
+      if (peer.behind && local::offer(peer, pending_, peer.socket.get() == pending_origin_)) {
         peer.behind = false;
         --behind_;
       }
@@ -158,7 +158,7 @@ class Hub final : public LocalHub {
   /// is.
   void deliver(Datagram& datagram, int origin) {
     for (Peer& peer : peers_) {
-      if (offer(peer, datagram, origin)) continue;
+      if (local::offer(peer, datagram, peer.socket.get() == origin)) continue;
       peer.behind = true;
       ++behind_;
     }
@@ -168,27 +168,12 @@ class Hub final : public LocalHub {
     watch_all();
   }
 
-  /// False: the node wants the frame and has no room for it.
-  static bool offer(Peer& peer, Datagram& datagram, int origin) {
-    const bool own = peer.socket.get() == origin;
-    if (!peer.joined || peer.mute || (own && !peer.own_echo)) return true;
-    const bool selectable = (datagram.flags & (Datagram::error | Datagram::extended)) == 0;
-    const bool error = (datagram.flags & Datagram::error) != 0;
-    if (peer.only_some && !error && !(selectable && peer.wanted.test(datagram.id))) return true;
-    const auto flags = static_cast<std::uint8_t>(datagram.flags & ~Datagram::own);
-    datagram.flags = static_cast<std::uint8_t>(flags | (own ? Datagram::own : 0));
-    if (::send(peer.socket.get(), &datagram, datagram.bytes(), MSG_NOSIGNAL) >= 0) return true;
-    if (errno == EAGAIN || errno == ENOBUFS || errno == EINTR) return false;
-    peer.mute = true;  // dead; reading from it will end with that
-    return true;
-  }
-
   /// The next frame of any node, in turn, and whose it is.
   int read_any(Datagram& datagram, Frame& frame) {
     for (std::size_t idle = 0; idle < peers_.size();) {
       if (next_ >= peers_.size()) next_ = 0;
       Peer& peer = peers_[next_];
-      switch (read(peer, datagram, frame)) {
+      switch (peer.held ? Reading::nothing : local::read(peer, fd_, datagram, frame)) {
         case Reading::nothing:
           ++next_;
           ++idle;
@@ -206,33 +191,6 @@ class Hub final : public LocalHub {
     return no_origin;
   }
 
-  Reading read(Peer& peer, Datagram& datagram, Frame& frame) const {
-    if (!peer.joined) return read_hello(peer);
-    ssize_t bytes = 0;
-    do {
-      bytes = ::recv(peer.socket.get(), &datagram, sizeof datagram, MSG_TRUNC);
-    } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
-    if (bytes < 0 && errno == EAGAIN) return Reading::nothing;
-    if (bytes <= 0) return Reading::gone;
-    const bool one_of_ours = local::decode(datagram, static_cast<std::size_t>(bytes), fd_, frame);
-    return one_of_ours ? Reading::frame : Reading::gone;
-  }
-
-  static Reading read_hello(Peer& peer) {
-    local::Hello hello;
-    const ssize_t bytes = ::recv(peer.socket.get(), &hello, sizeof hello, MSG_TRUNC);
-    if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) return Reading::nothing;
-    if (bytes != sizeof hello || hello.magic != local::Hello::expected_magic) return Reading::gone;
-    hello.node_name.back() = '\0';
-    peer.name = hello.node_name.data();
-    peer.own_echo = hello.own_echo != 0;
-    peer.only_some = hello.only_some != 0;
-    for (std::size_t id = 0; id < peer.wanted.size(); ++id)
-      peer.wanted[id] = (hello.wanted[id / 8] >> (id % 8) & 1) != 0;
-    peer.joined = true;
-    return Reading::joined;
-  }
-
   /// Lets waiting nodes in; true if there were any.
   bool accept_nodes() {
     reads_since_accept_ = 0;
@@ -240,8 +198,10 @@ class Hub final : public LocalHub {
     if (::poll(&waiting, 1, 0) != 1) return false;  // far cheaper than an accept() in vain
     Descriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (!socket) return false;
-    watch(socket, EPOLLIN);
-    peers_.emplace_back().socket = std::move(socket);
+    watch(socket.get(), EPOLLIN);
+    Peer& peer = peers_.emplace_back();
+    peer.socket = std::move(socket);
+    if (wire_) peer.wire_node = wire_->add_node();
     return true;
   }
 
@@ -249,18 +209,80 @@ class Hub final : public LocalHub {
     return !only_some_ || frame.error || (!frame.extended && wanted_.test(frame.id));
   }
 
-  void queue_echo(const Frame& frame, std::int64_t t_ns) {
-    if (echoes_.empty()) ::eventfd_write(echo_event_.get(), 1);
-    echoes_.push_back({.frame = frame, .t_ns = t_ns, .source = StampSource::hub, .own = true});
+  /// Frames that the host will receive next.
+  void queue_ready(const Frame& frame, std::int64_t t_ns, bool own) {
+    if (ready_.empty()) ::eventfd_write(ready_event_.get(), 1);
+    ready_.push_back({.frame = frame, .t_ns = t_ns, .source = StampSource::hub, .own = own});
   }
 
-  Received next_echo() {
-    const Received echo = echoes_.front();
-    echoes_.pop_front();
+  Received next_ready() {
+    const Received received = ready_.front();
+    ready_.pop_front();
     eventfd_t events = 0;
-    if (echoes_.empty()) ::eventfd_read(echo_event_.get(), &events);
-    count(echo);
-    return echo;
+    if (ready_.empty()) ::eventfd_read(ready_event_.get(), &events);
+    count(received);
+    return received;
+  }
+
+  SendOutcome send_over_wire(const Frame& frame) {
+    run_wire();
+    if (behind_ > 0 || ready_.size() >= ready_limit || !wire_->queue(HubWire::host, frame))
+      return SendOutcome::queue_full;
+    wire_->set_alarm();
+    ++counters_.sent;
+    return SendOutcome::sent;
+  }
+
+  /// Lets what the nodes have sent onto the wire, and delivers what has been sent on it by now.
+  void run_wire() {
+    while (catch_up()) {
+      take_in();
+      const auto carried = wire_->next();
+      if (!carried) return wire_->set_alarm();
+      arrive(*carried);
+    }
+    wire_->stop_alarm();  // the bus stands still
+  }
+
+  void arrive(const Carried& carried) {
+    const auto from = std::ranges::find_if(peers_, [&carried](const Peer& peer) {
+      return peer.wire_node == carried.node && carried.node != HubWire::host;
+    });
+    Datagram datagram;
+    local::encode(carried.frame, datagram);
+    datagram.t_ns = carried.delivered_ns;
+    deliver(datagram, from == peers_.end() ? no_origin : from->socket.get());
+    const bool own = carried.node == HubWire::host;
+    if ((!own || own_echo_) && wants(carried.frame)) queue_ready(carried.frame, carried.delivered_ns, own);
+  }
+
+  /// Takes over what the nodes have sent, as far as their queues on the wire have room.
+  void take_in() {
+    while (accept_nodes()) {
+    }
+    Datagram datagram;
+    Frame frame;
+    while (behind_ == 0) {
+      hold_full_nodes();
+      const int origin = read_any(datagram, frame);
+      if (origin == no_origin) return;
+      if (frame.error) {  // the report of a controller: nothing on the wire
+        datagram.t_ns = clock_ns(CLOCK_MONOTONIC);
+        deliver(datagram, origin);
+        if (wants(frame)) queue_ready(frame, datagram.t_ns, false);
+        continue;
+      }
+      const auto from = std::ranges::find(peers_, origin, [](const Peer& peer) { return peer.socket.get(); });
+      wire_->queue(from->wire_node, frame);
+    }
+  }
+
+  void hold_full_nodes() {
+    for (Peer& peer : peers_) {
+      const bool full = !wire_->has_room(peer.wire_node);
+      if (full == std::exchange(peer.held, full)) continue;
+      watch(peer.socket.get(), full ? 0 : std::uint32_t{EPOLLIN});
+    }
   }
 
   void count(const Received& received) {
@@ -271,11 +293,13 @@ class Hub final : public LocalHub {
   Descriptor claim_;
   Descriptor listener_;
   Descriptor epoll_;
-  Descriptor echo_event_;
+  Descriptor ready_event_;
   std::string name_;
   bool fd_;
   bool only_some_;
   local::IdSet wanted_;
+  bool own_echo_;
+  std::optional<HubWire> wire_;  ///< none: frames take no time
   std::vector<Peer> peers_;
   std::size_t next_ = 0;
   int reads_since_accept_ = 0;
@@ -283,7 +307,7 @@ class Hub final : public LocalHub {
   int behind_ = 0;  ///< how many peers are
   Datagram pending_{};
   int pending_origin_ = no_origin;
-  std::deque<Received> echoes_;
+  std::deque<Received> ready_;
   PortCounters counters_;
 };
 
@@ -302,16 +326,19 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
   const auto wanted = local::id_set(options.only_ids);
   if (!wanted) return tl::unexpected(wanted.error());
 
-  Descriptor claim = bound(*name, Place::claim);
+  Descriptor claim = bound(name->name, Place::claim);
   if (!claim && errno == EADDRINUSE) {
     return failure(
         fmt::format("bus '{}' is hosted already by another process: join it or take another name", bus));
   }
-  Descriptor listener = claim ? bound(*name, options.fd ? Place::fd : Place::classic) : Descriptor();
+  Descriptor listener = claim ? bound(name->name, options.fd ? Place::fd : Place::classic) : Descriptor();
   if (!listener || ::listen(listener.get(), backlog) != 0) {
     return failure(fmt::format("bus '{}': {}", bus, std::strerror(errno)));
   }
-  return std::make_unique<Hub>(std::move(claim), std::move(listener), std::string(bus), options, *wanted);
+  std::optional<HubWire> wire;
+  if (name->rates.nominal > 0) wire.emplace(name->rates, name->order);
+  return std::make_unique<Hub>(std::move(claim), std::move(listener), std::string(bus), options, *wanted,
+                               std::move(wire));
 }
 
 void run_hub(Port& hub, const std::function<bool()>& stop) {

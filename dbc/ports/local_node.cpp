@@ -101,8 +101,8 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   const auto wanted = local::id_set(options.only_ids);
   if (!wanted) return tl::unexpected(wanted.error());
 
-  Descriptor socket = connect_to(*name, options.fd ? Place::fd : Place::classic);
-  if (!socket) return failure(why_not_joined(bus, *name, options.fd, errno));
+  Descriptor socket = connect_to(name->name, options.fd ? Place::fd : Place::classic);
+  if (!socket) return failure(why_not_joined(bus, name->name, options.fd, errno));
 
   local::Hello hello;
   hello.own_echo = options.own_echo ? 1 : 0;

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "dbc/ports/port.hpp"
+#include "dbc/ports/simulated_wire.hpp"
 
 namespace canhil::local {
 
@@ -51,8 +52,16 @@ bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& 
 /// The set of the ids; error if one is not a standard id.
 Result<IdSet> id_set(const std::vector<std::uint32_t>& ids);
 
-/// NAME of `local:NAME`. Error: the line that says which names there are.
-Result<std::string> bus_name(std::string_view bus);
+/// What `local:NAME?bitrate=500000&data-bitrate=2000000&queue=priority` says. What follows the name counts
+/// for the host only: a node that joins may say it or not.
+struct BusName {
+  std::string name;
+  wire::BitRates rates{};               ///< nominal 0: frames take no time
+  QueueOrder order = QueueOrder::fifo;  ///< of every node's queue; needs a bit rate
+};
+
+/// Error: the line that says which names and keys there are.
+Result<BusName> bus_name(std::string_view bus);
 
 /// The abstract addresses of a bus. The host holds `claim`, so there is one; it listens at `classic` or at
 /// `fd`, so a node learns of a wrong frame format from connect() alone, and joining needs no answer from the

@@ -25,6 +25,8 @@ struct Received {
   std::int64_t hardware_ns = 0;  ///< the controller's own stamp, on its own clock (differences only); 0: none
   StampSource source = StampSource::process;  ///< the best stamp at hand; hardware: hardware_ns is set too
   bool own = false;  ///< the echo of a frame that this port sent: its stamp is the transmit time
+  bool foreign =
+      false;  ///< FD where the bus's contract is classic, or classic where it is FD: not part of it
 };
 
 enum class SendOutcome : std::uint8_t {
@@ -45,11 +47,13 @@ struct PortCounters {
   std::uint64_t received = 0;
   std::uint64_t overflowed = 0;  ///< frames the receive queue lost
   std::uint64_t error_frames = 0;
+  std::uint64_t foreign = 0;  ///< see Received
 };
 
 struct PortOptions {
   bool fd = false;                        ///< CAN FD frames too
   bool own_echo = false;                  ///< receive own frames back, with their transmit time stamps
+  bool foreign = false;                   ///< SocketCAN without fd: FD frames too, marked as foreign
   std::vector<std::uint32_t> only_ids{};  ///< receive just these standard ids; empty: all
   std::string node_name{};                ///< who we are, for messages and for the hub's list of nodes
   int receive_buffer_bytes = 0;  ///< SocketCAN: size of the receive queue; 0: 4 MiB, or what is permitted

@@ -35,6 +35,11 @@ SimulatedWire::SimulatedWire(const wire::BitRates& rates, std::vector<WireNode> 
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes_[i].setup = nodes[i];
 }
 
+std::size_t SimulatedWire::add_node(const WireNode& setup) {
+  nodes_.push_back({.setup = setup});
+  return nodes_.size() - 1;
+}
+
 bool SimulatedWire::queue(std::size_t node, const Frame& frame, std::int64_t t_ns) {
   idle_until(t_ns);
   Node& sender = nodes_[node];

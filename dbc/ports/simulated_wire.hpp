@@ -71,6 +71,9 @@ class SimulatedWire {
 
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
 
+  /// One more node; gives its number.
+  std::size_t add_node(const WireNode& setup);
+
   /// Puts a frame into a node's queue at t_ns, which is no earlier than at any call before. False: the queue
   /// is full or the node is off the bus, and the frame was not taken.
   bool queue(std::size_t node, const Frame& frame, std::int64_t t_ns);

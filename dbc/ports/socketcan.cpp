@@ -80,7 +80,7 @@ bool configure(int socket, const PortOptions& options) {
   return set_filters(socket, options.only_ids) && set(socket, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, own) &&
          set(socket, SOL_SOCKET, SO_TIMESTAMPING, stamps) && set(socket, SOL_SOCKET, SO_RCVTIMEO, blocking) &&
          set(socket, SOL_SOCKET, SO_SNDBUF, smallest) &&
-         (!options.fd || set(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) &&
+         ((!options.fd && !options.foreign) || set(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) &&
          // By force as the administrator; else up to net.core.rmem_max.
          (set(socket, SOL_SOCKET, SO_RCVBUFFORCE, receive_bytes) ||
           set(socket, SOL_SOCKET, SO_RCVBUF, receive_bytes));
@@ -120,6 +120,8 @@ class SocketCan final : public Port {
     stamp(received, item.ancillary);
     ++counters_.received;
     if (received.frame.error) ++counters_.error_frames;
+    received.foreign = received.frame.fd && !options_.fd;
+    if (received.foreign) ++counters_.foreign;
     return received;
   }
 

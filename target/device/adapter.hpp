@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "dbc/wire/transmit.hpp"
+#include "target/device/parameter_table.hpp"
 
 namespace canhil::target {
 
@@ -84,6 +85,8 @@ class Adapter {
   virtual messages::ParameterStatus set(messages::Parameter parameter, double value, bool running) = 0;
   /// Value in force; none: not a parameter of this estimator.
   [[nodiscard]] virtual std::optional<double> get(messages::Parameter parameter) const = 0;
+  /// What it may be; none: not a parameter of this estimator.
+  [[nodiscard]] virtual std::optional<ParameterRange> range(messages::Parameter parameter) const = 0;
   /// Starts from an initial state.
   virtual void start(const InitialState& initial) = 0;
   /// One frame of a sensor, its protection already checked; `counter` is its E2E counter.

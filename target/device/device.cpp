@@ -28,6 +28,13 @@ Device::Device() : adapters_(make_adapters()) {
   selected_.emplace_back();
 }
 
+std::optional<ParameterRange> Device::range(messages::Estimator estimator,
+                                            messages::Parameter parameter) const {
+  const auto found =
+      std::ranges::find_if(adapters_, [&](const auto& adapter) { return adapter->estimator() == estimator; });
+  return found == adapters_.end() ? std::nullopt : (*found)->range(parameter);
+}
+
 std::span<const Frame> Device::receive(const Frame& frame) {
   answers_.clear();
   const std::size_t route = routes(frame);

@@ -32,6 +32,10 @@ class Device {
   /// Heartbeats that no frame asked for: sent by the process while no bench keeps the time base.
   std::span<const Frame> idle_heartbeat();
 
+  /// What a parameter may be, of an estimator; none: it has no such parameter.
+  [[nodiscard]] std::optional<ParameterRange> range(messages::Estimator estimator,
+                                                    messages::Parameter parameter) const;
+
   /// True while any estimator runs.
   [[nodiscard]] bool running() const;
   /// True while the bench drives the time base step by step.

@@ -80,6 +80,9 @@ class InflightAlignmentAdapter final : public Adapter {
   [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
     return parameters_.get(parameter);
   }
+  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
+    return parameters_.range(parameter);
+  }
 
   void start(const InitialState& initial) override {
     ia::Settings& filter = tuning_.filter;

@@ -135,6 +135,9 @@ class LosRateAdapter final : public Adapter {
   [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
     return parameters_.get(parameter);
   }
+  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
+    return parameters_.range(parameter);
+  }
 
   // The first usable sample starts the estimate; of the initial state only the time counts, for silence.
   void start(const InitialState& initial) override {

@@ -11,6 +11,13 @@
 
 namespace canhil::target {
 
+/// What a parameter may be, in the unit of its name.
+struct ParameterRange {
+  double minimum = 0;
+  double maximum = 0;
+  bool whole = false;  ///< an integer
+};
+
 /// Values of the parameters in the unit of their name, applied to an estimator's own `Tuning`.
 template <class Tuning>
 class ParameterTable {
@@ -47,6 +54,13 @@ class ParameterTable {
   [[nodiscard]] std::optional<double> get(messages::Parameter parameter) const {
     const auto index = find(parameter);
     return index ? std::optional(values_[*index]) : std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<ParameterRange> range(messages::Parameter parameter) const {
+    const auto index = find(parameter);
+    if (!index) return std::nullopt;
+    const Row& row = rows_[*index];
+    return ParameterRange{.minimum = row.minimum, .maximum = row.maximum, .whole = row.whole};
   }
 
  private:

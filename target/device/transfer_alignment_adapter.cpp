@@ -88,6 +88,9 @@ class TransferAlignmentAdapter final : public Adapter {
   [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
     return parameters_.get(parameter);
   }
+  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
+    return parameters_.range(parameter);
+  }
 
   void start(const InitialState& initial) override {
     ta::Settings& filter = tuning_.filter;

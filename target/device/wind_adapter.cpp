@@ -76,6 +76,9 @@ class WindAdapter final : public Adapter {
   [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
     return parameters_.get(parameter);
   }
+  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
+    return parameters_.range(parameter);
+  }
 
   // Where the air velocity at release is not known, the wind is not: the first usable sample starts the
   // filter.

@@ -27,7 +27,7 @@ void BusNotes::interface_is(bool up) {
   changed_ns_ = now_ns;
 }
 
-std::string BusNotes::news(const Port& port) {
+std::string BusNotes::news(const Port& port, BusFormat format) {
   std::string lines;
   const auto tell = [&](const std::string& what) { lines += fmt::format("{}: {}\n", port.name(), what); };
   const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
@@ -53,6 +53,13 @@ std::string BusNotes::news(const Port& port) {
   if (const std::uint64_t overflowed = port.counters().overflowed; overflowed != told_.overflowed) {
     tell(fmt::format("the receive queue overflowed: {} frames lost since the start", overflowed));
     told_.overflowed = overflowed;
+  }
+  const std::uint64_t foreign = port.counters().foreign;
+  if (foreign != told_.foreign && now_ns - told_.foreign_ns >= flood_period_ns) {
+    const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
+    tell(fmt::format("hears {}, {} since the start, expected {}", words(other), foreign, words(format)));
+    told_.foreign = foreign;
+    told_.foreign_ns = now_ns;
   }
   return lines;
 }

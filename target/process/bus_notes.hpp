@@ -5,7 +5,7 @@
 #include <string>
 
 #include "dbc/ports/bus_errors.hpp"
-#include "dbc/ports/port.hpp"
+#include "dbc/ports/fd_groups.hpp"
 
 namespace canhil::target {
 
@@ -21,8 +21,9 @@ class BusNotes {
   void interface_is(bool up);
 
   /// One line for each thing that changed since it was asked last, with the bus's name; empty: nothing did.
-  /// Error frames that are no change of state, which may flood, are told of once a second.
-  std::string news(const Port& port);
+  /// What may flood, error frames that are no change of state and frames of the other contract, is told of
+  /// once a second.
+  std::string news(const Port& port, BusFormat format);
 
  private:
   struct Told {
@@ -30,6 +31,8 @@ class BusNotes {
     std::int64_t errors_ns = 0;
     std::uint64_t late_in_queue = 0;
     std::uint64_t overflowed = 0;
+    std::uint64_t foreign = 0;
+    std::int64_t foreign_ns = 0;
     std::uint64_t downs = 0;
     bool up = true;
   };

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "dbc/ports/port.hpp"
+#include "dbc/ports/several.hpp"
 #include "target/device/device.hpp"
 #include "target/process/bus_notes.hpp"
 #include "target/process/timing_window.hpp"
@@ -53,10 +53,11 @@ void tell(const std::string& news) {
 
 }  // namespace
 
-Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
+Result<void> serve(const std::vector<std::string>& buses, BusFormat format, const std::atomic<bool>& stop) {
   PortOptions options;
   options.node_name = "hil-target";
-  auto opened = open_port(bus, options);
+  options.foreign = true;
+  auto opened = open_buses(buses, options, format);
   if (!opened) return tl::unexpected(opened.error());
   Port& port = **opened;
 
@@ -74,6 +75,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     while (!stop) {
       const auto received = port.receive();
       if (!received) break;
+      if (received->foreign) continue;  // counted
       if (received->frame.error) {
         notes.error_frame(received->frame);
         continue;
@@ -83,7 +85,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
             received->frame.id == messages::TargetHeartbeat::info.id && !received->frame.extended;
         if (!heartbeat) continue;
         return failure(
-            fmt::format("bus '{}': a target answers here already, expected to be the only one", bus));
+            fmt::format("bus '{}': a target answers here already, expected to be the only one", port.name()));
       }
       const std::int64_t start_ns = clock_ns(port.stamp_clock());
       const std::span<const Frame> answers = device.receive(received->frame);
@@ -96,7 +98,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     const std::int64_t now = now_ns();
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
-      tell(notes.news(port));
+      tell(notes.news(port, format));
       established = true;
       // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the
       // device's frames are to be those of a replay. A target that a bench has left behind speaks up again
@@ -112,7 +114,7 @@ Result<void> serve(const std::string& bus, const std::atomic<bool>& stop) {
     }
     wait(port, WaitFor::frame, report_due_ns);
   }
-  tell(notes.news(port));
+  tell(notes.news(port, format));
   return {};
 }
 

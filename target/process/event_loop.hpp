@@ -3,12 +3,15 @@
 
 #include <atomic>
 #include <string>
+#include <vector>
 
+#include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::target {
 
-/// Serves a bus until `stop` is set or the bus is gone. Error: the bus cannot be opened.
-Result<void> serve(const std::string& bus, const std::atomic<bool>& stop);
+/// Listens on every bus, of either contract, and answers on the first, until `stop` is set or a bus is gone.
+/// Error: a bus cannot be opened.
+Result<void> serve(const std::vector<std::string>& buses, BusFormat format, const std::atomic<bool>& stop);
 
 }  // namespace canhil::target

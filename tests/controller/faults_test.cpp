@@ -3,6 +3,7 @@
 // real one.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <functional>
 #include <thread>
@@ -49,7 +50,7 @@ TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
   set_up_on_wire();
   const Outcome outcome = run_with([] {
     set_interface("can1", false);
-    run("sleep 0.2");
+    ::usleep(200'000);
     set_interface("can1", true);
   });
   EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;
@@ -71,6 +72,7 @@ TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndTold) {
   set_up_on_wire();
   const Outcome outcome = run_with([] {
     set_interface("can0", false);
+    ::usleep(100'000);
     set_interface("can0", true);
   });
   EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.ended.out;

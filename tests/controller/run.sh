@@ -17,14 +17,14 @@ kernel=$("$here/kernel.sh") || exit 125
 
 dir=$(mktemp -d /var/tmp/canhil-controller.XXXXXX)
 qemu=0
-trap 'kill -KILL -- -$qemu 2>/dev/null; cp "$dir/console" /tmp/controller/console; rm -rf "$dir"' EXIT
+trap 'kill -KILL -- -$qemu 2>/dev/null; rm -rf "$dir"' EXIT
 trap 'exit 130' INT TERM HUP
 export -p >"$dir/environment"
 { printf 'cd %q && exec' "$PWD"; printf ' %q' "$@"; echo; } >"$dir/command"
 
-# The wire that can fail: the command loads it (insmod "$CANHIL_WIRE") if it wants it.
+# The wire that can fail (wire/canhil_wire.c): the command loads it (insmod "$CANHIL_WIRE") if it wants it.
 cp -r "$here/wire" "$dir/wire"
-make -C "$kernel/build" M="$dir/wire" modules >"$dir/make" 2>&1 ||
+env -u MAKEFLAGS -u ARCH -u CROSS_COMPILE make -C "$kernel/build" M="$dir/wire" modules >"$dir/make" 2>&1 ||
   { say "cannot build wire/canhil_wire.c: $(grep -m1 -iE 'error|not found' "$dir/make")"; exit 125; }
 echo "export CANHIL_WIRE=$dir/wire/canhil_wire.ko" >>"$dir/environment"
 
@@ -52,7 +52,7 @@ for name in out err status; do
 done
 limit=${CANHIL_CONTROLLER_TIMEOUT_S:-600}
 setsid timeout -k 5 "$limit" qemu-system-x86_64 -nodefaults -no-user-config -display none -no-reboot \
-  -machine pc,accel=tcg -m 1024 -smp 1 ${CANHIL_CONTROLLER_QEMU:-} \
+  -machine pc,accel=tcg -m 1024 -smp 1 -icount shift=1 \
   -kernel "$kernel/vmlinuz" -initrd "$dir/initramfs.gz" -append "console=ttyS0 quiet loglevel=3 panic=-1 mitigations=off" \
   -serial "file:$dir/console" -virtfs local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap \
   -object can-bus,id=canbus0 -device kvaser_pci,canbus=canbus0 -device kvaser_pci,canbus=canbus0 \

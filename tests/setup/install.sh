@@ -15,6 +15,7 @@ build_packages=(
 test_packages=(
   python3 python3-can python3-canmatrix # an independent DBC reader and CAN node
   can-utils iproute2 kmod busybox user-mode-linux rt-tests # vcan where the kernel has none
+  qemu-system-x86 make gcc-12 libelf1 # two CAN controllers with the kernel's driver, in an emulated PC; its kernel is not installed
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
   clang clang-format clang-tidy libclang-rt-14-dev valgrind
 )

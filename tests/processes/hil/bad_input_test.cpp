@@ -35,6 +35,16 @@ TEST(BadInput, NobodyHostsTheBus) {
 
 TEST(BadInput, MissingScenario) { expect_one_line(hil_bench("run no_such.toml"), "no_such.toml"); }
 
+TEST(BadInput, ScheduleOfWhatIsNoDbc) {
+  expect_one_line(hil_bench("schedulability no_such.dbc"),
+                  "no_such.dbc: cannot be read, expected a DBC file");
+  const std::string fd = TEST_DATA_DIR "/dbc/fd.dbc";
+  expect_one_line(hil_bench("schedulability " + fd), fd + ": no bit rate, expected --bitrate");
+  expect_one_line(hil_bench("schedulability --bitrate 500000 " + fd), "message Long is CAN FD");
+  expect_one_line(hil_bench("schedulability --bitrate 5e5 " + fd), "--bitrate: '5e5' is not a whole number");
+  expect_one_line(hil_bench("schedulability --error-burst 2 " + fd), "--errors-per-second");
+}
+
 TEST(BadInput, UnknownScenarioKey) {
   std::ofstream(scratch("typo.toml"))
       << read(scenario("transfer_alignment_quick")) << "\n[slave_inu]\nperiod_ms = 10\n";
@@ -57,7 +67,23 @@ TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
       hil_bench(fmt::format("run {} --bus {}", file, bus())),
       file +
           ":13: key 'target.parameters.h2_case': 7 was sent and refused by the target: out_of_range, "
-          "expected a value in its range; 2 stays in force");
+          "expected a whole number from 1 to 4; 2 stays in force");
+}
+
+TEST(BadInput, AMisspeltParameterIsOneOfItsEstimator) {
+  // Of all parameters gyro_bias_sigma_degph of the alignments would be the nearest.
+  std::string text = read(scenario("wind_quick"));
+  const std::string table = "[target.parameters]\n";
+  const auto at = text.find(table);
+  if (at == std::string::npos) {
+    text += "\n" + table + "gyro_rate_sigma_degph = 1\n";
+  } else {
+    text.insert(at + table.size(), "gyro_rate_sigma_degph = 1\n");
+  }
+  std::ofstream(scratch("misspelt.toml")) << text;
+  expect_one_line(
+      hil_bench(fmt::format("run {} --bus in-process", scratch("misspelt.toml"))),
+      "key 'target.parameters.gyro_rate_sigma_degph': is unknown, expected 'glider_rate_sigma_degps'");
 }
 
 TEST(BadInput, ValueThatTheBusCannotCarry) {

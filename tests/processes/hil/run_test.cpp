@@ -126,6 +126,16 @@ TEST(Run, ACheckThatCannotHoldFailsTheRun) {
   EXPECT_THAT(read(junit), HasSubstr("value=\"R&lt;1&gt;\""));
 }
 
+TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {
+  const std::string contract = SOURCE_DIR "/dbc/canhil.dbc";
+  const Ended enough = hil_bench("schedulability --bitrate 1000000 --json " + contract);
+  EXPECT_EQ(enough.code, 0) << enough.err;
+  EXPECT_EQ(nlohmann::json::parse(enough.out)["schedulable"], true);
+  const Ended overloaded = hil_bench("schedulability --bitrate 125000 " + contract);
+  EXPECT_EQ(overloaded.code, 1) << overloaded.err;
+  EXPECT_THAT(overloaded.out, HasSubstr("NOT schedulable: "));
+}
+
 TEST(Run, JsonToStdoutReplacesTheText) {
   const Ended ended = hil_bench(
       fmt::format("run {} --bus {} --lockstep --json -", scenario("transfer_alignment_quick"), bus()));

@@ -62,7 +62,7 @@ TEST(Realtime, IsInForceInTheRunAndToldInBothReports) {
   EXPECT_THAT(shell("uname -v").out + "none or voluntary",
               HasSubstr(process["preemption"].get<std::string>()));
   EXPECT_THAT(ended.out, HasSubstr(fmt::format("bench SCHED_FIFO 40, CPU {},", std::stoi(some_cpu))));
-  EXPECT_EQ(read_json(report)["from_target"]["navigation_answers"], 300);
+  EXPECT_TRUE(read_json(report)["ending"]["completed"]) << read_json(report)["ending"];
 }
 
 TEST(Realtime, IsNotInForceUnlessAskedFor) {

@@ -21,12 +21,12 @@ class Judged : public testing::Test {
  protected:
   Judged() {
     for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
-      seen_.stimuli["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.stimuli["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
       seen_.navigation.push_back({.cause_us = t_us, .angles = {}});
       arrive<messages::AlignAttitude>(t_us * 1000 + 200'000, t_us);
-      seen_.lateness_ns.push_back(50'000);
+      seen_.timing.lateness.add(50'000);
       if (t_us % 100'000 != 0) continue;
-      seen_.stimuli["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.stimuli["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
       seen_.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
       arrive<messages::TargetHeartbeat>(t_us * 1000);
     }
@@ -206,6 +206,22 @@ TEST_F(Judged, CountersByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
+// Stalled for 5 of 400 stimuli: as many late frames pass its p99, and the answers' periods would not.
+TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
+  const scenario::OutputPeriod period{
+      .message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
+  ASSERT_EQ(judge(period).outcome, Outcome::pass);
+  auto& stimuli = seen_.stimuli["SlaveImu"];
+  auto& answers = arrivals<messages::AlignAttitude>();
+  for (std::size_t i = 200; i < 205; ++i) {
+    stimuli[i].t_ns = stimuli[205].t_ns;
+    answers[i].t_ns = answers[205].t_ns;
+  }
+  EXPECT_EQ(judge(period).outcome, Outcome::not_measured);
+  for (std::size_t i = 200; i < 205; ++i) stimuli[i].t_ns = stimuli[i].due_ns;
+  EXPECT_EQ(judge(period).outcome, Outcome::fail) << "the target's own stall";
+}
+
 TEST_F(Judged, TheBusByEachBar) {
   scenario::BusErrorLimits rule;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
@@ -266,7 +282,7 @@ TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
 TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
   const scenario::Latency latency{.message = "AlignAttitude", .window = whole, .below_us = 1000};
   const scenario::Heartbeat heartbeat{.silent_at_most_us = 500'000};
-  seen_.lateness_ns[7] = 501'000;  // more than half of 1 ms
+  seen_.timing.lateness.add(501'000);  // more than half of 1 ms
   EXPECT_EQ(judge(latency).outcome, Outcome::not_measured);
   EXPECT_EQ(verdict_.outcome, Outcome::not_measured);
   EXPECT_EQ(judge(heartbeat).outcome, Outcome::pass) << "its bar is far above";

@@ -195,6 +195,16 @@ TEST(InterfaceLines, StampsByUsbAreWeakUnlessTheAdapterTakesThem) {
               IsEmpty());
 }
 
+TEST(InterfaceLines, TwoOnABusMustHaveOneBitRate) {
+  Interface other = healthy();
+  EXPECT_THAT(mismatch_lines(healthy(), other), IsEmpty());
+  other.controller->nominal.bitrate = 500'000;
+  ASSERT_EQ(mismatch_lines(healthy(), other).size(), 1U);
+  EXPECT_EQ(mismatch_lines(healthy(), other).front().grade, Grade::bad);
+  other.controller.reset();
+  EXPECT_THAT(mismatch_lines(healthy(), other), IsEmpty());
+}
+
 TEST(InterfaceLines, WhatIsDownOrNoCanIsOneLine) {
   EXPECT_THAT(complaints_after([](Interface& i) { i.up = false; }),
               ElementsAre(HasSubstr("bad interface: can7: can, driver kvaser_pci at 0000:00:04.0; down")));

@@ -45,6 +45,7 @@ class FakePort : public Port {
     give(target.frames().front());
   }
   void give(const Frame& frame) { waiting_.push_back({.frame = frame}); }
+  void give(const Received& received) { waiting_.push_back(received); }
 
   std::function<void(const Frame&)> on_send;
   SendOutcome outcome = SendOutcome::sent;

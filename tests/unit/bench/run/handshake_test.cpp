@@ -66,6 +66,16 @@ class Handshake : public testing::Test {
   ParameterStatus parameter_status_ = ParameterStatus::accepted;
 };
 
+TEST_F(Handshake, ATargetThatAnswersInTheOtherFormatIsNamed) {
+  Received foreign = port_.receive().value();
+  foreign.frame.fd = foreign.frame.brs = foreign.foreign = true;
+  port_.give(foreign);
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message,
+            "target on 'fake': answers in CAN FD frames (canhil-fd), expected classic frames (canhil)");
+}
+
 TEST_F(Handshake, ConfiguresAndStartsWithEachStepOnce) {
   const auto done = configure();
   ASSERT_TRUE(done) << done.error().message;
@@ -128,9 +138,9 @@ TEST_F(Handshake, SaysWhereAParameterStandsThatTheTargetRefusesAndWhy) {
   };
   const std::string sent = "my.toml:9: key 'h2_case': 2 was sent and refused by the target: ";
   EXPECT_EQ(refused_with(ParameterStatus::out_of_range),
-            sent + "out_of_range, expected a value in its range; 2 stays in force");
+            sent + "out_of_range, expected a whole number from 1 to 4; 2 stays in force");
   EXPECT_EQ(refused_with(ParameterStatus::unknown),
-            sent + "unknown, expected a parameter of the estimator in use");
+            sent + "unknown, expected a parameter of transfer_alignment");
   EXPECT_EQ(refused_with(ParameterStatus::wrong_state),
             sent + "wrong_state, expected to be set before the start; 2 stays in force");
   EXPECT_EQ(refused_with(static_cast<ParameterStatus>(9)), sent + "status 9, which is none of the DBC's");

@@ -308,9 +308,72 @@ TEST_F(Watched, ARepeatedFrameIsNotUsed) {
 TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
   transmit(Sync{}, 100, 7);
   transmit(Sync{}, 300, 9);
-  EXPECT_THAT(seen().lateness_ns, ElementsAre(7, 9));
+  EXPECT_EQ(seen().timing.lateness.min_ns(), 7);
+  EXPECT_EQ(seen().timing.lateness.max_ns(), 9);
+  EXPECT_EQ(seen().timing.lateness.count(), 2U);
   EXPECT_EQ(seen().first_ns, 100);
   EXPECT_EQ(seen().last_ns, 300);
+}
+
+// A stimulus that was due at 100 us, handed over 20 us late, on the bus 5 us after that; answered.
+TEST_F(Watched, TakesTheTimesOfEveryMessageOfAnAnswer) {
+  const auto stimulate = [&](std::int64_t valid_us, std::int64_t due_ns, std::int64_t late_ns) {
+    echo(transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(valid_us)}, due_ns + late_ns, late_ns),
+         due_ns + late_ns + 5'000);
+  };
+  sync(0);
+  stimulate(10'000, 100'000, 20'000);
+  answer(10'000, 325'000);
+  stimulate(20'000, 10'100'000, 40'000);
+  answer(20'000, 10'445'000);
+  const auto& answers = seen().timing.answers[message_index<AlignVelocityD>()];
+  EXPECT_EQ(answers.latency.count(), 2U);
+  EXPECT_EQ(answers.latency.min_ns(), 200'000) << "from the echo, not from the hand-over";
+  EXPECT_EQ(answers.latency.max_ns(), 300'000);
+  EXPECT_EQ(answers.jitter.count(), 1U);
+  EXPECT_EQ(answers.jitter.max_ns(), 120'000) << "10.120 ms between answers to what was due 10 ms apart";
+  EXPECT_EQ(seen().timing.answers[message_index<AlignAttitude>()].latency.count(), 2U);
+  const auto& transmitted = seen().timing.transmit[message_index<SlaveImuStatus>()];
+  EXPECT_EQ(transmitted.handed_over.max_ns(), 40'000);
+  EXPECT_EQ(transmitted.echoed.min_ns(), 25'000);
+  EXPECT_EQ(transmitted.echoed.max_ns(), 45'000);
+  EXPECT_EQ(checks::unanswered(seen(), AlignVelocityD::info.name), 0U);
+}
+
+TEST_F(Watched, CountsAnswersThatNeverCameAndThoseToNothing) {
+  sync(0);
+  imu(10'000, 0);
+  imu(20'000, 10'000'000);
+  imu(30'000, 20'000'000);
+  answer(10'000, 100'000);
+  answer(30'000, 20'100'000);
+  EXPECT_EQ(checks::unanswered(seen(), AlignVelocityD::info.name), 1U);
+  answer(35'000, 25'000'000);
+  const auto& answers = seen().timing.answers[message_index<AlignVelocityD>()];
+  EXPECT_EQ(answers.unpaired, 1U);
+  EXPECT_EQ(answers.latency.count(), 2U);
+}
+
+TEST_F(Watched, JitterOfACyclicMessageIsAgainstItsCycle) {
+  const std::int64_t cycle_ns = std::int64_t{TargetHeartbeat::info.cycle_time_us} * 1000;
+  receive(TargetHeartbeat{}, 0);
+  receive(TargetHeartbeat{}, cycle_ns + 30'000);
+  receive(TargetHeartbeat{}, 2 * cycle_ns);
+  const checks::Histogram& jitter = seen().timing.answers[message_index<TargetHeartbeat>()].jitter;
+  EXPECT_EQ(jitter.count(), 2U);
+  EXPECT_EQ(jitter.max_ns(), 30'000);
+  EXPECT_EQ(jitter.min_ns(), 30'000);
+}
+
+TEST_F(Watched, AFrameThatIsNotEchoedHasNoTimeOnTheBus) {
+  transmit(Sync{.time_us = 1}, 0, 10);
+  const Frame second = transmit(Sync{.time_us = 2}, 1'000, 10);
+  echo(second, 3'000);
+  echo(second, 9'000);
+  const auto& transmitted = seen().timing.transmit[message_index<Sync>()];
+  EXPECT_EQ(transmitted.handed_over.count(), 2U);
+  EXPECT_EQ(transmitted.echoed.count(), 1U) << "an echo is used once";
+  EXPECT_EQ(transmitted.echoed.max_ns(), 2'010);
 }
 
 }  // namespace

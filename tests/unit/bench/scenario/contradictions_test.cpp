@@ -31,6 +31,20 @@ TEST(Contradictions, AHeadingOfWhichNothingIsKnownIsForSinCosOnly) {
                     "s.toml", with_sin_cos));
 }
 
+TEST(Contradictions, AMisspeltParameterIsOneOfItsEstimator) {
+  const auto error = [](const Contract& known) {
+    const auto result = parse(with("[truth]", "[target.parameters]\nh2_cas = 1\n[truth]"), "s.toml", known);
+    return result ? "no error" : result.error().message;
+  };
+  EXPECT_EQ(error(contract), "s.toml:9: key 'target.parameters.h2_cas': is unknown, expected 'h2_case'");
+  Contract by_estimator = contract;
+  by_estimator.parameters_of["transfer_alignment"] = {"velocity_noise_m2ps"};
+  EXPECT_EQ(error(by_estimator),
+            "s.toml:9: key 'target.parameters.h2_cas': is unknown, expected one of: velocity_noise_m2ps");
+  // Given, another's is left to the target: it may be somebody else's.
+  EXPECT_TRUE(parse(with("[truth]", "[target.parameters]\nh2_case = 1\n[truth]"), "s.toml", by_estimator));
+}
+
 TEST(Contradictions, AnAidWhoseFixesNobodyTakes) {
   EXPECT_EQ(error_of(inside("[slave_imu]", "[gps]")),
             "s.toml:16: key 'gps': has fixes that no estimator takes, expected estimator inflight_alignment "

@@ -69,6 +69,33 @@ TEST(Device, ReadsBackEveryParameterAsItWasSet) {
   }
 }
 
+TEST(Device, TakesWhatIsInTheRangeThatItTells) {
+  const Device device;
+  for (const auto& [estimator, algorithm] :
+       {std::pair(Estimator::transfer_alignment, Algorithm::kalman),
+        std::pair(Estimator::inflight_alignment, Algorithm::sin_cos),
+        std::pair(Estimator::los_rate, Algorithm::combined), std::pair(Estimator::wind, Algorithm::ekf)}) {
+    for (const Parameter parameter : enumerators<Parameter>) {
+      BenchSide bench;
+      bench.command(Command::reset, estimator, algorithm);
+      const auto status = [&](double value) {
+        bench.send(ParamSet{.parameter = parameter, .value = static_cast<float>(value)});
+        return bench.last<ParamAck>()->status;
+      };
+      const auto range = device.range(estimator, parameter);
+      if (!range) {
+        EXPECT_EQ(status(1), ParameterStatus::unknown) << name_of(parameter);
+        continue;
+      }
+      const double inside = range->whole ? range->maximum : (range->minimum + range->maximum) / 2;
+      EXPECT_EQ(status(inside), ParameterStatus::accepted) << name_of(parameter);
+      EXPECT_EQ(status(range->maximum * 1.001 + 1e-3), ParameterStatus::out_of_range) << name_of(parameter);
+      EXPECT_EQ(status(range->minimum - 1e-3), ParameterStatus::out_of_range) << name_of(parameter);
+    }
+  }
+  EXPECT_TRUE(device.range(Estimator::transfer_alignment, Parameter::h2_case)->whole);
+}
+
 TEST(Device, KeepsTheOldValueOfAParameterThatItRefuses) {
   BenchSide bench;
   bench.command(Command::reset);

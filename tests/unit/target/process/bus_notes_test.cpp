@@ -32,7 +32,7 @@ Frame error_frame(std::uint32_t classes) { return {.id = classes, .size = CAN_ER
 
 class Notes : public testing::Test {
  protected:
-  std::string news() { return notes_.news(port_); }
+  std::string news() { return notes_.news(port_, BusFormat::classic); }
   BusNotes notes_;
   StatePort port_;
 };

@@ -1,0 +1,35 @@
+// Whether a run can be judged by its timing at all.
+#include <fmt/format.h>
+
+#include "bench/checks/judge.hpp"
+
+namespace canhil::checks {
+namespace {
+
+// A process of a few hundred frames a second that is ready to run and is not let run, for this share of the
+// run, meets a CPU that has no room for it; nor, on the same machine, for the target.
+constexpr double most_waited = 0.05;
+// A machine that loses this share of its time to others does so at instants that nobody on it sees.
+constexpr double most_stolen = 0.05;
+
+}  // namespace
+
+std::string unfit_for_timing(const Observations& seen) {
+  if (seen.receive_overflows > 0)
+    return fmt::format("the bench's port lost {} frames", seen.receive_overflows);
+  if (seen.target_frames_lost > 0)
+    return fmt::format("{} frames of the target were lost", seen.target_frames_lost);
+  const HostRecord& host = seen.host;
+  if (host.clock_step_ns != 0)
+    return fmt::format("the clock of the stamps was set by {:.3f} ms in mid-run",
+                       static_cast<double>(host.clock_step_ns) * 1e-6);
+  if (host.stolen_share > most_stolen)
+    return fmt::format("the hypervisor gave {:.1f} % of this machine's CPU time to others",
+                       host.stolen_share * 100);
+  if (host.cpu_wait_s > most_waited * host.wall_s)
+    return fmt::format("no CPU was free for the bench for {:.1f} % of the run",
+                       host.cpu_wait_s / host.wall_s * 100);
+  return "";
+}
+
+}  // namespace canhil::checks

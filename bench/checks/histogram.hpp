@@ -1,0 +1,61 @@
+// Distributions of times and their course, in a memory that does not grow with the run.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace canhil::checks {
+
+/// Counts of times: buckets of 1 us below 10 ms, of 10 us below 100 ms, of 100 us below 1 s, of 1 ms below
+/// 10 s, and one for all above. At most 37 001 buckets (296 kB), of which those up to the largest time are
+/// held. Minimum, maximum and count are exact.
+class Histogram {
+ public:
+  /// A bucket that is not empty.
+  struct Bucket {
+    std::int64_t from_us = 0;
+    std::uint64_t count = 0;
+    friend bool operator==(const Bucket&, const Bucket&) = default;
+  };
+
+  /// A time before 0 (a clock that was set) counts in the first bucket.
+  void add(std::int64_t t_ns);
+
+  [[nodiscard]] std::uint64_t count() const { return count_; }
+  [[nodiscard]] std::int64_t min_ns() const { return min_ns_; }
+  [[nodiscard]] std::int64_t max_ns() const { return max_ns_; }
+  /// Nearest rank [ns], 0 < q <= 1: the middle of its bucket, never outside of minimum and maximum, so that a
+  /// quantile below 10 ms is off by at most half a microsecond. 0 if empty.
+  [[nodiscard]] double quantile_ns(double q) const;
+  /// In ascending order.
+  [[nodiscard]] std::vector<Bucket> buckets() const;
+
+ private:
+  std::vector<std::uint64_t> counts_;
+  std::uint64_t count_ = 0;
+  std::int64_t min_ns_ = 0;
+  std::int64_t max_ns_ = 0;
+};
+
+/// Width [us] of the bucket that begins at a time; that above 10 s has none: 0.
+std::int64_t bucket_width_us(std::int64_t from_us);
+
+/// The largest of the values in each stretch of time. When the stretches no longer reach, each becomes twice
+/// as long.
+class TimeLine {
+ public:
+  static constexpr std::size_t max_stretches = 512;
+
+  /// Values in any order of time; those of a time before 0 count as of 0.
+  void add(std::int64_t t_ns, std::int64_t value_ns);
+
+  [[nodiscard]] std::int64_t stretch_ns() const { return stretch_ns_; }
+  /// By stretch from time 0 on; -1 where there was no value.
+  [[nodiscard]] const std::vector<std::int64_t>& largest_ns() const { return largest_ns_; }
+
+ private:
+  std::int64_t stretch_ns_ = 10'000'000;
+  std::vector<std::int64_t> largest_ns_;
+};
+
+}  // namespace canhil::checks

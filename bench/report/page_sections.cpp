@@ -1,0 +1,294 @@
+#include "bench/report/page_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "bench/checks/histogram.hpp"
+#include "bench/report/markup.hpp"
+#include "bench/report/plot.hpp"
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+
+std::string text_in(const Json& value) {
+  return escaped(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+// Rows of cells that are HTML already; on a phone each cell says which column it is of.
+std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+                  std::string_view style = "") {
+  std::string out = fmt::format("<table class=\"{}\"><thead><tr>", style);
+  for (const std::string& cell : head) out += fmt::format("<th>{}</th>", cell);
+  out += "</tr></thead><tbody>\n";
+  for (const auto& row : rows) {
+    out += "<tr>";
+    for (std::size_t i = 0; i < row.size(); ++i)
+      out += fmt::format("<td data-label=\"{}\">{}</td>", head[i], row[i]);
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table>\n";
+}
+
+std::string figure(const std::string& title, const std::string& drawing, const std::string& note) {
+  return fmt::format("<figure><h3>{}</h3>{}<figcaption>{}</figcaption></figure>\n", escaped(title), drawing,
+                     escaped(note));
+}
+
+std::string ms(const Json& distribution, const char* key) {
+  return fmt::format("{:.3f}", distribution.at(key).get<double>() * 1e3);
+}
+
+std::vector<std::string> percentiles(const Json& distribution) {
+  std::vector<std::string> cells{distribution.at("count").dump()};
+  for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"}) cells.push_back(ms(distribution, key));
+  return cells;
+}
+
+const std::vector<std::string> percentile_head{"count", "min ms", "p50", "p90", "p99", "p99.9", "max"};
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::string histogram(const std::string& title, const Json& distribution) {
+  HistogramPlot plot{.title = title, .bars = {}, .marks = {}};
+  for (const Json& bucket : distribution.at("buckets_us")) {
+    const auto from_us = bucket.at(0).get<std::int64_t>();
+    const std::int64_t width_us = checks::bucket_width_us(from_us);
+    const double to_us =
+        width_us > 0 ? static_cast<double>(from_us + width_us) : distribution.at("max").get<double>() * 1e6;
+    plot.bars.push_back({static_cast<double>(from_us), to_us, bucket.at(1).get<double>()});
+  }
+  for (const auto& [label, key] : {std::pair("p50", "p50"), std::pair("p99", "p99"), std::pair("max", "max")})
+    plot.marks.push_back({label, distribution.at(key).get<double>() * 1e6});
+  return figure(title, svg(plot),
+                fmt::format("p50 {}, p99 {}, p99.9 {}, max {} ms of {}", ms(distribution, "p50"),
+                            ms(distribution, "p99"), ms(distribution, "p999"), ms(distribution, "max"),
+                            distribution.at("count").dump()));
+}
+
+std::string course(const std::string& title, const Json& line) {
+  const double stretch_s = line.at("stretch_s").get<double>();
+  LinePlot plot{.title = title,
+                .unit = "ms",
+                .t_s = {},
+                .low = {},
+                .high = {},
+                .limit = {},
+                .levels = {},
+                .from_zero = true};
+  double t_s = stretch_s / 2;
+  for (const Json& largest : line.at("largest_s")) {
+    plot.t_s.push_back(t_s);
+    plot.low.push_back(largest.is_null() ? not_there : 0.0);
+    plot.high.push_back(largest.is_null() ? not_there : largest.get<double>() * 1e3);
+    t_s += stretch_s;
+  }
+  return figure(title, svg(plot), fmt::format("the largest of each {:g} ms", stretch_s * 1e3));
+}
+
+std::vector<double> numbers(const Json& array) {
+  std::vector<double> values;
+  for (const Json& value : array) values.push_back(value.is_null() ? not_there : value.get<double>());
+  return values;
+}
+
+std::string estimate(const Json& series) {
+  const std::string kind = series.at("kind").get<std::string>();
+  const std::string title = series.at("quantity").get<std::string>();
+  LinePlot plot{.title = title,
+                .unit = series.at("unit").get<std::string>(),
+                .t_s = numbers(series.at("t_s")),
+                .low = numbers(series.at("low")),
+                .high = numbers(series.at("high")),
+                .limit = {},
+                .levels = {},
+                .from_zero = kind == "statistic"};
+  std::string note = "solid: its range in each stretch of time";
+  if (series.contains("sigma")) {
+    plot.limit = numbers(series.at("sigma"));
+    for (double& sigma : plot.limit) sigma *= 3;
+    note = "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target tells it";
+  }
+  if (series.contains("between_95_percent")) {
+    plot.levels = numbers(series.at("between_95_percent"));
+    note = "dashed: 95 % of the values of a consistent filter lie between";
+  }
+  return figure(title, svg(plot), note);
+}
+
+// What happened, as rows of a name and a number; those that are 0 are left out.
+std::vector<std::vector<std::string>> incidents(const Json& object, std::string_view of) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_number() && value.get<double>() != 0)
+      rows.push_back({escaped(fmt::format("{}: {}", of, key)), text_in(value)});
+  }
+  return rows;
+}
+
+// Nested objects as rows "a: b".
+void add_rows(std::vector<std::vector<std::string>>& rows, const std::string& name, const Json& value) {
+  if (value.is_object()) {
+    for (const auto& [key, inner] : value.items())
+      add_rows(rows, name.empty() ? key : name + ": " + key, inner);
+  } else if (value.is_array()) {
+    std::string list;
+    for (const Json& item : value) list += (list.empty() ? "" : ", ") + text_in(item);
+    rows.push_back({escaped(name), list.empty() ? "none" : list});
+  } else {
+    rows.push_back({escaped(name), text_in(value)});
+  }
+}
+
+}  // namespace
+
+std::string checks_section(const Json& report) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& check : report.at("checks")) {
+    const std::string outcome = check.at("outcome").get<std::string>();
+    const char* style = outcome == "pass" ? "yes" : outcome == "fail" ? "no" : "unknown";
+    const char* sign = outcome == "pass" ? "&#10003;" : outcome == "fail" ? "&#10007;" : "?";
+    const std::string requirement = text_in(check.at("requirement"));
+    rows.push_back({text_in(check.at("name")),
+                    fmt::format("<span class=\"{}\">{} {}</span>", style, sign, escaped(outcome)),
+                    text_in(check.at("measured")), text_in(check.at("expected")),
+                    requirement.empty() ? "&ndash;" : requirement});
+  }
+  return "<section id=\"checks\"><h2>Checks</h2>\n" +
+         table({"check", "outcome", "measured", "expected", "requirement"}, rows) + "</section>\n";
+}
+
+std::string timing_section(const Json& report) {
+  std::string out = "<section id=\"timing\"><h2>Latency and jitter</h2>\n";
+  const Json& timing = report.at("timing");
+  if (!timing.at("judged").get<bool>())
+    out +=
+        fmt::format("<p class=\"unknown\">? Timing is not judged: {}.</p>\n", text_in(timing.at("why_not")));
+  if (!report.contains("bench_lateness_s")) return out + "</section>\n";
+  out += fmt::format(
+      "<p>Latency is from the last frame of the stimulus on the bus to the answer on the bus, by {}."
+      " Times in ms.</p>\n",
+      text_in(report.at("provenance").at("latency_stamps")));
+  const Json none = Json::object();
+  const Json& latencies = report.contains("latency_s") ? report.at("latency_s") : none;
+  const Json& jitters = report.contains("jitter_s") ? report.at("jitter_s") : none;
+  std::vector<std::vector<std::string>> rows;
+  std::string figures;
+  for (const auto& [message, latency] : latencies.items()) {
+    rows.push_back(
+        joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
+    if (!latency.at("closes_group").get<bool>()) continue;
+    figures += histogram("Latency of " + message, latency);
+    figures += course("Latency of " + message + " over time", latency.at("line"));
+    if (jitters.contains(message))
+      figures += histogram("Deviation of the period of " + message, jitters.at(message));
+  }
+  figures += histogram("The bench's own lateness", report.at("bench_lateness_s"));
+  figures += course("The bench's own lateness over time", report.at("bench_lateness_s").at("line"));
+  const auto head = joined(joined({"latency of"}, percentile_head), {"never came"});
+  if (!rows.empty()) out += table(head, rows, "figures");
+  out += "<div class=\"grid\">\n" + figures + "</div>\n";
+  rows.clear();
+  for (const auto& [message, jitter] : jitters.items())
+    rows.push_back(joined({escaped(message)}, percentiles(jitter)));
+  out += "<details><summary>Deviation from the period, by message</summary>\n" +
+         table(joined({"deviation of"}, percentile_head), rows, "figures") + "</details>\n";
+  rows.clear();
+  if (report.contains("transmit_lateness_s")) {
+    for (const auto& [message, lateness] : report.at("transmit_lateness_s").items()) {
+      rows.push_back(joined({escaped(message) + ", handed over"}, percentiles(lateness.at("handed_over"))));
+      if (lateness.contains("echoed"))
+        rows.push_back(joined({escaped(message) + ", on the bus"}, percentiles(lateness.at("echoed"))));
+    }
+  }
+  return out + "<details><summary>Lateness of the bench, by message</summary>\n" +
+         table(joined({"message"}, percentile_head), rows, "figures") + "</details></section>\n";
+}
+
+std::string estimates_section(const Json& report) {
+  if (report.at("series").empty()) return "";
+  std::string out = "<section id=\"estimates\"><h2>Estimates against the truth</h2>\n";
+  std::string estimator;
+  for (const Json& series : report.at("series")) {
+    const std::string own = series.at("estimator").get<std::string>();
+    if (own != estimator) {
+      if (!estimator.empty()) out += "</div>\n";
+      out += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(own));
+      estimator = own;
+    }
+    out += estimate(series);
+  }
+  return out + "</div></section>\n";
+}
+
+std::string bus_section(const Json& report) {
+  const Json& load = report.at("bus_load_line");
+  const double stretch_s = load.at("stretch_s").get<double>();
+  LinePlot plot{.title = "Bus load",
+                .unit = "%",
+                .t_s = {},
+                .low = {},
+                .high = {},
+                .limit = {},
+                .levels = {},
+                .from_zero = true};
+  for (const Json& share : load.at("busiest")) {
+    plot.t_s.push_back((static_cast<double>(plot.t_s.size()) + 0.5) * stretch_s);
+    plot.low.push_back(0);
+    plot.high.push_back(share.get<double>() * 100);
+  }
+  std::string out = "<section id=\"bus\"><h2>Bus</h2>\n<div class=\"grid\">\n";
+  const double data_bitrate = load.at("data_bitrate_bitps").get<double>();
+  out += figure(
+      fmt::format("Load at {:g} kbit/s{}", load.at("bitrate_bitps").get<double>() / 1e3,
+                  data_bitrate > 0 ? fmt::format(", data {:g} kbit/s", data_bitrate / 1e3) : ""),
+      svg(plot),
+      fmt::format("by {:g} s, from the exact length of every frame; the last is not a whole one", stretch_s));
+  out += "</div>\n<h3>Lost and broken</h3>\n";
+  std::vector<std::vector<std::string>> rows = incidents(report.at("bus"), "bus");
+  Json from_target = report.at("from_target");
+  for (const char* fine : {"navigation_answers", "filter_answers", "los_answers", "wind_answers"})
+    from_target.erase(fine);
+  for (auto& row : incidents(from_target, "from the target")) rows.push_back(std::move(row));
+  if (report.contains("target_counters")) {
+    for (auto& row : incidents(report.at("target_counters"), "to the target")) rows.push_back(std::move(row));
+  }
+  if (report.contains("latency_s")) {
+    for (const auto& [message, latency] : report.at("latency_s").items()) {
+      if (latency.at("unanswered").get<std::uint64_t>() > 0)
+        rows.push_back({escaped("answers that never came: " + message), latency.at("unanswered").dump()});
+    }
+  }
+  out += rows.empty()
+             ? "<p>Nothing: every frame came, whole and in order, and no error was seen on the bus.</p>\n"
+             : table({"what", "how many"}, rows, "pairs");
+  rows.clear();
+  for (const Json& incident : report.at("bus").at("incidents"))
+    rows.push_back(
+        {fmt::format("{:.3f} s", incident.at("t_s").get<double>()), text_in(incident.at("event"))});
+  if (!rows.empty()) out += table({"time", "event on the bus"}, rows, "pairs");
+  return out + "</section>\n";
+}
+
+std::string provenance_section(const Json& report) {
+  std::vector<std::vector<std::string>> rows;
+  add_rows(rows, "", report.at("provenance"));
+  add_rows(rows, "duration_s", report.at("duration_s"));
+  add_rows(rows, "wall_s", report.at("wall_s"));
+  add_rows(rows, "timing", report.at("timing"));
+  return "<section id=\"provenance\"><h2>Provenance</h2>\n" + table({"what", "value"}, rows, "pairs") +
+         "</section>\n";
+}
+
+}  // namespace canhil::report

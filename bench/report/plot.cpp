@@ -1,0 +1,251 @@
+#include "bench/report/plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "bench/report/markup.hpp"
+
+namespace canhil::report {
+namespace {
+
+// Of the drawing, in its own units: a column of a phone.
+constexpr double width = 440, height = 230;
+constexpr double left = 58, right = 428, top = 24, bottom = 192;
+
+struct Axis {
+  double from = 0, to = 1;        // values at the ends
+  double at_from = 0, at_to = 1;  // places of the ends
+  [[nodiscard]] double operator()(double value) const {
+    const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
+    return at_from + share * (at_to - at_from);
+  }
+};
+
+std::string begin(const std::string& title) {
+  return fmt::format(
+      "<svg viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\">",
+      width, height, escaped(title));
+}
+
+std::string words(double x, double y, std::string_view anchor, std::string_view label) {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
+                     escaped(label));
+}
+
+std::string line(std::string_view style, double x1, double y1, double x2, double y2) {
+  return fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>", style, x1, y1, x2, y2);
+}
+
+std::string frame() {
+  return fmt::format("<path class=\"axis\" d=\"M{0} {1}V{2}H{3}\"/>", left, top, bottom, right);
+}
+
+std::string time_of(double us) {
+  if (us < 1000) return fmt::format("{:g} us", us);
+  if (us < 1e6) return fmt::format("{:g} ms", us / 1e3);
+  return fmt::format("{:g} s", us / 1e6);
+}
+
+// 1, 10, 100 ... and, over less than two decades, 2 and 5 of each.
+std::vector<double> decades(double from_log, double to_log) {
+  std::vector<double> values;
+  const bool fine = to_log - from_log < 2.2;
+  for (double decade = std::floor(from_log); decade <= to_log; ++decade) {
+    for (const double step : {1.0, 2.0, 5.0}) {
+      const double value = step * std::pow(10, decade);
+      const double at = std::log10(value);
+      if ((fine || step == 1) && at >= from_log - 1e-9 && at <= to_log + 1e-9) values.push_back(value);
+    }
+  }
+  return values;
+}
+
+// Counts put together into bars of equal width in the picture.
+std::vector<double> columns(const HistogramPlot& plot, const Axis& x, std::size_t count) {
+  std::vector<double> sums(count, 0);
+  for (const HistogramPlot::Bar& bar : plot.bars) {
+    const double middle_us = std::max((bar.from_us + bar.to_us) / 2, 0.5);
+    const double share = (x(std::log10(middle_us)) - x.at_from) / (x.at_to - x.at_from);
+    sums[std::min(count - 1, static_cast<std::size_t>(share * static_cast<double>(count)))] += bar.count;
+  }
+  return sums;
+}
+
+// A run of points that are there.
+struct Stretch {
+  std::size_t from, to;
+};
+template <class There>
+std::vector<Stretch> stretches(std::size_t size, There there) {
+  std::vector<Stretch> found;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!there(i)) continue;
+    if (found.empty() || found.back().to != i) found.push_back({i, i});
+    found.back().to = i + 1;
+  }
+  return found;
+}
+
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// The limits count as far as they do not hide what lies within: the sigma of the first instants is large.
+Extent extent_of(const LinePlot& plot) {
+  Extent own;
+  for (const double value : plot.low) own.add(value);
+  for (const double value : plot.high) own.add(value);
+  if (plot.from_zero) own.add(0);
+  Extent all = own;
+  for (const double level : plot.levels) all.add(level);
+  std::vector<double> limits;
+  std::ranges::copy_if(plot.limit, std::back_inserter(limits), [](double v) { return std::isfinite(v); });
+  if (!limits.empty()) {
+    const double large = std::max(std::abs(own.low), std::abs(own.high));
+    const double shown = std::min(*std::ranges::max_element(limits), 2.5 * large);
+    all.add(shown);
+    all.add(-shown);
+  }
+  if (all.high - all.low < 1e-12 * std::max(1.0, std::abs(all.high))) {
+    all.add(all.high + 1);
+    all.add(all.low - 1);
+  }
+  return all;
+}
+
+std::string path_along(const LinePlot& plot, const std::vector<double>& values, double sign, const Axis& x,
+                       const Axis& y) {
+  std::string path;
+  const auto shown = [&](std::size_t i) {
+    return std::isfinite(values[i]) && sign * values[i] >= y.from && sign * values[i] <= y.to;
+  };
+  for (const Stretch& stretch : stretches(values.size(), shown)) {
+    for (std::size_t i = stretch.from; i < stretch.to; ++i)
+      path +=
+          fmt::format("{}{:.1f} {:.1f}", i == stretch.from ? 'M' : 'L', x(plot.t_s[i]), y(sign * values[i]));
+  }
+  return path;
+}
+
+// The area between low and high; its edge is drawn, so that a thin one is a line.
+std::string area(const LinePlot& plot, const Axis& x, const Axis& y) {
+  std::string path;
+  const auto there = [&](std::size_t i) { return std::isfinite(plot.low[i]) && std::isfinite(plot.high[i]); };
+  for (const Stretch& stretch : stretches(plot.t_s.size(), there)) {
+    for (std::size_t i = stretch.from; i < stretch.to; ++i)
+      path += fmt::format("{}{:.1f} {:.1f}", i == stretch.from ? 'M' : 'L', x(plot.t_s[i]), y(plot.high[i]));
+    for (std::size_t i = stretch.to; i-- > stretch.from;)
+      path += fmt::format("L{:.1f} {:.1f}", x(plot.t_s[i]), y(plot.low[i]));
+    path += 'Z';
+  }
+  return fmt::format("<path class=\"area\" d=\"{}\"/>", path);
+}
+
+}  // namespace
+
+std::vector<double> round_values(double from, double to, int most) {
+  if (!(to > from)) return {from};
+  const double rough = (to - from) / most;
+  const double power = std::pow(10, std::floor(std::log10(rough)));
+  double step = 10 * power;
+  for (const double times : {5.0, 2.0, 1.0}) {
+    if (times * power >= rough) step = times * power;
+  }
+  std::vector<double> values;
+  for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
+    values.push_back(i == 0 ? 0.0 : i * step);  // never -0
+  return values;
+}
+
+std::string svg(const HistogramPlot& plot) {
+  if (plot.bars.empty()) return "<p class=\"note\">nothing measured</p>";
+  constexpr std::size_t column_count = 92;
+  double most = 0;
+  Extent extent;
+  for (const HistogramPlot::Bar& bar : plot.bars) {
+    extent.add(std::log10(std::max(bar.from_us, 1.0)));
+    extent.add(std::log10(std::max(bar.to_us, 2.0)));
+  }
+  if (extent.high - extent.low < 0.3) {
+    extent.low -= 0.15;
+    extent.high += 0.15;
+  }
+  const Axis x{extent.low, extent.high, left, right};
+  const std::vector<double> counts = columns(plot, x, column_count);
+  most = *std::ranges::max_element(counts);
+  // One answer is a bar of its own height.
+  const Axis y{std::log10(0.5), std::log10(most) + 0.12, bottom, top};
+  std::string out = begin(plot.title);
+  for (const double value : decades(0, y.to)) {
+    out += line("rule", left, y(std::log10(value)), right, y(std::log10(value)));
+    out += words(left - 6, y(std::log10(value)) + 4, "end", fmt::format("{:g}", value));
+  }
+  double last_label = -100;
+  for (const double value : decades(x.from, x.to)) {
+    const double at = x(std::log10(value));
+    out += line("tick", at, bottom, at, bottom + 5);
+    if (at - last_label < 46) continue;
+    out += words(std::min(at, right - 10), bottom + 19, "middle", time_of(value));
+    last_label = at;
+  }
+  const double step = (right - left) / static_cast<double>(column_count);
+  std::string bars;
+  for (std::size_t i = 0; i < column_count; ++i) {
+    if (counts[i] <= 0) continue;
+    bars += fmt::format("M{:.1f} {}V{:.1f}h{:.1f}V{}Z", left + step * static_cast<double>(i), bottom,
+                        y(std::log10(counts[i])), step * 0.86, bottom);
+  }
+  out += fmt::format("<path class=\"bars\" d=\"{}\"/>", bars);
+  double last_mark = -100;
+  for (const HistogramPlot::Mark& mark : plot.marks) {
+    const double at = x(std::log10(std::max(mark.at_us, 1.0)));
+    out += line("mark", at, top - 4, at, bottom);
+    const bool room = at - last_mark > 30;
+    if (room) out += words(std::min(at, right - 8), top - 9, "middle", mark.label);
+    if (room) last_mark = at;
+  }
+  out += frame();
+  out +=
+      words((left + right) / 2, bottom + 35, "middle", "time (logarithmic); height: how many (logarithmic)");
+  return out + "</svg>";
+}
+
+std::string svg(const LinePlot& plot) {
+  const Extent extent = extent_of(plot);
+  if (plot.t_s.empty() || !std::isfinite(extent.low)) return "<p class=\"note\">nothing to show</p>";
+  const Axis x{std::min(plot.t_s.front(), 0.0), std::max(plot.t_s.back(), plot.t_s.front() + 1e-3), left,
+               right};
+  const double margin = 0.05 * (extent.high - extent.low);
+  const Axis y{plot.from_zero ? 0.0 : extent.low - margin, extent.high + margin, bottom, top};
+  std::string out = begin(plot.title);
+  for (const double value : round_values(y.from, y.to, 5)) {
+    out += line(value == 0 ? "zero" : "rule", left, y(value), right, y(value));
+    out += words(left - 6, y(value) + 4, "end", fmt::format("{:.4g}", value));
+  }
+  for (const double value : round_values(x.from, x.to, 6)) {
+    out += line("tick", x(value), bottom, x(value), bottom + 5);
+    out += words(x(value), bottom + 19, "middle", fmt::format("{:g}", value));
+  }
+  out += area(plot, x, y);
+  if (plot.limit.size() == plot.t_s.size()) {
+    for (const double sign : {1.0, -1.0})
+      out += fmt::format("<path class=\"limit\" d=\"{}\"/>", path_along(plot, plot.limit, sign, x, y));
+  }
+  for (const double level : plot.levels) out += line("limit", left, y(level), right, y(level));
+  out += frame();
+  out += words(left - 6, top - 9, "end", plot.unit);
+  out += words((left + right) / 2, bottom + 35, "middle", "s");
+  return out + "</svg>";
+}
+
+}  // namespace canhil::report

@@ -1,0 +1,48 @@
+#include "bench/report/provenance.hpp"
+
+#include <sys/utsname.h>
+
+#include <ctime>
+#include <fstream>
+#include <iterator>
+
+#include "bench/report/revision.hpp"
+
+namespace canhil::report {
+
+std::string_view revision() { return CANHIL_REVISION; }
+
+std::string kernel() {
+  utsname name{};
+  if (uname(&name) != 0) return "unknown";
+  return std::string(name.release) + " " + name.version;
+}
+
+std::string cpu_model(std::string_view cpuinfo) {
+  for (const std::string_view key : {"model name", "Model", "Hardware"}) {
+    for (auto at = cpuinfo.find(key); at != std::string_view::npos; at = cpuinfo.find(key, at + 1)) {
+      if (at != 0 && cpuinfo[at - 1] != '\n') continue;
+      const std::string_view line = cpuinfo.substr(at, cpuinfo.find('\n', at) - at);
+      const auto colon = line.find(": ");
+      if (colon != std::string_view::npos) return std::string(line.substr(colon + 2));
+    }
+  }
+  return "unknown";
+}
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  return cpu_model(std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+std::string date_utc(std::int64_t seconds_since_1970) {
+  if (seconds_since_1970 == 0) return "unknown";
+  const auto seconds = static_cast<std::time_t>(seconds_since_1970);
+  std::tm fields{};
+  gmtime_r(&seconds, &fields);
+  char date[32];
+  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &fields);
+  return date;
+}
+
+}  // namespace canhil::report

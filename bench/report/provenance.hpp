@@ -1,0 +1,23 @@
+// Where and with what a report was made.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace canhil::report {
+
+/// The git revision of the build, "-dirty" where files were altered; "unknown" outside of a checkout.
+std::string_view revision();
+
+/// Release and version of the running kernel, as uname tells them.
+std::string kernel();
+
+/// The model of the CPU; "unknown" if the kernel does not tell it. From the text of /proc/cpuinfo.
+std::string cpu_model(std::string_view cpuinfo);
+std::string cpu_model();
+
+/// 2026-01-31T12:00:00Z; "unknown" for 0.
+std::string date_utc(std::int64_t seconds_since_1970);
+
+}  // namespace canhil::report

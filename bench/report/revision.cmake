@@ -1,0 +1,7 @@
+# Run at every build: writes the git revision to OUT, and touches it only when it changed.
+execute_process(COMMAND git describe --always --dirty --abbrev=12 --exclude=* WORKING_DIRECTORY ${SOURCE}
+                OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
+if(failed)
+  set(revision unknown)
+endif()
+file(CONFIGURE OUTPUT ${OUT} CONTENT "#define CANHIL_REVISION \"${revision}\"\n")

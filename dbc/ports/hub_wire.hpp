@@ -1,0 +1,39 @@
+// The simulated wire of an embedded bus in real time, on CLOCK_MONOTONIC.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "dbc/ports/descriptor.hpp"
+#include "dbc/ports/simulated_wire.hpp"
+
+namespace canhil::local {
+
+class HubWire {
+ public:
+  /// The hub's own node, and one that only acknowledges: a bus without other nodes carries frames too.
+  HubWire(const wire::BitRates& rates, QueueOrder order);
+
+  static constexpr std::size_t host = 0;
+  std::size_t add_node() { return wire_.add_node({.order = order_}); }
+  [[nodiscard]] bool has_room(std::size_t node) const;
+  /// How long a full classic frame lasts at most.
+  [[nodiscard]] std::int64_t frame_ns() const { return frame_ns_; }
+  /// Puts a frame into the queue of a node, now. False: no room.
+  bool queue(std::size_t node, const Frame& frame);
+  /// The next frame that has been sent by now.
+  std::optional<Carried> next();
+
+  /// Readable once next() has something to do, since the last set_alarm().
+  [[nodiscard]] int descriptor() const { return timer_.get(); }
+  void set_alarm();
+  void stop_alarm();
+
+ private:
+  QueueOrder order_;
+  std::int64_t frame_ns_;
+  SimulatedWire wire_;
+  Descriptor timer_;
+};
+
+}  // namespace canhil::local

@@ -1,0 +1,52 @@
+#include "dbc/ports/local_peer.hpp"
+
+#include <sys/socket.h>
+
+#include <cerrno>
+
+namespace canhil::local {
+namespace {
+
+Reading read_hello(Peer& peer) {
+  Hello hello;
+  const ssize_t bytes = ::recv(peer.socket.get(), &hello, sizeof hello, MSG_TRUNC);
+  if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) return Reading::nothing;
+  if (bytes != sizeof hello || hello.magic != Hello::expected_magic) return Reading::gone;
+  hello.node_name.back() = '\0';
+  peer.name = hello.node_name.data();
+  peer.own_echo = hello.own_echo != 0;
+  peer.only_some = hello.only_some != 0;
+  for (std::size_t id = 0; id < peer.wanted.size(); ++id)
+    peer.wanted[id] = (hello.wanted[id / 8] >> (id % 8) & 1) != 0;
+  peer.joined = true;
+  return Reading::joined;
+}
+
+}  // namespace
+
+Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame) {
+  if (!peer.joined) return read_hello(peer);
+  ssize_t bytes = 0;
+  do {
+    bytes = ::recv(peer.socket.get(), &datagram, sizeof datagram, MSG_TRUNC);
+  } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
+  if (bytes < 0 && errno == EAGAIN) return Reading::nothing;
+  if (bytes <= 0) return Reading::gone;
+  const bool one_of_ours = decode(datagram, static_cast<std::size_t>(bytes), fd_bus, frame);
+  return one_of_ours ? Reading::frame : Reading::gone;
+}
+
+bool offer(Peer& peer, Datagram& datagram, bool own) {
+  if (!peer.joined || peer.mute || (own && !peer.own_echo)) return true;
+  const bool selectable = (datagram.flags & (Datagram::error | Datagram::extended)) == 0;
+  const bool error = (datagram.flags & Datagram::error) != 0;
+  if (peer.only_some && !error && !(selectable && peer.wanted.test(datagram.id))) return true;
+  const auto flags = static_cast<std::uint8_t>(datagram.flags & ~Datagram::own);
+  datagram.flags = static_cast<std::uint8_t>(flags | (own ? Datagram::own : 0));
+  if (::send(peer.socket.get(), &datagram, datagram.bytes(), MSG_NOSIGNAL) >= 0) return true;
+  if (errno == EAGAIN || errno == ENOBUFS || errno == EINTR) return false;
+  peer.mute = true;  // dead; reading from it will end with that
+  return true;
+}
+
+}  // namespace canhil::local

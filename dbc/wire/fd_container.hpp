@@ -1,0 +1,39 @@
+// Containers of the FD contract: the classic messages of a sample group in one CAN FD frame.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace canhil::wire {
+
+/// One container: `count` classic frames of 8 bytes, in the order of transmission. Filled in by dbcgen.
+struct FdContainer {
+  static constexpr std::size_t max_slots = 8;
+  static constexpr std::size_t slot_bytes = 8;
+
+  std::uint16_t id = 0;  ///< that of its first slot
+  std::uint8_t size = 0;
+  std::uint8_t count = 0;
+  std::array<std::uint16_t, max_slots> slots{};  ///< the ids of the classic frames
+};
+
+/// Where a classic id has its place.
+struct FdPlace {
+  static constexpr std::uint8_t nowhere = 0xFF;
+  std::uint8_t container = nowhere;  ///< index
+  std::uint8_t slot = 0;
+};
+
+/// The place of every standard id.
+constexpr std::array<FdPlace, 2048> fd_places(std::span<const FdContainer> containers) {
+  std::array<FdPlace, 2048> places{};
+  for (std::size_t c = 0; c < containers.size(); ++c) {
+    for (std::uint8_t slot = 0; slot < containers[c].count; ++slot)
+      places[containers[c].slots[slot]] = {static_cast<std::uint8_t>(c), slot};
+  }
+  return places;
+}
+
+}  // namespace canhil::wire

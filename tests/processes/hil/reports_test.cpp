@@ -1,0 +1,93 @@
+// What is done with reports of finished runs.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// One run in virtual time, for all tests: the same on any host.
+class Reports : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --json " +
+                                scratch("one.json") + " --html " + scratch("one.html"));
+    ASSERT_THAT(run.err, testing::IsEmpty());
+  }
+  static std::string altered(const std::string& name, const auto& alter) {
+    nlohmann::ordered_json report = nlohmann::ordered_json::parse(read(scratch("one.json")));
+    alter(report);
+    std::ofstream(scratch(name)) << report;
+    return scratch(name);
+  }
+};
+
+TEST_F(Reports, ThePageIsMadeAgainFromTheJson) {
+  const std::string first = read(scratch("one.html"));
+  EXPECT_THAT(first, StartsWith("<!doctype html>"));
+  std::ofstream(scratch("one.html")) << "gone";
+  const Ended ended = hil_bench("report " + scratch("one.json"));
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_EQ(ended.out, scratch("one.html") + "\n");
+  EXPECT_EQ(read(scratch("one.html")), first);
+}
+
+TEST_F(Reports, TheSameIsNoWorse) {
+  const Ended ended = hil_bench("compare " + scratch("one.json") + " " + scratch("one.json"));
+  EXPECT_EQ(ended.code, 0) << ended.out;
+  EXPECT_THAT(ended.out, EndsWith("no worse\n"));
+}
+
+TEST_F(Reports, ACheckThatFailsNowIsWorse) {
+  const std::string worse =
+      altered("worse.json", [](auto& report) { report["checks"][0]["outcome"] = "fail"; });
+  const Ended ended = hil_bench("compare " + scratch("one.json") + " " + worse);
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.out, EndsWith("worse\n"));
+  EXPECT_EQ(hil_bench("compare " + worse + " " + scratch("one.json")).code, 0);
+}
+
+TEST_F(Reports, AnotherScenarioIsNotComparable) {
+  const std::string other =
+      altered("other.json", [](auto& report) { report["provenance"]["scenario_hash"] = "0"; });
+  const Ended ended = hil_bench("compare " + scratch("one.json") + " " + other);
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(ended.out, StartsWith("not comparable: the scenario differs"));
+}
+
+TEST_F(Reports, WhatIsNoReportIsRefusedInOneLine) {
+  std::ofstream(scratch("torn.json")) << "{\"schema\"";
+  const std::string hollow = altered("hollow.json", [](auto& report) { report.erase("checks"); });
+  const std::vector<std::string> wrong{"report " + scratch("torn.json"),
+                                       "report " + hollow,
+                                       "report /no/such.json",
+                                       "report " + scratch("one.json") + " " + scratch("one.json"),
+                                       "compare " + scratch("one.json") + " " + scratch("torn.json"),
+                                       "compare " + hollow + " " + scratch("one.json"),
+                                       "compare /no/a.json /no/b.json"};
+  for (const std::string& arguments : wrong) {
+    const Ended ended = hil_bench(arguments);
+    EXPECT_EQ(ended.code, 2) << arguments;
+    EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
+    EXPECT_THAT(ended.err, StartsWith("hil-bench: "));
+  }
+}
+
+TEST_F(Reports, APageThatCannotBeWrittenIsToldBeforeTheRun) {
+  const Ended ended =
+      hil_bench("run " + scenario("transfer_alignment_quick") + " --bus in-process --html /no/such/a.html");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, HasSubstr("'/no/such/a.html'"));
+}
+
+}  // namespace
+}  // namespace canhil::test

@@ -1,0 +1,208 @@
+#include "bench/report/compare.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::HasSubstr;
+
+Buckets buckets_of(const std::vector<int>& sample_us) {
+  std::map<int, std::uint64_t> counts;
+  for (const int us : sample_us) ++counts[us];
+  Buckets buckets;
+  for (const auto& [us, count] : counts) buckets.push_back({us, count});
+  return buckets;
+}
+
+std::vector<int> latencies_us(unsigned seed, double median_us, std::size_t count = 2000,
+                              double tail_share = 0) {
+  std::mt19937 random(seed);
+  std::lognormal_distribution<double> body(std::log(median_us), 0.1);
+  std::bernoulli_distribution late(tail_share);
+  std::vector<int> sample(count);
+  std::ranges::generate(sample, [&] { return static_cast<int>(body(random)) * (late(random) ? 4 : 1); });
+  return sample;
+}
+
+// Pair by pair, as U is defined.
+double effect_by_pairs(const std::vector<int>& a, const std::vector<int>& b) {
+  double u = 0;
+  for (const int of_b : b)
+    for (const int of_a : a) u += of_b > of_a ? 1 : of_b == of_a ? 0.5 : 0;
+  return u / static_cast<double>(a.size() * b.size());
+}
+
+TEST(RankTest, IsThatOfAllPairs) {
+  const auto a = latencies_us(1, 30, 300), b = latencies_us(2, 31, 200);
+  EXPECT_NEAR(rank_test(buckets_of(a), buckets_of(b)).effect, effect_by_pairs(a, b), 1e-12);
+}
+
+// U = 6 of 3 x 4 pairs + 2 ties: computed by hand. a = 1 2 2, b = 2 3 3 1: pairs b > a: 2: 1, 3: 3, 3: 3, 1:
+// 0; ties: 2 with 2 twice, 1 with 1 once; U = 7 + 1.5. N = 7, ties 2, 3, 2: sum t^3 - t = 6 + 24 + 6 = 36,
+// var = 12 / 12 (8 - 36 / 42) = 7.142857; z = (8.5 - 6 - 0.5) / 2.672612 = 0.748331; P(Z > z) = 0.227130.
+TEST(RankTest, HandComputedWithTies) {
+  const RankTest test = rank_test(buckets_of({1, 2, 2}), buckets_of({2, 3, 3, 1}));
+  EXPECT_NEAR(test.effect, 8.5 / 12, 1e-12);
+  EXPECT_NEAR(test.p, 0.227130, 2e-5);
+}
+
+TEST(RankTest, EqualSamplesAndEmptyOnesSayNothing) {
+  EXPECT_EQ(rank_test(buckets_of({5, 5, 5}), buckets_of({5, 5})).effect, 0.5);
+  EXPECT_EQ(rank_test(buckets_of({5, 5, 5}), buckets_of({5, 5})).p, 1);
+  EXPECT_EQ(rank_test({}, buckets_of({5})).p, 1);
+}
+
+TEST(RankTest, FalseAlarmsAreAsRareAsPSays) {
+  int alarms = 0;
+  for (unsigned i = 0; i < 400; ++i) {
+    const auto test = rank_test(buckets_of(latencies_us(2 * i + 10, 200, 400)),
+                                buckets_of(latencies_us(2 * i + 11, 200, 400)));
+    alarms += test.p < 0.05 ? 1 : 0;
+  }
+  EXPECT_GT(alarms, 5);  // binomial of 400 and 0.05: 20 +- 4.4
+  EXPECT_LT(alarms, 36);
+}
+
+TEST(TailTest, SharesBeyondTheFirstP99) {
+  std::vector<int> a(99, 10), b(90, 10);
+  a.push_back(50);
+  b.insert(b.end(), 10, 40);
+  const TailTest test = tail_test(buckets_of(a), buckets_of(b));
+  EXPECT_NEAR(test.share_a, 0.01, 1e-12);
+  EXPECT_NEAR(test.share_b, 0.10, 1e-12);
+  EXPECT_LT(test.p, 0.01);
+}
+
+Json distribution(const std::vector<int>& sample_us) {
+  std::vector<int> sorted = sample_us;
+  std::ranges::sort(sorted);
+  const auto at = [&](double q) {
+    return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))] * 1e-6;
+  };
+  Json json{{"count", sorted.size()},
+            {"p50", at(0.5)},
+            {"p99", at(0.99)},
+            {"closes_group", true},
+            {"buckets_us", Json::array()}};
+  for (const auto& bucket : buckets_of(sample_us))
+    json["buckets_us"].push_back(Json::array({bucket.from_us, bucket.count}));
+  return json;
+}
+
+Json report_of(const std::vector<int>& sample_us) {
+  return {{"verdict", "pass"},
+          {"reason", "1 checks passed"},
+          {"provenance", {{"scenario_hash", "1"}, {"contract", "classic"}, {"clock", "real time"}}},
+          {"checks",
+           Json::array({{{"name", "x"}, {"kind", "latency"}, {"outcome", "pass"}, {"measured", "5 ms"}}})},
+          {"timing", {{"judged", true}, {"why_not", ""}}},
+          {"latency_s", {{"LosRateTarget", distribution(sample_us)}}}};
+}
+
+Compared compared(const Json& a, const Json& b) { return compare(a, b).value(); }
+
+TEST(Compare, TwoRunsOfTheSameAreNoWorse) {
+  const Compared result = compared(report_of(latencies_us(1, 200)), report_of(latencies_us(2, 200)));
+  EXPECT_EQ(result.outcome, Comparison::no_worse) << result.text;
+}
+
+TEST(Compare, AMedianThatMovesIsWorseOneWayOnly) {
+  const Json fast = report_of(latencies_us(1, 200)), slow = report_of(latencies_us(2, 220));
+  EXPECT_EQ(compared(fast, slow).outcome, Comparison::worse);
+  EXPECT_THAT(compared(fast, slow).text, HasSubstr("worse    latency of LosRateTarget: p50"));
+  EXPECT_EQ(compared(slow, fast).outcome, Comparison::no_worse);
+}
+
+TEST(Compare, ATailThatGrowsIsWorseThoughTheMedianStays) {
+  const Json light = report_of(latencies_us(1, 200)), heavy = report_of(latencies_us(2, 200, 2000, 0.04));
+  const Compared result = compared(light, heavy);
+  EXPECT_EQ(result.outcome, Comparison::worse) << result.text;
+  EXPECT_EQ(compared(heavy, light).outcome, Comparison::no_worse);
+}
+
+TEST(Compare, ADifferenceThatIsSureButSmallIsNotWorse) {
+  const Compared result =
+      compared(report_of(latencies_us(1, 200, 50'000)), report_of(latencies_us(2, 202, 50'000)));
+  EXPECT_EQ(result.outcome, Comparison::no_worse) << result.text;
+}
+
+TEST(Compare, AFewSamplesProveNothing) {
+  const Compared result = compared(report_of(latencies_us(1, 200, 3)), report_of(latencies_us(2, 300, 3)));
+  EXPECT_EQ(result.outcome, Comparison::no_worse) << result.text;
+}
+
+TEST(Compare, AMessageThatIsAnsweredNoMoreIsWorse) {
+  Json silent = report_of(latencies_us(2, 200));
+  silent.erase("latency_s");
+  EXPECT_EQ(compared(report_of(latencies_us(1, 200)), silent).outcome, Comparison::worse);
+}
+
+TEST(Compare, ACheckThatFailsNowIsWorse) {
+  const Json good = report_of(latencies_us(1, 200));
+  Json bad = good;
+  bad["checks"][0]["outcome"] = "fail";
+  const Compared result = compared(good, bad);
+  EXPECT_EQ(result.outcome, Comparison::worse);
+  EXPECT_THAT(result.text, HasSubstr("worse    check 'x': pass -> fail (5 ms)"));
+  EXPECT_EQ(compared(bad, good).outcome, Comparison::no_worse);
+  EXPECT_EQ(compared(bad, bad).outcome, Comparison::no_worse);
+}
+
+TEST(Compare, AnImpliedCheckThatAppearsIsWorse) {
+  const Json good = report_of(latencies_us(1, 200));
+  Json bad = good;
+  bad["checks"].push_back(
+      {{"name", "bus_errors"}, {"kind", "bus_errors"}, {"outcome", "fail"}, {"measured", "bus off 1"}});
+  EXPECT_EQ(compared(good, bad).outcome, Comparison::worse);
+}
+
+TEST(Compare, ARunThatEndedEarlyIsWorse) {
+  const Json good = report_of(latencies_us(1, 200));
+  Json bad = good;
+  bad["verdict"] = "fail";
+  bad["reason"] = "target silent";
+  EXPECT_EQ(compared(good, bad).outcome, Comparison::worse);
+}
+
+TEST(Compare, AnotherScenarioOrClockIsNotComparable) {
+  const Json one = report_of(latencies_us(1, 200));
+  Json other = one;
+  other["provenance"]["scenario_hash"] = "2";
+  EXPECT_EQ(compared(one, other).outcome, Comparison::not_comparable);
+  other = one;
+  other["provenance"]["contract"] = "fd";
+  EXPECT_EQ(compared(one, other).outcome, Comparison::not_comparable);
+  other = one;
+  other["provenance"]["clock"] = "lockstep";
+  EXPECT_EQ(compared(one, other).outcome, Comparison::not_comparable);
+}
+
+TEST(Compare, TimingThatWasNotMeasuredIsNeverNoWorse) {
+  const Json good = report_of(latencies_us(1, 200));
+  Json unfit = good;
+  unfit["timing"] = {{"judged", false}, {"why_not", "the bench's port lost 3 frames"}};
+  EXPECT_EQ(compared(good, unfit).outcome, Comparison::not_comparable);
+  EXPECT_EQ(compared(unfit, good).outcome, Comparison::not_comparable);
+  EXPECT_THAT(compared(good, unfit).text, HasSubstr("in the second run the bench's port lost 3 frames"));
+  unfit["checks"][0]["outcome"] = "fail";
+  EXPECT_EQ(compared(good, unfit).outcome, Comparison::worse);
+}
+
+TEST(Compare, AReportThatLacksSomethingIsAnError) {
+  Json torn = report_of({1, 2});
+  torn.erase("timing");
+  const auto result = compare(report_of({1, 2}), torn);
+  ASSERT_FALSE(result);
+  EXPECT_THAT(result.error().message, HasSubstr("timing"));
+}
+
+}  // namespace
+}  // namespace canhil::report

@@ -1,0 +1,183 @@
+// The page of a report: whole, drawn from the JSON alone, and nothing of it is somebody's markup.
+#include "bench/report/page.hpp"
+
+#include <gmock/gmock.h>
+
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "bench/report/json.hpp"
+#include "bench/report/plot.hpp"
+#include "bench/report/provenance.hpp"
+#include "bench/world/motion/rest.hpp"
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::DoubleNear;
+using testing::HasSubstr;
+using testing::Not;
+using testing::Pointwise;
+
+scenario::Scenario scenario_of() {
+  scenario::Scenario scenario;
+  scenario.title = "<script>alert(1)</script>";
+  scenario.duration_us = 2'000'000;
+  scenario.targets.emplace_back().estimator = "transfer_alignment";
+  return scenario;
+}
+
+run::Run run_of() {
+  run::Run run{
+      .verdict = {.outcome = checks::Outcome::fail,
+                  .reason = "1 of 2 checks failed",
+                  .checks = {{"latency", "latency", "REQ-7", checks::Outcome::fail, "9 ms", "< 5 ms"},
+                             {"two", "kind", "", checks::Outcome::not_measured, "late & slow", "x"}}},
+      .ending = {},
+      .seen = {},
+      .truth = {{.start = {}, .motion = world::Rest{}}, 2'000'000, 10'000},
+      .options = {},
+      .host = realtime::standing(),
+      .wall_s = 2};
+  run.options.bus = "local:x";
+  checks::Observations& seen = run.seen;
+  for (std::int64_t t_us = 10'000; t_us <= 2'000'000; t_us += 10'000) {
+    seen.navigation.push_back({.cause_us = t_us, .angles = {.roll = 0.001, .pitch = 0, .heading = 0}});
+    auto& timing = seen.timing.answers[message_index<messages::AlignVelocityD>()];
+    timing.latency.add(200'000 + t_us / 10);
+    timing.latency_line.add(t_us * 1000, 200'000);
+    timing.jitter.add(5'000);
+    seen.timing.lateness.add(30'000);
+    seen.timing.lateness_line.add(t_us * 1000, 30'000);
+    seen.timing.transmit[message_index<messages::Sync>()].handed_over.add(30'000);
+    if (t_us % 100'000 == 0)
+      seen.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Constant(0.002)});
+  }
+  seen.length_by_second.resize(2);
+  return run;
+}
+
+std::string page_of(const run::Run& run) { return html(document(scenario_of(), run)).value(); }
+
+TEST(Page, NeedsNothingOutsideItself) {
+  EXPECT_THAT(page_of(run_of()),
+              AllOf(Not(HasSubstr("<script")), Not(HasSubstr("src=")), Not(HasSubstr("url(")),
+                    Not(HasSubstr("<link")), Not(HasSubstr("@import"))));
+}
+
+TEST(Page, SaysVerdictReasonChecksAndRequirement) {
+  const std::string page = page_of(run_of());
+  EXPECT_THAT(page, AllOf(HasSubstr("1 of 2 checks failed"), HasSubstr("REQ-7"), HasSubstr("late &amp; slow"),
+                          HasSubstr("&#10007; fail</b>"), HasSubstr("? not measured")));
+}
+
+TEST(Page, ShowsLatencyJitterErrorsAndProvenance) {
+  const std::string page = page_of(run_of());
+  EXPECT_THAT(page, AllOf(HasSubstr("Latency of AlignVelocityD"),
+                          HasSubstr("Deviation of the period of AlignVelocityD"),
+                          HasSubstr("attitude error about north"), HasSubstr("normalised innovation squared"),
+                          HasSubstr("velocity error down"), HasSubstr("cpu_model"), HasSubstr("dbc_hash")));
+}
+
+TEST(Page, EveryPictureIsWellFormedAndFinite) {
+  const std::string page = page_of(run_of());
+  int pictures = 0;
+  for (auto at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) {
+    const std::string picture = page.substr(at, page.find("</svg>", at) + 6 - at);
+    std::istringstream text(picture);
+    boost::property_tree::ptree xml;
+    EXPECT_NO_THROW(read_xml(text, xml)) << picture;
+    EXPECT_THAT(picture, AllOf(Not(HasSubstr("nan")), Not(HasSubstr("inf"))));
+    ++pictures;
+  }
+  EXPECT_GE(pictures, 10);
+}
+
+TEST(Page, IsTheSameFromTheFileAsFromTheRun) {
+  const std::string path = testing::TempDir() + "canhil_page_test.json";
+  const run::Run run = run_of();
+  std::ofstream(path) << json(scenario_of(), run);
+  const auto read = read_document(path);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(html(*read).value(), page_of(run));
+}
+
+TEST(Page, OfVirtualTimeHasNoLatency) {
+  run::Run run = run_of();
+  run.options.clock = run::ClockKind::lockstep;
+  run.timing_unfit = "virtual time";
+  EXPECT_THAT(page_of(run),
+              AllOf(HasSubstr("Timing is not judged: virtual time."), Not(HasSubstr("Latency of"))));
+}
+
+TEST(Page, FilesThatAreNoReportsAreRefusedInOneLine) {
+  const std::string path = testing::TempDir() + "canhil_no_report.json";
+  EXPECT_THAT(read_document("/no/such").error().message, HasSubstr("'/no/such': cannot be read"));
+  std::ofstream(path) << "{";
+  EXPECT_THAT(read_document(path).error().message, HasSubstr("is no JSON"));
+  std::ofstream(path) << "[1]";
+  EXPECT_THAT(read_document(path).error().message, HasSubstr("is no report, expected one with \"schema\""));
+  const auto torn = html(Json{{"schema", schema}, {"verdict", 5}});
+  ASSERT_FALSE(torn);
+  EXPECT_THAT(torn.error().message, Not(HasSubstr("\n")));
+}
+
+TEST(JsonReport, CarriesDistributionsWithTheirBuckets) {
+  const Json page = document(scenario_of(), run_of());
+  const Json& latency = page["latency_s"]["AlignVelocityD"];
+  EXPECT_EQ(latency["count"], 200);
+  EXPECT_NEAR(latency["p50"].get<double>(), 300e-6, 1e-6);
+  EXPECT_NEAR(latency["p999"].get<double>(), 400e-6, 1e-6);
+  EXPECT_TRUE(latency["closes_group"]);
+  std::uint64_t sum = 0;
+  for (const Json& bucket : latency["buckets_us"]) sum += bucket[1].get<std::uint64_t>();
+  EXPECT_EQ(sum, 200U);
+  EXPECT_EQ(page["jitter_s"]["AlignVelocityD"]["max"], 5e-6);
+  EXPECT_EQ(page["transmit_lateness_s"]["Sync"]["handed_over"]["count"], 200);
+}
+
+TEST(JsonReport, ErrorsCarryTheSigmaThatTheTargetTold) {
+  const Json page = document(scenario_of(), run_of());
+  const Json& north = page["series"][0];
+  EXPECT_EQ(north["quantity"], "attitude error about north");
+  EXPECT_TRUE(north["sigma"].front().is_null()) << "before the first update it told none";
+  EXPECT_NEAR(north["sigma"].back().get<double>(), 2, 1e-6);
+  EXPECT_NEAR(std::abs(north["high"].back().get<double>()), 1, 1e-3);
+}
+
+TEST(RoundValues, AreRoundAndFew) {
+  EXPECT_THAT(round_values(0, 10, 5), Pointwise(DoubleNear(1e-9), {0.0, 2.0, 4.0, 6.0, 8.0, 10.0}));
+  EXPECT_THAT(round_values(-0.03, 0.04, 5), Pointwise(DoubleNear(1e-9), {-0.02, 0.0, 0.02, 0.04}));
+}
+
+TEST(Plot, AValueThatIsNotThereIsAGap) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const std::string drawn = svg(LinePlot{.title = "x",
+                                         .unit = "m",
+                                         .t_s = {0, 1, 2, 3},
+                                         .low = {1, none, 2, 3},
+                                         .high = {1, none, 2, 3},
+                                         .limit = {},
+                                         .levels = {}});
+  EXPECT_THAT(drawn, Not(HasSubstr("nan")));
+  EXPECT_THAT(drawn, ContainsRegex("class=\"area\" d=\"M[^Z]*ZM[^Z]*Z\""));
+}
+
+TEST(Provenance, FindsTheCpuModel) {
+  EXPECT_EQ(cpu_model("processor\t: 0\nmodel\t\t: 106\nmodel name\t: Some CPU @ 2 GHz\nflags: x\n"),
+            "Some CPU @ 2 GHz");
+  EXPECT_EQ(cpu_model("processor : 0\n"), "unknown");
+  EXPECT_EQ(date_utc(0), "unknown");
+  EXPECT_EQ(date_utc(86'400), "1970-01-02T00:00:00Z");
+}
+
+}  // namespace
+}  // namespace canhil::report

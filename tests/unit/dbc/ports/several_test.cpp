@@ -1,0 +1,88 @@
+#include "dbc/ports/several.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <ctime>
+
+#include "dbc/ports/local_bus.hpp"
+
+namespace canhil {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// Two hubs joined, even ids to the first and odd ones to the second, and a node on each bus.
+class Several : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::vector<std::unique_ptr<Port>> hubs;
+    for (int i = 0; i < 2; ++i) {
+      buses_.push_back(fmt::format("local:several-{}-{}", getpid(), i));
+      auto hub = host_local_bus(buses_.back(), {.own_echo = true});
+      ASSERT_TRUE(hub) << hub.error().message;
+      hubs.push_back(std::move(*hub));
+      auto node = join_local_bus(buses_.back(), {});
+      ASSERT_TRUE(node) << node.error().message;
+      nodes_.push_back(std::move(*node));
+    }
+    auto joined = join_ports(std::move(hubs), [](const Frame& frame) { return std::size_t{frame.id % 2}; });
+    ASSERT_TRUE(joined) << joined.error().message;
+    port_ = std::move(*joined);
+    for (int look = 0; look < 10; ++look) port_->receive();
+  }
+  std::vector<std::uint32_t> waiting(Port& port) {
+    std::vector<std::uint32_t> ids;
+    while (const auto received = port.receive()) ids.push_back(received->frame.id);
+    return ids;
+  }
+  std::vector<std::string> buses_;
+  std::vector<std::unique_ptr<Port>> nodes_;
+  std::unique_ptr<Port> port_;
+};
+
+TEST_F(Several, EachFrameGoesToTheBusOfItsRoute) {
+  for (const std::uint32_t id : {2U, 3U, 4U, 5U}) ASSERT_EQ(port_->send({.id = id}), SendOutcome::sent);
+  EXPECT_THAT(waiting(*nodes_[0]), ElementsAre(2, 4));
+  EXPECT_THAT(waiting(*nodes_[1]), ElementsAre(3, 5));
+  EXPECT_EQ(port_->counters().sent, 4U);
+}
+
+TEST_F(Several, WhatWaitsComesInTheOrderOfItsStamps) {
+  for (const std::uint32_t id : {3U, 5U, 2U, 7U, 4U}) ASSERT_EQ(port_->send({.id = id}), SendOutcome::sent);
+  EXPECT_THAT(waiting(*port_), ElementsAre(3, 5, 2, 7, 4)) << "the echoes";
+}
+
+TEST_F(Several, AFrameOnAnyBusEndsTheWait) {
+  for (const auto& node : nodes_) {
+    EXPECT_FALSE(wait(*port_, WaitFor::frame, clock_ns(CLOCK_MONOTONIC)));
+    ASSERT_EQ(node->send({.id = 9}), SendOutcome::sent);
+    EXPECT_TRUE(wait(*port_, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + 10'000'000'000));
+    EXPECT_THAT(waiting(*port_), ElementsAre(9));
+  }
+}
+
+TEST_F(Several, NamesTheFirstAndEndsWithAny) {
+  EXPECT_EQ(port_->name(), buses_[0]);
+  auto both = open_buses(buses_, {});
+  ASSERT_TRUE(both) << both.error().message;
+  for (int look = 0; look < 10; ++look) port_->receive();
+  ASSERT_EQ((*both)->send({.id = 3}), SendOutcome::sent);
+  EXPECT_THAT(waiting(*nodes_[1]), ElementsAre()) << "all goes to the first bus";
+  EXPECT_FALSE((*both)->closed());
+  port_.reset();
+  while ((*both)->receive()) {
+  }
+  EXPECT_TRUE((*both)->closed());
+}
+
+TEST_F(Several, ABusThatIsNotThereIsNamed) {
+  const auto missing = open_buses({buses_[0], "local:nobody-hosts-this"}, {});
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message, HasSubstr("local:nobody-hosts-this"));
+}
+
+}  // namespace
+}  // namespace canhil
