@@ -275,6 +275,8 @@ TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
   EXPECT_FALSE(stamped_by_hardware(seen_));
   EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(7), 200e-6, 1e-9) << "never one of each clock";
   EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(8), 30e-6, 1e-9);
+  seen_.stimuli["SlaveImu"][9].hardware_ns = 0;
+  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(9), 200e-6, 1e-9);
 }
 
 TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {

@@ -137,6 +137,15 @@ TEST_F(Trouble, AFullQueueIsNot) {
   EXPECT_THAT(ending.detail, testing::HasSubstr("the bus took no frame since t="));
 }
 
+TEST(LinkWaits, ForAnInterfaceThatIsAway) {
+  FakePort port;
+  Link link(port);
+  port.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + 50'000'000;
+  EXPECT_EQ(link.send({.id = 1}, 60'000'000'000), LinkState::up);
+  port.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + 60'000'000'000;
+  EXPECT_EQ(link.send({.id = 1}, 50'000'000), LinkState::down) << "but not for ever";
+}
+
 TEST(LateInQueue, CountsFramesThatWaitedBeyondTheirDeadline) {
   FakePort port;
   Link link(port);
