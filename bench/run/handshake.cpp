@@ -41,6 +41,10 @@ class Mailbox final : public Observer {
     const auto& beat = beats_[static_cast<std::size_t>(estimator)];
     return beat && beat->state == state;
   }
+  [[nodiscard]] bool has_stopped(Estimator estimator) const {
+    const auto& beat = beats_[static_cast<std::size_t>(estimator)];
+    return beat && beat->state != TargetState::running;
+  }
   void forget_heartbeats() {
     heartbeat.reset();
     beats_ = {};
@@ -265,14 +269,18 @@ Result<void> configure(Link& link, nodes::Transmission& out,
       });
 }
 
-void stop(Link& link, nodes::Transmission& out) {
+void stop(Link& link, nodes::Transmission& out, std::span<const scenario::TargetSetup> estimators) {
   Mailbox box;
   const Attached attached(link, box);
   out.clear();
   out.send(command(Command::stop, Estimator::none, Algorithm::kalman));
   for (const Frame& frame : out.frames()) static_cast<void>(link.send(frame, repeat_ns));
+  const auto stopped = [&](const scenario::TargetSetup& setup) {
+    const auto estimator = from_name<Estimator>(setup.estimator);
+    return !estimator || box.has_stopped(*estimator);
+  };
   const std::int64_t deadline_ns = now_ns() + repeat_ns;
-  while (link.drain() == LinkState::up && !(box.heartbeat && box.heartbeat->state != TargetState::running)) {
+  while (link.drain() == LinkState::up && !std::ranges::all_of(estimators, stopped)) {
     if (now_ns() >= deadline_ns) return;
     link.wait_until(deadline_ns);
   }

@@ -26,8 +26,8 @@ Result<void> configure(Link& link, nodes::Transmission& out,
                        const std::function<std::optional<std::string>()>& gone,
                        BusFormat format = BusFormat::classic);
 
-/// Stops the estimators, and waits a moment for the heartbeat that says so: it belongs to the session's
-/// record.
-void stop(Link& link, nodes::Transmission& out);
+/// Stops the estimators, and waits a moment for the heartbeat of each that says so: they belong to the
+/// session's record.
+void stop(Link& link, nodes::Transmission& out, std::span<const scenario::TargetSetup> estimators);
 
 }  // namespace canhil::run

@@ -145,7 +145,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
     ending.detail += fmt::format(" (its process {})", *why);
   }
-  stop(link, schedule.outbox());
+  stop(link, schedule.outbox(), scenario.targets);
   if (recorder) {
     link.detach(*recorder);
     if (auto closed = recorder->close(); !closed) return tl::unexpected(closed.error());
