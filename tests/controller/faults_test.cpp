@@ -106,7 +106,7 @@ TEST(Interface, AdapterPulledAndPluggedInAgainOnTheBenchsSideIsSurvived) {
 }
 
 TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndTold) {
-  set_up_on_wire("", "restart-ms 600");  // longer than a target may be silent
+  set_up_on_wire("", "restart-ms 50");
   const Outcome outcome = run_with([] {
     wire("can1 broken");
     await_carrier("can1", false);
@@ -120,6 +120,19 @@ TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndTold) {
   EXPECT_EQ(outcome.ended.code, 1);
   EXPECT_GE(outcome.report["target_counters"]["frames_lost"], 1)
       << "the frame that failed is lost, and counted";
+}
+
+// The bench knows why nobody is heard for longer than a target may be silent; the target has lost its input.
+TEST(BusOff, OnTheBenchsSideForLongEndsWithTheTargetsFaultNotItsSilence) {
+  set_up_on_wire("", "restart-ms 700");
+  const Outcome outcome = run_with([] {
+    wire("can1 broken");
+    await_carrier("can1", false);
+    wire("can1 sound");
+  });
+  EXPECT_EQ(outcome.report["bus"]["restarted"], 1);
+  EXPECT_THAT(outcome.ended.out, HasSubstr("fail: the target reported a fault of its transfer_alignment"));
+  EXPECT_EQ(outcome.ended.code, 1);
 }
 
 TEST(BusOff, OnTheBenchsSideWithoutRestartEndsTheRun) {
