@@ -123,7 +123,7 @@ probe_sanitizers() {
 
 address_sanitizer() {
   echo "address, leak and undefined-behaviour sanitizers on: unit, processes"
-  echo "not under them: vcan (a whole kernel runs in each test), papers (long runs of code that unit tests cover), static"
+  echo "not under them: vcan and controller (a whole kernel runs in each test), papers (long runs of code that unit tests cover), static"
   build asan tests_unit tests_processes && run_ctest asan -L '^(unit|processes)'
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -97,15 +98,21 @@ Result<std::string> html(const Json& document) {
 }
 
 Result<Json> read_document(const std::string& path) {
+  std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path, ignored))
+    return failure(fmt::format("file '{}': cannot be read, expected a report as JSON", path));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) return failure(fmt::format("file '{}': cannot be read, expected a report as JSON", path));
   Json document = Json::parse(text, nullptr, false);
   if (document.is_discarded())
     return failure(fmt::format("file '{}': is no JSON, expected a report of hil-bench run --json", path));
   if (!document.is_object() || !document.contains("schema") || document.at("schema") != schema)
     return failure(
         fmt::format("file '{}': is no report, expected one with \"schema\": \"{}\"", path, schema));
+  for (const std::string_view key : {"verdict", "provenance", "checks"}) {
+    if (!document.contains(key))
+      return failure(fmt::format("file '{}': key '{}' is missing, expected a whole report", path, key));
+  }
   return document;
 }
 

@@ -75,7 +75,10 @@ std::string words(const EngagementSummary& engagement) {
 }
 
 std::string words(const WindSummary& wind) {
-  std::string lines = "  the target gave no wind answers\n";
+  std::string lines =
+      wind.outcomes.empty()
+          ? "  the target gave no wind answers\n"
+          : fmt::format("  wind error                    none judged before {:g} s\n", wind.from_s);
   if (wind.norm_mps) {
     lines = fmt::format(
         "  wind error from {:g} s on        mean {:.3f} m/s: along track {:.3f} (sigma told {:.3f}), across "

@@ -226,8 +226,16 @@ MissDistance read(Section& section, const Context& /*context*/, MissDistance rul
 
 BusLoad read(Section& section, const Context& /*context*/, BusLoad rule) {
   constexpr std::int64_t kilo = 1000;
+  constexpr std::int64_t fastest = 1000, fastest_data = 8000;  // ISO 11898-2
   rule.bitrate = section.integer("bitrate_kbitps", 1) * kilo;
+  if (rule.bitrate > fastest * kilo)
+    section.reject("bitrate_kbitps", "is faster than CAN", fmt::format("kbit/s, at most {}", fastest));
   rule.data_bitrate = section.optional_integer("data_bitrate_kbitps", 1).value_or(0) * kilo;
+  if (rule.data_bitrate != 0 &&
+      (rule.data_bitrate < rule.bitrate || rule.data_bitrate > fastest_data * kilo)) {
+    section.reject("data_bitrate_kbitps", fmt::format("is {}", rule.data_bitrate / kilo),
+                   fmt::format("from bitrate_kbitps to {}", fastest_data));
+  }
   rule.below = section.plain_number("below_percent", Limits::above(0, 100)) / 100;
   return rule;
 }
@@ -292,7 +300,10 @@ std::string subject(const LosRateError& rule) {
   return fmt::format(" {} {} to {:g} s to go", name(rule.plane), rule.most_to_go, rule.least_to_go);
 }
 std::string subject(const MissDistance& /*rule*/) { return {}; }
-std::string subject(const BusLoad& rule) { return fmt::format(" at {} kbit/s", rule.bitrate / 1000); }
+std::string subject(const BusLoad& rule) {
+  const std::string data = rule.data_bitrate == 0 ? "" : fmt::format(" and {}", rule.data_bitrate / 1000);
+  return fmt::format(" at {}{} kbit/s", rule.bitrate / 1000, data);
+}
 
 }  // namespace
 

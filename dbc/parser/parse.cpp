@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -106,9 +107,11 @@ Result<Database> parse(std::string_view text, std::string_view file_name) {
 }
 
 Result<Database> read_file(const std::string& path) {
+  std::error_code ignored;
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) return failure(fmt::format("{}: cannot be read, expected a DBC file", path));
+  const bool readable = file && !std::filesystem::is_directory(path, ignored);
+  const std::string text = readable ? std::string{std::istreambuf_iterator<char>(file), {}} : std::string();
+  if (!readable || !file) return failure(fmt::format("{}: cannot be read, expected a DBC file", path));
   return parse(text, path);
 }
 

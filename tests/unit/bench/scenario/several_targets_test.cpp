@@ -83,5 +83,17 @@ TEST(BusLoadCheck, HasABitrateAndABar) {
   EXPECT_EQ(s.checks.at(0).name, "bus_load at 500 kbit/s");
 }
 
+TEST(BusLoadCheck, BitRatesAreThoseOfCan) {
+  const auto refused = [](std::string_view rates) {
+    return refusal(with("[[check]]", "[[check]]\nkind = 'bus_load'\nbelow_percent = 40\n" +
+                                         std::string(rates) + "\n[[check]]"));
+  };
+  EXPECT_THAT(refused("bitrate_kbitps = 500000"),
+              HasSubstr("is faster than CAN, expected kbit/s, at most 1000"));
+  EXPECT_THAT(refused("bitrate_kbitps = 500\ndata_bitrate_kbitps = 200"),
+              HasSubstr("is 200, expected from bitrate_kbitps to 8000"));
+  EXPECT_EQ(refused("bitrate_kbitps = 500\ndata_bitrate_kbitps = 2000"), "accepted");
+}
+
 }  // namespace
 }  // namespace canhil::scenario
