@@ -168,7 +168,11 @@ Result<void> check_bus(const Arguments& arguments) {
     return failure(
         "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
   for (const std::string& text : arguments.bus_of) {
-    if (auto named = node_and_bus(text); !named) return tl::unexpected(named.error());
+    const auto named = node_and_bus(text);
+    if (!named) return tl::unexpected(named.error());
+    if (named->second == arguments.bus)
+      return failure(
+          fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
   }
   // Two wires deliver in an order of their own: the answer to a step could miss what the other brings.
   if (!arguments.bus_of.empty() && (arguments.lockstep || arguments.bus == in_process))
@@ -220,10 +224,29 @@ Error with_controller(Error error, const std::string& bus) {
   return error;
 }
 
+// A node with a bus of its own is one of the scenario's.
+Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& scenario) {
+  const std::pair<std::string_view, bool> nodes[] = {{"MasterIns", scenario.master_ins.has_value()},
+                                                     {"SlaveImu", scenario.slave_imu.has_value()},
+                                                     {"Ssbl", scenario.ssbl.has_value()},
+                                                     {"Gps", scenario.gps.has_value()},
+                                                     {"Seeker", scenario.seeker.has_value()},
+                                                     {"GliderNav", scenario.glider_nav.has_value()},
+                                                     {"Fins", scenario.fins.has_value()}};
+  for (const std::string& text : arguments.bus_of) {
+    const std::string node = node_and_bus(text)->first;
+    if (std::ranges::find(nodes, std::pair(std::string_view(node), false)) == std::end(nodes)) continue;
+    return failure(
+        fmt::format("--bus-of '{}': {} has no such node, expected one that it has", text, scenario.file));
+  }
+  return {};
+}
+
 ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_bus(arguments); !fine) return complain(fine.error());
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
   if (!scenario) return complain(scenario.error());
+  if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
   const auto format = format_of(arguments, *scenario);
   if (!format) return complain(format.error());
   if (auto fine = check_format(*format); !fine) return complain(fine.error());

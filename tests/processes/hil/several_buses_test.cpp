@@ -50,6 +50,8 @@ TEST(SeveralBuses, WhatCannotBeIsRefused) {
     refused(fmt::format("--bus local:a --bus-of {}", text), "expected NODE=BUS with NODE one of");
   refused("--bus local:a --bus-of gps=local:b --lockstep", "one step over two buses has no order");
   refused("--bus in-process --bus-of gps=local:b", "one step over two buses has no order");
+  refused("--bus local:a --bus-of slave_imu=local:a", "is the bus of all others");
+  refused("--bus local:a --bus-of gps=local:b", "has no such node");
   const Ended target = hil_target("--bus local:nobody-a --bus local:nobody-b");
   EXPECT_EQ(target.code, 2);
   EXPECT_THAT(target.err, HasSubstr("local:nobody-a"));
