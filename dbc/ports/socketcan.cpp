@@ -129,9 +129,11 @@ class SocketCan final : public Port {
   /// itself every few milliseconds: the end is left to poll(), whose timer is exact.
   bool wait_for_frame(std::int64_t deadline_ns) override {
     if (!batch_.empty()) return true;
-    if (deadline_ns != no_deadline && deadline_ns - clock_ns(CLOCK_MONOTONIC) < 2 * blocking_ns)
-      return Port::wait_for_frame(deadline_ns);
-    return fetch(MSG_WAITFORONE) || errno != EINTR;
+    while (deadline_ns == no_deadline || deadline_ns - clock_ns(CLOCK_MONOTONIC) >= 2 * blocking_ns) {
+      if (fetch(MSG_WAITFORONE)) return true;
+      if (errno != EAGAIN) return errno != EINTR;  // an outage: receive() tells
+    }
+    return Port::wait_for_frame(deadline_ns);
   }
 
   [[nodiscard]] int descriptor() const override { return socket_.get(); }
@@ -166,7 +168,9 @@ class SocketCan final : public Port {
 
   bool fetch(int flags) {
     const bool any = batch_.fetch(socket_.get(), flags);
-    if (!any) note_outage(errno);
+    const int error = errno;
+    if (!any) note_outage(error);
+    errno = error;
     took_all_ = any && batch_.took_all();
     return any;
   }
