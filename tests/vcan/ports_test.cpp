@@ -47,6 +47,14 @@ TEST(SocketCan, CarriesClassicFrames) {
   EXPECT_EQ(b->counters().received, 3U);
 }
 
+// The call that waits has a time-out of its own, much shorter.
+TEST(SocketCan, AWaitThatHearsNothingLastsToItsDeadline) {
+  const auto port = open("vcan0");
+  const std::int64_t deadline_ns = clock_ns(CLOCK_MONOTONIC) + 200'000'000;
+  EXPECT_FALSE(wait(*port, WaitFor::frame, deadline_ns));
+  EXPECT_GE(clock_ns(CLOCK_MONOTONIC), deadline_ns);
+}
+
 TEST(SocketCan, CarriesFdFramesOfEverySize) {
   const auto a = open("vcan1", {.fd = true});
   const auto b = open("vcan1", {.fd = true});
