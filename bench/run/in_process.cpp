@@ -26,7 +26,7 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
   if (auto ready = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !ready) {
     return tl::unexpected(ready.error());
   }
-  Monitor monitor;
+  Monitor monitor(Monitor::Times::left);
   const Attached attached(link, monitor);
   Ears ears(schedule);
   const Attached listening(link, ears);

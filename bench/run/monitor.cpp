@@ -79,9 +79,10 @@ Closed closed_by(const Frame& frame) {
 }  // namespace
 
 void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
-  if (seen_.timing.lateness.count() == 0) seen_.first_ns = t_ns;
+  if (!sent_any_) seen_.first_ns = t_ns;
+  sent_any_ = true;
   seen_.last_ns = t_ns;
-  stopwatch_.sent(frame, t_ns, late_ns);
+  if (stopwatch_) stopwatch_->sent(frame, t_ns, late_ns);
   if (frame.id == Sync::info.id) {
     now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
   } else if (const Closed closed = closed_by(frame); !closed.group.empty()) {
@@ -92,7 +93,7 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
 
 // The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
 void Monitor::echoed(const Received& received) {
-  stopwatch_.echoed(received);
+  if (stopwatch_) stopwatch_->echoed(received);
   const Closed closed = closed_by(received.frame);
   if (closed.group.empty()) return;
   seen_.transmit_stamps_echoed = true;
@@ -128,7 +129,7 @@ void Monitor::received(const Received& received) {
       break;
   }
   seen_.arrivals[index].push_back({.t_ns = received.t_ns, .hardware_ns = received.hardware_ns});
-  stopwatch_.arrived(index, received);
+  if (stopwatch_) stopwatch_->arrived(index, received);
   decode(frame, index);
 }
 
@@ -183,12 +184,12 @@ bool Monitor::put(SampleGroup<Messages...>& group, const Frame& frame, std::uint
 template <class... Messages>
 void Monitor::attribute(const SampleGroup<Messages...>& /*group*/, std::int64_t cause_us,
                         std::string_view cause_group) {
-  const checks::Stimulus* stimulus = find_stimulus(seen_, cause_group, cause_us);
+  const checks::Stimulus* stimulus = stopwatch_ ? find_stimulus(seen_, cause_group, cause_us) : nullptr;
   const auto to = [&](std::size_t index) {
     checks::Arrival& arrival = seen_.arrivals[index].back();
     arrival.cause_us = cause_us;
     arrival.cause_group = cause_group;
-    stopwatch_.answered(index, arrival, stimulus);
+    if (stopwatch_) stopwatch_->answered(index, arrival, stimulus);
   };
   (to(message_index<Messages>()), ...);
 }

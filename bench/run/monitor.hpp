@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "bench/checks/observations.hpp"
 #include "bench/run/link.hpp"
@@ -15,6 +16,13 @@ namespace canhil::run {
 /// Watches a run from the target's start on.
 class Monitor final : public Observer {
  public:
+  /// Whether times are taken: those of virtual time say nothing, and a campaign flies thousands of runs in
+  /// it.
+  enum class Times : std::uint8_t { taken, left };
+  explicit Monitor(Times times = Times::taken) {
+    if (times == Times::taken) stopwatch_.emplace(seen_.timing);
+  }
+
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
 
@@ -37,7 +45,8 @@ class Monitor final : public Observer {
   void attribute(const SampleGroup<Messages...>& group, std::int64_t cause_us, std::string_view cause_group);
 
   checks::Observations seen_;
-  Stopwatch stopwatch_{seen_.timing};
+  std::optional<Stopwatch> stopwatch_;
+  bool sent_any_ = false;
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   SampleGroup<messages::AlignAttitude, messages::AlignVelocityNE, messages::AlignVelocityD> navigation_;
   SampleGroup<messages::FixAttitude, messages::FixVelocityNE, messages::FixVelocityD> fix_navigation_;
