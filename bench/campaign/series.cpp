@@ -105,9 +105,8 @@ struct UpdateFigures {
 
 Samples alignment_samples(const checks::Observations& seen, const world::FlightRecord& truth) {
   Samples samples(Family::alignment);
-  const std::vector<checks::NavigationError> errors =
-      checks::navigation_errors(seen.fix_navigation.empty() ? seen.navigation : seen.fix_navigation, truth);
-  const auto add = [&](const auto& update, const UpdateFigures& figures) {
+  const auto add = [&](const std::vector<checks::NavigationError>& errors, const auto& update,
+                       const UpdateFigures& figures) {
     const checks::NavigationError* after = checks::first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) return;
     const auto& [t_us, angles, v, phi] = *after;
@@ -120,16 +119,19 @@ Samples alignment_samples(const checks::Observations& seen, const world::FlightR
     samples.add(update.cause_us, values);
   };
   // One value an update, in order, up to the last one that a navigation answer follows.
-  const std::vector<checks::Normalised> nees = checks::attitude_nees(seen, errors);
+  const auto transfer = checks::navigation_errors(seen.navigation, truth);
+  const std::vector<checks::Normalised> nees = checks::attitude_nees(seen, transfer);
   for (std::size_t i = 0; i < nees.size(); ++i) {
     const checks::FilterAnswer& update = seen.filter[i];
-    add(update, {.attitude_nees = nees[i].value, .heading_sigma = update.attitude_sigma.z()});
+    add(transfer, update, {.attitude_nees = nees[i].value, .heading_sigma = update.attitude_sigma.z()});
   }
+  const auto inflight = checks::navigation_errors(seen.fix_navigation, truth);
   for (const checks::FixAnswer& update : seen.fixes) {
     if (!checks::tells_of_its_time(update, truth)) continue;
-    add(update, {.position = checks::position_error(update, truth),
-                 .heading_sigma = update.heading_sigma,
-                 .repairs = static_cast<double>(update.repairs)});
+    add(inflight, update,
+        {.position = checks::position_error(update, truth),
+         .heading_sigma = update.heading_sigma,
+         .repairs = static_cast<double>(update.repairs)});
   }
   return samples;
 }
