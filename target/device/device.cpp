@@ -28,11 +28,17 @@ Device::Device() : adapters_(make_adapters()) {
   selected_.emplace_back();
 }
 
-std::optional<ParameterRange> Device::range(messages::Estimator estimator,
-                                            messages::Parameter parameter) const {
+// None: the target has no such estimator.
+Adapter* Device::adapter_of(Estimator estimator) const {
   const auto found =
       std::ranges::find_if(adapters_, [&](const auto& adapter) { return adapter->estimator() == estimator; });
-  return found == adapters_.end() ? std::nullopt : (*found)->range(parameter);
+  return found == adapters_.end() ? nullptr : found->get();
+}
+
+std::optional<ParameterRange> Device::range(messages::Estimator estimator,
+                                            messages::Parameter parameter) const {
+  const Adapter* adapter = adapter_of(estimator);
+  return adapter == nullptr ? std::nullopt : adapter->range(parameter);
 }
 
 std::span<const Frame> Device::receive(const Frame& frame) {
@@ -185,10 +191,9 @@ void Device::add(Estimator estimator, Algorithm algorithm) {
 
 // False: the target has no such estimator, or the estimator no such algorithm.
 bool Device::select(Estimator estimator, Algorithm algorithm, Estimation& estimation) {
-  const auto found =
-      std::ranges::find_if(adapters_, [&](const auto& adapter) { return adapter->estimator() == estimator; });
-  if (found == adapters_.end() || !(*found)->reset(algorithm)) return false;
-  estimation.adapter = found->get();
+  Adapter* adapter = adapter_of(estimator);
+  if (adapter == nullptr || !adapter->reset(algorithm)) return false;
+  estimation.adapter = adapter;
   estimation.algorithm = algorithm;
   return true;
 }

@@ -66,6 +66,7 @@ class Device {
   void for_running(Step&& step);
   void reset(messages::Estimator estimator, messages::Algorithm algorithm);
   void add(messages::Estimator estimator, messages::Algorithm algorithm);
+  [[nodiscard]] Adapter* adapter_of(messages::Estimator estimator) const;
   bool select(messages::Estimator estimator, messages::Algorithm algorithm, Estimation& estimation);
   void start();
   void stop();
