@@ -13,13 +13,6 @@ namespace {
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-void expect_one_line(const Ended& ended, const std::string& what) {
-  EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr(what));
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  EXPECT_EQ(ended.out, "");
-}
-
 // A command with neither the limits nor the capabilities; root loses them by the bounding set.
 Ended without_rights(const std::string& command) {
   const std::string drop = geteuid() == 0 ? "setpriv --bounding-set -sys_nice,-ipc_lock " : "";
