@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/checks/timing.hpp"
 #include "bench/run/bus_watch.hpp"
 #include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
@@ -123,7 +124,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return tl::unexpected(configured.error());
   }
 
-  Monitor monitor;
+  Monitor monitor(checks::timed_windows(scenario.checks));
   link.attach(monitor);
   LoadMeter meter(options.format);
   link.attach(meter);
@@ -137,7 +138,6 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
       lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
                : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress, options.spin_ns);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
-  monitor.observations().host = host.record();
   link.detach(ears);
   link.detach(host);
   link.detach(meter);
@@ -151,7 +151,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (auto closed = recorder->close(); !closed) return tl::unexpected(closed.error());
   }
 
-  checks::Observations seen = std::move(monitor.observations());
+  checks::Observations seen = monitor.finish();
+  seen.host = host.record();
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
   seen.bus.late_in_queue = link.late_in_queue();
