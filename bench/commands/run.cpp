@@ -80,7 +80,7 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
   const auto node = std::ranges::find_if(
       nodes, [&](std::string_view name) { return same_name(name, text.substr(0, equals)); });
   const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
-  if (node == nodes.end() || bus.empty() || bus == private_bus || bus == in_process)
+  if (node == nodes.end() || bus.empty() || bus == private_bus || run::is_in_process(bus))
     return failure(
         fmt::format("--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME",
                     text, fmt::join(nodes, ", ")));
@@ -96,8 +96,7 @@ run::Options options_of(const Arguments& arguments, BusFormat format) {
   if (options.bus == private_bus || options.bus.starts_with("local:?"))
     options.bus.insert(private_bus.size(), external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
-  const bool virtual_time = arguments.lockstep || options.bus == in_process;
-  options.clock = virtual_time ? run::ClockKind::lockstep : run::ClockKind::real_time;
+  options.clock = run::clock_of(options.bus, arguments.lockstep);
   if (!arguments.log.empty()) options.log_path = arguments.log;
   options.realtime = arguments.realtime.request();
   if (options.realtime) {
@@ -161,10 +160,11 @@ Result<void> check_outputs(const Arguments& arguments) {
 }
 
 Result<void> check_bus(const Arguments& arguments) {
-  if (arguments.bus == in_process && !arguments.target.empty())
+  const bool here = run::is_in_process(arguments.bus);
+  if (here && !arguments.target.empty())
     return failure(
         "--target: with --bus in-process the device is in hil-bench itself, expected only one of the two");
-  if (arguments.bus == in_process && (arguments.realtime.wanted || arguments.spin_us))
+  if (here && (arguments.realtime.wanted || arguments.spin_us))
     return failure(
         "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
   for (const std::string& text : arguments.bus_of) {
@@ -175,15 +175,15 @@ Result<void> check_bus(const Arguments& arguments) {
           fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
   }
   // Two wires deliver in an order of their own: the answer to a step could miss what the other brings.
-  if (!arguments.bus_of.empty() && (arguments.lockstep || arguments.bus == in_process))
+  if (!arguments.bus_of.empty() && (arguments.lockstep || here))
     return failure("--bus-of: one step over two buses has no order, expected real time");
-  if (arguments.target_cpu && (arguments.target == "none" || arguments.bus == in_process))
+  if (arguments.target_cpu && (arguments.target == "none" || here))
     return failure("--target-cpu: no target is started here, expected one with --target and a bus");
   if (arguments.target_cpu) {
     if (auto known = realtime::check_cpu("--target-cpu", *arguments.target_cpu); !known) return known;
   }
   static const std::vector<std::string> known{std::string(in_process), std::string(private_bus)};
-  const bool names_one = arguments.bus.starts_with(private_bus) || arguments.bus == in_process;
+  const bool names_one = arguments.bus.starts_with(private_bus) || here;
   const std::string meant = scenario::nearest(arguments.bus, known);
   if (!names_one && !meant.empty() && if_nametoindex(arguments.bus.c_str()) == 0)
     return failure(

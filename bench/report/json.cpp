@@ -170,7 +170,7 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
             {"seed", scenario.seed},
             {"run", run.options.run_index},
             {"bus", run.options.bus},
-            {"clock", run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time"},
+            {"clock", name(run.options.clock)},
             {"latency_stamps", summary.stamp_source},
             {"period_overrides", period_overrides(scenario)},
             {"date", date_utc(run.started_s)},

@@ -77,23 +77,28 @@ std::string histogram(const std::string& title, const Json& distribution) {
                             distribution.at("count").dump()));
 }
 
-std::string course(const std::string& title, const Json& line) {
-  const double stretch_s = line.at("stretch_s").get<double>();
+// The largest value of each stretch of the run, from zero; `scale` makes the unit of the numbers.
+LinePlot from_zero(const std::string& title, const std::string& unit, double stretch_s, const Json& largest,
+                   double scale) {
   LinePlot plot{.title = title,
-                .unit = "ms",
+                .unit = unit,
                 .t_s = {},
                 .low = {},
                 .high = {},
                 .limit = {},
                 .levels = {},
                 .from_zero = true};
-  double t_s = stretch_s / 2;
-  for (const Json& largest : line.at("largest_s")) {
-    plot.t_s.push_back(t_s);
-    plot.low.push_back(largest.is_null() ? not_there : 0.0);
-    plot.high.push_back(largest.is_null() ? not_there : largest.get<double>() * 1e3);
-    t_s += stretch_s;
+  for (const Json& value : largest) {
+    plot.t_s.push_back((static_cast<double>(plot.t_s.size()) + 0.5) * stretch_s);
+    plot.low.push_back(value.is_null() ? not_there : 0.0);
+    plot.high.push_back(value.is_null() ? not_there : value.get<double>() * scale);
   }
+  return plot;
+}
+
+std::string course(const std::string& title, const Json& line) {
+  const double stretch_s = line.at("stretch_s").get<double>();
+  const LinePlot plot = from_zero(title, "ms", stretch_s, line.at("largest_s"), 1e3);
   return figure(title, svg(plot), fmt::format("the largest of each {:g} ms", stretch_s * 1e3));
 }
 
@@ -235,19 +240,7 @@ std::string estimates_section(const Json& report) {
 std::string bus_section(const Json& report) {
   const Json& load = report.at("bus_load_line");
   const double stretch_s = load.at("stretch_s").get<double>();
-  LinePlot plot{.title = "Bus load",
-                .unit = "%",
-                .t_s = {},
-                .low = {},
-                .high = {},
-                .limit = {},
-                .levels = {},
-                .from_zero = true};
-  for (const Json& share : load.at("busiest")) {
-    plot.t_s.push_back((static_cast<double>(plot.t_s.size()) + 0.5) * stretch_s);
-    plot.low.push_back(0);
-    plot.high.push_back(share.get<double>() * 100);
-  }
+  const LinePlot plot = from_zero("Bus load", "%", stretch_s, load.at("busiest"), 100);
   std::string out = "<section id=\"bus\"><h2>Bus</h2>\n<div class=\"grid\">\n";
   const double data_bitrate = load.at("data_bitrate_bitps").get<double>();
   out += figure(

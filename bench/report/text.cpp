@@ -138,8 +138,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
 
   fmt::format_to(out, "{}\n", scenario.title);
   fmt::format_to(out, "  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
-                 run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "",
-                 run.options.clock == run::ClockKind::lockstep ? "lockstep" : "real time",
+                 run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", name(run.options.clock),
                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
   for (const auto& [node, bus] : run.options.bus_of) fmt::format_to(out, "  {} on bus {}\n", node, bus);
@@ -164,7 +163,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
     if (summary.alignments.size() > 1) fmt::format_to(out, "  {}\n", name(alignment.estimator));
     page += words(alignment);
   }
-  if (run.options.clock == run::ClockKind::real_time) {
+  if (run.options.clock != run::ClockKind::lockstep) {
     for (const MessageLatency& row : summary.latencies) {
       fmt::format_to(out, "  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
                      row.latency_s.count,

@@ -42,12 +42,12 @@ void BusWatch::note(std::int64_t t_ns, BusEvent event) {
 }
 
 void BusWatch::begin(std::string_view what) {
-  outage_ = Outage{.what = what, .since_ns = outage_ ? outage_->since_ns : clock_ns(CLOCK_MONOTONIC)};
+  outage_ = Outage{.what = what, .since_ns = outage_ ? outage_->since_ns : port_.monotonic_ns()};
 }
 
 void BusWatch::end() {
   outage_.reset();
-  ended_ns_ = clock_ns(CLOCK_MONOTONIC);
+  ended_ns_ = port_.monotonic_ns();
 }
 
 }  // namespace canhil::run

@@ -12,8 +12,6 @@
 namespace canhil::run {
 namespace {
 
-std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
-
 using namespace messages;
 
 constexpr std::int64_t repeat_ns = 300'000'000;        // longer than a heartbeat period
@@ -68,26 +66,26 @@ class Dialogue {
   // a while.
   template <class Request, class Condition>
   Result<void> until(std::string_view what, std::int64_t limit_ns, Request&& request, Condition&& condition) {
-    const std::int64_t deadline_ns = now_ns() + limit_ns;
+    const std::int64_t deadline_ns = link_.now_ns() + limit_ns;
     std::int64_t repeat_at_ns = 0;
     for (;;) {
-      if (now_ns() >= repeat_at_ns) {
+      if (link_.now_ns() >= repeat_at_ns) {
         if (auto sent = send(request); !sent) return sent;
-        repeat_at_ns = now_ns() + repeat_ns;
+        repeat_at_ns = link_.now_ns() + repeat_ns;
       }
       if (link_.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
       if (condition(mailbox_)) return {};
       if (const auto why = gone_()) return failure(fmt::format("{} while {}", *why, what));
-      if (now_ns() >= deadline_ns) return failure(complaint(what, limit_ns));
-      link_.wait_until(std::min(now_ns() + poll_ns, deadline_ns));
+      if (link_.now_ns() >= deadline_ns) return failure(complaint(what, limit_ns));
+      link_.wait_until(std::min(link_.now_ns() + poll_ns, deadline_ns));
     }
   }
 
   // Hears whatever comes for a while.
   void listen(std::int64_t duration_ns) {
-    const std::int64_t deadline_ns = now_ns() + duration_ns;
-    while (now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
+    const std::int64_t deadline_ns = link_.now_ns() + duration_ns;
+    while (link_.now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
   }
 
   Mailbox& mailbox() { return mailbox_; }
@@ -279,9 +277,9 @@ void stop(Link& link, nodes::Transmission& out, std::span<const scenario::Target
     const auto estimator = from_name<Estimator>(setup.estimator);
     return !estimator || box.has_stopped(*estimator);
   };
-  const std::int64_t deadline_ns = now_ns() + repeat_ns;
+  const std::int64_t deadline_ns = link.now_ns() + repeat_ns;
   while (link.drain() == LinkState::up && !std::ranges::all_of(estimators, stopped)) {
-    if (now_ns() >= deadline_ns) return;
+    if (link.now_ns() >= deadline_ns) return;
     link.wait_until(deadline_ns);
   }
 }

@@ -14,7 +14,7 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
   for (;;) {
     // The stamp is taken before: the answer of a fast target must not precede it.
     const std::int64_t t_ns = port_.now_ns();
-    const std::int64_t late_ns = due_ns ? clock_ns(CLOCK_MONOTONIC) - *due_ns : 0;
+    const std::int64_t late_ns = due_ns ? port_.monotonic_ns() - *due_ns : 0;
     const SendOutcome outcome = port_.send(frame);
     look_at_interface();
     if (outcome == SendOutcome::sent) {
@@ -25,7 +25,7 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
     }
     const bool may_return = outcome == SendOutcome::down && !port_.up();
     if (outcome != SendOutcome::queue_full && !may_return) return LinkState::down;
-    const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
+    const std::int64_t now_ns = port_.monotonic_ns();
     if (deadline_ns == 0) deadline_ns = now_ns + patience_ns;
     if (now_ns >= deadline_ns) return may_return ? LinkState::down : LinkState::congested;
     // What fills the queue may be a target that waits for us to read its answers.
@@ -49,9 +49,6 @@ void Link::look_at_interface() {
   for (Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
 }
 
-void Link::wait_until(std::int64_t deadline_ns) {
-  if (port_.descriptor() < 0) return;  // no bus: what there is to receive came when we sent
-  wait(port_, WaitFor::frame, deadline_ns);
-}
+void Link::wait_until(std::int64_t deadline_ns) { wait(port_, WaitFor::frame, deadline_ns); }
 
 }  // namespace canhil::run

@@ -38,15 +38,18 @@ class Link {
   void detach(Observer& observer) { std::erase(observers_, &observer); }
 
   /// Hands a frame to the bus. While the bus has no room, or its interface is down, it receives, until
-  /// `patience_ns` from now; then `congested` or `down`. `due_ns`: its deadline on CLOCK_MONOTONIC, if it has
-  /// one; waiting for room makes it late.
+  /// `patience_ns` from now; then `congested` or `down`. `due_ns`: its deadline, if it has one; waiting for
+  /// room makes it late.
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
   /// Shows every waiting frame to the observers, without blocking; `down` once the bus is gone.
   LinkState drain();
 
-  /// Sleeps until a frame arrives, or until `deadline_ns` on CLOCK_MONOTONIC.
+  /// Now on the clock of all deadlines here: Port::monotonic_ns().
+  [[nodiscard]] std::int64_t now_ns() const { return port_.monotonic_ns(); }
+
+  /// Sleeps until a frame arrives, or until `deadline_ns`.
   void wait_until(std::int64_t deadline_ns);
 
   /// Frames that waited for room for longer than a period of Sync after they were due.

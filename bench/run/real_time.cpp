@@ -12,8 +12,6 @@
 namespace canhil::run {
 namespace {
 
-std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
-
 constexpr std::int64_t ns_per_us = 1000;
 constexpr std::int64_t lead_ns = 20'000'000;             // from here to the first deadline
 constexpr std::int64_t last_answers_ns = 150'000'000;    // longer than a heartbeat period
@@ -27,10 +25,10 @@ constexpr Routes target_messages([](const MessageInfo& info) {
 // When the target was last heard and whether it gave up.
 class TargetWatch final : public Observer {
  public:
-  explicit TargetWatch(std::int64_t heard_ns) : heard_ns_(heard_ns) {}
+  TargetWatch(const Link& link, std::int64_t heard_ns) : link_(link), heard_ns_(heard_ns) {}
   void received(const Received& received) override {
     if (received.own || target_messages(received.frame) == Routes::nowhere) return;
-    heard_ns_ = now_ns();
+    heard_ns_ = link_.now_ns();
     if (const auto beat = fault_in(received)) fault_ = beat;
   }
   [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
@@ -38,6 +36,7 @@ class TargetWatch final : public Observer {
   [[nodiscard]] const std::optional<messages::TargetHeartbeat>& fault() const { return fault_; }
 
  private:
+  const Link& link_;
   std::int64_t heard_ns_;
   std::optional<messages::TargetHeartbeat> fault_;
 };
@@ -46,11 +45,11 @@ class TargetWatch final : public Observer {
 
 Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
                      const std::atomic<bool>& stop, const Progress& progress, std::int64_t spin_ns) {
-  const std::int64_t start_ns = now_ns() + lead_ns;
+  const std::int64_t start_ns = link.now_ns() + lead_ns;
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
-  TargetWatch watch(start_ns);
+  TargetWatch watch(link, start_ns);
   const Attached attached(link, watch);
-  BusWatch bus;
+  BusWatch bus(link.port());
   const Attached bus_attached(link, bus);
   std::int64_t progress_due_us = 0;
 
@@ -70,7 +69,7 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
   const auto receive_until = [&](std::int64_t deadline_ns) -> std::optional<Ending> {
     for (;;) {
       const LinkState state = link.drain();
-      const std::int64_t now = now_ns();
+      const std::int64_t now = link.now_ns();
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
       if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), fault_of(*watch.fault())};
@@ -88,7 +87,7 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
     for (const Frame& frame : schedule.take()) {
       LinkState state = link.send(frame, silence_limit_ns, due_ns);
       while (state != LinkState::up && bus.outage() && !stop && !link.port().closed()) {
-        if (now_ns() > excused_until_ns()) return silent();
+        if (link.now_ns() > excused_until_ns()) return silent();
         state = link.send(frame, silence_limit_ns, due_ns);
       }
       switch (state) {
@@ -106,7 +105,7 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       progress_due_us = due_us + progress_period_us;
     }
   }
-  const std::int64_t end_ns = now_ns();
+  const std::int64_t end_ns = link.now_ns();
   if (auto ending = receive_until(end_ns + last_answers_ns)) return *ending;
   return {Ending::Kind::completed, bench_us(end_ns), ""};
 }

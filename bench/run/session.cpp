@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/checks/timing.hpp"
 #include "bench/run/bus_watch.hpp"
 #include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/host_watch.hpp"
 #include "bench/run/in_process_port.hpp"
+#include "bench/run/in_process_wire.hpp"
 #include "bench/run/load_meter.hpp"
 #include "bench/run/lockstep.hpp"
 #include "bench/run/monitor.hpp"
@@ -28,10 +30,19 @@ constexpr std::int64_t silence_limit_ns =
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
 constexpr std::string_view in_process = "in-process";
 
-// A local bus is hosted by the bench, unless somebody does already. In process there is no bus, and frames
-// travel as they are in both contracts.
-Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
+// Without a wire there is no bus, and frames travel as they are in both contracts.
+Result<std::unique_ptr<Port>> open_in_process(const std::string& bus, BusFormat format) {
   if (bus == in_process) return std::make_unique<InProcessPort>();
+  const auto wire = wire_settings(bus);
+  if (!wire) return tl::unexpected(wire.error());
+  auto port = std::make_unique<InProcessWire>(bus, *wire, format);
+  if (format == BusFormat::fd) return in_fd_groups(std::move(port));
+  return port;
+}
+
+// A local bus is hosted by the bench, unless somebody does already.
+Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
+  if (is_in_process(bus)) return open_in_process(bus, format);
   PortOptions options;
   options.own_echo = true;
   options.foreign = true;
@@ -74,6 +85,13 @@ Result<std::unique_ptr<Port>> open_all(const Options& options) {
 
 }  // namespace
 
+bool is_in_process(std::string_view bus) { return bus.substr(0, bus.find('?')) == in_process; }
+
+ClockKind clock_of(std::string_view bus, bool lockstep) {
+  if (is_in_process(bus)) return bus == in_process ? ClockKind::lockstep : ClockKind::simulated_wire;
+  return lockstep ? ClockKind::lockstep : ClockKind::real_time;
+}
+
 Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                 const std::atomic<bool>& stop_requested, const Progress& progress) {
   const bool lockstep = options.clock == ClockKind::lockstep;
@@ -95,7 +113,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   auto port = open_all(options);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
-  BusWatch bus;
+  BusWatch bus(**port);
   link.attach(bus);
   std::unique_ptr<Recorder> recorder;
   if (options.log_path) {
@@ -105,7 +123,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     link.attach(*recorder);
   }
   std::optional<TargetProcess> target;
-  if (options.target && options.bus != in_process) {
+  if (options.target && !is_in_process(options.bus)) {
     auto started = TargetProcess::start(*options.target, options.bus, options.target_arguments, target_cpus);
     if (!started) return tl::unexpected(started.error());
     target.emplace(std::move(*started));
@@ -123,7 +141,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return tl::unexpected(configured.error());
   }
 
-  Monitor monitor;
+  Monitor monitor(checks::timed_windows(scenario.checks));
   link.attach(monitor);
   LoadMeter meter(options.format);
   link.attach(meter);
@@ -137,7 +155,6 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
       lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
                : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress, options.spin_ns);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
-  monitor.observations().host = host.record();
   link.detach(ears);
   link.detach(host);
   link.detach(meter);
@@ -151,7 +168,9 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (auto closed = recorder->close(); !closed) return tl::unexpected(closed.error());
   }
 
-  checks::Observations seen = std::move(monitor.observations());
+  checks::Observations seen = monitor.finish();
+  // What the host did has no part in the times of a simulated wire.
+  if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
   seen.bus.late_in_queue = link.late_in_queue();
@@ -167,16 +186,17 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                                   .timing_unfit = timing_unfit};
   checks::Verdict verdict = judge(scenario, evidence);
   if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
-  return Run{.verdict = std::move(verdict),
-             .ending = std::move(ending),
-             .seen = std::move(seen),
-             .truth = std::move(*truth),
-             .own_truth = std::move(*own_truth),
-             .options = options,
-             .timing_unfit = std::move(timing_unfit),
-             .host = lockstep ? std::nullopt : std::optional(realtime::standing()),
-             .wall_s = wall_s,
-             .started_s = started_s};
+  return Run{
+      .verdict = std::move(verdict),
+      .ending = std::move(ending),
+      .seen = std::move(seen),
+      .truth = std::move(*truth),
+      .own_truth = std::move(*own_truth),
+      .options = options,
+      .timing_unfit = std::move(timing_unfit),
+      .host = options.clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
+      .wall_s = wall_s,
+      .started_s = started_s};
 }
 
 }  // namespace canhil::run

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/checks/judge.hpp"
@@ -18,15 +19,32 @@
 
 namespace canhil::run {
 
-enum class ClockKind : std::uint8_t { real_time, lockstep };
+/// simulated_wire: virtual time too, in which the frames take the time of a wire.
+enum class ClockKind : std::uint8_t { real_time, lockstep, simulated_wire };
+constexpr std::string_view name(ClockKind clock) {
+  switch (clock) {
+    case ClockKind::real_time:
+      return "real time";
+    case ClockKind::lockstep:
+      return "lockstep";
+    case ClockKind::simulated_wire:
+      return "virtual, simulated wire";
+  }
+  return "?";
+}
+
+/// True for `in-process` and `in-process?bitrate=500000`: no bus, the device is in this process.
+bool is_in_process(std::string_view bus);
+/// The clock of a run on a bus.
+ClockKind clock_of(std::string_view bus, bool lockstep);
 
 /// What the command line decides.
 struct Options {
-  std::string bus;  ///< "local:NAME", a SocketCAN interface, or "in-process" (lockstep only)
+  std::string bus;  ///< "local:NAME", a SocketCAN interface, or is_in_process()
   std::vector<std::pair<std::string, std::string>> bus_of;  ///< node of the DBC, bus of its own
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
   BusFormat format = BusFormat::classic;
-  ClockKind clock = ClockKind::real_time;
+  ClockKind clock = ClockKind::real_time;     ///< clock_of(bus, ...)
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments
   std::vector<std::string> target_arguments;  ///< besides --bus

@@ -81,6 +81,9 @@ class FdGroups final : public Port {
   }
   [[nodiscard]] int stamp_clock() const override { return inner_->stamp_clock(); }
   [[nodiscard]] std::int64_t now_ns() const override { return inner_->now_ns(); }
+  [[nodiscard]] std::int64_t monotonic_ns() const override { return inner_->monotonic_ns(); }
+  bool wait_for_frame(std::int64_t deadline_ns) override { return inner_->wait_for_frame(deadline_ns); }
+  bool wait_for_room(std::int64_t deadline_ns) override { return inner_->wait_for_room(deadline_ns); }
   [[nodiscard]] const std::string& name() const override { return inner_->name(); }
 
  private:

@@ -21,10 +21,10 @@ void set(int timer, std::int64_t at_ns) {
 
 }  // namespace
 
-HubWire::HubWire(const wire::BitRates& rates, QueueOrder order)
-    : order_(order),
-      frame_ns_(wire::duration_ns(wire::worst_case_length(8, false), rates)),
-      wire_(rates, {{.order = order}, {}}),
+HubWire::HubWire(const WireSettings& settings)
+    : order_(settings.order),
+      frame_ns_(wire::duration_ns(wire::worst_case_length(8, false), settings.rates)),
+      wire_(settings.rates, {{.order = settings.order}, {}}, disturbance(settings)),
       timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {}
 
 bool HubWire::has_room(std::size_t node) const { return wire_.waiting(node) < WireNode{}.depth; }

@@ -5,14 +5,14 @@
 #include <optional>
 
 #include "dbc/ports/descriptor.hpp"
-#include "dbc/ports/simulated_wire.hpp"
+#include "dbc/ports/wire_settings.hpp"
 
 namespace canhil::local {
 
 class HubWire {
  public:
   /// The hub's own node, and one that only acknowledges: a bus without other nodes carries frames too.
-  HubWire(const wire::BitRates& rates, QueueOrder order);
+  explicit HubWire(const WireSettings& settings);
 
   static constexpr std::size_t host = 0;
   std::size_t add_node() { return wire_.add_node({.order = order_}); }

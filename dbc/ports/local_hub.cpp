@@ -336,7 +336,7 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
     return failure(fmt::format("bus '{}': {}", bus, std::strerror(errno)));
   }
   std::optional<HubWire> wire;
-  if (name->rates.nominal > 0) wire.emplace(name->rates, name->order);
+  if (name->wire.rates.nominal > 0) wire.emplace(name->wire);
   return std::make_unique<Hub>(std::move(claim), std::move(listener), std::string(bus), options, *wanted,
                                std::move(wire));
 }

@@ -5,39 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cstring>
 
 #include "dbc/ports/frame_rules.hpp"
 
 namespace canhil::local {
-namespace {
-
-/// What stands before the mark, or all; it and the mark are taken off the text.
-std::string_view cut(std::string_view& text, char mark) {
-  const std::size_t at = std::min(text.find(mark), text.size());
-  const std::string_view head = text.substr(0, at);
-  text.remove_prefix(std::min(at + 1, text.size()));
-  return head;
-}
-
-bool read_rate(std::string_view digits, std::int64_t highest, std::int64_t& rate) {
-  const char* end = digits.data() + digits.size();
-  const auto read = std::from_chars(digits.data(), end, rate);
-  return read.ec == std::errc{} && read.ptr == end && rate >= 1'000 && rate <= highest;
-}
-
-/// Takes `key=value` over; false: it is no such thing.
-bool read_setting(std::string_view setting, BusName& into) {
-  const std::string_view key = cut(setting, '=');
-  if (key == "bitrate") return read_rate(setting, 1'000'000, into.rates.nominal);
-  if (key == "data-bitrate") return read_rate(setting, 20'000'000, into.rates.data);
-  into.order = setting == "priority" ? QueueOrder::priority : QueueOrder::fifo;
-  return key == "queue" && (setting == "priority" || setting == "fifo");
-}
-
-}  // namespace
-
 void encode(const Frame& frame, Datagram& datagram) {
   datagram.id = frame.id;
   datagram.size = frame.size;
@@ -74,8 +46,8 @@ Result<IdSet> id_set(const std::vector<std::uint32_t>& ids) {
 
 Result<BusName> bus_name(std::string_view bus) {
   constexpr std::string_view prefix = "local:";
-  std::string_view rest = bus.starts_with(prefix) ? bus.substr(prefix.size()) : std::string_view{};
-  BusName result{.name = std::string(cut(rest, '?'))};
+  const std::string_view rest = bus.starts_with(prefix) ? bus.substr(prefix.size()) : std::string_view{};
+  BusName result{.name = std::string(rest.substr(0, rest.find('?')))};
   const auto allowed = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
   };
@@ -83,17 +55,9 @@ Result<BusName> bus_name(std::string_view bus) {
     return failure(
         fmt::format("'{}': expected local:NAME, NAME of 1 to 64 letters, digits, '_' or '-'", bus));
   }
-  while (!rest.empty()) {
-    const std::string_view setting = cut(rest, '&');
-    if (!read_setting(setting, result)) {
-      return failure(
-          fmt::format("'{}': '{}' is not understood, expected bitrate=1000..1000000, "
-                      "data-bitrate=1000..20000000 or queue=fifo|priority",
-                      bus, setting));
-    }
-  }
-  if (result.rates.nominal == 0 && bus.find('?') != std::string_view::npos)
-    return failure(fmt::format("'{}': expected bitrate=1000..1000000 after '?'", bus));
+  auto wire = wire_settings(bus);
+  if (!wire) return tl::unexpected(wire.error());
+  result.wire = *wire;
   return result;
 }
 

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "dbc/ports/port.hpp"
-#include "dbc/ports/simulated_wire.hpp"
+#include "dbc/ports/wire_settings.hpp"
 
 namespace canhil::local {
 
@@ -52,12 +52,11 @@ bool decode(const Datagram& datagram, std::size_t received, bool fd_bus, Frame& 
 /// The set of the ids; error if one is not a standard id.
 Result<IdSet> id_set(const std::vector<std::uint32_t>& ids);
 
-/// What `local:NAME?bitrate=500000&data-bitrate=2000000&queue=priority` says. What follows the name counts
-/// for the host only: a node that joins may say it or not.
+/// What `local:NAME?bitrate=500000` says. What follows the name counts for the host only: a node that joins
+/// may say it or not.
 struct BusName {
   std::string name;
-  wire::BitRates rates{};               ///< nominal 0: frames take no time
-  QueueOrder order = QueueOrder::fifo;  ///< of every node's queue; needs a bit rate
+  WireSettings wire{};
 };
 
 /// Error: the line that says which names and keys there are.

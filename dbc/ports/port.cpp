@@ -45,11 +45,13 @@ bool Port::wait_for_frame(std::int64_t deadline_ns) {
   return wait_for(*this, {.events = POLLIN}, deadline_ns);
 }
 
+bool Port::wait_for_room(std::int64_t deadline_ns) { return wait_for(*this, room_wait(), deadline_ns); }
+
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
   // An interface that is down or removed has room at any time, and its return is no event of the socket.
   if (!port.up()) return wait_for(port, {.events = POLLIN, .pause_ns = look_again_ns}, deadline_ns);
   if (what == WaitFor::frame) return port.wait_for_frame(deadline_ns);
-  return wait_for(port, port.room_wait(), deadline_ns);
+  return port.wait_for_room(deadline_ns);
 }
 
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options) {

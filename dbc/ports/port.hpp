@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -75,6 +76,8 @@ class Port {
   [[nodiscard]] virtual RoomWait room_wait() const = 0;
   /// Waits like wait() for a frame: a port that can take it by the same call does.
   virtual bool wait_for_frame(std::int64_t deadline_ns);
+  /// Waits like wait() for room.
+  virtual bool wait_for_room(std::int64_t deadline_ns);
   /// True once the bus is gone for good (hub closed, log at its end).
   [[nodiscard]] virtual bool closed() const = 0;
   /// False while an interface is down or removed: send() and receive() look for its return, wait() gives them
@@ -85,6 +88,9 @@ class Port {
   [[nodiscard]] virtual int stamp_clock() const = 0;
   /// Now on that clock [ns].
   [[nodiscard]] virtual std::int64_t now_ns() const { return clock_ns(stamp_clock()); }
+  /// Now on the clock of deadlines [ns]: CLOCK_MONOTONIC, except where the port simulates time and waiting
+  /// moves it.
+  [[nodiscard]] virtual std::int64_t monotonic_ns() const { return clock_ns(CLOCK_MONOTONIC); }
   /// As given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
 };
@@ -97,8 +103,8 @@ enum class WaitFor : std::uint8_t { frame, room };
 
 constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 
-/// Waits until the port is worth another receive() or send(): true; or until deadline_ns on CLOCK_MONOTONIC,
-/// or a signal came: false. A frame may turn out not to be there: receive() decides.
+/// Waits until the port is worth another receive() or send(): true; or until deadline_ns on the clock of
+/// Port::monotonic_ns(), or a signal came: false. A frame may turn out not to be there: receive() decides.
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns);
 
 }  // namespace canhil

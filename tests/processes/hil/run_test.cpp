@@ -13,22 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-// Outputs are judged on any host. What the clock of a shared machine did to timing is the verdict's business,
-// not this test's.
-void expect_outputs_passed(const Ended& ended, const nlohmann::json& report) {
-  EXPECT_TRUE(report["ending"]["completed"]) << report["ending"];
-  int outputs = 0;
-  for (const auto& check : report["checks"]) {
-    const auto kind = check["kind"].get<std::string>();
-    if (kind == "latency" || kind == "output_period" || kind == "heartbeat") continue;
-    EXPECT_EQ(check["outcome"], "pass") << check;
-    ++outputs;
-  }
-  EXPECT_GE(outputs, 5);
-  const int expected_code = report["verdict"] == "pass" ? 0 : report["verdict"] == "fail" ? 1 : 3;
-  EXPECT_EQ(ended.code, expected_code);
-}
-
 TEST(Run, ThePapersFlightPassesInRealTime) {
   const std::string report = scratch("report.json");
   const Ended ended =

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <linux/can/error.h>
 
+#include "tests/unit/bench/run/fake_port.hpp"
+
 namespace canhil::run {
 namespace {
 
@@ -16,7 +18,8 @@ class Bus : public testing::Test {
   [[nodiscard]] std::string outage() const {
     return watch_.outage() ? std::string(watch_.outage()->what) : "";
   }
-  BusWatch watch_;
+  FakePort port_;
+  BusWatch watch_{port_};
 };
 
 TEST_F(Bus, RecordsChangesOfStateAndCountsTheRest) {

@@ -29,6 +29,9 @@ class FakePort : public Port {
     waiting_.pop_front();
     return first;
   }
+  bool wait_for_frame(std::int64_t deadline_ns) override {
+    return descriptor() < 0 || Port::wait_for_frame(deadline_ns);
+  }
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] RoomWait room_wait() const override { return {.events = 0, .pause_ns = 1'000'000}; }
   [[nodiscard]] bool closed() const override { return gone; }

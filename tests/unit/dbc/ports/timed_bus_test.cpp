@@ -163,15 +163,19 @@ TEST_F(TimedBus, ANodeMaySayTheBitRateToo) {
 TEST_F(TimedBus, WhatIsNotUnderstoodIsNamed) {
   for (const std::string wrong :
        {"bitrate=999", "bitrate=1000001", "bitrate=5e5", "bitrate=", "bitrate", "baud=5",
-        "bitrate=500000&queue=lifo", "bitrate=500000&data-bitrate=0", "bitrate=500000 "}) {
+        "bitrate=500000&queue=lifo", "bitrate=500000&data-bitrate=0", "bitrate=500000 ",
+        "bitrate=500000&bit-error-rate=-1e-6", "bitrate=500000&bit-error-rate=1.1",
+        "bitrate=500000&bit-error-rate=nan", "bitrate=500000&bit-error-rate=", "bitrate=500000&seed=-1",
+        "bitrate=500000&seed=1.5"}) {
     const auto hub = host_local_bus(bus_ + "?" + wrong, {});
     ASSERT_FALSE(hub) << wrong;
     EXPECT_THAT(hub.error().message,
                 HasSubstr(fmt::format("'{}' is not understood, expected bitrate=1000..1000000, "
-                                      "data-bitrate=1000..20000000 or queue=fifo|priority",
+                                      "data-bitrate=1000..20000000, queue=fifo|priority, "
+                                      "bit-error-rate=0..1 or seed=0..18446744073709551615",
                                       wrong.substr(wrong.find('&') + 1))));
   }
-  for (const std::string nothing : {"?", "?queue=priority"}) {
+  for (const std::string nothing : {"?", "?queue=priority", "?bit-error-rate=1e-6"}) {
     const auto hub = host_local_bus(bus_ + nothing, {});
     ASSERT_FALSE(hub) << nothing;
     EXPECT_THAT(hub.error().message, HasSubstr("expected bitrate=1000..1000000 after '?'"));

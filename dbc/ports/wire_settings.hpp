@@ -1,0 +1,27 @@
+// The settings of a simulated wire, as they stand behind the '?' in the name of a bus.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "dbc/ports/simulated_wire.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil {
+
+/// What `bitrate=500000&data-bitrate=2000000&queue=priority&bit-error-rate=1e-6&seed=3` says.
+struct WireSettings {
+  wire::BitRates rates{};               ///< nominal 0: no wire, frames take no time
+  QueueOrder order = QueueOrder::fifo;  ///< of every node's queue
+  double bit_error_rate = 0;            ///< see BitErrors
+  std::uint64_t seed = 1;               ///< of the errors
+};
+
+/// Reads what follows the first '?' of a bus's name; without one there is no wire. Error: the line that says
+/// what was expected, with the bus as typed.
+Result<WireSettings> wire_settings(std::string_view bus);
+
+/// What disturbs the wire: nothing at a bit error rate of 0.
+Disturb disturbance(const WireSettings& settings);
+
+}  // namespace canhil
