@@ -10,6 +10,7 @@
 #include "bench/checks/los.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
+#include "dbc/ports/wire_settings.hpp"
 
 namespace canhil::report {
 namespace {
@@ -143,6 +144,14 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
       : run.seen.transmit_stamps_echoed ? "bus stamps of stimulus and answer"
                                         : "bench's stamp of the stimulus, bus stamp of the answer";
   return summary;
+}
+
+std::vector<wire::BitRates> bit_rates(const run::Options& options) {
+  const auto wire = wire_settings(options.bus);
+  if (wire && wire->rates.nominal > 0) return {wire->rates};
+  if (options.format == BusFormat::fd)
+    return {{.nominal = 500'000, .data = 2'000'000}, {.nominal = 1'000'000, .data = 5'000'000}};
+  return {{.nominal = 500'000}, {.nominal = 1'000'000}};
 }
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {

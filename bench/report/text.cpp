@@ -119,14 +119,27 @@ std::string milliseconds(const checks::Distribution& d) {
                      d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
 }
 
+std::string rate_words(const wire::BitRates& rates) {
+  const auto kbitps = [](std::int64_t rate) { return static_cast<double>(rate) * 1e-3; };
+  return rates.data > 0 ? fmt::format("{:g} and {:g} kbit/s", kbitps(rates.nominal), kbitps(rates.data))
+                        : fmt::format("{:g} kbit/s", kbitps(rates.nominal));
+}
+
 std::string load_words(const run::Run& run) {
-  const bool fd = run.options.format == BusFormat::fd;
-  const auto rates = bit_rates(run.options.format);
-  const checks::BusLoad slow = checks::bus_load(run.seen, rates[0]);
-  const checks::BusLoad fast = checks::bus_load(run.seen, rates[1]);
-  return fmt::format("  bus load at {}mean {:.1f} %, busiest second {:.1f} %; at {} {:.1f} %, {:.1f} %\n",
-                     fd ? "0.5 and 2 Mbit/s  " : "500 kbit/s        ", slow.mean * 100, slow.busiest * 100,
-                     fd ? "1 and 5 Mbit/s" : "1 Mbit/s", fast.mean * 100, fast.busiest * 100);
+  std::string line;
+  for (const wire::BitRates& rates : bit_rates(run.options)) {
+    const checks::BusLoad load = checks::bus_load(run.seen, rates);
+    line += line.empty() ? fmt::format("  bus load at {:<18}mean {:.1f} %, busiest second {:.1f} %",
+                                       rate_words(rates), load.mean * 100, load.busiest * 100)
+                         : fmt::format("; at {} {:.1f} %, {:.1f} %", rate_words(rates), load.mean * 100,
+                                       load.busiest * 100);
+  }
+  return line + '\n';
+}
+
+std::string saturating(std::uint16_t us) {
+  constexpr std::uint16_t most_told_us = 8191;  // of TargetTiming
+  return fmt::format("{} us{}", us, us >= most_told_us ? " or more" : "");
 }
 
 }  // namespace
@@ -157,10 +170,19 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
 
   page += '\n';
-  if (summary.engagement) page += words(*summary.engagement);
-  if (summary.wind) page += words(*summary.wind);
+  const auto head = [&](std::string_view estimator) {
+    if (scenario.targets.size() > 1) fmt::format_to(out, "  {}\n", estimator);
+  };
+  if (summary.engagement) {
+    head("los_rate");
+    page += words(*summary.engagement);
+  }
+  if (summary.wind) {
+    head("wind");
+    page += words(*summary.wind);
+  }
   for (const AlignmentSummary& alignment : summary.alignments) {
-    if (summary.alignments.size() > 1) fmt::format_to(out, "  {}\n", name(alignment.estimator));
+    head(name(alignment.estimator));
     page += words(alignment);
   }
   if (run.options.clock != run::ClockKind::lockstep) {
@@ -173,8 +195,8 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
     fmt::format_to(out, "  bench's own lateness          {}  of {} frames  (latency by {})\n",
                    milliseconds(summary.lateness_s), summary.lateness_s.count, summary.stamp_source);
     if (run.seen.target_timing_seen) {
-      fmt::format_to(out, "  target's own account          queue max {} us  compute max {} us\n",
-                     run.seen.queue_max_us, run.seen.compute_max_us);
+      fmt::format_to(out, "  target's own account          queue max {}  compute max {}\n",
+                     saturating(run.seen.queue_max_us), saturating(run.seen.compute_max_us));
     }
   }
   page += load_words(run);
