@@ -122,6 +122,13 @@ TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {
               ContainsRegex("NOT schedulable: [0-9]+ of [0-9]+ messages: .* and [0-9]+ more\n"));
 }
 
+TEST(Run, OfSeveralEstimatorsTheTextSaysWhoseLinesTheyAre) {
+  const std::string text = hil_bench(fmt::format("run {} --bus in-process", scenario("all_four"))).out;
+  EXPECT_THAT(text, ContainsRegex("\n  los_rate\n  miss .*\n  LOS rate error"));
+  EXPECT_THAT(text, ContainsRegex("\n  wind\n  wind error from"));
+  EXPECT_THAT(text, ContainsRegex("\n  inflight_alignment\n  heading error"));
+}
+
 TEST(Run, JsonToStdoutReplacesTheText) {
   const Ended ended = hil_bench(
       fmt::format("run {} --bus {} --lockstep --json -", scenario("transfer_alignment_quick"), bus()));

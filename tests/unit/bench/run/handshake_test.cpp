@@ -132,9 +132,9 @@ TEST_F(Handshake, NamesAnEstimatorThatTheTargetDoesNotOffer) {
   offers_ = false;
   const auto done = configure();
   ASSERT_FALSE(done);
-  EXPECT_THAT(done.error().message,
-              HasSubstr("does not offer 'robust_h2' for 'transfer_alignment', expected an "
-                        "algorithm of that estimator"));
+  EXPECT_THAT(
+      done.error().message,
+      HasSubstr("does not offer 'robust_h2' for 'transfer_alignment', expected one of: kalman, robust_h2"));
   EXPECT_THAT(done.error().message, HasSubstr("its errors: command"));
 }
 

@@ -76,7 +76,7 @@ TEST(Contradictions, TimingOfWhatNobodySends) {
     return result ? "no error" : result.error().message;
   };
   const std::string refused =
-      "s.toml:18: key 'check[1].message': 'FixUpdate' is sent by inflight_alignment, which is not run in "
+      "s.toml:17: key 'check[1].message': 'FixUpdate' is sent by inflight_alignment, which is not run in "
       "this "
       "scenario, expected a message of transfer_alignment";
   EXPECT_EQ(error("message = 'FixUpdate'\nkind = 'latency'\nbelow_ms = 5"), refused);

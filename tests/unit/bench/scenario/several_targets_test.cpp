@@ -54,7 +54,7 @@ TEST(SeveralTargets, OneThatIsToldNoStateHasNoErrorOfIt) {
       "[[target]]\nestimator = 'los_rate'\nalgorithm = 'kalman'\ninitial_error = { attitude_sigma_deg = 1 "
       "}\n";
   EXPECT_EQ(refusal(two(second + seeker)),
-            "s.toml:17: key 'target[3].initial_error': has no effect on 'los_rate', expected no such table");
+            "s.toml:16: key 'target[3].initial_error': has no effect on 'los_rate', expected no such table");
 }
 
 TEST(SeveralTargets, ErrorsNameWhichOne) {
