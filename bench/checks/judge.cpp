@@ -14,6 +14,7 @@
 #include "bench/checks/los.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
+#include "bench/checks/wire_bounds.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -190,6 +191,7 @@ class Judge {
                               {"late in transmit queue", rule.late_in_queue_at_most, bus.late_in_queue}}});
   }
 
+  Finding operator()(const scenario::WireResponse& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::BusLoad& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::PositionError& rule) const {
     return checks::judge(rule, evidence_.seen, evidence_.truth);

@@ -9,6 +9,7 @@
 
 #include "bench/checks/histogram.hpp"
 #include "bench/scenario/checks.hpp"
+#include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {
@@ -41,6 +42,7 @@ struct AnswerTiming {
   /// stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
   TimeLine latency_line;       ///< over the time of arrival
+  std::uint64_t count = 0;     ///< arrivals
   std::uint64_t unpaired = 0;  ///< answers to what the bench did not send
   std::int64_t reply_wire_ns =
       0;  ///< over all of `latency`: the frames of the answer up to this one on the wire
@@ -101,6 +103,8 @@ struct SlowestAnswer {
 };
 
 struct TimingRecord {
+  wire::BitRates
+      rates{};  ///< of the bus, so that the time of a frame is known; nominal 0: it is not, or none
   std::array<AnswerTiming, messages::all_messages.size()> answers;     ///< by place in all_messages
   std::array<TransmitTiming, messages::all_messages.size()> transmit;  ///< by place in all_messages
   std::array<WireResponse, messages::all_messages.size()> responses;   ///< by place in all_messages

@@ -33,13 +33,26 @@ std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   return std::min(cycle_ns, sent_ns);
 }
 
+// How many of a message come together: each estimator of a target has a heartbeat of its own.
+std::int64_t together(const Observations& seen, const AnswerTiming& timing, std::int64_t period_ns) {
+  const std::int64_t run_ns = seen.last_ns - seen.first_ns;
+  if (timing.count == 0 || run_ns <= 0) return 1;
+  const double in_a_period =
+      static_cast<double>(timing.count) * static_cast<double>(period_ns) / static_cast<double>(run_ns);
+  return std::max<std::int64_t>(1, std::llround(in_a_period));
+}
+
 // All that the bench plays goes through one queue.
-Stream stream_of(const Observations& seen, const MessageInfo& info) {
+Stream stream_of(const Observations& seen, std::size_t index) {
+  const MessageInfo& info = messages::all_messages[index];
+  const std::int64_t period = period_ns(seen, info);
+  const std::int64_t burst = info.answers.empty() ? together(seen, seen.timing.answers[index], period) : 1;
   return {.name = std::string(info.name),
           .id = info.id,
           .extended = info.extended,
           .sender = is_targets(info) ? "target" : "bench",
-          .period_ns = period_ns(seen, info),
+          .period_ns = period / burst,
+          .jitter_ns = (burst - 1) * (period / burst),  // so that so many may be queued at once
           .length = wire::worst_case_length(info.size, info.extended)};
 }
 
@@ -54,7 +67,7 @@ std::vector<WireBound> wire_bounds(const Observations& seen) {
   }
   std::ranges::sort(indices, {}, [](std::size_t i) { return messages::all_messages[i].id; });
   std::vector<Stream> streams;
-  for (const std::size_t i : indices) streams.push_back(stream_of(seen, messages::all_messages[i]));
+  for (const std::size_t i : indices) streams.push_back(stream_of(seen, i));
   const auto responses = schedulability::fifo_responses(streams, timing.rates);
   std::vector<WireBound> bounds;
   for (std::size_t k = 0; k < indices.size(); ++k) {

@@ -145,6 +145,17 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   return summary;
 }
 
+std::vector<wire::BitRates> load_rates(const run::Run& run) {
+  const bool fd = run.options.format == BusFormat::fd;
+  wire::BitRates known = run.seen.bit_rates;
+  if (known.nominal > 0) {
+    if (!fd) known.data = 0;
+    return {known};
+  }
+  return {{.nominal = 500'000, .data = fd ? 2'000'000 : 0},
+          {.nominal = 1'000'000, .data = fd ? 5'000'000 : 0}};
+}
+
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
   const auto add = [&](const auto& node, const MessageInfo& info) {

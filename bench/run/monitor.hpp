@@ -21,7 +21,8 @@ class Monitor final : public Observer {
   /// Takes times, also within the windows. `rates`: of the bus, if frames take time on it.
   explicit Monitor(std::vector<checks::TimedWindow> windows, const wire::BitRates& rates = {}) {
     seen_.timing.windows = std::move(windows);
-    stopwatch_.emplace(seen_.timing, rates);
+    seen_.timing.rates = rates;
+    stopwatch_.emplace(seen_.timing);
   }
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
