@@ -244,23 +244,31 @@ std::string timing_section(const Json& report) {
   const Json none = Json::object();
   const Json& latencies = report.contains("latency_s") ? report.at("latency_s") : none;
   const Json& jitters = report.contains("jitter_s") ? report.at("jitter_s") : none;
-  std::vector<std::vector<std::string>> rows;
+  // What closes a group of answers stands for it; the others are there for who asks.
+  std::vector<std::vector<std::string>> rows, others;
   std::string figures;
   for (const auto& [message, latency] : latencies.items()) {
-    rows.push_back(
-        joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
-    if (!latency.at("closes_group").get<bool>()) continue;
-    figures += histogram("Latency of " + message, latency);
-    figures += course("Latency of " + message + " over time", latency.at("line"));
-    if (jitters.contains(message))
-      figures += histogram("Deviation of the period of " + message, jitters.at(message));
+    const bool closes = latency.at("closes_group").get<bool>();
+    (closes ? rows : others)
+        .push_back(
+            joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
+    if (!closes) continue;
+    figures += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(message));
+    figures += histogram("Latency", latency);
+    figures += course("Latency over time", latency.at("line"));
+    if (jitters.contains(message)) figures += histogram("Deviation of its period", jitters.at(message));
+    figures += "</div>\n";
   }
-  figures += histogram("The bench's own lateness", report.at("bench_lateness_s"));
-  figures += course("The bench's own lateness over time", report.at("bench_lateness_s").at("line"));
+  figures += "<h3>The bench itself</h3>\n<div class=\"grid\">\n";
+  figures += histogram("Lateness", report.at("bench_lateness_s"));
+  figures += course("Lateness over time", report.at("bench_lateness_s").at("line")) + "</div>\n";
   const auto head = joined(joined({"latency of"}, percentile_head), {"never came"});
   if (!rows.empty()) out += table(head, rows, "figures");
-  out += split_table(report);
-  out += "<div class=\"grid\">\n" + figures + "</div>\n";
+  if (!others.empty()) {
+    out += "<details><summary>Latency of the frames before the last of each answer</summary>\n" +
+           table(head, others, "figures") + "</details>\n";
+  }
+  out += split_table(report) + figures;
   rows.clear();
   for (const auto& [message, jitter] : jitters.items())
     rows.push_back(joined({escaped(message)}, percentiles(jitter)));
