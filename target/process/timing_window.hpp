@@ -8,15 +8,18 @@
 
 namespace canhil::target {
 
-/// Collects what each frame waited and took.
+/// Collects what frames waited and took.
 class TimingWindow {
  public:
-  /// One frame: its wait between stamp and processing, its processing time, and whether it was answered.
-  void add(std::int64_t queue_ns, std::int64_t compute_ns, bool answered) {
+  /// What a frame waited between its stamp and its processing.
+  void waited(std::int64_t queue_ns) {
     queue_max_ns_ = std::max(queue_max_ns_, queue_ns);
     queue_sum_ns_ += queue_ns;
     ++frames_;
-    if (!answered) return;
+  }
+
+  /// What the processing of a frame took that was answered.
+  void computed(std::int64_t compute_ns) {
     compute_max_ns_ = std::max(compute_max_ns_, compute_ns);
     compute_sum_ns_ += compute_ns;
     ++answers_;
