@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "dbc/ports/several.hpp"
 #include "target/device/device.hpp"
@@ -70,6 +71,7 @@ Result<void> serve(const std::vector<std::string>& buses, BusFormat format, cons
   // other's groups.
   std::int64_t report_due_ns = now_ns() + period_ns + period_ns / 4;
   bool established = false;
+  bool bench_heard = false;  // since the last look at the clock
 
   while (!stop && !port.closed()) {
     while (!stop) {
@@ -89,15 +91,17 @@ Result<void> serve(const std::vector<std::string>& buses, BusFormat format, cons
       }
       const std::int64_t start_ns = clock_ns(port.stamp_clock());
       const std::span<const Frame> answers = device.receive(received->frame);
-      const std::int64_t end_ns = clock_ns(port.stamp_clock());
-      send(port, answers, notes);
-      if (from_bench(received->frame))
-        bench_ns = now_ns();
-      else if (!answers.empty())
-        window.add(start_ns - received->t_ns, end_ns - start_ns);
+      const bool of_bench = from_bench(received->frame);
+      bench_heard = bench_heard || of_bench;
+      if (!answers.empty()) {
+        const std::int64_t end_ns = clock_ns(port.stamp_clock());
+        send(port, answers, notes);
+        if (!of_bench) window.add(start_ns - received->t_ns, end_ns - start_ns);
+      }
     }
     notes.interface_is(port.up());
     const std::int64_t now = now_ns();
+    if (std::exchange(bench_heard, false)) bench_ns = now;
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
       tell(notes.news(port, format));
