@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "bench/checks/errors.hpp"
@@ -11,7 +12,12 @@
 namespace canhil::checks {
 namespace {
 
-using messages::FixUpdate;
+using messages::FixSource;
+
+std::string_view group_of(FixSource source) {
+  return source == FixSource::gps ? messages::GpsTime::info.sample_group
+                                  : messages::SsblRelativeD::info.sample_group;
+}
 
 double component(const world::Vector3& v, scenario::PositionAxis axis) {
   switch (axis) {
@@ -46,20 +52,16 @@ void judge_count(Finding& finding, std::string_view what, std::int64_t value,
 
 std::string unanswered_fixes(const Observations& seen, const scenario::Window& window) {
   constexpr int tolerated = 2;
-  std::set<std::pair<std::string_view, std::int64_t>> answered;
-  for (const Arrival& arrival : seen.arrivals[message_index<FixUpdate>()])
-    answered.emplace(arrival.cause_group, arrival.cause_us);
-  for (const std::string_view group : FixUpdate::info.answers) {
-    const auto stimuli = seen.stimuli.find(group);
-    if (stimuli == seen.stimuli.end()) continue;
-    int in_a_row = 0;
-    for (const Stimulus& fix : stimuli->second) {
-      if (!within(window, fix.valid_us)) continue;
-      in_a_row = answered.contains({group, fix.valid_us}) ? 0 : in_a_row + 1;
-      if (in_a_row > tolerated) {
-        return fmt::format("no answers to {} before {:g} s", group, static_cast<double>(fix.valid_us) * 1e-6);
-      }
-    }
+  std::set<std::pair<FixSource, std::int64_t>> answered;
+  for (const FixAnswer& fix : seen.fixes) answered.emplace(fix.source, fix.cause_us);
+  std::map<FixSource, int> in_a_row;
+  for (const auto& [source, valid_us] : seen.sent_fixes) {
+    if (!within(window, valid_us)) continue;
+    int& missing = in_a_row[source];
+    missing = answered.contains({source, valid_us}) ? 0 : missing + 1;
+    if (missing > tolerated)
+      return fmt::format("no answers to {} before {:g} s", group_of(source),
+                         static_cast<double>(valid_us) * 1e-6);
   }
   return "";
 }

@@ -44,13 +44,13 @@ std::int64_t bucket_width_us(std::int64_t from_us) {
   return range == ranges.end() ? 0 : range->width_us;
 }
 
-void Histogram::add(std::int64_t t_ns) {
+void Histogram::add(std::int64_t t_ns, std::uint64_t times) {
   min_ns_ = count_ == 0 ? t_ns : std::min(min_ns_, t_ns);
   max_ns_ = count_ == 0 ? t_ns : std::max(max_ns_, t_ns);
-  ++count_;
+  count_ += times;
   const std::size_t bucket = bucket_of(std::max<std::int64_t>(t_ns, 0) / 1000);
   if (bucket >= counts_.size()) counts_.resize(bucket + 1);
-  ++counts_[bucket];
+  counts_[bucket] += times;
 }
 
 double Histogram::quantile_ns(double q) const {

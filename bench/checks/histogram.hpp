@@ -18,8 +18,8 @@ class Histogram {
     friend bool operator==(const Bucket&, const Bucket&) = default;
   };
 
-  /// A time before 0 (a clock that was set) counts in the first bucket.
-  void add(std::int64_t t_ns);
+  /// Counts a time so many times. A time before 0 (a clock that was set) counts in the first bucket.
+  void add(std::int64_t t_ns, std::uint64_t times = 1);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t min_ns() const { return min_ns_; }

@@ -14,6 +14,7 @@
 #include "bench/checks/los.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
+#include "bench/checks/wire_bounds.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -139,27 +140,19 @@ class Judge {
     if (auto why = unfit(rule.quantile, nominal * rule.within); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
     }
+    const TimedWindow* timed = find_window(evidence_.seen.timing, rule.message, rule.window);
+    if (timed == nullptr) return {Outcome::not_measured, "no times were taken", expected};
     // A bench that would fail the check itself cannot fail the target by it.
-    if (auto own = stimulus_deviations_s(evidence_.seen, rule.message, rule.window); !own.empty()) {
-      const double off_s = quantile(std::move(own), rule.quantile);
-      if (off_s > lateness_share * nominal * rule.within)
-        return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),
-                expected};
+    if (const double off_s = timed->stimulus_deviation.quantile_ns(rule.quantile) * 1e-9;
+        off_s > lateness_share * nominal * rule.within) {
+      return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),
+              expected};
     }
-    std::vector<double> periods = periods_s(evidence_.seen, rule.message, rule.window);
-    if (periods.empty()) return {Outcome::fail, "fewer than two arrivals", expected};
-    if (const double end_s = ended_before_s(evidence_.seen, rule.message, rule.window); end_s > nominal)
-      periods.push_back(end_s);
-    // A gap in which n messages were missing counts n times, or a quantile would pass over a long one.
-    std::vector<double> deviations;
-    for (const double period : periods) {
-      const auto times = static_cast<std::size_t>(std::max(1.0, std::round(period / nominal)));
-      deviations.insert(deviations.end(), times, std::abs(period - nominal));
-    }
-    const std::size_t count = deviations.size();
-    const double value = quantile(std::move(deviations), rule.quantile);
-    return {pass_if(value <= nominal * rule.within), fmt::format("{:.3f} ms off, of {}", value * 1e3, count),
-            expected};
+    if (timed->period.count() == 0) return {Outcome::fail, "fewer than two arrivals", expected};
+    const PeriodDeviation off =
+        period_deviation(timed->period, nominal, ended_before_s(evidence_.seen, *timed), rule.quantile);
+    return {pass_if(off.off_s <= nominal * rule.within),
+            fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected};
   }
 
   Finding operator()(const scenario::Latency& rule) const {
@@ -168,11 +161,12 @@ class Judge {
     if (auto why = unfit(rule.quantile, bar_s); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
     }
-    auto sample = latencies_s(evidence_.seen, rule.message, rule.window);
-    if (sample.empty()) return {Outcome::fail, "no answers", expected};
-    const std::size_t count = sample.size();
-    const double value = quantile(std::move(sample), rule.quantile);
-    return {pass_if(value < bar_s), fmt::format("{:.3f} ms of {}", value * 1e3, count), expected};
+    const TimedWindow* timed = find_window(evidence_.seen.timing, rule.message, rule.window);
+    if (timed == nullptr) return {Outcome::not_measured, "no times were taken", expected};
+    if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
+    const double value = timed->latency.quantile_ns(rule.quantile) * 1e-9;
+    return {pass_if(value < bar_s), fmt::format("{:.3f} ms of {}", value * 1e3, timed->latency.count()),
+            expected};
   }
 
   Finding operator()(const scenario::Counters& rule) const {
@@ -197,6 +191,7 @@ class Judge {
                               {"late in transmit queue", rule.late_in_queue_at_most, bus.late_in_queue}}});
   }
 
+  Finding operator()(const scenario::WireResponse& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::BusLoad& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::PositionError& rule) const {
     return checks::judge(rule, evidence_.seen, evidence_.truth);

@@ -1,6 +1,7 @@
 // What a run showed: the target's answers decoded from frames, and the stamps of everything that passed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -109,20 +110,22 @@ constexpr bool used(messages::FixOutcome outcome) {
   return outcome == messages::FixOutcome::accepted || outcome == messages::FixOutcome::recovered;
 }
 
-/// One arrival of a message of the target.
-struct Arrival {
-  std::int64_t t_ns = 0;           ///< stamp of the port
-  std::int64_t hardware_ns = 0;    ///< the controller's own, on a clock of its own; 0: none
-  std::int64_t cause_us = -1;      ///< time of validity of what it answers; -1: answers nothing
-  std::string_view cause_group{};  ///< sample group of what it answers
+/// The stimuli of a sample group, by time of validity.
+struct StimulusCount {
+  std::uint64_t count = 0;
+  std::int64_t first_us = 0;
+  std::int64_t last_us = 0;
+  void add(std::int64_t valid_us) {
+    first_us = count == 0 ? valid_us : std::min(first_us, valid_us);
+    last_us = count == 0 ? valid_us : std::max(last_us, valid_us);
+    ++count;
+  }
 };
 
-/// The last frame of a sample group that the bench sent.
-struct Stimulus {
+/// A fix that the bench sent: it needs an answer.
+struct SentFix {
+  messages::FixSource source = messages::FixSource::ssbl;
   std::int64_t valid_us = 0;
-  std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
-  std::int64_t hardware_ns = 0;  ///< the controller's own, of the echo; 0: none
-  std::int64_t due_ns = 0;       ///< when it was to be sent, by the clock of t_ns
 };
 
 /// Everything that the checks judge, apart from the truth.
@@ -134,11 +137,13 @@ struct Observations {
   std::vector<WindAnswer> wind;
   std::vector<LosAnswer> los;
 
-  std::array<std::vector<Arrival>, messages::all_messages.size()> arrivals;  ///< by place in all_messages
-  std::map<std::string_view, std::vector<Stimulus>> stimuli;  ///< by sample group, those that are answered
-  std::int64_t first_ns = 0;                                  ///< stamp of the bench's first transmission
-  std::int64_t last_ns = 0;                                   ///< and of its last one
-  TimingRecord timing;                  ///< beside the arrivals: what the reports tell of timing
+  std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group, those that are answered
+  std::vector<SentFix> sent_fixes;
+  std::array<std::uint64_t, messages::all_messages.size()> answers{};  ///< by place in all_messages
+  std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
+  std::int64_t last_ns = 0;             ///< and of its last one
+  wire::BitRates bit_rates{};           ///< of the bus; nominal 0: not known, or it has none
+  TimingRecord timing;                  ///< empty where no times are taken
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
 
   std::optional<messages::TargetCounters> counters;  ///< the last one

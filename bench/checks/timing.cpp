@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
-
-#include "bench/checks/finding.hpp"
+#include <utility>
 
 namespace canhil::checks {
 namespace {
@@ -15,33 +12,25 @@ const MessageInfo* info_of(std::string_view message) {
   return found == messages::all_messages.end() ? nullptr : &*found;
 }
 
-const std::vector<Arrival>& arrivals_of(const Observations& seen, const MessageInfo& info) {
-  return seen.arrivals[static_cast<std::size_t>(&info - messages::all_messages.data())];
-}
-
-const std::vector<Stimulus>* stimuli_of(const Observations& seen, std::string_view group) {
-  const auto found = seen.stimuli.find(group);
-  return found == seen.stimuli.end() ? nullptr : &found->second;
+const AnswerTiming& timing_of(const Observations& seen, const MessageInfo& info) {
+  return seen.timing.answers[static_cast<std::size_t>(&info - messages::all_messages.data())];
 }
 
 // What a message answers in this run: the stimuli of each group that was sent.
-std::vector<const std::vector<Stimulus>*> all_stimuli_of(const Observations& seen, const MessageInfo& info) {
-  std::vector<const std::vector<Stimulus>*> all;
+std::vector<StimulusCount> all_stimuli_of(const Observations& seen, const MessageInfo& info) {
+  std::vector<StimulusCount> all;
   for (const std::string_view group : info.answers) {
-    const std::vector<Stimulus>* stimuli = stimuli_of(seen, group);
-    if (stimuli != nullptr && !stimuli->empty()) all.push_back(stimuli);
+    const auto found = seen.stimuli.find(group);
+    if (found != seen.stimuli.end() && found->second.count > 0) all.push_back(found->second);
   }
   return all;
 }
 
-}  // namespace
-
-const Stimulus* find_stimulus(const Observations& seen, std::string_view group, std::int64_t valid_us) {
-  const std::vector<Stimulus>* stimuli = stimuli_of(seen, group);
-  if (stimuli == nullptr) return nullptr;
-  const auto found = std::ranges::lower_bound(*stimuli, valid_us, {}, &Stimulus::valid_us);
-  return found == stimuli->end() || found->valid_us != valid_us ? nullptr : &*found;
+bool same(const scenario::Window& a, const scenario::Window& b) {
+  return a.from_us == b.from_us && a.to_us == b.to_us;
 }
+
+}  // namespace
 
 double quantile(std::vector<double> sample, double q) {
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
@@ -77,108 +66,88 @@ Distribution distribution_s(const Histogram& histogram) {
           .max = static_cast<double>(histogram.max_ns()) * 1e-9};
 }
 
-std::vector<double> latencies_s(const Observations& seen, std::string_view message,
-                                const scenario::Window& window) {
-  std::vector<double> sample;
-  const MessageInfo* info = info_of(message);
-  if (info == nullptr) return sample;
-  for (const Arrival& arrival : arrivals_of(seen, *info)) {
-    if (!within(window, arrival.cause_us)) continue;
-    const Stimulus* cause = find_stimulus(seen, arrival.cause_group, arrival.cause_us);
-    if (cause != nullptr) sample.push_back(elapsed_s(*cause, arrival));
+std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks) {
+  TimingRecord timing;
+  for (const scenario::Check& check : checks) {
+    const auto add = [&](const std::string& message, const scenario::Window& window) {
+      const MessageInfo* info = info_of(message);
+      if (info == nullptr || find_window(timing, message, window) != nullptr) return;
+      timing.windows.push_back(
+          {.message = static_cast<std::size_t>(info - messages::all_messages.data()), .window = window});
+    };
+    if (const auto* latency = std::get_if<scenario::Latency>(&check.rule))
+      add(latency->message, latency->window);
+    if (const auto* period = std::get_if<scenario::OutputPeriod>(&check.rule))
+      add(period->message, period->window);
   }
-  return sample;
+  return std::move(timing.windows);
+}
+
+const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
+                               const scenario::Window& window) {
+  const auto found = std::ranges::find_if(timing.windows, [&](const TimedWindow& timed) {
+    return messages::all_messages[timed.message].name == message && same(timed.window, window);
+  });
+  return found == timing.windows.end() ? nullptr : &*found;
+}
+
+bool stamped_by_hardware(const TimingRecord& timing) {
+  return timing.stimuli_with_hardware_stamp > 0 && timing.without_hardware_stamp == 0;
 }
 
 std::size_t unanswered(const Observations& seen, std::string_view message) {
   const MessageInfo* info = info_of(message);
   if (info == nullptr) return 0;
   const auto all = all_stimuli_of(seen, *info);
-  std::size_t due = 0;
-  for (const std::vector<Stimulus>* stimuli : all) due += stimuli->size();
+  std::uint64_t due = 0;
+  for (const StimulusCount& stimuli : all) due += stimuli.count;
   const double period_s = nominal_period_s(seen, message);
   if (all.size() == 1 && period_s > 0) {
-    const double span_s = static_cast<double>(all[0]->back().valid_us - all[0]->front().valid_us) * 1e-6;
-    due = std::min(due, static_cast<std::size_t>(std::lround(span_s / period_s)) + 1);
+    const double span_s = static_cast<double>(all[0].last_us - all[0].first_us) * 1e-6;
+    due = std::min(due, static_cast<std::uint64_t>(std::lround(span_s / period_s)) + 1);
   }
-  const auto came = static_cast<std::size_t>(
-      std::ranges::count_if(arrivals_of(seen, *info), [](const Arrival& a) { return a.cause_us >= 0; }));
+  const auto came = seen.answers[static_cast<std::size_t>(info - messages::all_messages.data())];
   return due - std::min(due, came);
 }
 
-std::vector<double> periods_s(const Observations& seen, std::string_view message,
-                              const scenario::Window& window) {
-  std::vector<double> sample;
-  const MessageInfo* info = info_of(message);
-  if (info == nullptr) return sample;
-  const bool answers = !info->answers.empty();
-  const Arrival* before = nullptr;
-  for (const Arrival& arrival : arrivals_of(seen, *info)) {
-    if (answers && !within(window, arrival.cause_us)) continue;
-    if (before != nullptr) sample.push_back(elapsed_s(*before, arrival));
-    before = &arrival;
+PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double end_s, double quantile) {
+  std::vector<std::pair<double, std::uint64_t>> deviations;
+  std::uint64_t count = 0;
+  const auto add = [&](double period_s, std::uint64_t times) {
+    times *= static_cast<std::uint64_t>(std::max(1.0, std::round(period_s / nominal_s)));
+    deviations.emplace_back(std::abs(period_s - nominal_s), times);
+    count += times;
+  };
+  const auto least_s = static_cast<double>(periods.min_ns()) * 1e-9;
+  const auto most_s = static_cast<double>(periods.max_ns()) * 1e-9;
+  for (const Histogram::Bucket& bucket : periods.buckets()) {
+    const auto half_us = static_cast<double>(bucket_width_us(bucket.from_us)) / 2;
+    add(std::clamp((static_cast<double>(bucket.from_us) + half_us) * 1e-6, least_s, most_s), bucket.count);
   }
-  return sample;
-}
-
-std::vector<double> stimulus_deviations_s(const Observations& seen, std::string_view message,
-                                          const scenario::Window& window) {
-  std::vector<double> sample;
-  const MessageInfo* info = info_of(message);
-  if (info == nullptr) return sample;
-  for (const std::vector<Stimulus>* stimuli : all_stimuli_of(seen, *info)) {
-    for (std::size_t i = 1; i < stimuli->size(); ++i) {
-      const Stimulus &from = (*stimuli)[i - 1], &to = (*stimuli)[i];
-      if (!within(window, to.valid_us)) continue;
-      const double period_s = elapsed_s(from, to);
-      const double due_s = static_cast<double>(to.due_ns - from.due_ns) * 1e-9;
-      const double times = due_s > 0 ? std::max(1.0, std::round(period_s / due_s)) : 1.0;
-      sample.insert(sample.end(), static_cast<std::size_t>(times), std::abs(period_s - due_s));
-    }
+  if (end_s > nominal_s) add(end_s, 1);
+  std::ranges::sort(deviations);
+  const auto rank = std::max<std::uint64_t>(
+      1, static_cast<std::uint64_t>(std::ceil(quantile * static_cast<double>(count))));
+  std::uint64_t passed = 0;
+  for (const auto& [off_s, times] : deviations) {
+    passed += times;
+    if (passed >= rank) return {.off_s = off_s, .count = count};
   }
-  return sample;
-}
-
-bool stamped_by_hardware(const Observations& seen) {
-  const auto stamped = [](const auto& one) { return one.hardware_ns != 0; };
-  bool any = false;
-  for (const auto& [group, stimuli] : seen.stimuli) {
-    any = any || !stimuli.empty();
-    if (!std::ranges::all_of(stimuli, stamped)) return false;
-  }
-  return any && std::ranges::all_of(seen.arrivals, [&](const std::vector<Arrival>& arrivals) {
-           return std::ranges::all_of(arrivals, stamped);
-         });
+  return {};
 }
 
 double longest_silence_s(const Observations& seen, std::string_view message) {
   const MessageInfo* info = info_of(message);
-  std::int64_t longest_ns = 0;
-  std::int64_t before_ns = seen.first_ns;
-  if (info != nullptr) {
-    for (const Arrival& arrival : arrivals_of(seen, *info)) {
-      longest_ns = std::max(longest_ns, arrival.t_ns - before_ns);
-      before_ns = arrival.t_ns;
-    }
-  }
-  return static_cast<double>(std::max(longest_ns, seen.last_ns - before_ns)) * 1e-9;
+  if (info == nullptr) return static_cast<double>(seen.last_ns - seen.first_ns) * 1e-9;
+  const AnswerTiming& timing = timing_of(seen, *info);
+  const std::int64_t at_the_end_ns = seen.last_ns - timing.last_ns.value_or(seen.first_ns);
+  return static_cast<double>(std::max(timing.longest_silence_ns, at_the_end_ns)) * 1e-9;
 }
 
-double ended_before_s(const Observations& seen, std::string_view message, const scenario::Window& window) {
-  const MessageInfo* info = info_of(message);
-  double ended_s = std::numeric_limits<double>::infinity();
-  if (info == nullptr) return ended_s;
-  const auto all = all_stimuli_of(seen, *info);
-  std::int64_t end_ns = all.empty() ? seen.last_ns : 0;
-  for (const std::vector<Stimulus>* stimuli : all) {
-    const auto after = std::ranges::upper_bound(*stimuli, window.to_us, {}, &Stimulus::valid_us);
-    end_ns = std::max(end_ns, after == stimuli->begin() ? seen.last_ns : std::prev(after)->t_ns);
-  }
-  for (const Arrival& arrival : arrivals_of(seen, *info)) {
-    if (all.empty() || within(window, arrival.cause_us))
-      ended_s = static_cast<double>(end_ns - arrival.t_ns) * 1e-9;
-  }
-  return ended_s;
+double ended_before_s(const Observations& seen, const TimedWindow& window) {
+  const bool answers = !all_stimuli_of(seen, messages::all_messages[window.message]).empty();
+  const std::int64_t end_ns = answers ? window.last_stimulus_ns.value_or(seen.last_ns) : seen.last_ns;
+  return static_cast<double>(end_ns - window.last_arrival.value_or(Arrival{}).t_ns) * 1e-9;
 }
 
 double nominal_period_s(const Observations& seen, std::string_view message) {
@@ -187,10 +156,9 @@ double nominal_period_s(const Observations& seen, std::string_view message) {
   const double cycle_s = static_cast<double>(info->cycle_time_us) * 1e-6;
   const auto all = all_stimuli_of(seen, *info);
   if (all.size() > 1) return 0;
-  if (all.empty() || all[0]->size() < 2) return cycle_s;
-  const std::vector<Stimulus>& stimuli = *all[0];
-  const double span_us = static_cast<double>(stimuli.back().valid_us - stimuli.front().valid_us);
-  const double stimulus_s = span_us / static_cast<double>(stimuli.size() - 1) * 1e-6;
+  if (all.empty() || all[0].count < 2) return cycle_s;
+  const double span_us = static_cast<double>(all[0].last_us - all[0].first_us);
+  const double stimulus_s = span_us / static_cast<double>(all[0].count - 1) * 1e-6;
   // Navigation answers keep an interval of their own where the IMU is faster.
   const bool navigation = info->sample_group == messages::AlignVelocityD::info.sample_group ||
                           info->sample_group == messages::FixVelocityD::info.sample_group;

@@ -9,9 +9,6 @@
 
 namespace canhil::checks {
 
-/// What an answer of this cause answers; null: nothing that the bench sent.
-const Stimulus* find_stimulus(const Observations& seen, std::string_view group, std::int64_t valid_us);
-
 /// Order statistics of a sample. Empty sample: count 0.
 struct Distribution {
   std::size_t count = 0;
@@ -27,37 +24,31 @@ struct Distribution {
 Distribution distribution(std::vector<double> sample);
 /// Of a histogram, in s.
 Distribution distribution_s(const Histogram& histogram);
+
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
 double quantile(std::vector<double> sample, double q);
 
-/// Time [s] from one stamp to a later one: by the controller's clock where it stamped both.
-template <class From, class To>
-double elapsed_s(const From& from, const To& to) {
-  const bool hardware = from.hardware_ns != 0 && to.hardware_ns != 0;
-  return static_cast<double>(hardware ? to.hardware_ns - from.hardware_ns : to.t_ns - from.t_ns) * 1e-9;
-}
+/// The windows, each once, for which the checks ask for the timing of a message: empty, to be filled.
+std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks);
+/// The timing of a message within a window; null: none was taken.
+const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
+                               const scenario::Window& window);
 
 /// True if the controller stamped every answer and every stimulus.
-bool stamped_by_hardware(const Observations& seen);
-
-/// Latency [s] of every answer of a message within a window: its stamp less that of the last frame of its
-/// stimulus.
-std::vector<double> latencies_s(const Observations& seen, std::string_view message,
-                                const scenario::Window& window);
+bool stamped_by_hardware(const TimingRecord& timing);
 
 /// How many answers of a message never came: one is due to each stimulus of its groups, or one in each
 /// period where the message keeps a period of its own.
 std::size_t unanswered(const Observations& seen, std::string_view message);
 
-/// Time [s] between successive arrivals of a message: of answers, to causes within the window.
-std::vector<double> periods_s(const Observations& seen, std::string_view message,
-                              const scenario::Window& window);
-
-/// How far [s] the bench was off the period of what a message answers: by stimulus within the window, the
-/// time between two on the bus less that between their deadlines; one in whose place several were due counts
-/// as many times.
-std::vector<double> stimulus_deviations_s(const Observations& seen, std::string_view message,
-                                          const scenario::Window& window);
+/// The quantile of |period - nominal| [s], and of how many periods. A gap in which n messages were missing
+/// counts n times, or a quantile would pass over a long one; `end_s`, the time without a message up to the
+/// end, counts where it is longer than the period.
+struct PeriodDeviation {
+  double off_s = 0;
+  std::uint64_t count = 0;
+};
+PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, double end_s, double quantile);
 
 /// The longest time [s] without a message, the beginning and the end of the run included.
 double longest_silence_s(const Observations& seen, std::string_view message);
@@ -67,7 +58,7 @@ double longest_silence_s(const Observations& seen, std::string_view message);
 double nominal_period_s(const Observations& seen, std::string_view message);
 
 /// How much later [s] than its stimuli within the window a message ended: from its last arrival to the last
-/// stimulus; infinite without any arrival, 0 or less for a message that went on to the end.
-double ended_before_s(const Observations& seen, std::string_view message, const scenario::Window& window);
+/// stimulus; 0 or less for a message that went on to the end. Of a message that came.
+double ended_before_s(const Observations& seen, const TimedWindow& window);
 
 }  // namespace canhil::checks

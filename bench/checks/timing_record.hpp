@@ -3,11 +3,37 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "bench/checks/histogram.hpp"
+#include "bench/scenario/checks.hpp"
+#include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {
+
+/// One arrival of a message of the target.
+struct Arrival {
+  std::int64_t t_ns = 0;         ///< stamp of the port
+  std::int64_t hardware_ns = 0;  ///< the controller's own, on a clock of its own; 0: none
+};
+
+/// The last frame of a sample group that the bench sent.
+struct Stimulus {
+  std::int64_t valid_us = 0;
+  std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
+  std::int64_t hardware_ns = 0;  ///< the controller's own, of the echo; 0: none
+  std::int64_t due_ns = 0;       ///< when it was to be sent, by the clock of t_ns
+};
+
+/// Time [ns] from one stamp to a later one: by the controller's clock where it stamped both.
+template <class From, class To>
+constexpr std::int64_t elapsed_ns(const From& from, const To& to) {
+  const bool hardware = from.hardware_ns != 0 && to.hardware_ns != 0;
+  return hardware ? to.hardware_ns - from.hardware_ns : to.t_ns - from.t_ns;
+}
 
 /// Of a message of the target.
 struct AnswerTiming {
@@ -16,7 +42,12 @@ struct AnswerTiming {
   /// stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
   TimeLine latency_line;       ///< over the time of arrival
+  std::uint64_t count = 0;     ///< arrivals
   std::uint64_t unpaired = 0;  ///< answers to what the bench did not send
+  std::int64_t reply_wire_ns =
+      0;  ///< over all of `latency`: the frames of the answer up to this one on the wire
+  std::optional<std::int64_t> last_ns{};  ///< its last arrival
+  std::int64_t longest_silence_ns = 0;    ///< before an arrival
 };
 
 /// Of a message of the bench: how long after its deadline.
@@ -25,12 +56,66 @@ struct TransmitTiming {
   Histogram echoed;       ///< it had passed the bus; empty where the bus echoes nothing
 };
 
+/// How long the frames of a message took from being queued to their end on the bus. Of a message of the bench
+/// from the hand-over to the echo; of one of the target at least so long: from the beginning of the first
+/// frame of its answer, as nobody else saw when it was queued.
+struct WireResponse {
+  std::uint64_t count = 0;
+  std::int64_t max_ns = 0;
+};
+
+/// A message within a window of the run, by the time of validity of what it answers, for a check that asks.
+/// Of a message that answers nothing the window is the whole run.
+struct TimedWindow {
+  std::size_t message = 0;  ///< place in all_messages
+  scenario::Window window{};
+  Histogram latency{};
+  Histogram period{};  ///< from one arrival to the next
+  /// How far the bench was off the period of what the message answers: by stimulus, the time between two on
+  /// the bus less that between their deadlines; one in whose place several were due counts as many times.
+  Histogram stimulus_deviation{};
+  std::optional<Arrival> last_arrival{};
+  std::optional<std::int64_t> last_stimulus_ns{};  ///< of those valid up to the end of the window
+};
+
+/// Where the time of the answered stimuli went. Sums over them, from the hand-over of the last frame of a
+/// stimulus to the last frame that answers it.
+struct LatencySplit {
+  std::uint64_t stimuli = 0;           ///< that were answered
+  std::uint64_t echoed = 0;            ///< of those: whose passage over the bus was seen
+  std::int64_t to_echo_ns = 0;         ///< from the hand-over to the end of the frame on the bus
+  std::int64_t stimulus_wire_ns = 0;   ///< of that: the frame itself
+  std::int64_t latency_ns = 0;         ///< from there to the end of the last frame of the answer
+  std::int64_t reply_wire_ns = 0;      ///< of that: the frames of the answer themselves
+  std::uint64_t told = 0;              ///< stimuli that the target accounted for (TargetTiming)
+  std::int64_t target_queue_ns = 0;    ///< of those: from the target's stamp to its turn
+  std::int64_t target_compute_ns = 0;  ///< and the work
+};
+
+/// The slowest answer, and what the target said of the window it fell into.
+struct SlowestAnswer {
+  std::string_view message{};
+  std::int64_t t_ns = 0;  ///< its arrival, from the first transmission on
+  std::int64_t latency_ns = 0;
+  std::int64_t reply_wire_ns = 0;
+  std::uint16_t queue_max_us = 0;
+  std::uint16_t compute_max_us = 0;
+};
+
 struct TimingRecord {
+  wire::BitRates
+      rates{};  ///< of the bus, so that the time of a frame is known; nominal 0: it is not, or none
   std::array<AnswerTiming, messages::all_messages.size()> answers;     ///< by place in all_messages
   std::array<TransmitTiming, messages::all_messages.size()> transmit;  ///< by place in all_messages
+  std::array<WireResponse, messages::all_messages.size()> responses;   ///< by place in all_messages
   Histogram lateness;                     ///< of all messages of the bench when handed over
   TimeLine lateness_line;                 ///< the same over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource
+  std::vector<TimedWindow> windows{};     ///< that checks ask for
+  LatencySplit split{};
+  SlowestAnswer slowest{};  ///< of those that the target accounted for
+  std::uint64_t stimuli_with_hardware_stamp = 0;
+  std::uint64_t without_hardware_stamp = 0;  ///< stimuli and frames of the target
 };
 
 }  // namespace canhil::checks

@@ -25,7 +25,7 @@ using Bytes = std::span<const std::byte>;
 template <class T>
 T value_of(Bytes payload) {
   T value{};
-  std::memcpy(&value, payload.data(), std::min(payload.size(), sizeof value));
+  if (!payload.empty()) std::memcpy(&value, payload.data(), std::min(payload.size(), sizeof value));
   return value;
 }
 

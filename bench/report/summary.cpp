@@ -138,10 +138,22 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   summary.stamp_source =
       run.options.clock == run::ClockKind::lockstep         ? "virtual time"
       : run.options.clock == run::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
-      : checks::stamped_by_hardware(run.seen) ? "the controller's hardware stamps of stimulus and answer"
-      : run.seen.transmit_stamps_echoed       ? "bus stamps of stimulus and answer"
-                                              : "bench's stamp of the stimulus, bus stamp of the answer";
+      : checks::stamped_by_hardware(run.seen.timing)
+          ? "the controller's hardware stamps of stimulus and answer"
+      : run.seen.transmit_stamps_echoed ? "bus stamps of stimulus and answer"
+                                        : "bench's stamp of the stimulus, bus stamp of the answer";
   return summary;
+}
+
+std::vector<wire::BitRates> load_rates(const run::Run& run) {
+  const bool fd = run.options.format == BusFormat::fd;
+  wire::BitRates known = run.seen.bit_rates;
+  if (known.nominal > 0) {
+    if (!fd) known.data = 0;
+    return {known};
+  }
+  return {{.nominal = 500'000, .data = fd ? 2'000'000 : 0},
+          {.nominal = 1'000'000, .data = fd ? 5'000'000 : 0}};
 }
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {

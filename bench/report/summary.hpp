@@ -85,13 +85,9 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run);
 /// The message that closes each group of answers of the estimators in use.
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);
 
-/// The bit rates that reports tell the bus load at: 500 kbit/s and 1 Mbit/s, on CAN FD with a data phase of 2
-/// and 5 Mbit/s.
-constexpr std::array<wire::BitRates, 2> bit_rates(BusFormat format) {
-  const bool fd = format == BusFormat::fd;
-  return {
-      {{.nominal = 500'000, .data = fd ? 2'000'000 : 0}, {.nominal = 1'000'000, .data = fd ? 5'000'000 : 0}}};
-}
+/// The bit rates that reports tell the bus load at: that of the bus, or, where it has none, 500 kbit/s and
+/// 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
+std::vector<wire::BitRates> load_rates(const run::Run& run);
 
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario);

@@ -26,14 +26,13 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
   if (auto ready = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !ready) {
     return tl::unexpected(ready.error());
   }
-  Monitor monitor(Monitor::Times::left);
+  Monitor monitor;
   const Attached attached(link, monitor);
   Ears ears(schedule);
   const Attached listening(link, ears);
   Ending ending = run_lockstep(link, schedule, step_limit_ns, never, [](std::int64_t) {});
-  return InProcessRun{.ending = std::move(ending),
-                      .seen = std::move(monitor.observations()),
-                      .own_truth = std::move(*own_truth)};
+  return InProcessRun{
+      .ending = std::move(ending), .seen = monitor.finish(), .own_truth = std::move(*own_truth)};
 }
 
 }  // namespace canhil::run

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "bench/checks/timing.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/routes.hpp"
 #include "dbc/wire/time_base.hpp"
@@ -86,24 +85,22 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
   if (frame.id == Sync::info.id) {
     now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
   } else if (const Closed closed = closed_by(frame); !closed.group.empty()) {
-    seen_.stimuli[closed.group].push_back(
-        {.valid_us = unwrap_us(closed.valid_us, now_us_), .t_ns = t_ns, .due_ns = t_ns - late_ns});
+    const std::int64_t valid_us = unwrap_us(closed.valid_us, now_us_);
+    seen_.stimuli[closed.group].add(valid_us);
+    if (closed.group == SsblRelativeD::info.sample_group)
+      seen_.sent_fixes.push_back({.source = FixSource::ssbl, .valid_us = valid_us});
+    if (closed.group == GpsTime::info.sample_group)
+      seen_.sent_fixes.push_back({.source = FixSource::gps, .valid_us = valid_us});
+    if (stopwatch_)
+      stopwatch_->stimulus(closed.group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = t_ns - late_ns});
   }
 }
 
 // The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
 void Monitor::echoed(const Received& received) {
-  if (stopwatch_) stopwatch_->echoed(received);
   const Closed closed = closed_by(received.frame);
-  if (closed.group.empty()) return;
-  seen_.transmit_stamps_echoed = true;
-  std::vector<checks::Stimulus>& stimuli = seen_.stimuli[closed.group];
-  const auto found = std::find_if(
-      stimuli.rbegin(), stimuli.rend(),
-      [valid_us = unwrap_us(closed.valid_us, now_us_)](const auto& s) { return s.valid_us == valid_us; });
-  if (found == stimuli.rend()) return;
-  found->t_ns = received.t_ns;
-  found->hardware_ns = received.hardware_ns;
+  if (!closed.group.empty()) seen_.transmit_stamps_echoed = true;
+  if (stopwatch_) stopwatch_->echoed(received, closed.group, unwrap_us(closed.valid_us, now_us_));
 }
 
 void Monitor::received(const Received& received) {
@@ -128,7 +125,6 @@ void Monitor::received(const Received& received) {
     case e2e::Check::ok:
       break;
   }
-  seen_.arrivals[index].push_back({.t_ns = received.t_ns, .hardware_ns = received.hardware_ns});
   if (stopwatch_) stopwatch_->arrived(index, received);
   decode(frame, index);
 }
@@ -164,6 +160,7 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     seen_.target_timing_seen = true;
     seen_.queue_max_us = std::max(seen_.queue_max_us, timing.queue_max_us);
     seen_.compute_max_us = std::max(seen_.compute_max_us, timing.compute_max_us);
+    if (stopwatch_) stopwatch_->told(timing);
   }
 }
 
@@ -180,18 +177,13 @@ bool Monitor::put(SampleGroup<Messages...>& group, const Frame& frame, std::uint
   return complete;
 }
 
-// Gives the newest arrival of every message of a whole group its cause.
+// The newest arrival of every message of a whole group is the answer to this.
 template <class... Messages>
 void Monitor::attribute(const SampleGroup<Messages...>& /*group*/, std::int64_t cause_us,
                         std::string_view cause_group) {
-  const checks::Stimulus* stimulus = stopwatch_ ? find_stimulus(seen_, cause_group, cause_us) : nullptr;
-  const auto to = [&](std::size_t index) {
-    checks::Arrival& arrival = seen_.arrivals[index].back();
-    arrival.cause_us = cause_us;
-    arrival.cause_group = cause_group;
-    if (stopwatch_) stopwatch_->answered(index, arrival, stimulus);
-  };
-  (to(message_index<Messages>()), ...);
+  constexpr std::array<std::size_t, sizeof...(Messages)> indices{message_index<Messages>()...};
+  for (const std::size_t index : indices) ++seen_.answers[index];
+  if (stopwatch_) stopwatch_->answered(indices, cause_group, cause_us);
 }
 
 template <class Attitude, class VelocityNE, class VelocityD>

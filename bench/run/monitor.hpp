@@ -16,18 +16,25 @@ namespace canhil::run {
 /// Watches a run from the target's start on.
 class Monitor final : public Observer {
  public:
-  /// Whether times are taken: those of virtual time say nothing, and a campaign flies thousands of runs in
-  /// it.
-  enum class Times : std::uint8_t { taken, left };
-  explicit Monitor(Times times = Times::taken) {
-    if (times == Times::taken) stopwatch_.emplace(seen_.timing);
+  /// Takes no times: those of virtual time say nothing, and a campaign flies thousands of runs in it.
+  Monitor() = default;
+  /// Takes times, also within the windows. `rates`: of the bus, if frames take time on it.
+  explicit Monitor(std::vector<checks::TimedWindow> windows, const wire::BitRates& rates = {}) {
+    seen_.timing.windows = std::move(windows);
+    seen_.timing.rates = rates;
+    stopwatch_.emplace(seen_.timing);
   }
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
 
+  /// What was seen so far.
   [[nodiscard]] const checks::Observations& observations() const { return seen_; }
-  checks::Observations& observations() { return seen_; }
+  /// The run is over: all of it.
+  checks::Observations finish() {
+    if (stopwatch_) stopwatch_->finish();
+    return std::move(seen_);
+  }
 
  private:
   void echoed(const Received& received);

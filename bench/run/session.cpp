@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "bench/checks/timing.hpp"
 #include "bench/run/bus_watch.hpp"
 #include "bench/run/ears.hpp"
 #include "bench/run/flight.hpp"
@@ -140,7 +141,9 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return tl::unexpected(configured.error());
   }
 
-  Monitor monitor;
+  // A container of CAN FD is none of the frames that the observers see.
+  Monitor monitor(checks::timed_windows(scenario.checks),
+                  options.format == BusFormat::classic ? options.bit_rates : wire::BitRates{});
   link.attach(monitor);
   LoadMeter meter(options.format);
   link.attach(meter);
@@ -154,8 +157,6 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
       lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
                : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress, options.spin_ns);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
-  // What the host did has no part in the times of a simulated wire.
-  if (options.clock != ClockKind::simulated_wire) monitor.observations().host = host.record();
   link.detach(ears);
   link.detach(host);
   link.detach(meter);
@@ -169,7 +170,10 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (auto closed = recorder->close(); !closed) return tl::unexpected(closed.error());
   }
 
-  checks::Observations seen = std::move(monitor.observations());
+  checks::Observations seen = monitor.finish();
+  // What the host did has no part in the times of a simulated wire.
+  if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
+  seen.bit_rates = options.bit_rates;
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
   seen.bus.late_in_queue = link.late_in_queue();

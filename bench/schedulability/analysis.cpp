@@ -125,6 +125,83 @@ std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus)
   return results;
 }
 
+namespace {
+
+/// The streams of a bus on which every node sends in the order of queueing, and what is known of them so far.
+class FifoBus {
+ public:
+  FifoBus(std::span<const Stream> streams, const wire::BitRates& rates)
+      : streams_(streams), bit_(wire::duration_ns({.nominal = 1}, rates)) {
+    for (const Stream& stream : streams) c_.push_back(wire::duration_ns(stream.length, rates));
+    r_ = c_;
+  }
+
+  /// The least r that solves all the equations; false: there is none within reason.
+  bool solve() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t m = 0; m < streams_.size(); ++m) {
+        const auto next = from_queued(m);
+        if (!next) return false;
+        changed = changed || *next > r_[m];
+        r_[m] = std::max(r_[m], *next);
+      }
+    }
+    return true;
+  }
+  [[nodiscard]] std::vector<Response> responses(bool solved) const {
+    std::vector<Response> results;
+    for (std::size_t m = 0; m < streams_.size(); ++m) {
+      results.push_back({.transmission_ns = c_[m], .blocking_ns = blocking(lowest_of(m)), .instances = 1});
+      if (solved) results.back().response_ns = streams_[m].jitter_ns + r_[m];
+    }
+    return results;
+  }
+
+ private:
+  [[nodiscard]] bool together(std::size_t a, std::size_t b) const {
+    return streams_[a].sender == streams_[b].sender;
+  }
+  [[nodiscard]] std::size_t lowest_of(std::size_t m) const {
+    std::size_t lowest = m;
+    for (std::size_t k = m; k < streams_.size(); ++k) lowest = together(k, m) ? k : lowest;
+    return lowest;
+  }
+  [[nodiscard]] std::int64_t blocking(std::size_t lowest) const {
+    std::int64_t longest = 0;
+    for (std::size_t k = lowest + 1; k < streams_.size(); ++k) longest = std::max(longest, c_[k]);
+    return longest;
+  }
+  [[nodiscard]] std::optional<std::int64_t> from_queued(std::size_t m) const {
+    const std::size_t lowest = lowest_of(m);
+    std::int64_t ahead = blocking(lowest) - c_[m];
+    for (std::size_t k = 0; k <= lowest; ++k) {
+      if (together(k, m)) ahead += queued_within(streams_[k], r_[k] + streams_[k].jitter_ns) * c_[k];
+    }
+    const auto waited = fixed_point(ahead, [&](std::int64_t w) {
+      std::int64_t sum = ahead;
+      for (std::size_t k = 0; k < lowest; ++k) {
+        if (!together(k, m))
+          sum += queued_within(streams_[k], w + r_[k] + streams_[k].jitter_ns + bit_) * c_[k];
+      }
+      return sum;
+    });
+    return waited ? std::optional(*waited + c_[m]) : std::nullopt;
+  }
+
+  std::span<const Stream> streams_;
+  std::int64_t bit_;
+  std::vector<std::int64_t> c_{}, r_{};
+};
+
+}  // namespace
+
+std::vector<Response> fifo_responses(std::span<const Stream> streams, const wire::BitRates& rates) {
+  FifoBus bus(streams, rates);
+  const bool solved = utilisation(streams, rates) < 1 && bus.solve();
+  return bus.responses(solved);
+}
+
 double utilisation(std::span<const Stream> streams, const wire::BitRates& rates) {
   double sum = 0;
   for (const Stream& stream : streams) {

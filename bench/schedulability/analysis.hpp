@@ -6,6 +6,9 @@
 // What it rests on: every node puts the message of highest priority forward at each arbitration (a priority
 // queue), ids are unique, and a message becomes due no more often than its period says. Messages of one
 // sample group become due together; the analysis lets all messages of the bus do so.
+//
+// For nodes that send in the order of queueing (SocketCAN's queues, and so the bench's and hil-target's own)
+// there is a bound of its own: fifo_responses().
 #pragma once
 
 #include <cstdint>
@@ -54,9 +57,13 @@ struct Response {
   std::int64_t worst_instance = 0;            ///< which of them, from 0, takes longest
 };
 
+/// What a node sends first: its frame of highest priority, or the oldest.
+enum class Queues : std::uint8_t { by_priority, in_order };
+
 /// What is asked of the bus.
 struct Bus {
   wire::BitRates rates{};
+  Queues queues = Queues::by_priority;
   ErrorModel errors{};
 };
 
@@ -67,6 +74,18 @@ Response response(std::span<const Stream> streams, std::size_t index, std::int64
 
 /// R of every stream; the streams are sorted by wire::arbitration_rank().
 std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus);
+
+/// R of every stream where each sender queues its frames in the order in which they become ready, after the
+/// idea of Davis, Kollmann, Pollex, Slomka, "Controller Area Network (CAN) schedulability analysis with FIFO
+/// queues" (ECRTS 2011): a frame m of node N waits, from being queued at t on, for what is in front of it in
+/// its own queue, for one frame of lower priority than all of N's, and for what other nodes have of higher
+/// priority than the lowest L of N. With r_k the longest time from being queued to the end, all that is on
+/// the bus at t was queued after t - r_k:
+///   w_m = B_L + sum over k in N of ceil((r_k + J_k) / T_k) C_k - C_m
+///             + sum over other k in hp(L) of ceil((w_m + r_k + J_k + tau_bit) / T_k) C_k
+///   r_m = w_m + C_m,  R_m = J_m + r_m
+/// Sound, not exact. The streams are sorted as above; the bus's error model is not looked at.
+std::vector<Response> fifo_responses(std::span<const Stream> streams, const wire::BitRates& rates);
 
 /// The share of the bus that all streams with a period take up.
 double utilisation(std::span<const Stream> streams, const wire::BitRates& rates);

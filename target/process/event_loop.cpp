@@ -91,8 +91,10 @@ Result<void> serve(const std::vector<std::string>& buses, BusFormat format, cons
       const std::span<const Frame> answers = device.receive(received->frame);
       const std::int64_t end_ns = clock_ns(port.stamp_clock());
       send(port, answers, notes);
-      window.add(start_ns - received->t_ns, end_ns - start_ns, !answers.empty());
-      if (from_bench(received->frame)) bench_ns = now_ns();
+      if (from_bench(received->frame))
+        bench_ns = now_ns();
+      else if (!answers.empty())
+        window.add(start_ns - received->t_ns, end_ns - start_ns);
     }
     notes.interface_is(port.up());
     const std::int64_t now = now_ns();

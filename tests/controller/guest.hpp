@@ -50,7 +50,4 @@ Ended bench_run(const std::string& arguments);
 /// The outcome of the checks of this kind in a report; "no such check".
 std::string outcome_of(const nlohmann::json& report, const std::string& kind);
 
-/// Judges outputs, not what the guest's clock did to timing: the run was completed, checks of outputs passed.
-void expect_outputs_passed(const Ended& ended, const nlohmann::json& report);
-
 }  // namespace canhil::test

@@ -11,12 +11,6 @@ namespace {
 
 using testing::HasSubstr;
 
-void expect_one_line(const Ended& ended, const std::string& what) {
-  EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr(what));
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-}
-
 TEST(Fd, AClassicInterfaceIsRefusedWithTheRemedy) {
   const Interface classic("vcan8", CAN_MTU);
   const std::string remedy = "`ip link set vcan8 type can ... fd on` (vcan: `ip link set vcan8 mtu 72`)";

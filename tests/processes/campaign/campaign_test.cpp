@@ -61,12 +61,6 @@ std::string folder(const std::string& name) {
 
 void expect_done(const Ended& ended) { EXPECT_EQ(ended.code, 0) << ended.out << ended.err; }
 
-void expect_one_line(const Ended& ended, const std::string& what) {
-  EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr(what));
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-}
-
 std::string merged(const std::string& in, const std::string& arguments = "*.sqlite") {
   const std::string out = in + "/merged.db";
   expect_done(hil_bench(fmt::format("campaign merge {} $(ls -r {}/{})", out, in, arguments)));

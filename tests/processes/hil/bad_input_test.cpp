@@ -16,13 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 
-void expect_one_line(const Ended& ended, const std::string& what) {
-  EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr(what));
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  EXPECT_EQ(ended.out, "");
-}
-
 TEST(BadInput, UnknownBus) {
   expect_one_line(hil_bench(fmt::format("run {} --bus nocan7", scenario("transfer_alignment_quick"))),
                   "nocan7");

@@ -156,12 +156,6 @@ TEST(Fd, TheWireCarriesWhatTheLogAndTheReportSay) {
   EXPECT_NEAR(load["mean"].get<double>(), mean_load(frames, rates), 0.01 * mean_load(frames, rates));
 }
 
-void expect_one_line(const Ended& ended, const std::string& what) {
-  EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr(what));
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-}
-
 std::string scenario_with(const std::string& line) {
   std::ofstream(scratch("with.toml")) << line << '\n' << read(scenario(quick));
   return scratch("with.toml");

@@ -1,5 +1,9 @@
 #include "tests/processes/hil/program.hpp"
 
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -64,6 +68,27 @@ std::vector<Frame> target_frames(const std::string& log_path) {
     if (frame.id == messages::TargetTiming::info.id || frame.id == messages::StepDone::info.id) continue;
     frames.push_back(frame);
   }
+}
+
+void expect_one_line(const Ended& ended, const std::string& what) {
+  EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
+  EXPECT_THAT(ended.err, testing::HasSubstr(what));
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_EQ(ended.out, "");
+}
+
+void expect_outputs_passed(const Ended& ended, const nlohmann::json& report) {
+  EXPECT_TRUE(report["ending"]["completed"]) << report["ending"];
+  int outputs = 0;
+  for (const auto& check : report["checks"]) {
+    const auto kind = check["kind"].get<std::string>();
+    if (kind == "latency" || kind == "output_period" || kind == "heartbeat") continue;
+    EXPECT_EQ(check["outcome"], "pass") << check;
+    ++outputs;
+  }
+  EXPECT_GE(outputs, 5);
+  const int expected_code = report["verdict"] == "pass" ? 0 : report["verdict"] == "fail" ? 1 : 3;
+  EXPECT_EQ(ended.code, expected_code);
 }
 
 }  // namespace canhil::test

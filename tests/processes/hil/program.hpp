@@ -33,4 +33,11 @@ nlohmann::json read_json(const std::string& path);
 /// the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
+/// Bad input: exit code 2, one line on stderr that says `what`, nothing on stdout.
+void expect_one_line(const Ended& ended, const std::string& what);
+
+/// Outputs are judged on any host. What the clock of a shared machine did to timing is the verdict's
+/// business, not a test's.
+void expect_outputs_passed(const Ended& ended, const nlohmann::json& report);
+
 }  // namespace canhil::test

@@ -22,9 +22,7 @@ class Fixed : public testing::Test {
  protected:
   Fixed() {
     for (std::int64_t t_us = second_us; t_us <= duration_us; t_us += second_us) {
-      seen_.stimuli["Ssbl"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
-      seen_.arrivals[message_index<messages::FixUpdate>()].push_back(
-          {.t_ns = t_us * 1000, .cause_us = t_us, .cause_group = "Ssbl"});
+      seen_.sent_fixes.push_back({.source = messages::FixSource::ssbl, .valid_us = t_us});
       seen_.fix_navigation.push_back({.cause_us = t_us, .angles = {}});
       FixAnswer fix{.cause_us = t_us, .navigation_us = t_us, .nis = 3};
       fix.position = start;
@@ -45,10 +43,8 @@ class Fixed : public testing::Test {
         .checks.at(0);
   }
   void unanswered(std::size_t place, std::size_t count) {
-    auto& arrivals = seen_.arrivals[message_index<messages::FixUpdate>()];
     const auto from = static_cast<std::ptrdiff_t>(place);
     const auto to = static_cast<std::ptrdiff_t>(place + count);
-    arrivals.erase(arrivals.begin() + from, arrivals.begin() + to);
     seen_.fixes.erase(seen_.fixes.begin() + from, seen_.fixes.begin() + to);
   }
 
@@ -96,7 +92,7 @@ TEST_F(Fixed, FixesThatAreNotAnsweredFail) {
 
 TEST_F(Fixed, FixesThatWereNotSentNeedNoAnswer) {
   unanswered(5, 8);
-  auto& sent = seen_.stimuli["Ssbl"];
+  auto& sent = seen_.sent_fixes;
   sent.erase(sent.begin() + 5, sent.begin() + 13);
   EXPECT_EQ(judge(scenario::PositionError{.window = whole, .below = 1}).outcome, Outcome::pass);
   EXPECT_EQ(judge(scenario::Consistency{.window = whole, .bound = scenario::MeanBetween{2, 4}}).outcome,

@@ -4,57 +4,82 @@
 #include <gmock/gmock.h>
 
 #include "bench/checks/timing.hpp"
+#include "bench/run/stopwatch.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "dbc/wire/transmit.hpp"
 
 namespace canhil::checks {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 4 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
+// A frame of the target, and what it answers.
+struct Came {
+  std::int64_t t_ns = 0;
+  std::int64_t cause_us = -1;
+  std::int64_t hardware_ns = 0;
+};
+
 // A run of 4 s at rest with perfect answers; tests spoil it.
 class Judged : public testing::Test {
  protected:
   Judged() {
     for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
-      seen_.stimuli["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
+      stimuli_["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
       seen_.navigation.push_back({.cause_us = t_us, .angles = {}});
-      arrive<messages::AlignAttitude>(t_us * 1000 + 200'000, t_us);
+      came<messages::AlignAttitude>().push_back({.t_ns = t_us * 1000 + 200'000, .cause_us = t_us});
       seen_.timing.lateness.add(50'000);
       if (t_us % 100'000 != 0) continue;
-      seen_.stimuli["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
+      stimuli_["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
       seen_.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
-      arrive<messages::TargetHeartbeat>(t_us * 1000);
+      came<messages::TargetHeartbeat>().push_back({.t_ns = t_us * 1000});
     }
     seen_.last_ns = duration_us * 1000;
     seen_.counters = messages::TargetCounters{};
   }
   template <class Message>
-  void arrive(std::int64_t t_ns, std::int64_t cause_us = -1) {
-    arrivals<Message>().push_back(
-        {.t_ns = t_ns,
-         .cause_us = cause_us,
-         .cause_group = cause_us < 0 ? std::string_view{} : Message::info.answers.front()});
-  }
-  template <class Message>
-  std::vector<Arrival>& arrivals() {
-    return seen_.arrivals[message_index<Message>()];
+  std::vector<Came>& came() {
+    return came_[message_index<Message>()];
   }
   void silence_from(std::int64_t t_us) {
     std::erase_if(seen_.navigation, [&](const auto& answer) { return answer.cause_us >= t_us; });
     std::erase_if(seen_.filter, [&](const auto& answer) { return answer.cause_us >= t_us; });
-    std::erase_if(arrivals<messages::AlignAttitude>(), [&](const Arrival& a) { return a.cause_us >= t_us; });
+    std::erase_if(came<messages::AlignAttitude>(), [&](const Came& one) { return one.cause_us >= t_us; });
+  }
+
+  // What the bench would have seen, with the timing that these checks ask for.
+  [[nodiscard]] Observations timed(const std::vector<scenario::Check>& checks) const {
+    Observations seen = seen_;
+    seen.timing.windows = timed_windows(checks);
+    run::Stopwatch stopwatch(seen.timing);
+    stopwatch.sent({}, seen.first_ns, 0);
+    for (const auto& [group, stimuli] : stimuli_) {
+      seen.stimuli[group] = {
+          .count = stimuli.size(), .first_us = stimuli.front().valid_us, .last_us = stimuli.back().valid_us};
+      for (const Stimulus& stimulus : stimuli) stopwatch.stimulus(group, stimulus);
+    }
+    for (std::size_t index = 0; index < came_.size(); ++index) {
+      for (const Came& one : came_[index]) {
+        stopwatch.arrived(index, {.frame = {}, .t_ns = one.t_ns, .hardware_ns = one.hardware_ns});
+        if (one.cause_us >= 0)
+          stopwatch.answered({&index, 1}, messages::all_messages[index].answers.front(), one.cause_us);
+      }
+    }
+    stopwatch.finish();
+    return seen;
   }
 
   template <class Rule>
   CheckResult judge(const Rule& rule, const std::string& unfit = "") {
     scenario::Scenario scenario;
     scenario.checks.push_back({.name = "it", .requirement = "R1", .rule = rule});
-    const Verdict verdict = checks::judge(scenario, {.seen = seen_,
+    const Observations seen = timed(scenario.checks);
+    const Verdict verdict = checks::judge(scenario, {.seen = seen,
                                                      .truth = truth_,
                                                      .duration_us = duration_us,
                                                      .ended_early = ended_early_,
@@ -65,6 +90,8 @@ class Judged : public testing::Test {
 
   world::FlightRecord truth_{{.start = {}, .motion = world::Rest{}}, duration_us, 10'000};
   Observations seen_;
+  std::map<std::string_view, std::vector<Stimulus>> stimuli_;
+  std::array<std::vector<Came>, messages::all_messages.size()> came_{};
   std::string ended_early_;
   Verdict verdict_;
 };
@@ -151,16 +178,16 @@ TEST_F(Judged, NeesFailsAnOverconfidentFilter) {
 TEST_F(Judged, LatencyAtItsQuantile) {
   scenario::Latency rule{.message = "AlignAttitude", .window = whole, .below_us = 1000, .quantile = 0.99};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  for (std::size_t k = 0; k < 4; ++k) arrivals<messages::AlignAttitude>()[k * 50].t_ns += 5'000'000;
+  for (std::size_t k = 0; k < 4; ++k) came<messages::AlignAttitude>()[k * 50].t_ns += 5'000'000;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "4 of 400 are 1 %";
-  arrivals<messages::AlignAttitude>()[222].t_ns += 5'000'000;
+  came<messages::AlignAttitude>()[222].t_ns += 5'000'000;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
 TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
   scenario::OutputPeriod rule{.message = "AlignAttitude", .window = whole, .within = 0.2, .quantile = 0.99};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  auto& all = arrivals<messages::AlignAttitude>();
+  auto& all = came<messages::AlignAttitude>();
   const auto kept = all;
   all.erase(all.begin() + 100, all.begin() + 150);  // one gap of half a second
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
@@ -172,15 +199,15 @@ TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
 TEST_F(Judged, OutputPeriodOfAMessageThatAnswersNothing) {
   const scenario::OutputPeriod rule{.message = "TargetHeartbeat", .window = whole, .within = 0.2};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  arrivals<messages::TargetHeartbeat>().pop_back();
-  arrivals<messages::TargetHeartbeat>().pop_back();
+  came<messages::TargetHeartbeat>().pop_back();
+  came<messages::TargetHeartbeat>().pop_back();
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
 TEST_F(Judged, HeartbeatUpToTheEndOfTheRun) {
   const scenario::Heartbeat rule{.silent_at_most_us = 500'000};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  auto& beats = arrivals<messages::TargetHeartbeat>();
+  auto& beats = came<messages::TargetHeartbeat>();
   const auto kept = beats;
   beats.resize(30);  // the last one at 3 s of 4
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
@@ -211,8 +238,8 @@ TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   const scenario::OutputPeriod period{
       .message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
   ASSERT_EQ(judge(period).outcome, Outcome::pass);
-  auto& stimuli = seen_.stimuli["SlaveImu"];
-  auto& answers = arrivals<messages::AlignAttitude>();
+  auto& stimuli = stimuli_["SlaveImu"];
+  auto& answers = came<messages::AlignAttitude>();
   for (std::size_t i = 200; i < 205; ++i) {
     stimuli[i].t_ns = stimuli[205].t_ns;
     answers[i].t_ns = answers[205].t_ns;
@@ -263,20 +290,53 @@ TEST_F(Judged, ABusThatFailedFailsARunThatSaysNothingOfIt) {
 }
 
 TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
-  EXPECT_FALSE(stamped_by_hardware(seen_));
-  for (auto& [group, stimuli] : seen_.stimuli)
+  const std::vector<scenario::Check> checks{
+      {.name = "it",
+       .requirement = "",
+       .rule = scenario::Latency{.message = "AlignAttitude", .window = whole}}};
+  const auto window = [&] { return timed(checks).timing.windows.at(0); };
+  EXPECT_FALSE(stamped_by_hardware(timed(checks).timing));
+  for (auto& [group, stimuli] : stimuli_)
     for (Stimulus& stimulus : stimuli) stimulus.hardware_ns = stimulus.t_ns + 1'000'000'000'000;
-  for (auto& arrivals : seen_.arrivals)  // 30 us where the host's stamps say 200 us
-    for (Arrival& arrival : arrivals) arrival.hardware_ns = arrival.t_ns + 999'999'830'000;
-  EXPECT_TRUE(stamped_by_hardware(seen_));
-  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(7), 30e-6, 1e-9);
-  EXPECT_NEAR(periods_s(seen_, "AlignAttitude", whole).at(7), 10e-3, 1e-9);
-  arrivals<messages::AlignAttitude>()[7].hardware_ns = 0;
-  EXPECT_FALSE(stamped_by_hardware(seen_));
-  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(7), 200e-6, 1e-9) << "never one of each clock";
-  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(8), 30e-6, 1e-9);
-  seen_.stimuli["SlaveImu"][9].hardware_ns = 0;
-  EXPECT_NEAR(latencies_s(seen_, "AlignAttitude", whole).at(9), 200e-6, 1e-9);
+  for (auto& came : came_)  // 30 us where the host's stamps say 200 us
+    for (Came& one : came) one.hardware_ns = one.t_ns + 999'999'830'000;
+  EXPECT_TRUE(stamped_by_hardware(timed(checks).timing));
+  EXPECT_EQ(window().latency.max_ns(), 30'000);
+  EXPECT_EQ(window().period.max_ns(), 10'000'000);
+  came<messages::AlignAttitude>()[7].hardware_ns = 0;
+  EXPECT_FALSE(stamped_by_hardware(timed(checks).timing));
+  using Bucket = Histogram::Bucket;
+  EXPECT_THAT(window().latency.buckets(), ElementsAre(Bucket{30, 399}, Bucket{200, 1}))
+      << "never one of each";
+  stimuli_["SlaveImu"][9].hardware_ns = 0;
+  EXPECT_THAT(window().latency.buckets(), ElementsAre(Bucket{30, 398}, Bucket{200, 2}));
+}
+
+TEST_F(Judged, AWindowTakesTheTimesOfItsPartOfTheRun) {
+  scenario::Latency rule{
+      .message = "AlignAttitude", .window = {.from_us = second_us, .to_us = 2 * second_us}, .below_us = 1000};
+  came<messages::AlignAttitude>()[98].t_ns += 5'000'000;   // at 0.99 s
+  came<messages::AlignAttitude>()[200].t_ns += 5'000'000;  // at 2.01 s
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  EXPECT_THAT(judge(rule).measured, HasSubstr("of 101"));
+  came<messages::AlignAttitude>()[199].t_ns += 5'000'000;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  rule.message = "AlignUpdate";
+  EXPECT_EQ(judge(rule).measured, "no answers");
+}
+
+TEST(TimedWindows, AreTakenOnceForAllThatAskForThem) {
+  const scenario::Window half{.from_us = 0, .to_us = second_us};
+  const std::vector<scenario::Check> checks{
+      {.name = "a",
+       .requirement = "",
+       .rule = scenario::Latency{.message = "AlignAttitude", .window = whole}},
+      {.name = "b", .requirement = "", .rule = scenario::Latency{.message = "AlignAttitude", .window = half}},
+      {.name = "c",
+       .requirement = "",
+       .rule = scenario::OutputPeriod{.message = "AlignAttitude", .window = half}},
+      {.name = "d", .requirement = "", .rule = attitude}};
+  EXPECT_EQ(timed_windows(checks).size(), 2U);
 }
 
 TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {

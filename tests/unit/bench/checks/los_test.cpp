@@ -32,7 +32,7 @@ class Engaged : public testing::Test {
       answer.rate = epoch.los_rate;
       answer.nis = 2;
       seen_.los.push_back(answer);
-      seen_.stimuli["Seeker"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.stimuli["Seeker"].add(t_us);
     }
     engagement_.miss_n = world::Vector3(0, 0.3, 0.4);
     engagement_.passage_us = 5'000'000;

@@ -30,7 +30,7 @@ class Winds : public testing::Test {
  protected:
   Winds() {
     for (std::int64_t t_us = 20'000; t_us <= duration_us; t_us += 20'000) {
-      seen_.stimuli["GliderNav"].push_back({.valid_us = t_us, .t_ns = t_us * 1000});
+      seen_.stimuli["GliderNav"].add(t_us);
       WindAnswer answer{.cause_us = t_us, .started = true, .outcome = WindOutcome::updated};
       answer.wind_n = glide_.at(t_us).wind_n;
       answer.sigma = Vector3::Ones();

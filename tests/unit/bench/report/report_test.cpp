@@ -154,7 +154,7 @@ TEST(Reports, TellWhatTheBusDid) {
 TEST(Reports, NameTheControllersStamps) {
   run::Run run = run_of();
   EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("hardware")));
-  run.seen.stimuli["SlaveImu"] = {{.valid_us = 1, .t_ns = 1, .hardware_ns = 1}};
+  run.seen.timing.stimuli_with_hardware_stamp = 1;
   EXPECT_THAT(text(scenario_of(), run), HasSubstr("latency by the controller's hardware stamps"));
 }
 

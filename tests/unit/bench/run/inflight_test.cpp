@@ -91,7 +91,7 @@ TEST(InFlight, InvalidFixesAreRefusedWithTheReason) {
 
 TEST(InFlight, LostImuGroupsAreBridgedAndFlagged) {
   const Flown flown = fly({set("slave_imu.loss_percent", "5")});
-  const auto lost = 1500 - static_cast<std::int64_t>(flown.seen.stimuli.at("SlaveImu").size());
+  const auto lost = 1500 - static_cast<std::int64_t>(flown.seen.stimuli.at("SlaveImu").count);
   EXPECT_NEAR(static_cast<double>(lost), 75, 5 * 8.5);
   const auto flagged =
       std::ranges::count(flown.seen.fix_navigation, true, &checks::NavigationAnswer::coasting);
@@ -102,7 +102,7 @@ TEST(InFlight, LostImuGroupsAreBridgedAndFlagged) {
 
 TEST(InFlight, LostFixesNeedNoAnswer) {
   const Flown flown = fly({set("ssbl.loss_percent", "20")});
-  EXPECT_EQ(flown.seen.fixes.size(), flown.seen.stimuli.at("Ssbl").size());
+  EXPECT_EQ(flown.seen.fixes.size(), flown.seen.stimuli.at("Ssbl").count);
   EXPECT_LT(flown.seen.fixes.size(), 29U);
   expect_aligned(flown);
 }

@@ -11,9 +11,12 @@ namespace {
 
 using namespace messages;
 using testing::ElementsAre;
-using testing::IsEmpty;
 
-constexpr scenario::Window everything{.from_us = 0, .to_us = 1'000'000'000'000};
+// The two times [ns] in a histogram.
+std::array<std::int64_t, 2> both(const checks::Histogram& histogram) {
+  EXPECT_EQ(histogram.count(), 2U);
+  return {histogram.min_ns(), histogram.max_ns()};
+}
 
 // Both sides of the bus, as a monitor sees them.
 class Watched : public testing::Test {
@@ -88,7 +91,11 @@ class Watched : public testing::Test {
   }
   [[nodiscard]] const checks::Observations& seen() const { return monitor_.observations(); }
 
-  Monitor monitor_;
+  template <class Message>
+  [[nodiscard]] const checks::Histogram& latency() const {
+    return seen().timing.answers[message_index<Message>()].latency;
+  }
+  Monitor monitor_{std::vector<checks::TimedWindow>{}};
   Outbox<1> bench_;
   Outbox<1> target_;
 };
@@ -125,8 +132,8 @@ TEST_F(Watched, ALosRateGroupIsOneAnswerOfItsSeekerSample) {
   EXPECT_EQ(answer.target, (world::Planes<double>{.pitch = -20, .yaw = 10})) << "z in pitch, y in yaw";
   EXPECT_EQ(answer.target_sigma, (world::Planes<double>{.pitch = 7.5, .yaw = 5}));
   EXPECT_NEAR(answer.nis, 2.5, 1e-9);
-  EXPECT_THAT(checks::latencies_s(seen(), "LosRateTarget", everything),
-              ElementsAre(testing::DoubleNear(4e-4, 1e-12)));
+  EXPECT_EQ(latency<LosRateTarget>().count(), 1U);
+  EXPECT_EQ(latency<LosRateTarget>().max_ns(), 400'000);
 }
 
 TEST_F(Watched, ANavigationGroupIsOneAnswerInSiUnits) {
@@ -194,9 +201,8 @@ TEST_F(Watched, AFixIsPairedWithTheGroupOfItsSource) {
   transmit(GpsTime{.time_of_validity_us = 1'000'000}, 2'000);
   answer_fix(1'000'000, FixSource::gps, 2'500);
   answer_fix(1'000'000, FixSource::ssbl, 4'000);
-  EXPECT_THAT(checks::latencies_s(seen(), "FixUpdate", everything),
-              ElementsAre(testing::DoubleEq(0.5e-6), testing::DoubleEq(3e-6)));
-  EXPECT_THAT(checks::latencies_s(seen(), "FixStatus", everything), testing::SizeIs(2));
+  EXPECT_THAT(both(latency<FixUpdate>()), ElementsAre(500, 3'000));
+  EXPECT_EQ(latency<FixStatus>().count(), 2U);
 }
 
 TEST_F(Watched, KeepsStimuliByTheGroupsThatAreAnswered) {
@@ -206,11 +212,14 @@ TEST_F(Watched, KeepsStimuliByTheGroupsThatAreAnswered) {
   transmit(GpsTime{.time_of_validity_us = 40'000}, 4'000);
   transmit(TargetInitVelocityD{.time_of_validity_us = 50'000}, 5'000);
   ASSERT_EQ(seen().stimuli.size(), 4U) << "nobody answers TargetInit";
-  EXPECT_EQ(seen().stimuli.at("SlaveImu").at(0).valid_us, 10'000);
-  EXPECT_EQ(seen().stimuli.at("MasterIns").at(0).valid_us, 20'000);
-  EXPECT_EQ(seen().stimuli.at("Ssbl").at(0).valid_us, 30'000);
-  EXPECT_EQ(seen().stimuli.at("Gps").at(0).valid_us, 40'000);
-  EXPECT_EQ(seen().stimuli.at("Gps").at(0).t_ns, 4'000);
+  EXPECT_EQ(seen().stimuli.at("SlaveImu").last_us, 10'000);
+  EXPECT_EQ(seen().stimuli.at("MasterIns").last_us, 20'000);
+  EXPECT_EQ(seen().stimuli.at("Ssbl").last_us, 30'000);
+  EXPECT_EQ(seen().stimuli.at("Gps").last_us, 40'000);
+  ASSERT_EQ(seen().sent_fixes.size(), 2U);
+  EXPECT_EQ(seen().sent_fixes[0].source, FixSource::ssbl);
+  EXPECT_EQ(seen().sent_fixes[1].source, FixSource::gps);
+  EXPECT_EQ(seen().sent_fixes[1].valid_us, 40'000);
 }
 
 TEST_F(Watched, AnAnswerToTwoRhythmsHasNoNominalPeriod) {
@@ -227,8 +236,7 @@ TEST_F(Watched, LatencyIsPairedByCauseNotByOrder) {
   imu(30'000, 3'000);
   answer(10'000, 4'000);
   answer(30'000, 3'500);
-  EXPECT_THAT(checks::latencies_s(seen(), "AlignVelocityD", everything),
-              ElementsAre(testing::DoubleEq(3e-6), testing::DoubleEq(0.5e-6)));
+  EXPECT_THAT(both(latency<AlignVelocityD>()), ElementsAre(500, 3'000));
 }
 
 TEST_F(Watched, TheStampOfTheEchoReplacesTheBenchsOwn) {
@@ -239,25 +247,25 @@ TEST_F(Watched, TheStampOfTheEchoReplacesTheBenchsOwn) {
   echo(frame, 2'700);
   EXPECT_TRUE(seen().transmit_stamps_echoed);
   answer(20'000, 3'700);
-  EXPECT_THAT(checks::latencies_s(seen(), "AlignVelocityD", everything),
-              ElementsAre(testing::DoubleEq(1e-6)));
-  EXPECT_EQ(seen().stimuli.at("SlaveImu")[0].t_ns, 1'000);
-  EXPECT_EQ(seen().stimuli.at("SlaveImu")[2].t_ns, 3'000);
+  EXPECT_EQ(latency<AlignVelocityD>().max_ns(), 1'000);
+  answer(10'000, 3'700);
+  EXPECT_EQ(latency<AlignVelocityD>().max_ns(), 2'700) << "the others keep theirs";
 }
 
 TEST_F(Watched, TheControllersStampsAreKept) {
   const Frame frame = transmit(SlaveImuStatus{.time_of_validity_us = 20'000}, 2'000);
   echo(frame, 2'700, 42);
-  EXPECT_EQ(seen().stimuli.at("SlaveImu")[0].hardware_ns, 42);
   monitor_.received({.frame = next(target_, TargetHeartbeat{}), .t_ns = 1, .hardware_ns = 43});
-  EXPECT_EQ(seen().arrivals[message_index<TargetHeartbeat>()].at(0).hardware_ns, 43);
+  const checks::Observations all = monitor_.finish();
+  EXPECT_EQ(all.timing.stimuli_with_hardware_stamp, 1U);
+  EXPECT_EQ(all.timing.without_hardware_stamp, 0U);
 }
 
 TEST_F(Watched, AnEchoIsNoAnswer) {
   echo(next(target_, AlignVelocityD{}), 0);
   echo(next(target_, TargetHeartbeat{}), 0);
-  EXPECT_THAT(seen().arrivals[message_index<TargetHeartbeat>()], IsEmpty());
-  EXPECT_THAT(seen().arrivals[message_index<AlignVelocityD>()], IsEmpty());
+  EXPECT_FALSE(seen().timing.answers[message_index<TargetHeartbeat>()].last_ns);
+  EXPECT_FALSE(seen().timing.answers[message_index<AlignVelocityD>()].last_ns);
 }
 
 TEST_F(Watched, CausesUnwrapAroundTheTimeBase) {
@@ -266,7 +274,7 @@ TEST_F(Watched, CausesUnwrapAroundTheTimeBase) {
   imu(late_us, 1'000);
   answer(late_us, 2'000);
   EXPECT_EQ(seen().navigation.back().cause_us, late_us);
-  EXPECT_EQ(checks::latencies_s(seen(), "AlignVelocityD", everything).size(), 1U);
+  EXPECT_EQ(latency<AlignVelocityD>().count(), 1U);
 }
 
 TEST_F(Watched, AGapInTheCountersIsCountedAsLostFrames) {
@@ -282,7 +290,7 @@ TEST_F(Watched, AGroupThatMissesAFrameIsNoAnswer) {
   static_cast<void>(next(target_, AlignVelocityNE{}));
   receive(AlignVelocityD{.cause_time_us = 20'000});
   EXPECT_EQ(seen().navigation.size(), 1U);
-  EXPECT_EQ(seen().arrivals[message_index<AlignVelocityD>()].back().cause_us, -1);
+  EXPECT_EQ(seen().answers[message_index<AlignVelocityD>()], 1U);
   answer(30'000);
   EXPECT_EQ(seen().navigation.size(), 2U);
   EXPECT_EQ(seen().target_frames_lost, 1U);
@@ -295,14 +303,14 @@ TEST_F(Watched, ABrokenFrameIsCountedAndNotUsed) {
   frame.size = 3;
   monitor_.received({.frame = frame});
   EXPECT_EQ(seen().target_bad_crc, 2U);
-  EXPECT_THAT(seen().arrivals[message_index<TargetHeartbeat>()], IsEmpty());
+  EXPECT_FALSE(seen().timing.answers[message_index<TargetHeartbeat>()].last_ns);
 }
 
 TEST_F(Watched, ARepeatedFrameIsNotUsed) {
   const Frame frame = next(target_, TargetHeartbeat{});
   monitor_.received({.frame = frame});
   monitor_.received({.frame = frame});
-  EXPECT_EQ(seen().arrivals[message_index<TargetHeartbeat>()].size(), 1U);
+  EXPECT_EQ(seen().timing.stamps[static_cast<std::size_t>(StampSource::process)], 1U);
 }
 
 TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
@@ -374,6 +382,71 @@ TEST_F(Watched, AFrameThatIsNotEchoedHasNoTimeOnTheBus) {
   EXPECT_EQ(transmitted.handed_over.count(), 2U);
   EXPECT_EQ(transmitted.echoed.count(), 1U) << "an echo is used once";
   EXPECT_EQ(transmitted.echoed.max_ns(), 2'010);
+}
+
+TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
+  for (std::size_t k = 0; k <= Stopwatch::remembered; ++k) imu(static_cast<std::int64_t>(k) * 5'000, 0);
+  answer(0);
+  EXPECT_EQ(latency<AlignVelocityD>().count(), 0U);
+  EXPECT_EQ(seen().timing.answers[message_index<AlignVelocityD>()].unpaired, 1U);
+  answer(5'000);
+  EXPECT_EQ(latency<AlignVelocityD>().count(), 1U);
+}
+
+// At 1 Mbit/s a bit takes 1 us: what a frame takes is its length in bits.
+class OnAWire : public Watched {
+ protected:
+  OnAWire() : monitor_at_rate_(std::vector<checks::TimedWindow>{}, wire::BitRates{.nominal = 1'000'000}) {}
+  static std::int64_t ns(const Frame& frame) { return wire::bit_length(frame).nominal * 1000; }
+
+  Monitor monitor_at_rate_;
+};
+
+TEST_F(OnAWire, TheLatencyIsSplitAndItsPartsAddUp) {
+  const Frame imu = next(bench_, SlaveImuStatus{.time_of_validity_us = 10'000});
+  const std::array<Frame, 3> reply{next(target_, AlignAttitude{}), next(target_, AlignVelocityNE{}),
+                                   next(target_, AlignVelocityD{.cause_time_us = 10'000})};
+  const Frame filler = next(
+      target_,
+      TargetTiming{.queue_max_us = 60, .queue_mean_us = 50, .compute_max_us = 40, .compute_mean_us = 30});
+  monitor_at_rate_.transmitted(imu, 1'000'000, 0);
+  monitor_at_rate_.received({.frame = imu, .t_ns = 1'200'000, .own = true});
+  std::int64_t t_ns = 1'300'000, wire_ns = 0;
+  for (const Frame& frame : reply) {
+    wire_ns += ns(frame);
+    monitor_at_rate_.received({.frame = frame, .t_ns = t_ns += ns(frame)});
+  }
+  monitor_at_rate_.received({.frame = filler, .t_ns = t_ns + 1'000});
+  const checks::TimingRecord timing = monitor_at_rate_.finish().timing;
+  EXPECT_EQ(timing.split.stimuli, 1U);
+  EXPECT_EQ(timing.split.echoed, 1U);
+  EXPECT_EQ(timing.split.to_echo_ns, 200'000);
+  EXPECT_EQ(timing.split.stimulus_wire_ns, ns(imu));
+  EXPECT_EQ(timing.split.latency_ns, 100'000 + wire_ns);
+  EXPECT_EQ(timing.split.reply_wire_ns, wire_ns);
+  EXPECT_EQ(timing.split.told, 1U);
+  EXPECT_EQ(timing.split.target_queue_ns, 50'000);
+  EXPECT_EQ(timing.split.target_compute_ns, 30'000);
+  EXPECT_EQ(timing.slowest.message, "AlignVelocityD");
+  EXPECT_EQ(timing.slowest.latency_ns, 100'000 + wire_ns);
+  EXPECT_EQ(timing.slowest.queue_max_us, 60);
+  EXPECT_EQ(timing.slowest.compute_max_us, 40);
+  EXPECT_EQ(timing.answers[message_index<AlignAttitude>()].reply_wire_ns, ns(reply[0]));
+  EXPECT_EQ(timing.answers[message_index<AlignVelocityD>()].reply_wire_ns, wire_ns);
+  EXPECT_EQ(timing.responses[message_index<SlaveImuStatus>()].max_ns, 200'000);
+  EXPECT_EQ(timing.responses[message_index<AlignAttitude>()].max_ns, ns(reply[0]));
+  EXPECT_EQ(timing.responses[message_index<AlignVelocityD>()].max_ns, wire_ns);
+}
+
+// One stimulus, the answers of two estimators: it took until the second was there.
+TEST_F(OnAWire, AStimulusIsAnsweredWithItsLastAnswer) {
+  imu(10'000, 0);
+  answer(10'000, 300'000);
+  answer_in_flight(10'000, 500'000);
+  EXPECT_EQ(seen().timing.split.stimuli, 1U);
+  EXPECT_EQ(seen().timing.split.latency_ns, 500'000);
+  EXPECT_EQ(seen().timing.split.echoed, 0U);
+  EXPECT_EQ(seen().timing.split.told, 0U);
 }
 
 }  // namespace

@@ -73,6 +73,60 @@ TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   }
 }
 
+// Nodes that send in the order of queueing, at loads that leave a bound; the bound is not idle either.
+TEST(Simulation, NeverExceedsTheAnalysisOfQueuesInOrder) {
+  int bounded = 0, tight = 0, beyond_priority = 0;
+  for (std::uint64_t seed = 0; seed < sets; ++seed) {
+    SCOPED_TRACE(seed);
+    Dice dice(seed);
+    MessageSet set = random_set(dice);
+    for (Stream& stream : set.streams) stream.period_ns *= dice(1, 3);
+    const auto bounds = fifo_responses(set.streams, set.bus.rates);
+    const auto by_priority = responses(set.streams, set.bus);
+    auto dues = random_dues(set, 15 * longest_period(set), dice);
+    if (seed % 2 == 0) {  // all at once: what the bench does at the beginning of each step
+      std::erase_if(dues, [&](const Due& due) { return due.due_ns < 2 * longest_period(set); });
+      for (std::size_t i = set.streams.size(); i-- > 0;) dues.push_back({.stream = i});
+    }
+    const auto longest = longest_responses(
+        set, dues, [&set](const Due& due) { return set.frames[due.stream]; }, {}, QueueOrder::fifo);
+    ASSERT_EQ(longest.size(), bounds.size());
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      if (!bounds[i].response_ns) continue;
+      ++bounded;
+      EXPECT_LE(longest[i], *bounds[i].response_ns) << i;
+      tight += 10 * longest[i] > 8 * *bounds[i].response_ns ? 1 : 0;
+      beyond_priority += longest[i] > *by_priority[i].response_ns ? 1 : 0;
+    }
+  }
+  EXPECT_GT(bounded, 2'000);
+  EXPECT_GT(tight, 200);
+  EXPECT_GT(beyond_priority, 200) << "the analysis for priority queues does not hold here";
+}
+
+TEST(FifoAnalysis, HasNoBoundOnAnOverloadedBus) {
+  const auto length = wire::worst_case_length(8, false);
+  const std::vector<Stream> streams{
+      {.name = "a", .id = 1, .sender = "x", .period_ns = 250'000, .length = length},
+      {.name = "b", .id = 2, .sender = "y", .period_ns = 250'000, .length = length}};
+  for (const Response& response : fifo_responses(streams, {.nominal = 1'000'000}))
+    EXPECT_FALSE(response.response_ns);
+}
+
+// Worked by hand: node x queues 1 and 3, y 2 and 4; 135 us each. 1 may find 3 in front of it and 4 on the
+// wire, and 2 wins from 3; so may 3. 2 finds 4 in front of it, nothing blocks, and 1 and 3 win from 4.
+TEST(FifoAnalysis, OfFourMessagesInTwoNodes) {
+  const auto stream = [](std::uint32_t id, const char* sender) {
+    return Stream{
+        .id = id, .sender = sender, .period_ns = 10'000'000, .length = wire::worst_case_length(8, false)};
+  };
+  const std::vector<Stream> streams{stream(1, "x"), stream(2, "y"), stream(3, "x"), stream(4, "y")};
+  const auto found = fifo_responses(streams, {.nominal = 1'000'000});
+  for (const Response& response : found) EXPECT_EQ(response.response_ns, 4 * 135'000);
+  EXPECT_EQ(found[0].blocking_ns, 135'000);
+  EXPECT_EQ(found[1].blocking_ns, 0);
+}
+
 /// The critical instant of stream m: the longest frame of lower priority has just won the arbitration, and
 /// all of higher priority and m itself are queued together, as late as their jitter allows; what follows
 /// becomes due as soon and is queued as early as can be.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "bench/schedulability/analysis.hpp"
@@ -79,6 +80,7 @@ inline MessageSet random_set(Dice& dice) {
     stream.period_ns = share_ns + dice(0, share_ns / (load_percent > 90 ? 100 : 3));
     stream.jitter_ns = dice(0, 2) == 0 ? dice(0, 2 * stream.period_ns) : 0;
     set.nodes.push_back(static_cast<std::size_t>(dice(0, static_cast<std::int64_t>(set.node_count) - 1)));
+    stream.sender = std::to_string(set.nodes.back());
   }
   return set;
 }
@@ -87,9 +89,10 @@ inline MessageSet random_set(Dice& dice) {
 /// the intermission. `frame_of(due)` is the frame to send.
 template <class FrameOf>
 std::vector<std::int64_t> longest_responses(const MessageSet& set, std::vector<Due> dues, FrameOf&& frame_of,
-                                            Disturb disturb = {}) {
+                                            Disturb disturb = {}, QueueOrder order = QueueOrder::priority) {
   std::ranges::stable_sort(dues, {}, &Due::queued_ns);
-  SimulatedWire wire(set.bus.rates, std::vector<WireNode>(set.node_count, {.depth = dues.size()}),
+  SimulatedWire wire(set.bus.rates,
+                     std::vector<WireNode>(set.node_count, {.order = order, .depth = dues.size()}),
                      std::move(disturb));
   std::vector<std::vector<std::int64_t>> waiting(set.streams.size());  // due times, oldest first
   std::vector<std::int64_t> longest(set.streams.size(), 0);

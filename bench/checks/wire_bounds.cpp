@@ -1,0 +1,123 @@
+#include "bench/checks/wire_bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/checks/timing.hpp"
+#include "bench/schedulability/analysis.hpp"
+
+namespace canhil::checks {
+namespace {
+
+using schedulability::Stream;
+
+bool is_targets(const MessageInfo& info) { return info.sender == messages::TargetHeartbeat::info.sender; }
+
+bool was_seen(const TimingRecord& timing, std::size_t index) {
+  return timing.transmit[index].handed_over.count() > 0 || timing.answers[index].last_ns;
+}
+
+// The least time between two: of what is sent or answered faster than the DBC says, as it was.
+std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
+  const std::int64_t cycle_ns = info.cycle_time_us * 1000;
+  double sent_s = nominal_period_s(seen, info.name);
+  if (const auto stimuli = seen.stimuli.find(info.sample_group);
+      stimuli != seen.stimuli.end() && stimuli->second.count > 1) {
+    sent_s = static_cast<double>(stimuli->second.last_us - stimuli->second.first_us) * 1e-6 /
+             static_cast<double>(stimuli->second.count - 1);
+  }
+  const auto sent_ns = static_cast<std::int64_t>(std::floor(sent_s * 1e9));
+  if (cycle_ns == 0 || sent_ns == 0) return std::max(cycle_ns, sent_ns);
+  return std::min(cycle_ns, sent_ns);
+}
+
+// How many of a message come together: each estimator of a target has a heartbeat of its own.
+std::int64_t together(const Observations& seen, const AnswerTiming& timing, std::int64_t period_ns) {
+  const std::int64_t run_ns = seen.last_ns - seen.first_ns;
+  if (timing.count == 0 || run_ns <= 0) return 1;
+  const double in_a_period =
+      static_cast<double>(timing.count) * static_cast<double>(period_ns) / static_cast<double>(run_ns);
+  return std::max<std::int64_t>(1, std::llround(in_a_period));
+}
+
+// All that the bench plays goes through one queue.
+Stream stream_of(const Observations& seen, std::size_t index) {
+  const MessageInfo& info = messages::all_messages[index];
+  const std::int64_t period = period_ns(seen, info);
+  const std::int64_t burst = info.answers.empty() ? together(seen, seen.timing.answers[index], period) : 1;
+  return {.name = std::string(info.name),
+          .id = info.id,
+          .extended = info.extended,
+          .sender = is_targets(info) ? "target" : "bench",
+          .period_ns = period / burst,
+          .jitter_ns = (burst - 1) * (period / burst),  // so that so many may be queued at once
+          .length = wire::worst_case_length(info.size, info.extended)};
+}
+
+}  // namespace
+
+std::vector<WireBound> wire_bounds(const Observations& seen) {
+  const TimingRecord& timing = seen.timing;
+  if (timing.rates.nominal == 0) return {};
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
+    if (was_seen(timing, i)) indices.push_back(i);
+  }
+  std::ranges::sort(indices, {}, [](std::size_t i) { return messages::all_messages[i].id; });
+  std::vector<Stream> streams;
+  for (const std::size_t i : indices) streams.push_back(stream_of(seen, i));
+  const auto responses = schedulability::fifo_responses(streams, timing.rates);
+  std::vector<WireBound> bounds;
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const WireResponse& measured = timing.responses[indices[k]];
+    if (measured.count == 0) continue;
+    const MessageInfo& info = messages::all_messages[indices[k]];
+    bounds.push_back({.message = info.name,
+                      .of_target = is_targets(info),
+                      .count = measured.count,
+                      .longest_ns = measured.max_ns,
+                      .frame_ns = responses[k].transmission_ns,
+                      .bound_ns = responses[k].response_ns});
+  }
+  return bounds;
+}
+
+std::string no_bounds(const Observations& seen) {
+  if (seen.timing.rates.nominal == 0) return "the time of a frame on this bus is not known";
+  if (seen.bus.errors.frames > 0) return fmt::format("{} errors on the bus", seen.bus.errors.frames);
+  if (seen.bus.downs > 0) return "the interface was down";
+  if (!seen.transmit_stamps_echoed) return "the bus does not echo the bench's own frames";
+  return "";
+}
+
+Finding judge(const scenario::WireResponse& /*rule*/, const Observations& seen) {
+  Finding finding{.outcome = Outcome::not_measured,
+                  .measured = no_bounds(seen),
+                  .expected = "no frame takes longer over the bus than its bound"};
+  if (!finding.measured.empty()) return finding;
+  const std::vector<WireBound> bounds = wire_bounds(seen);
+  const auto share = [](const WireBound& bound) {
+    return static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns);
+  };
+  const WireBound* worst = nullptr;
+  for (const WireBound& bound : bounds) {
+    if (!bound.bound_ns) {
+      finding.measured = fmt::format("{} has no bound: the bus or a queue is overloaded", bound.message);
+      return finding;
+    }
+    if (worst == nullptr || share(bound) > share(*worst)) worst = &bound;
+  }
+  if (worst == nullptr) {
+    finding.measured = "no frame was seen";
+    return finding;
+  }
+  finding.outcome = pass_if(worst->longest_ns <= *worst->bound_ns);
+  finding.measured = fmt::format("{}: {:.3f} of {:.3f} ms, the most of {} messages", worst->message,
+                                 static_cast<double>(worst->longest_ns) * 1e-6,
+                                 static_cast<double>(*worst->bound_ns) * 1e-6, bounds.size());
+  return finding;
+}
+
+}  // namespace canhil::checks

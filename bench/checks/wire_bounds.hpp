@@ -1,0 +1,34 @@
+// What the frames of a run took to pass the bus, beside the bound of theory.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/checks/finding.hpp"
+#include "bench/checks/observations.hpp"
+
+namespace canhil::checks {
+
+/// A message, its longest response (see WireResponse) and the bound: fifo_responses() of the messages that
+/// were seen, each as often as it was sent or as the DBC says, whichever is more often. From being queued on,
+/// so that the lateness of the bench and the target's computing are in neither.
+struct WireBound {
+  std::string_view message{};
+  bool of_target = false;  ///< its response is a least one
+  std::uint64_t count = 0;
+  std::int64_t longest_ns = 0;
+  std::int64_t frame_ns = 0;               ///< the longest that such a frame can be
+  std::optional<std::int64_t> bound_ns{};  ///< none: the bus or a queue is overloaded
+};
+
+/// By priority. Empty where the bit rate of the bus is not known.
+std::vector<WireBound> wire_bounds(const Observations& seen);
+
+/// Why bounds mean nothing in this run; empty: they do.
+std::string no_bounds(const Observations& seen);
+
+Finding judge(const scenario::WireResponse& rule, const Observations& seen);
+
+}  // namespace canhil::checks

@@ -1,0 +1,47 @@
+// hil-target, slowed: the objects of the delivered program, in which the linker (--wrap) puts a pause around
+// two of the calls. CANHIL_SLOW_COMPUTE_US: spent more on each frame that is answered. CANHIL_SLOW_QUEUE_US:
+// frames wait for so long before they are looked at.
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+
+#include "dbc/ports/port.hpp"
+#include "target/device/device.hpp"
+
+namespace canhil {
+namespace {
+
+useconds_t microseconds(const char* variable) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? 0 : static_cast<useconds_t>(std::strtoul(text, nullptr, 10));
+}
+
+}  // namespace
+
+// The names are those of the Itanium C++ ABI, where a member function's object is its first argument.
+std::span<const Frame> delivered_receive(target::Device& device, const Frame& frame) asm(
+    "__real__ZN6canhil6target6Device7receiveERKNS_5FrameE");
+std::span<const Frame> slow_receive(target::Device& device, const Frame& frame) asm(
+    "__wrap__ZN6canhil6target6Device7receiveERKNS_5FrameE");
+bool delivered_wait(Port& port, WaitFor what,
+                    std::int64_t deadline_ns) asm("__real__ZN6canhil4waitERNS_4PortENS_7WaitForEl");
+bool slow_wait(Port& port, WaitFor what,
+               std::int64_t deadline_ns) asm("__wrap__ZN6canhil4waitERNS_4PortENS_7WaitForEl");
+
+std::span<const Frame> slow_receive(target::Device& device, const Frame& frame) {
+  static const useconds_t pause_us = microseconds("CANHIL_SLOW_COMPUTE_US");
+  const std::span<const Frame> answers = delivered_receive(device, frame);
+  if (pause_us > 0 && !answers.empty()) usleep(pause_us);
+  return answers;
+}
+
+bool slow_wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
+  static const useconds_t pause_us = microseconds("CANHIL_SLOW_QUEUE_US");
+  const bool came = delivered_wait(port, what, deadline_ns);
+  if (pause_us > 0 && came && what == WaitFor::frame) usleep(pause_us);
+  return came;
+}
+
+}  // namespace canhil
