@@ -285,7 +285,9 @@ void add_run(CLI::App& app, int& code) {
   command->add_option("SCENARIO", arguments->scenario, "scenario file (TOML)")->required();
   command->add_option(
       "--bus", arguments->bus,
-      "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process");
+      "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process: virtual "
+      "time. local: and in-process take a simulated wire: '?bitrate=500000', then &data-bitrate=2000000, "
+      "&queue=fifo|priority, &bit-error-rate=1e-6, &seed=3");
   command
       ->add_option("--bus-of", arguments->bus_of,
                    "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
