@@ -49,9 +49,9 @@ void Link::look_at_interface() {
   for (Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
 }
 
-void Link::wait_until(std::int64_t deadline_ns) {
-  if (port_.descriptor() < 0) return;  // no bus: what there is to receive came when we sent
-  wait(port_, WaitFor::frame, deadline_ns);
+bool Link::wait_until(std::int64_t deadline_ns) {
+  if (port_.descriptor() < 0) return true;  // no bus: what there is to receive came when we sent
+  return wait(port_, WaitFor::frame, deadline_ns);
 }
 
 }  // namespace canhil::run

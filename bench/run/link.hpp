@@ -46,8 +46,8 @@ class Link {
   /// Shows every waiting frame to the observers, without blocking; `down` once the bus is gone.
   LinkState drain();
 
-  /// Sleeps until a frame arrives, or until `deadline_ns` on CLOCK_MONOTONIC.
-  void wait_until(std::int64_t deadline_ns);
+  /// Sleeps until a frame arrives: true; or until `deadline_ns` on CLOCK_MONOTONIC, or a signal: false.
+  bool wait_until(std::int64_t deadline_ns);
 
   /// Frames that waited for room for longer than a period of Sync after they were due.
   [[nodiscard]] std::uint64_t late_in_queue() const { return late_in_queue_; }
