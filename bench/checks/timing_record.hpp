@@ -102,9 +102,14 @@ struct SlowestAnswer {
   std::uint16_t compute_max_us = 0;
 };
 
+/// What is known of a bus: how long a frame takes, and which one a node sends first.
+struct WireFacts {
+  wire::BitRates rates{};     ///< nominal 0: not known, or a frame takes no time
+  bool urgent_first = false;  ///< false: the oldest first, as Linux does
+};
+
 struct TimingRecord {
-  wire::BitRates
-      rates{};  ///< of the bus, so that the time of a frame is known; nominal 0: it is not, or none
+  WireFacts wire{};
   std::array<AnswerTiming, messages::all_messages.size()> answers;     ///< by place in all_messages
   std::array<TransmitTiming, messages::all_messages.size()> transmit;  ///< by place in all_messages
   std::array<WireResponse, messages::all_messages.size()> responses;   ///< by place in all_messages

@@ -56,11 +56,17 @@ Stream stream_of(const Observations& seen, std::size_t index) {
           .length = wire::worst_case_length(info.size, info.extended)};
 }
 
+// R is from becoming due, J before being queued.
+std::optional<std::int64_t> from_queued(const Stream& stream, const schedulability::Response& response) {
+  if (!response.response_ns) return std::nullopt;
+  return *response.response_ns - stream.jitter_ns;
+}
+
 }  // namespace
 
 std::vector<WireBound> wire_bounds(const Observations& seen) {
   const TimingRecord& timing = seen.timing;
-  if (timing.rates.nominal == 0) return {};
+  if (timing.wire.rates.nominal == 0) return {};
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
     if (was_seen(timing, i)) indices.push_back(i);
@@ -68,7 +74,9 @@ std::vector<WireBound> wire_bounds(const Observations& seen) {
   std::ranges::sort(indices, {}, [](std::size_t i) { return messages::all_messages[i].id; });
   std::vector<Stream> streams;
   for (const std::size_t i : indices) streams.push_back(stream_of(seen, i));
-  const auto responses = schedulability::fifo_responses(streams, timing.rates);
+  const auto responses = timing.wire.urgent_first
+                             ? schedulability::responses(streams, {.rates = timing.wire.rates})
+                             : schedulability::fifo_responses(streams, timing.wire.rates);
   std::vector<WireBound> bounds;
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const WireResponse& measured = timing.responses[indices[k]];
@@ -79,13 +87,13 @@ std::vector<WireBound> wire_bounds(const Observations& seen) {
                       .count = measured.count,
                       .longest_ns = measured.max_ns,
                       .frame_ns = responses[k].transmission_ns,
-                      .bound_ns = responses[k].response_ns});
+                      .bound_ns = from_queued(streams[k], responses[k])});
   }
   return bounds;
 }
 
 std::string no_bounds(const Observations& seen) {
-  if (seen.timing.rates.nominal == 0) return "the time of a frame on this bus is not known";
+  if (seen.timing.wire.rates.nominal == 0) return "the time of a frame on this bus is not known";
   if (seen.bus.errors.frames > 0) return fmt::format("{} errors on the bus", seen.bus.errors.frames);
   if (seen.bus.downs > 0) return "the interface was down";
   if (!seen.transmit_stamps_echoed) return "the bus does not echo the bench's own frames";

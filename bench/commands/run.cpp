@@ -88,13 +88,14 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
   return std::pair(std::string(*node), bus);
 }
 
-// The bit rates of a bus: those of its name, or of its controller.
-wire::BitRates bit_rates_of(const std::string& bus) {
+// What the name of a bus says of it, or its controller.
+checks::WireFacts facts_of(const std::string& bus) {
   if (const auto settings = wire_settings(bus); settings && settings->rates.nominal > 0)
-    return settings->rates;
+    return {.rates = settings->rates, .urgent_first = settings->order == QueueOrder::priority};
   const auto interface = doctor::find_interface(bus);
   if (!interface || !interface->controller) return {};
-  return {.nominal = interface->controller->nominal.bitrate, .data = interface->controller->data.bitrate};
+  return {.rates = {.nominal = interface->controller->nominal.bitrate,
+                    .data = interface->controller->data.bitrate}};
 }
 
 run::Options options_of(const Arguments& arguments, BusFormat format) {
@@ -106,7 +107,7 @@ run::Options options_of(const Arguments& arguments, BusFormat format) {
   if (options.bus == private_bus || options.bus.starts_with("local:?"))
     options.bus.insert(private_bus.size(), external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
-  if (arguments.bus_of.empty()) options.bit_rates = bit_rates_of(options.bus);
+  if (arguments.bus_of.empty()) options.wire = facts_of(options.bus);
   options.clock = run::clock_of(options.bus, arguments.lockstep);
   if (!arguments.log.empty()) options.log_path = arguments.log;
   options.realtime = arguments.realtime.request();

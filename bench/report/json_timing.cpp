@@ -53,7 +53,7 @@ Json split_of(const checks::TimingRecord& timing) {
 }
 
 Json wire_of(const checks::Observations& seen) {
-  Json json{{"bitrate_bitps", seen.timing.rates.nominal},
+  Json json{{"bitrate_bitps", seen.timing.wire.rates.nominal},
             {"no_bounds", checks::no_bounds(seen)},
             {"messages", Json::array()}};
   for (const checks::WireBound& bound : checks::wire_bounds(seen)) {
@@ -92,7 +92,7 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& 
     lateness["not_echoed"] = transmit.handed_over.count() - transmit.echoed.count();
   }
   if (timing.split.stimuli > 0) page["split"] = split_of(timing);
-  if (timing.rates.nominal > 0) page["wire"] = wire_of(run.seen);
+  if (timing.wire.rates.nominal > 0) page["wire"] = wire_of(run.seen);
   page["bench_lateness_s"] = object(timing.lateness);
   page["bench_lateness_s"]["line"] = object(timing.lateness_line);
 }

@@ -12,7 +12,7 @@ std::optional<double> mean_s(std::int64_t sum_ns, std::uint64_t count) {
 
 std::vector<SplitPart> parts(const checks::TimingRecord& timing) {
   const checks::LatencySplit& split = timing.split;
-  const bool wire_known = timing.rates.nominal > 0;
+  const bool wire_known = timing.wire.rates.nominal > 0;
   const auto on_wire = [&](std::int64_t sum_ns, std::uint64_t count) {
     return wire_known ? mean_s(sum_ns, count) : std::nullopt;
   };

@@ -143,7 +143,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   // A container of CAN FD is none of the frames that the observers see.
   Monitor monitor(checks::timed_windows(scenario.checks),
-                  options.format == BusFormat::classic ? options.bit_rates : wire::BitRates{});
+                  options.format == BusFormat::classic ? options.wire : checks::WireFacts{});
   link.attach(monitor);
   LoadMeter meter(options.format);
   link.attach(meter);
@@ -174,7 +174,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   checks::Observations seen = monitor.finish();
   // What the host did has no part in the times of a simulated wire.
   if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
-  seen.bit_rates = options.bit_rates;
+  seen.bit_rates = options.wire.rates;
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
   seen.bus.late_in_queue = link.late_in_queue();

@@ -46,7 +46,7 @@ void add(checks::WireResponse& response, std::int64_t ns) {
 }  // namespace
 
 std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
-  const wire::BitRates& rates = record_.rates;
+  const wire::BitRates& rates = record_.wire.rates;
   return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
 }
 

@@ -19,7 +19,7 @@ constexpr std::int64_t frame_ns = 135'000;  // of 8 bytes, at 1 Mbit/s
 class OnTheWire : public testing::Test {
  protected:
   OnTheWire() {
-    seen_.timing.rates = {.nominal = 1'000'000};
+    seen_.timing.wire.rates = {.nominal = 1'000'000};
     seen_.transmit_stamps_echoed = true;
     seen_.last_ns = 1'000'000'000;
     for (std::int64_t t_us = 10'000; t_us <= 1'000'000; t_us += 10'000) {
@@ -55,6 +55,13 @@ TEST_F(OnTheWire, TheBoundIsOfTheMessagesThatWereSeen) {
   EXPECT_EQ(bound_of("AlignAttitude"), 6 * frame_ns);
 }
 
+TEST_F(OnTheWire, TheBoundIsThatOfTheOrderInWhichNodesSend) {
+  heartbeats(4);
+  seen_.timing.wire.urgent_first = true;  // of the heartbeats one may be on the wire, none stands in front
+  EXPECT_EQ(bound_of("SlaveImuStatus"), 2 * frame_ns);
+  EXPECT_EQ(bound_of("AlignAttitude"), 3 * frame_ns);
+}
+
 TEST_F(OnTheWire, ACheckHoldsEveryMessageAgainstItsBound) {
   EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::pass);
   EXPECT_EQ(judge(scenario::WireResponse{}, seen_).measured,
@@ -73,10 +80,10 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   seen_.transmit_stamps_echoed = false;
   EXPECT_THAT(judged().measured, HasSubstr("does not echo"));
   seen_.transmit_stamps_echoed = true;
-  seen_.timing.rates.nominal = 10'000;  // 13.5 ms a frame: overloaded
+  seen_.timing.wire.rates.nominal = 10'000;  // 13.5 ms a frame: overloaded
   EXPECT_EQ(judged().outcome, Outcome::not_measured);
   EXPECT_THAT(judged().measured, HasSubstr("has no bound"));
-  seen_.timing.rates.nominal = 0;
+  seen_.timing.wire.rates.nominal = 0;
   EXPECT_EQ(judged().outcome, Outcome::not_measured);
   EXPECT_TRUE(wire_bounds(seen_).empty());
 }

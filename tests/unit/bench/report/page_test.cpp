@@ -81,7 +81,7 @@ run::Run run_on_a_wire() {
   run.seen.transmit_stamps_echoed = true;
   run.seen.last_ns = 2'000'000'000;
   checks::TimingRecord& timing = run.seen.timing;
-  timing.rates = run.seen.bit_rates;
+  timing.wire.rates = run.seen.bit_rates;
   timing.split = {.stimuli = 100,
                   .echoed = 100,
                   .to_echo_ns = 30'000'000,
@@ -121,7 +121,7 @@ TEST(Page, TheLatencyIsSplitAndThePartsAddUp) {
 
 TEST(Page, WhatIsNotKnownOfTheSplitIsNotAZero) {
   run::Run run = run_on_a_wire();
-  run.seen.timing.rates = {};
+  run.seen.timing.wire.rates = {};
   run.seen.timing.split.told = 0;
   const auto parts = document(scenario_of(), run).at("split").at("parts_s");
   EXPECT_TRUE(parts.at("reply_wire").is_null());
