@@ -12,13 +12,15 @@
 namespace canhil::run {
 namespace {
 
+using Flown = Run;  // a test has a Run() of its own
+
 scenario::Scenario scenario_of(const std::string& name) {
   auto read = scenario::read_file(fmt::format("{}/bench/scenarios/{}.toml", SOURCE_DIR, name), contract());
   EXPECT_TRUE(read) << read.error().message;
   return *read;
 }
 
-Run fly(const scenario::Scenario& scenario, const std::string& bus, BusFormat format = BusFormat::classic) {
+Flown fly(const scenario::Scenario& scenario, const std::string& bus, BusFormat format = BusFormat::classic) {
   static const std::atomic<bool> never = false;
   Options options;
   options.bus = bus;
@@ -29,25 +31,30 @@ Run fly(const scenario::Scenario& scenario, const std::string& bus, BusFormat fo
   EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
   return std::move(*flown);
 }
-Run quick(const std::string& bus) { return fly(scenario_of("transfer_alignment_quick"), bus); }
+Flown quick(const std::string& bus) { return fly(scenario_of("transfer_alignment_quick"), bus); }
 
-const checks::CheckResult* find_check(const Run& run, std::string_view kind) {
+const checks::CheckResult* find_check(const Flown& run, std::string_view kind) {
   const auto found = std::ranges::find(run.verdict.checks, kind, &checks::CheckResult::kind);
   return found == run.verdict.checks.end() ? nullptr : &*found;
 }
 
-std::vector<std::int64_t> stamps(const Run& run) {
-  std::vector<std::int64_t> t_ns;
-  for (const auto& arrivals : run.seen.arrivals) {
-    for (const checks::Arrival& arrival : arrivals) t_ns.push_back(arrival.t_ns);
-  }
-  for (const auto& [group, stimuli] : run.seen.stimuli) {
-    for (const checks::Stimulus& stimulus : stimuli) t_ns.push_back(stimulus.t_ns);
+/// What the stamps of a run add up to, message by message.
+std::vector<std::int64_t> stamps(const Flown& run) {
+  std::vector<std::int64_t> t_ns{run.seen.first_ns, run.seen.last_ns};
+  for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
+    const checks::AnswerTiming& answers = run.seen.timing.answers[i];
+    t_ns.push_back(answers.last_ns.value_or(-1));
+    for (const checks::Histogram* h :
+         {&answers.latency, &answers.jitter, &run.seen.timing.transmit[i].echoed}) {
+      t_ns.insert(t_ns.end(), {h->min_ns(), h->max_ns()});
+      for (const auto& bucket : h->buckets())
+        t_ns.insert(t_ns.end(), {bucket.from_us, static_cast<std::int64_t>(bucket.count)});
+    }
   }
   return t_ns;
 }
 
-void expect_same_estimates(const Run& a, const Run& b) {
+void expect_same_estimates(const Flown& a, const Flown& b) {
   ASSERT_EQ(a.seen.navigation.size(), b.seen.navigation.size());
   ASSERT_GT(a.seen.navigation.size(), 200U);
   for (std::size_t i = 0; i < a.seen.navigation.size(); ++i) {
@@ -72,7 +79,7 @@ TEST(InProcessWire, WhichBusHasWhichClock) {
 }
 
 TEST(InProcessWire, TimingIsJudgedAndTheSameEachTime) {
-  const Run run = quick(std::string(at_500k));
+  const Flown run = quick(std::string(at_500k));
   EXPECT_EQ(run.verdict.outcome, checks::Outcome::pass) << run.verdict.reason;
   ASSERT_NE(find_check(run, "latency"), nullptr);
   EXPECT_EQ(find_check(run, "latency")->outcome, checks::Outcome::pass);
@@ -109,7 +116,7 @@ TEST(InProcessWire, NoFrameTakesLongerThanItsBound) {
 
   scenario::Scenario all = scenario_of("all_four");
   all.duration_us = 4'000'000;
-  const Run run = fly(all, "in-process?bitrate=500000&queue=priority");
+  const Flown run = fly(all, "in-process?bitrate=500000&queue=priority");
   std::size_t judged = 0;
   double nearest = 0;
   for (std::size_t s = 0; s < streams->size(); ++s) {
@@ -132,10 +139,10 @@ TEST(InProcessWire, NoFrameTakesLongerThanItsBound) {
 }
 
 TEST(InProcessWire, CarriesTheContractOfCanFd) {
-  const Run run = fly(scenario_of("transfer_alignment_quick"),
-                      "in-process?bitrate=500000&data-bitrate=2000000", BusFormat::fd);
+  const Flown run = fly(scenario_of("transfer_alignment_quick"),
+                        "in-process?bitrate=500000&data-bitrate=2000000", BusFormat::fd);
   EXPECT_EQ(run.verdict.outcome, checks::Outcome::pass) << run.verdict.reason;
-  const Run classic = quick(std::string(at_500k));
+  const Flown classic = quick(std::string(at_500k));
   expect_same_estimates(run, classic);
   const std::size_t index = message_index<messages::AlignUpdate>();
   EXPECT_LT(run.seen.timing.answers[index].latency.max_ns(),
@@ -144,7 +151,7 @@ TEST(InProcessWire, CarriesTheContractOfCanFd) {
 
 TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {
   const std::string disturbed = std::string(at_500k) + "&bit-error-rate=1e-4&seed=";
-  const Run clean = quick(std::string(at_500k)), run = quick(disturbed + "1");
+  const Flown clean = quick(std::string(at_500k)), run = quick(disturbed + "1");
   EXPECT_GT(run.seen.bus.errors.bus_error, 10U);
   EXPECT_EQ(run.seen.bus.errors.bus_off, 0U);
   EXPECT_EQ(run.seen.target_frames_lost, 0U);
@@ -163,7 +170,7 @@ TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {
 TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   scenario::Scenario scenario = scenario_of("transfer_alignment_quick");
   const std::string noisy = std::string(at_500k) + "&bit-error-rate=2e-3";
-  const Run run = fly(scenario, noisy);
+  const Flown run = fly(scenario, noisy);
   const checks::BusRecord& bus = run.seen.bus;
   EXPECT_GT(bus.errors.bus_off, 0U);
   EXPECT_EQ(bus.errors.bus_off, bus.errors.restarted);
@@ -178,10 +185,10 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   scenario::BusErrorLimits limits;
   limits.bus_off_at_most = 100;
   limits.passive_at_most = static_cast<std::int64_t>(bus.errors.passive) - 1;
-  scenario.checks = {{.rule = limits}};
+  scenario.checks = {{.name = "bus", .requirement = "", .rule = limits}};
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::fail);
   limits.passive_at_most = static_cast<std::int64_t>(bus.errors.passive);
-  scenario.checks = {{.rule = limits}};
+  scenario.checks = {{.name = "bus", .requirement = "", .rule = limits}};
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::pass);
 }
 
@@ -196,6 +203,25 @@ TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_NE(run->verdict.outcome, checks::Outcome::pass);
   EXPECT_GT(run->seen.bus.late_in_queue, 0U);
+}
+
+// Every attempt fails at its first bit, at 1 kbit/s: heartbeats that are due while the device is off the bus
+// wait for its return, and are tried then, not when the next one is due.
+TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
+  const WireSettings noisy{.rates = {.nominal = 1'000}, .bit_error_rate = 1};
+  InProcessWire port("noisy", noisy, BusFormat::classic);
+  std::vector<std::int64_t> at_ns;
+  while (port.monotonic_ns() < 5'000'000'000) {
+    if (!wait(port, WaitFor::frame, 5'000'000'000)) break;
+    while (const auto received = port.receive()) {
+      ASSERT_TRUE(received->frame.error);
+      at_ns.push_back(received->t_ns);
+    }
+  }
+  ASSERT_GT(at_ns.size(), 64U);
+  // From the flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of the next
+  // try.
+  EXPECT_EQ(at_ns[32] - at_ns[31], (12 + 11 + 128 * 11 + 1) * 1'000'000);
 }
 
 TEST(InProcessWire, TimePassesOnlyWhileSomebodyWaits) {
