@@ -112,7 +112,7 @@ Result<void> enter(const Request& request) {
 }
 
 // Locking takes private pages as if it wrote to them.
-void own_memory_again() { ::mlockall(MCL_CURRENT | MCL_FUTURE); }
+bool own_memory_again() { return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0; }
 
 std::vector<int> cpus() {
   cpu_set_t set;

@@ -29,8 +29,8 @@ struct Request {
 Result<void> enter(const Request& request);
 
 /// Makes the memory of a process that has entered present again: after a fork() each page of it would cost a
-/// fault when it is first written to.
-void own_memory_again();
+/// fault when it is first written to. False: the memory may not be locked.
+bool own_memory_again();
 
 /// The CPUs that this process may run on.
 std::vector<int> cpus();

@@ -208,12 +208,15 @@ std::string_view message_of(std::uint32_t id) {
   return std::ranges::find(messages::all_messages, id, &MessageInfo::id)->name;
 }
 
+bool by_an_estimator(std::uint32_t id) {
+  return !std::ranges::find(messages::all_messages, id, &MessageInfo::id)->answers.empty();
+}
+
 void print(const Estimator& estimator, TimesByAnswer& device, TimesByAnswer& bare) {
   constexpr std::size_t enough = 100;
   for (auto& [id, own] : device) {
     Times& echo = bare[id];
-    if (own.ns.size() < enough || echo.ns.size() < enough || id == messages::TargetHeartbeat::info.id)
-      continue;
+    if (own.ns.size() < enough || echo.ns.size() < enough || !by_an_estimator(id)) continue;
     std::ranges::sort(own.ns);
     std::ranges::sort(echo.ns);
     fmt::print("{:<22} {:<15}{:>7}", estimator.name, message_of(id), own.ns.size());
