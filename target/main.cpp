@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
       ->excludes(replay_option);
   canhil::realtime::Options realtime;
   canhil::realtime::add_options(app, realtime)->excludes(replay_option);
+  canhil::realtime::refuse_empty(app);
   try {
     app.parse(argc, argv);
     if (buses.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");

@@ -17,6 +17,7 @@ struct BusIncident {
 };
 
 struct BusRecord {
+  bool reports_errors = false;  ///< of itself: where none was seen there was none
   /// A bus that goes from one state to the other all the time fills no memory.
   static constexpr std::size_t max_incidents = 1000;
 

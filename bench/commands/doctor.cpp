@@ -1,6 +1,7 @@
 #include "bench/commands/doctor.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <iterator>
@@ -18,6 +19,7 @@
 #include "bench/doctor/machine_lines.hpp"
 #include "bench/report/file.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/wire_settings.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "dbc/realtime/host.hpp"
 
@@ -80,9 +82,14 @@ std::optional<doctor::Interface> interface_of(const std::string& bus) {
 }
 
 std::vector<Line> bus_lines(const std::string& bus) {
-  if (is_local(bus))
+  if (is_local(bus)) {
+    const auto wire = wire_settings(bus);
+    const bool timed = wire && wire->rates.nominal > 0;
     return {{Grade::good, "interface",
-             bus + ": embedded bus of this machine; no controller, no wire, no bit rate"}};
+             fmt::format("{}: embedded bus of this machine; no controller, {}", bus,
+                         timed ? fmt::format("a simulated wire of {} bit/s", wire->rates.nominal)
+                               : "no wire, no bit rate")}};
+  }
   const auto interface = interface_of(bus);
   return interface ? doctor::interface_lines(*interface) : std::vector{doctor::no_interface(bus)};
 }
@@ -179,7 +186,14 @@ std::string json(const Arguments& arguments, const Examination& found) {
   return page.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-ExitCode execute(const Arguments& arguments) {
+// local: and local:?bitrate=500000 stand for a bus of this process alone, as with hil-bench run.
+std::string named(const std::string& bus) {
+  const bool is_private = bus == local_prefix || bus.starts_with("local:?");
+  return is_private ? fmt::format("local:canhil-{}{}", getpid(), bus.substr(local_prefix.size())) : bus;
+}
+
+ExitCode execute(Arguments arguments) {
+  for (std::string* bus : {&arguments.bus, &arguments.loop}) *bus = named(*bus);
   if (auto fine = check_name("--bus", arguments.bus); !fine) return complain(fine.error());
   if (!arguments.loop.empty()) {
     if (auto fine = check_name("--loop", arguments.loop); !fine) return complain(fine.error());

@@ -189,6 +189,12 @@ Result<void> check_bus(const Arguments& arguments) {
   // Two wires deliver in an order of their own: the answer to a step could miss what the other brings.
   if (!arguments.bus_of.empty() && (arguments.lockstep || here))
     return failure("--bus-of: one step over two buses has no order, expected real time");
+  const auto wire = wire_settings(arguments.bus);
+  if (arguments.lockstep && wire && wire->order == QueueOrder::priority)
+    return failure(
+        fmt::format("--lockstep: with the queues of --bus '{}' Sync overtakes the samples of its step, "
+                    "expected queue=fifo",
+                    arguments.bus));
   if (arguments.target_cpu && (arguments.target == "none" || here))
     return failure("--target-cpu: no target is started here, expected one with --target and a bus");
   if (arguments.target_cpu) {
@@ -264,6 +270,11 @@ ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_format(*format); !fine) return complain(fine.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
+  // Should this run come to nothing, nothing is left that could be taken for its report.
+  for (const std::string& path : {arguments.json, arguments.junit, arguments.html, arguments.log}) {
+    std::error_code ignored;
+    if (path != report::to_stdout) std::filesystem::remove(path, ignored);
+  }
   catch_interrupts();
   Result<run::Run> finished = [&] {
     const ProgressLine line;

@@ -74,6 +74,7 @@ class Comparer {
       result_.text = "not comparable: " + *why + "\n";
       return result_;
     }
+    differences();
     checks();
     const bool measured = latencies();
     const bool worse = result_.outcome == Comparison::worse;
@@ -97,6 +98,22 @@ class Comparer {
       if (of_a != of_b) return fmt::format("the {} differs: {} and {}", what, of_a.dump(), of_b.dump());
     }
     return std::nullopt;
+  }
+
+  // What may be why, and does not keep two runs from being compared.
+  void differences() {
+    std::string text;
+    for (const auto& [key, what] :
+         {std::pair("seed", "seed"), std::pair("run", "run"), std::pair("dbc_hash", "DBC"),
+          std::pair("revision", "revision"), std::pair("cpu_model", "CPU"), std::pair("kernel", "kernel")}) {
+      const Json of_a = a_.at("provenance").value(key, Json()), of_b = b_.at("provenance").value(key, Json());
+      if (of_a == of_b) continue;
+      const auto plain = [](const Json& value) {
+        return value.is_string() ? value.get<std::string>() : value.dump();
+      };
+      text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", what, plain(of_a), plain(of_b));
+    }
+    if (!text.empty()) say("differs  {}", text);
   }
 
   void checks() {

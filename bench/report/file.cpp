@@ -25,7 +25,8 @@ Result<void> write_stdout(std::string_view content) {
 }
 
 Result<void> write_file(const std::string& path, std::string_view content) {
-  const std::string unfinished = path + ".part";
+  // A name of its own: two runs that are told the same path must not write into one file.
+  const std::string unfinished = fmt::format("{}.{}.part", path, getpid());
   std::FILE* file = std::fopen(unfinished.c_str(), "wb");
   if (file == nullptr) return complaint(path, errno);
   const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();

@@ -224,10 +224,19 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
 
   page += '\n';
-  if (summary.engagement) page += words(*summary.engagement);
-  if (summary.wind) page += words(*summary.wind);
+  const auto head = [&](std::string_view estimator) {
+    if (scenario.targets.size() > 1) fmt::format_to(out, "  {}\n", estimator);
+  };
+  if (summary.engagement) {
+    head("los_rate");
+    page += words(*summary.engagement);
+  }
+  if (summary.wind) {
+    head("wind");
+    page += words(*summary.wind);
+  }
   for (const AlignmentSummary& alignment : summary.alignments) {
-    if (summary.alignments.size() > 1) fmt::format_to(out, "  {}\n", name(alignment.estimator));
+    head(name(alignment.estimator));
     page += words(alignment);
   }
   if (run.options.clock != run::ClockKind::lockstep) {

@@ -1,12 +1,14 @@
 #include "bench/run/handshake.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
+#include "target/device/adapters.hpp"
 #include "target/device/device.hpp"
 
 namespace canhil::run {
@@ -136,6 +138,17 @@ std::string range_of(Estimator estimator, Parameter parameter) {
                      range->maximum);
 }
 
+// What hil-target offers; another target may offer something else.
+std::string algorithms_of(Estimator estimator) {
+  std::vector<std::string_view> names;
+  for (const auto& adapter : target::make_adapters()) {
+    for (const Algorithm algorithm : enumerators<Algorithm>) {
+      if (adapter->estimator() == estimator && adapter->reset(algorithm)) names.push_back(name_of(algorithm));
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 // Why, what was expected, and what becomes of the old value.
 std::string refusal(const ParamAck& ack, Estimator estimator) {
   const auto in_force = static_cast<double>(ack.value);
@@ -226,10 +239,10 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
   if (!selected) return selected;
   if (dialogue.mailbox().heartbeat->error_command != 0) {
     return failure(fmt::format(
-        "{}: the target on '{}' does not offer '{}' for '{}'{}, expected an algorithm of that "
-        "estimator (docs/scenarios.md); its errors: {}",
+        "{}: the target on '{}' does not offer '{}' for '{}'{}, expected one of: {}; its errors: {}",
         setup.algorithm_where, bus, setup.algorithm, setup.estimator,
-        selection == Command::add ? " beside others" : "", errors_of(*dialogue.mailbox().heartbeat)));
+        selection == Command::add ? " beside others" : "", algorithms_of(*estimator),
+        errors_of(*dialogue.mailbox().heartbeat)));
   }
   for (const scenario::Parameter& parameter : setup.parameters) {
     if (auto set = set_parameter(dialogue, *estimator, parameter); !set) return set;

@@ -1,6 +1,7 @@
 #include "bench/run/recorder.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstring>
@@ -8,7 +9,8 @@
 namespace canhil::run {
 namespace {
 
-std::string unfinished(const std::string& path) { return path + ".part"; }
+// A name of its own: two runs that are told the same path must not write into one file.
+std::string unfinished(const std::string& path) { return fmt::format("{}.{}.part", path, getpid()); }
 
 }  // namespace
 

@@ -56,6 +56,13 @@ Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
   return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
 }
 
+// Whether a bus tells of what goes wrong on it: one with a controller, or a simulated wire.
+bool reports_errors(const std::string& bus) {
+  const bool embedded = is_in_process(bus) || bus.starts_with("local:");
+  const auto wire = wire_settings(bus);
+  return !embedded || (wire && wire->rates.nominal > 0);
+}
+
 // The bus of each node that has one of its own, each once, after the first.
 std::vector<std::string> buses_of(const Options& options) {
   std::vector<std::string> buses{options.bus};
@@ -177,6 +184,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.bit_rates = options.wire.rates;
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
+  seen.bus.reports_errors = std::ranges::all_of(buses_of(options), reports_errors);
   seen.bus.late_in_queue = link.late_in_queue();
   seen.bus.foreign = (*port)->counters().foreign;
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);

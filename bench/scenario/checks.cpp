@@ -104,8 +104,21 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
   return rule;
 }
 
+/// Nothing is there to be timed where nobody sends it.
+void expect_sent(Section& section, const Context& context, const std::string& message) {
+  const auto sender = context.contract.sent_by.find(message);
+  if (sender == context.contract.sent_by.end()) return;
+  const std::vector<std::string>& running = context.truths.estimators;
+  if (std::ranges::find(running, sender->second) != running.end()) return;
+  section.reject(
+      "message",
+      fmt::format("'{}' is sent by {}, which is not run in this scenario", message, sender->second),
+      fmt::format("a message of {}", fmt::join(running, ", ")));
+}
+
 OutputPeriod read(Section& section, const Context& context, OutputPeriod rule) {
   rule.message = section.one_of("message", context.contract.messages);
+  expect_sent(section, context, rule.message);
   rule.window = read_window(section, context.duration_us);
   rule.within = section.number("within_percent", Limits::above(0));
   rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
@@ -119,6 +132,7 @@ Latency read(Section& section, const Context& context, Latency rule) {
     section.reject("message", fmt::format("'{}' answers nothing", rule.message),
                    fmt::format("one of: {}", fmt::join(answers, ", ")));
   }
+  expect_sent(section, context, rule.message);
   rule.window = read_window(section, context.duration_us);
   rule.below_us = section.time_us("below_ms", Limits::above(0));
   rule.quantile = section.number("quantile", Limits::above(0, 1), 1);

@@ -241,6 +241,7 @@ struct Truths {
   bool engagement = false;
   bool glide = false;
   std::vector<Aligner> aligners{};
+  std::vector<std::string> estimators{};  ///< that run
 };
 
 Check read_check(Section& section, std::int64_t duration_us, const Contract& contract, const Truths& truths);

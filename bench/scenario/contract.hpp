@@ -17,6 +17,8 @@ struct Contract {
   std::vector<std::string> fix_outcomes;     ///< value table FixOutcome
   std::vector<std::string> answers;          ///< of those that answer a sample group
   std::vector<std::string> wind_outcomes{};  ///< value table WindOutcome
+  /// By message, the estimator that sends it. Not there: sent whoever runs, or not by the target.
+  std::map<std::string, std::string, std::less<>> sent_by{};
   /// By estimator, those of `parameters` that it has: what a misspelt one may mean. Not there: any.
   std::map<std::string, std::vector<std::string>, std::less<>> parameters_of{};
 };

@@ -73,13 +73,20 @@ std::vector<Aligner> aligners_of(const Scenario& scenario) {
   return aligners;
 }
 
+std::vector<std::string> estimators_of(const Scenario& scenario) {
+  std::vector<std::string> estimators;
+  for (const TargetSetup& target : scenario.targets) estimators.push_back(target.estimator);
+  return estimators;
+}
+
 /// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
 /// may be.
 Truths read_navigation(Section& root, Scenario& scenario) {
   const Truths truths{.navigation = root.has("truth") || !(scenario.engagement || scenario.glide),
                       .engagement = scenario.engagement.has_value(),
                       .glide = scenario.glide.has_value(),
-                      .aligners = aligners_of(scenario)};
+                      .aligners = aligners_of(scenario),
+                      .estimators = estimators_of(scenario)};
   if (truths.navigation) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth);

@@ -60,6 +60,11 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract, target.estimator);
   }
+  // One is let go with the errors of its glide, the other is told of no state that it makes anything of.
+  if (target.estimator == "wind")
+    section.refuse("initial_error", "has no effect on 'wind'", "[glide.initial_error]");
+  if (!navigates)
+    section.refuse("initial_error", fmt::format("has no effect on '{}'", target.estimator), "no such table");
   if (auto initial_error = section.optional_table("initial_error"))
     target.initial_error = read_initial_error(*initial_error);
   section.finish();

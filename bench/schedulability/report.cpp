@@ -81,7 +81,11 @@ std::string missed(const Analysis& analysis) {
     if (!meets_deadline(analysis.streams[i], analysis.responses[i]))
       names.push_back(analysis.streams[i].name);
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  constexpr std::size_t shown = 5;
+  const std::size_t more = names.size() - std::min(names.size(), shown);
+  names.resize(names.size() - more);
+  return fmt::format("{} of {} messages: {}{}", names.size() + more, analysis.streams.size(),
+                     fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 Json message(const Stream& stream, const Response& response) {

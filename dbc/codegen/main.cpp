@@ -80,7 +80,13 @@ int run(int argc, char** argv) {
   app.add_flag("--fd", options.fd,
                "write the same contract for CAN FD, one frame a sample group, as a DBC file");
   app.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain(fmt::format("dbcgen: {}; see dbcgen --help", error.what()));
+  }
 
   auto database = canhil::dbc::read_file(options.dbc);
   if (database && options.exact) database = canhil::dbc::exact(*database, options.dbc);

@@ -25,6 +25,15 @@ inline CLI::Option* add_number(CLI::App& app, const std::string& name, std::opti
   return app.add_option_function<std::string>(name, read, description)->type_name("UINT");
 }
 
+/// Refuses '' as the value of any option or argument, also of subcommands. To be called when all are there.
+inline void refuse_empty(CLI::App& app) {
+  const auto not_empty = [](const std::string& text) {
+    return text.empty() ? std::string("is empty, expected a value") : std::string();
+  };
+  for (CLI::Option* option : app.get_options()) option->check(not_empty);
+  for (CLI::App* command : app.get_subcommands(nullptr)) refuse_empty(*command);
+}
+
 /// As typed.
 struct Options {
   bool wanted = false;

@@ -52,6 +52,12 @@ TEST(Doctor, ExaminesABusAndItsMachine) {
   EXPECT_TRUE(ended.out.ends_with(fmt::format("\n{}\n", page["verdict"].get<std::string>()))) << ended.out;
 }
 
+TEST(Doctor, TellsTheRateOfASimulatedWire) {
+  const Ended ended = hil_bench("doctor --bus 'local:?bitrate=250000' --seconds 1");
+  EXPECT_THAT(ended.out, HasSubstr("no controller, a simulated wire of 250000 bit/s\n")) << ended.err;
+  EXPECT_THAT(hil_bench("doctor --bus local: --seconds 1").out, HasSubstr("no wire, no bit rate\n"));
+}
+
 TEST(Doctor, FindsATargetOnTheBus) {
   const std::string host =
       bus() == "local:" ? fmt::format("{} bus {} >{} & hub=$!;", HIL_BENCH, some_bus(), scratch("bus.out"))

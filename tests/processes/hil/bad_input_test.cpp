@@ -111,9 +111,58 @@ TEST(BadInput, AnEngagementThatCannotBeFlown) {
 }
 
 TEST(BadInput, UnknownOption) {
-  expect_one_line(hil_bench("run --colour x.toml"), "--colour");
+  expect_one_line(hil_bench("run --colour x.toml"),
+                  "option '--colour' is unknown; see hil-bench run --help\n");
+  expect_one_line(hil_bench("run x.toml --jsn=y"),
+                  "option '--jsn' is unknown, expected '--json'; see hil-bench run");
+  expect_one_line(hil_bench("campaign x.toml --ouy y"),
+                  "option '--ouy' is unknown, expected '--out'; see hil-bench "
+                  "campaign --help\n");
+  expect_one_line(hil_bench("run x.toml y.toml"), "y.toml; see hil-bench run --help\n");
   expect_one_line(hil_target("--bus x --speed 3"), "--speed");
   expect_one_line(hil_target(""), "--bus");
+}
+
+TEST(BadInput, AValueThatIsEmpty) {
+  for (const char* option : {"--dbc", "--json", "--target", "--bus", "--html"})
+    expect_one_line(hil_bench(fmt::format("run {} {} ''", scenario("transfer_alignment_quick"), option)),
+                    fmt::format("{}: is empty, expected a value; see hil-bench run --help\n", option));
+  expect_one_line(hil_bench("run ''"), "SCENARIO: is empty");
+  expect_one_line(hil_bench("campaign merge ''"), "is empty");
+  expect_one_line(hil_target("--bus local:x --dbc ''"), "--dbc: is empty");
+}
+
+TEST(BadInput, DbcgenWithoutAFile) {
+  expect_one_line(shell(DBCGEN), "dbcgen: dbc is required; see dbcgen --help\n");
+  expect_one_line(shell(DBCGEN " --colour"), "dbcgen: ");
+  EXPECT_EQ(shell(DBCGEN " --help").code, 0);
+}
+
+TEST(BadInput, QueuesOfPriorityInLockstep) {
+  const std::string run =
+      fmt::format("run {} --bus 'local:?bitrate=1000000", scenario("transfer_alignment_quick"));
+  expect_one_line(hil_bench(run + "&queue=priority' --lockstep"),
+                  "--lockstep: with the queues of --bus 'local:?");
+}
+
+TEST(BadInput, LatencyOfAMessageThatNobodySends) {
+  const std::string file = edited("nobody.toml", "kind = \"latency\"\nmessage = \"AlignAttitude\"",
+                                  "kind = \"latency\"\nmessage = \"WindUpdate\"");
+  expect_one_line(hil_bench("run " + file),
+                  "'WindUpdate' is sent by wind, which is not run in this scenario, "
+                  "expected a message of transfer_alignment");
+}
+
+TEST(Run, BusErrorsAreJudgedWhereTheBusReportsThem) {
+  const std::string file =
+      edited("bus_errors.toml", "[[check]]", "[[check]]\nkind = \"bus_errors\"\n\n[[check]]");
+  const auto outcome = [&](const std::string& bus) {
+    const std::string report = scratch("bus_errors.json");
+    hil_bench(fmt::format("run {} --bus '{}' --json {}", file, bus, report));
+    return read_json(report)["checks"][0]["outcome"].get<std::string>();
+  };
+  EXPECT_EQ(outcome("in-process"), "not measured");
+  EXPECT_EQ(outcome("in-process?bitrate=500000"), "pass");
 }
 
 TEST(BadInput, UnknownSubcommand) {
@@ -235,7 +284,7 @@ TEST(BadInput, AlgorithmOfAnotherEstimatorIsNamedWithItsPlace) {
   expect_one_line(hil_bench(fmt::format("run {} --bus in-process", file)), file + ":");
   expect_one_line(hil_bench(fmt::format("run {} --bus in-process", file)),
                   "key 'target.algorithm': the target on 'in-process' does not offer 'ukf' for "
-                  "'transfer_alignment'");
+                  "'transfer_alignment', expected one of: kalman, robust_h2; its errors: command");
 }
 
 TEST(BadInput, WholeNumberParameterThatIsNone) {
@@ -267,13 +316,18 @@ TEST(BadInput, SettingsOfAWire) {
                   "--target: with --bus in-process");
 }
 
-TEST(BadInput, AnUnfinishedRunLeavesNoLog) {
-  const std::string log = scratch("unfinished.log");
-  const Ended ended = hil_bench(fmt::format("run {} --bus {} --target /bin/false --log {}",
-                                            scenario("transfer_alignment_quick"), bus(), log));
+// Nor what an earlier one left there: it could be taken for this one's.
+TEST(BadInput, AnUnfinishedRunLeavesNoLogAndNoReport) {
+  const std::filesystem::path folder = scratch("unfinished");
+  std::filesystem::create_directories(folder);
+  for (const char* name : {"a.log", "a.json", "a.xml", "a.html"})
+    std::ofstream(folder / name) << "of an earlier run";
+  const Ended ended = hil_bench(fmt::format(
+      "run {0} --bus {1} --target /bin/false --log {2}/a.log --json {2}/a.json --junit {2}/a.xml --html "
+      "{2}/a.html",
+      scenario("transfer_alignment_quick"), bus(), folder.string()));
   EXPECT_EQ(ended.code, 2);
-  EXPECT_FALSE(std::filesystem::exists(log));
-  EXPECT_FALSE(std::filesystem::exists(log + ".part"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
 // A target of another DBC: the test hosts the bus and beats with another hash.

@@ -251,6 +251,7 @@ TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
 
 TEST_F(Judged, TheBusByEachBar) {
   scenario::BusErrorLimits rule;
+  seen_.bus.reports_errors = true;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   seen_.bus.errors = {.frames = 9, .warning = 9, .passive = 9};
   seen_.bus.late_in_queue = 9;
@@ -273,6 +274,20 @@ TEST_F(Judged, TheBusByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
+TEST_F(Judged, ABusThatReportsNoErrorsProvesNothing) {
+  const scenario::BusErrorLimits rule;
+  EXPECT_EQ(judge(rule).outcome, Outcome::not_measured);
+  EXPECT_THAT(judge(rule).measured, HasSubstr("this bus reports no errors"));
+  EXPECT_EQ(judge(rule).expected, "bus off <= 0, interface down <= 0");
+  EXPECT_EQ(judge(attitude).outcome, Outcome::pass);
+  EXPECT_EQ(verdict_.checks.size(), 1U) << "nor is it held against a run that does not ask";
+  seen_.bus.downs = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "what was seen counts";
+  seen_.bus.downs = 0;
+  seen_.bus.errors.frames = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "it does report them";
+}
+
 TEST_F(Judged, ABusThatFailedFailsARunThatSaysNothingOfIt) {
   judge(attitude);
   EXPECT_EQ(verdict_.checks.size(), 1U);
@@ -282,6 +297,7 @@ TEST_F(Judged, ABusThatFailedFailsARunThatSaysNothingOfIt) {
   EXPECT_EQ(verdict_.checks[1].kind, "bus_errors");
   EXPECT_EQ(verdict_.checks[1].outcome, Outcome::fail);
   EXPECT_EQ(verdict_.outcome, Outcome::fail);
+  seen_.bus.reports_errors = true;
   scenario::BusErrorLimits allowed;
   allowed.bus_off_at_most = 1;
   judge(allowed);

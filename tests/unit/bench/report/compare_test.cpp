@@ -13,6 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
+using testing::Not;
 
 Buckets buckets_of(const std::vector<int>& sample_us) {
   std::map<int, std::uint64_t> counts;
@@ -183,6 +184,18 @@ TEST(Compare, AnotherScenarioOrClockIsNotComparable) {
   other = one;
   other["provenance"]["clock"] = "lockstep";
   EXPECT_EQ(compared(one, other).outcome, Comparison::not_comparable);
+}
+
+TEST(Compare, SaysInWhatElseTheRunsDiffer) {
+  const Json one = report_of(latencies_us(1, 200));
+  EXPECT_THAT(compared(one, one).text, Not(HasSubstr("differs")));
+  Json other = one;
+  other["provenance"].update({{"seed", 8}, {"revision", "b"}, {"cpu_model", "Slow"}, {"dbc_hash", "2"}});
+  Json first = one;
+  first["provenance"].update({{"seed", 7}, {"revision", "a"}, {"cpu_model", "Slow"}, {"dbc_hash", "1"}});
+  const Compared result = compared(first, other);
+  EXPECT_EQ(result.outcome, Comparison::no_worse);
+  EXPECT_THAT(result.text, HasSubstr("differs  seed 7 -> 8, DBC 1 -> 2, revision a -> b\n"));
 }
 
 TEST(Compare, TimingThatWasNotMeasuredIsNeverNoWorse) {

@@ -1,5 +1,6 @@
 // Reports stay well-formed whatever the names in them are, and files are whole or not there.
 #include <gmock/gmock.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <boost/property_tree/ptree.hpp>
@@ -19,6 +20,7 @@ namespace canhil::report {
 namespace {
 
 using checks::Outcome;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -127,6 +129,41 @@ TEST(Reports, TellWhatBecameOfFixes) {
   EXPECT_EQ(page["alignments"][0]["fixes"]["repairs"], 4);
 }
 
+TEST(Reports, TellTheLoadAtTheRateOfTheWire) {
+  run::Run run = run_of();
+  run.options.bus = "local:x";
+  EXPECT_THAT(text(scenario_of(), run), ContainsRegex("bus load at 500 kbit/s .*; at 1000 kbit/s "));
+  run.options.bus = "local:x?bitrate=250000";
+  EXPECT_THAT(text(scenario_of(), run),
+              ContainsRegex("bus load at 250 kbit/s +mean 0.0 %, busiest second 0.0 %\n"));
+  auto report = nlohmann::json::parse(json(scenario_of(), run));
+  ASSERT_THAT(report["bus_load"], testing::SizeIs(1));
+  EXPECT_EQ(report["bus_load"][0]["bitrate_bitps"], 250'000);
+  EXPECT_EQ(report["bus_load_line"]["bitrate_bitps"], 250'000);
+  run.options.bus = "in-process?bitrate=500000&data-bitrate=4000000";
+  run.options.format = BusFormat::fd;
+  EXPECT_THAT(text(scenario_of(), run), HasSubstr("bus load at 500 and 4000 kbit/s"));
+}
+
+TEST(Reports, TellThatTheTargetsOwnAccountEnds) {
+  run::Run run = run_of();
+  run.seen.target_timing_seen = true;
+  run.seen.queue_max_us = 8190;
+  run.seen.compute_max_us = 8191;
+  EXPECT_THAT(text(scenario_of(), run), HasSubstr("queue max 8190 us  compute max 8191 us or more\n"));
+}
+
+TEST(Reports, SayOfSeveralEstimatorsWhoseLinesTheyAre) {
+  scenario::Scenario scenario = scenario_of();
+  for (const char* estimator : {"transfer_alignment", "wind"})
+    scenario.targets.push_back(
+        {.estimator = estimator, .algorithm = "x", .initial_sigma = {}, .parameters = {}});
+  EXPECT_THAT(text(scenario, run_of()), HasSubstr("\n  wind\n  the target gave no wind answers\n"
+                                                  "  transfer_alignment\n  heading error"));
+  scenario.targets.erase(scenario.targets.begin());
+  EXPECT_THAT(text(scenario, run_of()), Not(HasSubstr("\n  wind\n"))) << "there is no other";
+}
+
 TEST(Reports, TellWhatTheBusDid) {
   run::Run run = run_of();
   EXPECT_THAT(text(scenario_of(), run), HasSubstr("0 error frames; interface down 0 times; late in transmit "
@@ -173,6 +210,25 @@ TEST(File, IsWholeOrNotThere) {
   EXPECT_FALSE(check_writable(folder / "no" / "such"));
   EXPECT_TRUE(check_writable(path));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1) << "nothing unfinished stays";
+  std::filesystem::remove_all(folder);
+}
+
+TEST(File, ThatAnotherProcessIsWritingIsLeftAlone) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("canhil-two-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string path = folder / "report.json";
+  const pid_t other = fork();
+  if (other == 0) _exit(write_file(path, std::string(1 << 20, 'b')) ? 0 : 1);
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(write_file(path, std::string(1 << 20, 'a')));
+    std::ifstream file(path);
+    const std::string content{std::istreambuf_iterator<char>(file), {}};
+    ASSERT_EQ(content, std::string(1 << 20, content.at(0))) << "of one of them alone, and whole";
+  }
+  int status = -1;
+  waitpid(other, &status, 0);
+  EXPECT_EQ(status, 0);
   std::filesystem::remove_all(folder);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "bench/run/contract.hpp"
 #include "tests/unit/bench/run/fake_port.hpp"
 
 namespace canhil::run {
@@ -10,6 +11,15 @@ namespace {
 
 using namespace messages;
 using testing::HasSubstr;
+
+TEST(Contract, KnowsWhichEstimatorSendsEachAnswer) {
+  for (const std::string& message : contract().answers)
+    EXPECT_TRUE(contract().sent_by.contains(message)) << message;
+  EXPECT_EQ(contract().sent_by.at("AlignAttitude"), "transfer_alignment");
+  EXPECT_EQ(contract().sent_by.at("FixUpdate"), "inflight_alignment");
+  EXPECT_EQ(contract().sent_by.at("LosRateTarget"), "los_rate");
+  EXPECT_EQ(contract().sent_by.at("WindVector"), "wind");
+}
 
 // A target that does as it is told; a test makes it misbehave.
 class Handshake : public testing::Test {

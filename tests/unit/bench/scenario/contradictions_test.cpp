@@ -66,6 +66,25 @@ TEST(Contradictions, AnAidWhoseFixesNobodyTakes) {
       << "the other may be heard";
 }
 
+TEST(Contradictions, TimingOfWhatNobodySends) {
+  Contract known = contract;
+  known.messages.emplace_back("FixUpdate");
+  known.answers.emplace_back("FixUpdate");
+  known.sent_by = {{"FixUpdate", "inflight_alignment"}, {"AlignUpdate", "transfer_alignment"}};
+  const auto error = [&](const std::string& keys) {
+    const auto result = parse(inside("[[check]]", keys + "\n[[check]]"), "s.toml", known);
+    return result ? "no error" : result.error().message;
+  };
+  const std::string refused =
+      "s.toml:18: key 'check[1].message': 'FixUpdate' is sent by inflight_alignment, which is not run in "
+      "this "
+      "scenario, expected a message of transfer_alignment";
+  EXPECT_EQ(error("message = 'FixUpdate'\nkind = 'latency'\nbelow_ms = 5"), refused);
+  EXPECT_EQ(error("message = 'FixUpdate'\nkind = 'output_period'\nwithin_percent = 5"), refused);
+  EXPECT_EQ(error("message = 'AlignUpdate'\nkind = 'latency'\nbelow_ms = 5"), "no error");
+  EXPECT_EQ(error("message = 'TargetHeartbeat'\nkind = 'output_period'\nwithin_percent = 5"), "no error");
+}
+
 TEST(Contradictions, ALowerLimitAboveTheUpper) {
   const auto check = [](const std::string& keys) {
     return error_of(inside("[[check]]", keys + "\n[[check]]"));

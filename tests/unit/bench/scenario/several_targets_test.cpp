@@ -49,6 +49,14 @@ TEST(SeveralTargets, AnEstimatorIsThereOnce) {
             "expected each estimator once");
 }
 
+TEST(SeveralTargets, OneThatIsToldNoStateHasNoErrorOfIt) {
+  const std::string seeker =
+      "[[target]]\nestimator = 'los_rate'\nalgorithm = 'kalman'\ninitial_error = { attitude_sigma_deg = 1 "
+      "}\n";
+  EXPECT_EQ(refusal(two(second + seeker)),
+            "s.toml:17: key 'target[3].initial_error': has no effect on 'los_rate', expected no such table");
+}
+
 TEST(SeveralTargets, ErrorsNameWhichOne) {
   EXPECT_THAT(refusal(with("heading_deg = 90.0, ", "", two())),
               HasSubstr("key 'target[2].initial_sigma.heading_deg': is missing"));

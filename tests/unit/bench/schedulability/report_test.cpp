@@ -53,8 +53,21 @@ TEST(Table, NamesEveryMessageAndTheVerdict) {
 TEST(Table, NamesWhatMissesItsDeadline) {
   const std::string text = table(two(2 * ms - 1));
   EXPECT_THAT(text, HasSubstr("MISSED\n"));
-  EXPECT_THAT(text, HasSubstr("\nNOT schedulable: Low\n"));
+  EXPECT_THAT(text, HasSubstr("\nNOT schedulable: 1 of 2 messages: Low\n"));
   EXPECT_FALSE(schedulable(two(2 * ms - 1)));
+}
+
+TEST(Table, OfManyThatMissTheirDeadlinesNamesAFew) {
+  Analysis many = two(2 * ms - 1);
+  std::vector<Stream> streams;
+  for (unsigned i = 0; i < 7; ++i) {
+    streams.push_back(many.streams[1]);
+    streams.back().name = "Low" + std::to_string(i);
+    streams.back().id = 100 + i;
+  }
+  many = analyse("x.dbc", streams, many.bus);
+  EXPECT_THAT(table(many), testing::ContainsRegex(
+                               "NOT schedulable: 7 of 7 messages: (Low[0-6], ){4}Low[0-6] and 2 more\n"));
 }
 
 TEST(Table, SaysWhatIsTakenForGrantedOfEventMessages) {
@@ -76,7 +89,7 @@ TEST(Table, SaysWhereThereIsNoBound) {
   overloaded.streams[0].period_ns = 1 * ms;
   overloaded = analyse("x.dbc", overloaded.streams, overloaded.bus);
   EXPECT_THAT(table(overloaded), HasSubstr("none"));
-  EXPECT_THAT(table(overloaded), HasSubstr("NOT schedulable: High, Low\n"));
+  EXPECT_THAT(table(overloaded), HasSubstr("NOT schedulable: 2 of 2 messages: High, Low\n"));
   EXPECT_TRUE(nlohmann::json::parse(json(overloaded))["messages"][1]["response_s"].is_null());
 }
 
