@@ -10,7 +10,6 @@
 #include "bench/checks/los.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
-#include "dbc/ports/wire_settings.hpp"
 
 namespace canhil::report {
 namespace {

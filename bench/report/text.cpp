@@ -129,7 +129,7 @@ std::string told_us(std::uint16_t us) {
 
 std::string rate_words(const wire::BitRates& rates) {
   const std::string data =
-      rates.data > 0 ? fmt::format(" / {:g}", static_cast<double>(rates.data) * 1e-3) : "";
+      rates.data > 0 ? fmt::format(" and {:g}", static_cast<double>(rates.data) * 1e-3) : "";
   return fmt::format("{:g}{} kbit/s", static_cast<double>(rates.nominal) * 1e-3, data);
 }
 
