@@ -8,7 +8,6 @@
 
 #include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
-#include "target/device/adapters.hpp"
 #include "target/device/device.hpp"
 
 namespace canhil::run {
@@ -140,11 +139,14 @@ std::string range_of(Estimator estimator, Parameter parameter) {
 
 // What hil-target offers; another target may offer something else.
 std::string algorithms_of(Estimator estimator) {
+  target::Device device;
+  Outbox<1> out;
   std::vector<std::string_view> names;
-  for (const auto& adapter : target::make_adapters()) {
-    for (const Algorithm algorithm : enumerators<Algorithm>) {
-      if (adapter->estimator() == estimator && adapter->reset(algorithm)) names.push_back(name_of(algorithm));
-    }
+  for (const Algorithm algorithm : enumerators<Algorithm>) {
+    out.clear();
+    out.send(command(Command::reset, estimator, algorithm));
+    const auto answers = device.receive(out.frames().front());
+    if (from_frame<TargetHeartbeat>(answers.front()).error_command == 0) names.push_back(name_of(algorithm));
   }
   return fmt::format("{}", fmt::join(names, ", "));
 }
