@@ -14,6 +14,7 @@
 #include "bench/checks/los.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
+#include "bench/checks/wire_bounds.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -193,6 +194,7 @@ class Judge {
             std::move(finding.expected)};
   }
 
+  Finding operator()(const scenario::WireResponse& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::BusLoad& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::PositionError& rule) const {
     return checks::judge(rule, evidence_.seen, evidence_.truth);
@@ -343,6 +345,18 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
   return scenario::Check{.name = std::string(rule.kind), .requirement = "", .rule = rule};
 }
 
+// The first of the checks with this outcome.
+std::string names(const Verdict& verdict, Outcome outcome) {
+  constexpr int shown = 3;
+  int found = 0;
+  std::string list;
+  for (const CheckResult& check : verdict.checks) {
+    if (check.outcome != outcome || ++found > shown) continue;
+    list += (list.empty() ? "" : ", ") + check.name;
+  }
+  return found > shown ? list + ", ..." : list;
+}
+
 }  // namespace
 
 std::string seconds(const scenario::Window& window) {
@@ -376,11 +390,12 @@ Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
     verdict.reason = evidence.ended_early;
   } else if (count(Outcome::fail) > 0) {
     verdict.outcome = Outcome::fail;
-    verdict.reason = fmt::format("{} of {} checks failed", count(Outcome::fail), verdict.checks.size());
+    verdict.reason = fmt::format("{} of {} checks failed: {}", count(Outcome::fail), verdict.checks.size(),
+                                 names(verdict, Outcome::fail));
   } else if (count(Outcome::not_measured) > 0) {
     verdict.outcome = Outcome::not_measured;
-    verdict.reason = fmt::format("{} of {} checks could not be measured", count(Outcome::not_measured),
-                                 verdict.checks.size());
+    verdict.reason = fmt::format("{} of {} checks could not be measured: {}", count(Outcome::not_measured),
+                                 verdict.checks.size(), names(verdict, Outcome::not_measured));
   } else {
     verdict.outcome = Outcome::pass;
     verdict.reason = fmt::format("{} checks passed", verdict.checks.size());

@@ -142,6 +142,7 @@ struct Observations {
   std::array<std::uint64_t, messages::all_messages.size()> answers{};  ///< by place in all_messages
   std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
   std::int64_t last_ns = 0;             ///< and of its last one
+  wire::BitRates bit_rates{};           ///< of the bus; nominal 0: not known, or it has none
   TimingRecord timing;                  ///< empty where no times are taken
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
 

@@ -9,6 +9,7 @@
 
 #include "bench/checks/histogram.hpp"
 #include "bench/scenario/checks.hpp"
+#include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {
@@ -41,6 +42,7 @@ struct AnswerTiming {
   /// stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
   TimeLine latency_line;       ///< over the time of arrival
+  std::uint64_t count = 0;     ///< arrivals
   std::uint64_t unpaired = 0;  ///< answers to what the bench did not send
   std::int64_t reply_wire_ns =
       0;  ///< over all of `latency`: the frames of the answer up to this one on the wire
@@ -100,7 +102,14 @@ struct SlowestAnswer {
   std::uint16_t compute_max_us = 0;
 };
 
+/// What is known of a bus: how long a frame takes, and which one a node sends first.
+struct WireFacts {
+  wire::BitRates rates{};     ///< nominal 0: not known, or a frame takes no time
+  bool urgent_first = false;  ///< false: the oldest first, as Linux does
+};
+
 struct TimingRecord {
+  WireFacts wire{};
   std::array<AnswerTiming, messages::all_messages.size()> answers;     ///< by place in all_messages
   std::array<TransmitTiming, messages::all_messages.size()> transmit;  ///< by place in all_messages
   std::array<WireResponse, messages::all_messages.size()> responses;   ///< by place in all_messages

@@ -33,29 +33,50 @@ std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   return std::min(cycle_ns, sent_ns);
 }
 
+// How many of a message come together: each estimator of a target has a heartbeat of its own.
+std::int64_t together(const Observations& seen, const AnswerTiming& timing, std::int64_t period_ns) {
+  const std::int64_t run_ns = seen.last_ns - seen.first_ns;
+  if (timing.count == 0 || run_ns <= 0) return 1;
+  const double in_a_period =
+      static_cast<double>(timing.count) * static_cast<double>(period_ns) / static_cast<double>(run_ns);
+  return std::max<std::int64_t>(1, std::llround(in_a_period));
+}
+
 // All that the bench plays goes through one queue.
-Stream stream_of(const Observations& seen, const MessageInfo& info) {
+Stream stream_of(const Observations& seen, std::size_t index) {
+  const MessageInfo& info = messages::all_messages[index];
+  const std::int64_t period = period_ns(seen, info);
+  const std::int64_t burst = info.answers.empty() ? together(seen, seen.timing.answers[index], period) : 1;
   return {.name = std::string(info.name),
           .id = info.id,
           .extended = info.extended,
           .sender = is_targets(info) ? "target" : "bench",
-          .period_ns = period_ns(seen, info),
+          .period_ns = period / burst,
+          .jitter_ns = (burst - 1) * (period / burst),  // so that so many may be queued at once
           .length = wire::worst_case_length(info.size, info.extended)};
+}
+
+// R is from becoming due, J before being queued.
+std::optional<std::int64_t> from_queued(const Stream& stream, const schedulability::Response& response) {
+  if (!response.response_ns) return std::nullopt;
+  return *response.response_ns - stream.jitter_ns;
 }
 
 }  // namespace
 
 std::vector<WireBound> wire_bounds(const Observations& seen) {
   const TimingRecord& timing = seen.timing;
-  if (timing.rates.nominal == 0) return {};
+  if (timing.wire.rates.nominal == 0) return {};
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
     if (was_seen(timing, i)) indices.push_back(i);
   }
   std::ranges::sort(indices, {}, [](std::size_t i) { return messages::all_messages[i].id; });
   std::vector<Stream> streams;
-  for (const std::size_t i : indices) streams.push_back(stream_of(seen, messages::all_messages[i]));
-  const auto responses = schedulability::fifo_responses(streams, timing.rates);
+  for (const std::size_t i : indices) streams.push_back(stream_of(seen, i));
+  const auto responses = timing.wire.urgent_first
+                             ? schedulability::responses(streams, {.rates = timing.wire.rates})
+                             : schedulability::fifo_responses(streams, timing.wire.rates);
   std::vector<WireBound> bounds;
   for (std::size_t k = 0; k < indices.size(); ++k) {
     const WireResponse& measured = timing.responses[indices[k]];
@@ -66,13 +87,13 @@ std::vector<WireBound> wire_bounds(const Observations& seen) {
                       .count = measured.count,
                       .longest_ns = measured.max_ns,
                       .frame_ns = responses[k].transmission_ns,
-                      .bound_ns = responses[k].response_ns});
+                      .bound_ns = from_queued(streams[k], responses[k])});
   }
   return bounds;
 }
 
 std::string no_bounds(const Observations& seen) {
-  if (seen.timing.rates.nominal == 0) return "the time of a frame on this bus is not known";
+  if (seen.timing.wire.rates.nominal == 0) return "the time of a frame on this bus is not known";
   if (seen.bus.errors.frames > 0) return fmt::format("{} errors on the bus", seen.bus.errors.frames);
   if (seen.bus.downs > 0) return "the interface was down";
   if (!seen.transmit_stamps_echoed) return "the bus does not echo the bench's own frames";

@@ -88,6 +88,16 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
   return std::pair(std::string(*node), bus);
 }
 
+// What the name of a bus says of it, or its controller.
+checks::WireFacts facts_of(const std::string& bus) {
+  if (const auto settings = wire_settings(bus); settings && settings->rates.nominal > 0)
+    return {.rates = settings->rates, .urgent_first = settings->order == QueueOrder::priority};
+  const auto interface = doctor::find_interface(bus);
+  if (!interface || !interface->controller) return {};
+  return {.rates = {.nominal = interface->controller->nominal.bitrate,
+                    .data = interface->controller->data.bitrate}};
+}
+
 run::Options options_of(const Arguments& arguments, BusFormat format) {
   run::Options options;
   options.format = format;
@@ -97,6 +107,7 @@ run::Options options_of(const Arguments& arguments, BusFormat format) {
   if (options.bus == private_bus || options.bus.starts_with("local:?"))
     options.bus.insert(private_bus.size(), external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
+  if (arguments.bus_of.empty()) options.wire = facts_of(options.bus);
   options.clock = run::clock_of(options.bus, arguments.lockstep);
   if (!arguments.log.empty()) options.log_path = arguments.log;
   options.realtime = arguments.realtime.request();
@@ -286,7 +297,9 @@ void add_run(CLI::App& app, int& code) {
   command->add_option("SCENARIO", arguments->scenario, "scenario file (TOML)")->required();
   command->add_option(
       "--bus", arguments->bus,
-      "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process");
+      "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process: virtual "
+      "time. local: and in-process take a simulated wire: '?bitrate=500000', then &data-bitrate=2000000, "
+      "&queue=fifo|priority, &bit-error-rate=1e-6, &seed=3");
   command
       ->add_option("--bus-of", arguments->bus_of,
                    "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "

@@ -23,6 +23,7 @@ struct Arguments {
   std::optional<std::uint64_t> data_bitrate;
   std::optional<std::uint64_t> error_burst;
   std::optional<std::uint64_t> jitter_us;
+  std::string queue = "priority";
   double errors_per_second = 0;
   double event_interval_ms = 0;
   bool json = false;
@@ -37,6 +38,9 @@ schedulability::ErrorModel errors_of(const Arguments& arguments) {
 ExitCode execute(const Arguments& arguments) {
   if (arguments.error_burst && arguments.errors_per_second <= 0)
     return complain({"--error-burst: expected --errors-per-second with it"});
+  const bool fifo = arguments.queue == "fifo";
+  if (fifo && arguments.errors_per_second > 0)
+    return complain({"--queue fifo: there is no bound with errors, expected no --errors-per-second with it"});
   const auto database = dbc::read_file(arguments.file);
   if (!database) return complain(database.error());
   const auto in_file = [&arguments](const Error& error) {
@@ -51,8 +55,11 @@ ExitCode execute(const Arguments& arguments) {
       .jitter_ns = static_cast<std::int64_t>(arguments.jitter_us.value_or(0)) * 1000};
   auto streams = schedulability::streams_of(*database, assumptions, *rates);
   if (!streams) return in_file(streams.error());
-  const auto analysis = schedulability::analyse(arguments.file, std::move(*streams),
-                                                {.rates = *rates, .errors = errors_of(arguments)});
+  const auto analysis = schedulability::analyse(
+      arguments.file, std::move(*streams),
+      {.rates = *rates,
+       .queues = fifo ? schedulability::Queues::in_order : schedulability::Queues::by_priority,
+       .errors = errors_of(arguments)});
   fmt::print("{}", arguments.json ? schedulability::json(analysis) : schedulability::table(analysis));
   return schedulability::schedulable(analysis) ? ExitCode::pass : ExitCode::fail;
 }
@@ -79,6 +86,10 @@ void add_schedulability(CLI::App& app, int& code) {
       ->add_option("--event-interval-ms", arguments->event_interval_ms,
                    "least interval of event messages that give none")
       ->check(CLI::Range(1e-3, 1e9));
+  command
+      ->add_option("--queue", arguments->queue,
+                   "what every node sends first: the most urgent frame, or the oldest as Linux does")
+      ->check(CLI::IsMember({"priority", "fifo"}));
   add_whole_number(*command, "--jitter-us", arguments->jitter_us,
                    "how late messages without GenMsgJitter may be queued (0)", 0, 1'000'000'000);
   command->add_flag("--json", arguments->json, "JSON instead of a table");

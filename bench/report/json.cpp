@@ -235,7 +235,7 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
   if (summary.engagement) page["engagement"] = object(*summary.engagement);
   if (summary.wind) page["wind"] = object(*summary.wind);
   page["timing"] = timing_judged(run);
-  if (run.options.clock == run::ClockKind::real_time) add_timing(page, scenario, run);
+  if (run.options.clock != run::ClockKind::lockstep) add_timing(page, scenario, run);
   if (run.seen.target_timing_seen)
     page["target_timing_us"] = {{"queue_max", run.seen.queue_max_us},
                                 {"compute_max", run.seen.compute_max_us}};
@@ -245,7 +245,7 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
                                {"bad_group", run.seen.counters->bad_group},
                                {"late", run.seen.counters->late}};
   }
-  for (const wire::BitRates& rates : bit_rates(run.options)) {
+  for (const wire::BitRates& rates : load_rates(run)) {
     const checks::BusLoad load = checks::bus_load(run.seen, rates);
     page["bus_load"].push_back({{"bitrate_bitps", rates.nominal},
                                 {"data_bitrate_bitps", rates.data},
@@ -260,7 +260,7 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};
   page["bus"] = object(run.seen.bus, run.seen.first_ns);
-  page["bus_load_line"] = load_line(run.seen, bit_rates(run.options).front());
+  page["bus_load_line"] = load_line(run.seen, load_rates(run)[0]);
   page["series"] = Json::array();
   for (const Series& one : series(scenario, run)) page["series"].push_back(object(one));
   return page;

@@ -5,6 +5,8 @@
 #include <string_view>
 
 #include "bench/checks/timing.hpp"
+#include "bench/checks/wire_bounds.hpp"
+#include "bench/report/split.hpp"
 #include "bench/report/summary.hpp"
 
 namespace canhil::report {
@@ -31,6 +33,43 @@ Json object(const checks::TimeLine& line) {
   return json;
 }
 
+namespace {
+
+Json split_of(const checks::TimingRecord& timing) {
+  const checks::LatencySplit& split = timing.split;
+  Json json{{"stimuli", split.stimuli}, {"told_by_target", split.told}, {"total_s", total_s(split)}};
+  for (const SplitPart& part : parts(timing))
+    json["parts_s"][std::string(part.key)] = part.mean_s ? Json(*part.mean_s) : Json(nullptr);
+  const checks::SlowestAnswer& slowest = timing.slowest;
+  if (!slowest.message.empty()) {
+    json["slowest"] = {{"message", slowest.message},
+                       {"t_s", static_cast<double>(slowest.t_ns) * 1e-9},
+                       {"latency_s", static_cast<double>(slowest.latency_ns) * 1e-9},
+                       {"reply_wire_s", static_cast<double>(slowest.reply_wire_ns) * 1e-9},
+                       {"queue_max_us", slowest.queue_max_us},
+                       {"compute_max_us", slowest.compute_max_us}};
+  }
+  return json;
+}
+
+Json wire_of(const checks::Observations& seen) {
+  Json json{{"bitrate_bitps", seen.timing.wire.rates.nominal},
+            {"no_bounds", checks::no_bounds(seen)},
+            {"messages", Json::array()}};
+  for (const checks::WireBound& bound : checks::wire_bounds(seen)) {
+    json["messages"].push_back(
+        {{"name", bound.message},
+         {"count", bound.count},
+         {"longest_s", static_cast<double>(bound.longest_ns) * 1e-9},
+         {"at_least", bound.of_target},
+         {"frame_s", static_cast<double>(bound.frame_ns) * 1e-9},
+         {"bound_s", bound.bound_ns ? Json(static_cast<double>(*bound.bound_ns) * 1e-9) : Json(nullptr)}});
+  }
+  return json;
+}
+
+}  // namespace
+
 void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& run) {
   const checks::TimingRecord& timing = run.seen.timing;
   const std::vector<std::string_view> closing = closing_answers(scenario);
@@ -52,6 +91,8 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& 
     if (transmit.echoed.count() > 0) lateness["echoed"] = object(transmit.echoed);
     lateness["not_echoed"] = transmit.handed_over.count() - transmit.echoed.count();
   }
+  if (timing.split.stimuli > 0) page["split"] = split_of(timing);
+  if (timing.wire.rates.nominal > 0) page["wire"] = wire_of(run.seen);
   page["bench_lateness_s"] = object(timing.lateness);
   page["bench_lateness_s"]["line"] = object(timing.lateness_line);
 }

@@ -15,7 +15,8 @@ Json object(const checks::Histogram& histogram);
 /// stretch_s, and largest_s of each stretch from time 0 on; null where there was no value.
 Json object(const checks::TimeLine& line);
 
-/// Adds latency, jitter and lateness of all messages that were seen. In real time only.
+/// Adds latency, jitter and lateness of all messages that were seen. Not in lockstep: its time has no
+/// meaning.
 void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& run);
 
 /// What the host did, and why timing is not judged, if it is not.

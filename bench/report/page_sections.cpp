@@ -11,6 +11,7 @@
 #include "bench/checks/histogram.hpp"
 #include "bench/report/markup.hpp"
 #include "bench/report/plot.hpp"
+#include "bench/report/split.hpp"
 
 namespace canhil::report {
 namespace {
@@ -156,6 +157,61 @@ void add_rows(std::vector<std::vector<std::string>>& rows, const std::string& na
   }
 }
 
+std::string ms_or_none(const Json& seconds) {
+  return seconds.is_null() ? "not known" : fmt::format("{:.3f}", seconds.get<double>() * 1e3);
+}
+
+// The parts of the way from stimulus to answer.
+std::string split_table(const Json& report) {
+  if (!report.contains("split")) return "";
+  const Json& split = report.at("split");
+  const double total_s = split.at("total_s").get<double>();
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [key, mean] : split.at("parts_s").items()) {
+    const std::string share =
+        mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
+    rows.push_back({escaped(std::string(what_of(key))), ms_or_none(mean), share});
+  }
+  rows.push_back({"<b>from the hand-over of the stimulus to the last frame of its answer</b>",
+                  fmt::format("<b>{:.3f}</b>", total_s * 1e3), ""});
+  std::string out =
+      fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n", split.at("stimuli").dump());
+  out += table({"part", "ms", "share"}, rows, "figures");
+  if (!split.contains("slowest")) return out;
+  const Json& slowest = split.at("slowest");
+  return out +
+         fmt::format(
+             "<p class=\"note\">The slowest answer, {} at {:.3f} s, took {:.3f} ms; in that 0.1 s the target "
+             "told of waits of at most {} us and of computing of at most {} us.</p>\n",
+             text_in(slowest.at("message")), slowest.at("t_s").get<double>(),
+             slowest.at("latency_s").get<double>() * 1e3, slowest.at("queue_max_us").dump(),
+             slowest.at("compute_max_us").dump());
+}
+
+// Each message's longest time over the bus beside its bound.
+std::string wire_table(const Json& report) {
+  if (!report.contains("wire")) return "";
+  const Json& wire = report.at("wire");
+  std::string out = fmt::format("<h3>Over the bus at {:g} kbit/s, beside the bound</h3>\n",
+                                wire.at("bitrate_bitps").get<double>() / 1e3);
+  if (const std::string why = text_in(wire.at("no_bounds")); !why.empty())
+    out += fmt::format("<p class=\"unknown\">? Bounds do not hold in this run: {}.</p>\n", why);
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& message : wire.at("messages")) {
+    const double longest_s = message.at("longest_s").get<double>();
+    const Json& bound = message.at("bound_s");
+    const bool beyond = !bound.is_null() && longest_s > bound.get<double>();
+    rows.push_back(
+        {text_in(message.at("name")), message.at("count").dump(), ms_or_none(message.at("frame_s")),
+         fmt::format("{}{:.3f}", message.at("at_least").get<bool>() ? "&ge; " : "", longest_s * 1e3),
+         bound.is_null() ? "none" : ms_or_none(bound),
+         bound.is_null() ? "?"
+         : beyond        ? "<span class=\"no\">&#10007; beyond</span>"
+                         : fmt::format("{:.0f} %", longest_s / bound.get<double>() * 100)});
+  }
+  return out + table({"message", "count", "frame ms", "longest ms", "bound ms", "of it"}, rows, "figures");
+}
+
 }  // namespace
 
 std::string checks_section(const Json& report) {
@@ -188,22 +244,31 @@ std::string timing_section(const Json& report) {
   const Json none = Json::object();
   const Json& latencies = report.contains("latency_s") ? report.at("latency_s") : none;
   const Json& jitters = report.contains("jitter_s") ? report.at("jitter_s") : none;
-  std::vector<std::vector<std::string>> rows;
+  // What closes a group of answers stands for it; the others are there for who asks.
+  std::vector<std::vector<std::string>> rows, others;
   std::string figures;
   for (const auto& [message, latency] : latencies.items()) {
-    rows.push_back(
-        joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
-    if (!latency.at("closes_group").get<bool>()) continue;
-    figures += histogram("Latency of " + message, latency);
-    figures += course("Latency of " + message + " over time", latency.at("line"));
-    if (jitters.contains(message))
-      figures += histogram("Deviation of the period of " + message, jitters.at(message));
+    const bool closes = latency.at("closes_group").get<bool>();
+    (closes ? rows : others)
+        .push_back(
+            joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
+    if (!closes) continue;
+    figures += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(message));
+    figures += histogram("Latency", latency);
+    figures += course("Latency over time", latency.at("line"));
+    if (jitters.contains(message)) figures += histogram("Deviation of its period", jitters.at(message));
+    figures += "</div>\n";
   }
-  figures += histogram("The bench's own lateness", report.at("bench_lateness_s"));
-  figures += course("The bench's own lateness over time", report.at("bench_lateness_s").at("line"));
+  figures += "<h3>The bench itself</h3>\n<div class=\"grid\">\n";
+  figures += histogram("Lateness", report.at("bench_lateness_s"));
+  figures += course("Lateness over time", report.at("bench_lateness_s").at("line")) + "</div>\n";
   const auto head = joined(joined({"latency of"}, percentile_head), {"never came"});
   if (!rows.empty()) out += table(head, rows, "figures");
-  out += "<div class=\"grid\">\n" + figures + "</div>\n";
+  if (!others.empty()) {
+    out += "<details><summary>Latency of the frames before the last of each answer</summary>\n" +
+           table(head, others, "figures") + "</details>\n";
+  }
+  out += split_table(report) + figures;
   rows.clear();
   for (const auto& [message, jitter] : jitters.items())
     rows.push_back(joined({escaped(message)}, percentiles(jitter)));
@@ -248,7 +313,7 @@ std::string bus_section(const Json& report) {
                   data_bitrate > 0 ? fmt::format(", data {:g} kbit/s", data_bitrate / 1e3) : ""),
       svg(plot),
       fmt::format("by {:g} s, from the exact length of every frame; the last is not a whole one", stretch_s));
-  out += "</div>\n<h3>Lost and broken</h3>\n";
+  out += "</div>\n" + wire_table(report) + "<h3>Lost and broken</h3>\n";
   std::vector<std::vector<std::string>> rows = incidents(report.at("bus"), "bus");
   Json from_target = report.at("from_target");
   for (const char* fine : {"navigation_answers", "filter_answers", "los_answers", "wind_answers"})

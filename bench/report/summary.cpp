@@ -10,7 +10,6 @@
 #include "bench/checks/los.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
-#include "dbc/ports/wire_settings.hpp"
 
 namespace canhil::report {
 namespace {
@@ -146,12 +145,15 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   return summary;
 }
 
-std::vector<wire::BitRates> bit_rates(const run::Options& options) {
-  const auto wire = wire_settings(options.bus);
-  if (wire && wire->rates.nominal > 0) return {wire->rates};
-  if (options.format == BusFormat::fd)
-    return {{.nominal = 500'000, .data = 2'000'000}, {.nominal = 1'000'000, .data = 5'000'000}};
-  return {{.nominal = 500'000}, {.nominal = 1'000'000}};
+std::vector<wire::BitRates> load_rates(const run::Run& run) {
+  const bool fd = run.options.format == BusFormat::fd;
+  wire::BitRates known = run.seen.bit_rates;
+  if (known.nominal > 0) {
+    if (!fd) known.data = 0;
+    return {known};
+  }
+  return {{.nominal = 500'000, .data = fd ? 2'000'000 : 0},
+          {.nominal = 1'000'000, .data = fd ? 5'000'000 : 0}};
 }
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {

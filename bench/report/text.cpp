@@ -5,6 +5,8 @@
 #include <iterator>
 
 #include "bench/checks/bus_load.hpp"
+#include "bench/checks/wire_bounds.hpp"
+#include "bench/report/split.hpp"
 #include "bench/report/summary.hpp"
 #include "bench/world/units.hpp"
 
@@ -119,27 +121,79 @@ std::string milliseconds(const checks::Distribution& d) {
                      d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
 }
 
+// TargetTiming saturates.
+std::string told_us(std::uint16_t us) {
+  constexpr std::uint16_t most_us = 8191;
+  return us < most_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
+}
+
 std::string rate_words(const wire::BitRates& rates) {
-  const auto kbitps = [](std::int64_t rate) { return static_cast<double>(rate) * 1e-3; };
-  return rates.data > 0 ? fmt::format("{:g} and {:g} kbit/s", kbitps(rates.nominal), kbitps(rates.data))
-                        : fmt::format("{:g} kbit/s", kbitps(rates.nominal));
+  const std::string data =
+      rates.data > 0 ? fmt::format(" and {:g}", static_cast<double>(rates.data) * 1e-3) : "";
+  return fmt::format("{:g}{} kbit/s", static_cast<double>(rates.nominal) * 1e-3, data);
 }
 
 std::string load_words(const run::Run& run) {
-  std::string line;
-  for (const wire::BitRates& rates : bit_rates(run.options)) {
+  std::string lines;
+  for (const wire::BitRates& rates : load_rates(run)) {
     const checks::BusLoad load = checks::bus_load(run.seen, rates);
-    line += line.empty() ? fmt::format("  bus load at {:<18}mean {:.1f} %, busiest second {:.1f} %",
-                                       rate_words(rates), load.mean * 100, load.busiest * 100)
-                         : fmt::format("; at {} {:.1f} %, {:.1f} %", rate_words(rates), load.mean * 100,
-                                       load.busiest * 100);
+    lines += fmt::format("  bus load at {:<18}mean {:.1f} %, busiest second {:.1f} %\n", rate_words(rates),
+                         load.mean * 100, load.busiest * 100);
   }
-  return line + '\n';
+  return lines;
 }
 
-std::string saturating(std::uint16_t us) {
-  constexpr std::uint16_t most_told_us = 8191;  // of TargetTiming
-  return fmt::format("{} us{}", us, us >= most_told_us ? " or more" : "");
+// Where the mean latency went, and the slowest answer beside what the target said of that time.
+std::string split_words(const checks::TimingRecord& timing) {
+  if (timing.split.stimuli == 0) return "";
+  std::string lines = fmt::format("  from stimulus to answer       mean {:.3f} ms of {} stimuli, of it\n",
+                                  total_s(timing.split) * 1e3, timing.split.stimuli);
+  auto out = std::back_inserter(lines);
+  for (const SplitPart& part : parts(timing)) {
+    if (part.mean_s) fmt::format_to(out, "    {:>8.3f} ms  {}\n", *part.mean_s * 1e3, part.what);
+  }
+  const checks::SlowestAnswer& slowest = timing.slowest;
+  if (slowest.message.empty()) return lines;
+  fmt::format_to(out,
+                 "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
+                 "{}, its longest computing {}\n",
+                 slowest.message, static_cast<double>(slowest.latency_ns) * 1e-6,
+                 static_cast<double>(slowest.t_ns) * 1e-9, told_us(slowest.queue_max_us),
+                 told_us(slowest.compute_max_us));
+  return lines;
+}
+
+// How near to its bound each message came over the bus: those that went beyond, else the nearest.
+std::string wire_words(const checks::Observations& seen) {
+  if (seen.timing.wire.rates.nominal == 0) return "";
+  if (const std::string why = checks::no_bounds(seen); !why.empty())
+    return fmt::format("  over the bus                  not compared with bounds: {}\n", why);
+  std::string beyond;
+  std::size_t bounded = 0;
+  const std::vector<checks::WireBound> bounds = checks::wire_bounds(seen);
+  const checks::WireBound* nearest = nullptr;
+  const auto share = [](const checks::WireBound& bound) {
+    return static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns);
+  };
+  for (const checks::WireBound& bound : bounds) {
+    if (!bound.bound_ns) continue;
+    ++bounded;
+    if (nearest == nullptr || share(bound) > share(*nearest)) nearest = &bound;
+    if (bound.longest_ns <= *bound.bound_ns) continue;
+    beyond += fmt::format("    beyond: {} {:.3f} ms, bound {:.3f} ms\n", bound.message,
+                          static_cast<double>(bound.longest_ns) * 1e-6,
+                          static_cast<double>(*bound.bound_ns) * 1e-6);
+  }
+  if (nearest == nullptr)
+    return fmt::format(
+        "  over the bus                  {} messages, none has a bound: a queue is overloaded\n",
+        bounds.size());
+  return fmt::format(
+             "  over the bus                  {} of {} messages have a bound; nearest {}: {:.3f} of {:.3f} "
+             "ms\n",
+             bounded, bounds.size(), nearest->message, static_cast<double>(nearest->longest_ns) * 1e-6,
+             static_cast<double>(*nearest->bound_ns) * 1e-6) +
+         beyond;
 }
 
 }  // namespace
@@ -194,9 +248,10 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
     }
     fmt::format_to(out, "  bench's own lateness          {}  of {} frames  (latency by {})\n",
                    milliseconds(summary.lateness_s), summary.lateness_s.count, summary.stamp_source);
+    page += split_words(run.seen.timing) + wire_words(run.seen);
     if (run.seen.target_timing_seen) {
       fmt::format_to(out, "  target's own account          queue max {}  compute max {}\n",
-                     saturating(run.seen.queue_max_us), saturating(run.seen.compute_max_us));
+                     told_us(run.seen.queue_max_us), told_us(run.seen.compute_max_us));
     }
   }
   page += load_words(run);

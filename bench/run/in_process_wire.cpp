@@ -10,15 +10,14 @@ namespace canhil::run {
 namespace {
 
 constexpr std::int64_t heartbeat_ns = messages::TargetHeartbeat::info.cycle_time_us * 1000;
-// The device hands its frames to a queue that never overflows: the loop of hil-target waits for room.
-constexpr std::size_t device_depth = 4096;
 
 }  // namespace
 
 InProcessWire::InProcessWire(std::string name, const WireSettings& settings, BusFormat format)
     : name_(std::move(name)),
       fd_(format == BusFormat::fd),
-      wire_(settings.rates, {{.order = settings.order}, {.order = settings.order, .depth = device_depth}},
+      wire_(settings.rates,
+            {{.order = settings.order, .told = true}, {.order = settings.order, .told = true}},
             disturbance(settings)) {}
 
 SendOutcome InProcessWire::send(const Frame& frame) {
@@ -60,7 +59,17 @@ void InProcessWire::pass(std::int64_t until_ns) {
   if (idle_heartbeat_due_ns_ <= now_ns_) {
     put(device_.idle_heartbeat(), std::exchange(idle_heartbeat_due_ns_, now_ns_ + heartbeat_ns));
   }
-  while (const auto carried = wire_.next(now_ns_)) arrive(*carried);
+  for (;;) {
+    while (const auto report = wire_.report()) {
+      if (report->node == bench) give(report->frame, report->t_ns, false);
+    }
+    queue_waiting();
+    if (const auto carried = wire_.next(now_ns_)) {
+      arrive(*carried);
+    } else if (!wire_.has_report()) {
+      return;
+    }
+  }
 }
 
 void InProcessWire::arrive(const Carried& carried) {
@@ -88,7 +97,14 @@ void InProcessWire::put(std::span<const Frame> answers, std::int64_t t_ns) {
   }
 }
 
-void InProcessWire::queue(const Frame& frame, std::int64_t t_ns) { wire_.queue(device, frame, t_ns); }
+void InProcessWire::queue(const Frame& frame, std::int64_t t_ns) {
+  if (!waiting_.empty() || !wire_.queue(device, frame, t_ns)) waiting_.push_back(frame);
+}
+
+/// The device waits for room as hil-target does: while its queue is full, or it is off the bus.
+void InProcessWire::queue_waiting() {
+  while (!waiting_.empty() && wire_.queue(device, waiting_.front(), now_ns_)) waiting_.pop_front();
+}
 
 void InProcessWire::give(const Frame& frame, std::int64_t t_ns, bool own) {
   ready_.push_back({.frame = frame, .t_ns = t_ns, .source = StampSource::virtual_time, .own = own});

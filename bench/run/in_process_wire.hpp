@@ -42,13 +42,15 @@ class InProcessWire final : public Port {
   void arrive(const Carried& carried);
   void put(std::span<const Frame> answers, std::int64_t t_ns);
   void queue(const Frame& frame, std::int64_t t_ns);
+  void queue_waiting();
   void give(const Frame& frame, std::int64_t t_ns, bool own);
 
   std::string name_;
   bool fd_;
   SimulatedWire wire_;
   target::Device device_;
-  FdPacker packer_;  // of the device's frames
+  FdPacker packer_;            // of the device's frames
+  std::deque<Frame> waiting_;  // of the device, for room on the wire
   std::int64_t now_ns_ = 0;
   std::int64_t idle_heartbeat_due_ns_ = 0;  // no bench has spoken yet
   std::deque<Received> ready_;

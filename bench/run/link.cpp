@@ -49,6 +49,6 @@ void Link::look_at_interface() {
   for (Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
 }
 
-void Link::wait_until(std::int64_t deadline_ns) { wait(port_, WaitFor::frame, deadline_ns); }
+bool Link::wait_until(std::int64_t deadline_ns) { return wait(port_, WaitFor::frame, deadline_ns); }
 
 }  // namespace canhil::run

@@ -49,8 +49,8 @@ class Link {
   /// Now on the clock of all deadlines here: Port::monotonic_ns().
   [[nodiscard]] std::int64_t now_ns() const { return port_.monotonic_ns(); }
 
-  /// Sleeps until a frame arrives, or until `deadline_ns`.
-  void wait_until(std::int64_t deadline_ns);
+  /// Sleeps until a frame arrives: true; or until `deadline_ns`, or a signal: false.
+  bool wait_until(std::int64_t deadline_ns);
 
   /// Frames that waited for room for longer than a period of Sync after they were due.
   [[nodiscard]] std::uint64_t late_in_queue() const { return late_in_queue_; }

@@ -18,10 +18,11 @@ class Monitor final : public Observer {
  public:
   /// Takes no times: those of virtual time say nothing, and a campaign flies thousands of runs in it.
   Monitor() = default;
-  /// Takes times, also within the windows. `rates`: of the bus, if frames take time on it.
-  explicit Monitor(std::vector<checks::TimedWindow> windows, const wire::BitRates& rates = {}) {
+  /// Takes times, also within the windows.
+  explicit Monitor(std::vector<checks::TimedWindow> windows, const checks::WireFacts& wire = {}) {
     seen_.timing.windows = std::move(windows);
-    stopwatch_.emplace(seen_.timing, rates);
+    seen_.timing.wire = wire;
+    stopwatch_.emplace(seen_.timing);
   }
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;

@@ -75,8 +75,9 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), fault_of(*watch.fault())};
       if (now > excused_until_ns()) return silent();
       if (now >= deadline_ns) return std::nullopt;
-      if (now < deadline_ns - spin_ns)
-        link.wait_until(std::min(deadline_ns - spin_ns, excused_until_ns() + 1));
+      if (now >= deadline_ns - spin_ns) continue;
+      const bool heard = link.wait_until(std::min(deadline_ns - spin_ns, excused_until_ns() + 1));
+      if (!heard && link.now_ns() >= deadline_ns) return std::nullopt;  // on time, with nothing to look at
     }
   };
 

@@ -44,6 +44,7 @@ struct Options {
   std::vector<std::pair<std::string, std::string>> bus_of;  ///< node of the DBC, bus of its own
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
   BusFormat format = BusFormat::classic;
+  checks::WireFacts wire{};                   ///< of the bus, where they are known
   ClockKind clock = ClockKind::real_time;     ///< clock_of(bus, ...)
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments

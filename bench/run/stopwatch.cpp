@@ -46,7 +46,8 @@ void add(checks::WireResponse& response, std::int64_t ns) {
 }  // namespace
 
 std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
-  return rates_.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates_);
+  const wire::BitRates& rates = record_.wire.rates;
+  return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
 }
 
 void Stopwatch::sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
@@ -94,6 +95,7 @@ void Stopwatch::arrived(std::size_t index, const Received& received) {
   const std::int64_t heard_ns = timing.last_ns.value_or(first_ns_.value_or(arrival.t_ns));
   timing.longest_silence_ns = std::max(timing.longest_silence_ns, arrival.t_ns - heard_ns);
   timing.last_ns = arrival.t_ns;
+  ++timing.count;
 
   const MessageInfo& info = messages::all_messages[index];
   if (!info.answers.empty()) return;

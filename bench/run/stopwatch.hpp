@@ -11,7 +11,6 @@
 
 #include "bench/checks/timing_record.hpp"
 #include "dbc/ports/port.hpp"
-#include "dbc/wire/bit_length.hpp"
 
 namespace canhil::run {
 
@@ -20,10 +19,8 @@ class Stopwatch {
  public:
   static constexpr std::size_t remembered = 1024;
 
-  /// The record's windows are filled too. `rates`: of the bus, so that the time of a frame on the wire is
-  /// known; nominal 0: unknown, or a bus on which a frame takes no time.
-  explicit Stopwatch(checks::TimingRecord& record, const wire::BitRates& rates = {})
-      : record_(record), rates_(rates) {}
+  /// The record says which windows are asked for, and how fast the bus is.
+  explicit Stopwatch(checks::TimingRecord& record) : record_(record) {}
 
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
@@ -81,7 +78,6 @@ class Stopwatch {
   [[nodiscard]] std::int64_t on_wire_ns(const Frame& frame) const;
 
   checks::TimingRecord& record_;
-  wire::BitRates rates_;
   std::array<std::array<Pending, 16>, messages::all_messages.size()> pending_{};
   std::map<std::string_view, Group> groups_;
   std::array<Newest, messages::all_messages.size()> newest_{};

@@ -238,6 +238,8 @@ MissDistance read(Section& section, const Context& /*context*/, MissDistance rul
   return rule;
 }
 
+WireResponse read(Section& /*section*/, const Context& /*context*/, WireResponse rule) { return rule; }
+
 BusLoad read(Section& section, const Context& /*context*/, BusLoad rule) {
   constexpr std::int64_t kilo = 1000;
   constexpr std::int64_t fastest = 1000, fastest_data = 8000;  // ISO 11898-2
@@ -302,6 +304,7 @@ std::string subject(const OutputPeriod& rule) { return fmt::format(" {}", rule.m
 std::string subject(const Latency& rule) { return fmt::format(" {}", rule.message); }
 std::string subject(const Counters& /*rule*/) { return {}; }
 std::string subject(const BusErrorLimits& /*rule*/) { return {}; }
+std::string subject(const WireResponse& /*rule*/) { return {}; }
 std::string subject(const Heartbeat& /*rule*/) { return {}; }
 std::string subject(const PositionError& rule) { return fmt::format(" {}", name(rule.axis)); }
 std::string subject(const Fixes& /*rule*/) { return {}; }

@@ -197,6 +197,11 @@ struct BusLoad {
   double below = 0;               ///< share: 0.5 is 50 %
 };
 
+/// No frame takes longer over the bus than its worst case by theory; needs a bus whose bit rate is known.
+struct WireResponse {
+  static constexpr std::string_view kind = "wire_response";
+};
+
 /// What went wrong on the bus itself. Absent: not judged; without such a check a bus-off or an outage fails
 /// every run.
 struct BusErrorLimits {
@@ -216,7 +221,7 @@ struct Check {
   int line = 0;             ///< of the scenario file
   std::variant<AttitudeError, Convergence, VelocityError, Consistency, OutputPeriod, Latency, Counters,
                Heartbeat, PositionError, Fixes, Coasting, LosRateError, MissDistance, WindError, WindAnswers,
-               BusLoad, BusErrorLimits>
+               BusLoad, BusErrorLimits, WireResponse>
       rule;
 };
 

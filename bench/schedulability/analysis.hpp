@@ -57,9 +57,13 @@ struct Response {
   std::int64_t worst_instance = 0;            ///< which of them, from 0, takes longest
 };
 
+/// What a node sends first: its frame of highest priority, or the oldest.
+enum class Queues : std::uint8_t { by_priority, in_order };
+
 /// What is asked of the bus.
 struct Bus {
   wire::BitRates rates{};
+  Queues queues = Queues::by_priority;
   ErrorModel errors{};
 };
 

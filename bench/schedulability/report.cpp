@@ -65,6 +65,8 @@ std::string assumptions(const Analysis& analysis) {
         "release once: an event message without GenMsgDelayTime, taken to be due once within any response;\n"
         "  it has no deadline and is not in the utilisation (--event-interval-ms gives it an interval)\n";
   }
+  if (analysis.bus.queues == Queues::in_order)
+    text += "queues: every node sends its frames in the order in which they became ready\n";
   const ErrorModel& errors = analysis.bus.errors;
   if (errors.burst > 0) {
     text += fmt::format("bus errors: {} at once, and one more every {} ms\n", errors.burst,
@@ -109,7 +111,8 @@ Json message(const Stream& stream, const Response& response) {
 }  // namespace
 
 Analysis analyse(std::string file, std::vector<Stream> streams, const Bus& bus) {
-  std::vector<Response> found = responses(streams, bus);
+  std::vector<Response> found =
+      bus.queues == Queues::in_order ? fifo_responses(streams, bus.rates) : responses(streams, bus);
   return {.file = std::move(file), .bus = bus, .streams = std::move(streams), .responses = std::move(found)};
 }
 
@@ -145,6 +148,7 @@ std::string json(const Analysis& analysis) {
   const Json root{{"file", analysis.file},
                   {"bitrate_bps", bus.rates.nominal},
                   {"data_bitrate_bps", bus.rates.data > 0 ? Json(bus.rates.data) : Json(nullptr)},
+                  {"queues", bus.queues == Queues::in_order ? "fifo" : "priority"},
                   {"error_burst", bus.errors.burst},
                   {"error_interval_s", errors ? seconds(bus.errors.interval_ns) : Json(nullptr)},
                   {"utilisation", utilisation(analysis.streams, bus.rates)},

@@ -22,6 +22,12 @@ void take_counters(BusErrors& errors, const Frame& frame) {
   errors.rx_counter_max = std::max(errors.rx_counter_max, frame.data[7]);
 }
 
+// One of the two counters led to the state, or both: as can_change_state() of the kernel.
+std::uint8_t controller_bits(const ControllerNews& news, unsigned transmit, unsigned receive) {
+  return static_cast<std::uint8_t>((news.tx_counter >= news.rx_counter ? transmit : 0U) |
+                                   (news.rx_counter >= news.tx_counter ? receive : 0U));
+}
+
 }  // namespace
 
 std::string_view name(BusEvent event) {
@@ -74,6 +80,44 @@ std::optional<BusEvent> add(BusErrors& errors, const Frame& frame) {
   change(says(CAN_ERR_RESTARTED), errors.restarted, BusEvent::restarted);
   change(says(CAN_ERR_BUSOFF), errors.bus_off, BusEvent::bus_off);
   return event;
+}
+
+Frame error_frame(const ControllerNews& news) {
+  Frame frame{.size = CAN_ERR_DLC, .error = true};
+  switch (news.seen) {
+    case SeenError::none:
+      break;
+    case SeenError::bit:
+      frame.id |= CAN_ERR_PROT | CAN_ERR_BUSERROR;
+      frame.data[2] = CAN_ERR_PROT_BIT | CAN_ERR_PROT_TX;
+      break;
+    case SeenError::stuff:
+      frame.id |= CAN_ERR_PROT | CAN_ERR_BUSERROR;
+      frame.data[2] = CAN_ERR_PROT_STUFF;
+      break;
+    case SeenError::acknowledgement:
+      frame.id |= CAN_ERR_ACK | CAN_ERR_BUSERROR;
+      break;
+  }
+  if (news.event == BusEvent::error_active) {
+    frame.id |= CAN_ERR_CRTL;
+    frame.data[1] = CAN_ERR_CRTL_ACTIVE;
+  } else if (news.event == BusEvent::error_warning) {
+    frame.id |= CAN_ERR_CRTL;
+    frame.data[1] = controller_bits(news, CAN_ERR_CRTL_TX_WARNING, CAN_ERR_CRTL_RX_WARNING);
+  } else if (news.event == BusEvent::error_passive) {
+    frame.id |= CAN_ERR_CRTL;
+    frame.data[1] = controller_bits(news, CAN_ERR_CRTL_TX_PASSIVE, CAN_ERR_CRTL_RX_PASSIVE);
+  } else if (news.event == BusEvent::restarted) {
+    frame.id |= CAN_ERR_RESTARTED;
+  } else if (news.event == BusEvent::bus_off) {
+    frame.id |= CAN_ERR_BUSOFF;
+    return frame;  // the counters of a controller that is off say nothing
+  }
+  frame.id |= CAN_ERR_CNT;
+  frame.data[6] = static_cast<std::uint8_t>(std::min(news.tx_counter, 255));
+  frame.data[7] = static_cast<std::uint8_t>(std::min(news.rx_counter, 255));
+  return frame;
 }
 
 std::string words(const BusErrors& errors) {

@@ -49,6 +49,21 @@ struct BusErrors {
 /// Counts an error frame; the change of state that it tells of, if it does: the gravest.
 std::optional<BusEvent> add(BusErrors& errors, const Frame& error_frame);
 
+/// What a controller saw of an error frame on the wire: as sender that a bit was not its own, as receiver six
+/// equal bits in a row.
+enum class SeenError : std::uint8_t { none, bit, stuff, acknowledgement };
+
+/// What a controller has to tell its host.
+struct ControllerNews {
+  SeenError seen = SeenError::none;
+  std::optional<BusEvent> event{};
+  int tx_counter = 0;
+  int rx_counter = 0;
+};
+
+/// The error frame by which Linux tells of it, with `berr-reporting on`.
+Frame error_frame(const ControllerNews& news);
+
 /// "bus off 1, restarted 1, no acknowledgement 12; error counters at most tx 136, rx 0"; empty without error
 /// frames.
 std::string words(const BusErrors& errors);

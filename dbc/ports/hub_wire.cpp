@@ -24,10 +24,12 @@ void set(int timer, std::int64_t at_ns) {
 HubWire::HubWire(const WireSettings& settings)
     : order_(settings.order),
       frame_ns_(wire::duration_ns(wire::worst_case_length(8, false), settings.rates)),
-      wire_(settings.rates, {{.order = settings.order}, {}}, disturbance(settings)),
+      wire_(settings.rates, {{.order = settings.order, .told = true}, {}}, disturbance(settings)),
       timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {}
 
-bool HubWire::has_room(std::size_t node) const { return wire_.waiting(node) < WireNode{}.depth; }
+bool HubWire::has_room(std::size_t node) const {
+  return wire_.waiting(node) < WireNode{}.depth && wire_.state(node) != NodeState::bus_off;
+}
 
 bool HubWire::queue(std::size_t node, const Frame& frame) {
   return wire_.queue(node, frame, clock_ns(CLOCK_MONOTONIC));

@@ -15,7 +15,8 @@ class HubWire {
   explicit HubWire(const WireSettings& settings);
 
   static constexpr std::size_t host = 0;
-  std::size_t add_node() { return wire_.add_node({.order = order_}); }
+  std::size_t add_node() { return wire_.add_node({.order = order_, .told = true}); }
+  /// False while the queue of a node is full, or the node is off the bus.
   [[nodiscard]] bool has_room(std::size_t node) const;
   /// How long a full classic frame lasts at most.
   [[nodiscard]] std::int64_t frame_ns() const { return frame_ns_; }
@@ -23,6 +24,9 @@ class HubWire {
   bool queue(std::size_t node, const Frame& frame);
   /// The next frame that has been sent by now.
   std::optional<Carried> next();
+  /// What the controller of a node has to tell it, before anything that next() gives later.
+  std::optional<WireReport> report() { return wire_.report(); }
+  [[nodiscard]] bool has_report() const { return wire_.has_report(); }
 
   /// Readable once next() has something to do, since the last set_alarm().
   [[nodiscard]] int descriptor() const { return timer_.get(); }

@@ -8,9 +8,10 @@
 //
 // `local:NAME?bitrate=500000` gives the bus a wire (simulated_wire.hpp) that runs in real time: a frame takes
 // as long as its bits, the lowest id wins, every node has a queue of 64 frames, in the order of sending or,
-// with
-// `&queue=priority`, of priority; `&data-bitrate=2000000` is for CAN FD. The stamp is the end of the frame on
-// that wire, to the nanosecond, however late the hub's process gets to run. Only the host needs to say so.
+// with `&queue=priority`, of priority; `&data-bitrate=2000000` is for CAN FD. The stamp is the end of the
+// frame on that wire, to the nanosecond, however late the hub's process gets to run.
+// `&bit-error-rate=1e-6&seed=3` disturbs it: a node then receives the error frames of its own controller, and
+// what waits in its queue is lost when that goes off the bus. Only the host needs to say so.
 #pragma once
 
 #include <functional>

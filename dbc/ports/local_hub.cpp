@@ -157,15 +157,16 @@ class Hub final : public LocalHub {
   /// Gives one frame to every node that wants it. Only one frame can be pending: the next is taken when none
   /// is.
   void deliver(Datagram& datagram, int origin) {
-    for (Peer& peer : peers_) {
-      if (local::offer(peer, datagram, peer.socket.get() == origin)) continue;
-      peer.behind = true;
-      ++behind_;
-    }
-    if (behind_ == 0) return;
+    for (Peer& peer : peers_) deliver_to(peer, datagram, origin);
+    if (behind_ > 0) watch_all();
+  }
+
+  void deliver_to(Peer& peer, Datagram& datagram, int origin) {
+    if (local::offer(peer, datagram, peer.socket.get() == origin)) return;
+    peer.behind = true;
+    ++behind_;
     pending_ = datagram;
     pending_origin_ = origin;
-    watch_all();
   }
 
   /// The next frame of any node, in turn, and whose it is.
@@ -236,18 +237,41 @@ class Hub final : public LocalHub {
   /// Lets what the nodes have sent onto the wire, and delivers what has been sent on it by now.
   void run_wire() {
     while (catch_up()) {
+      if (const auto report = wire_->report()) {
+        tell(*report);
+        continue;
+      }
       take_in();
-      const auto carried = wire_->next();
-      if (!carried) return wire_->set_alarm();
-      arrive(*carried);
+      if (behind_ > 0) continue;
+      if (const auto carried = wire_->next()) {
+        arrive(*carried);
+      } else if (!wire_->has_report()) {
+        return wire_->set_alarm();
+      }
     }
     wire_->stop_alarm();  // the bus stands still
   }
 
-  void arrive(const Carried& carried) {
-    const auto from = std::ranges::find_if(peers_, [&carried](const Peer& peer) {
-      return peer.wire_node == carried.node && carried.node != HubWire::host;
+  [[nodiscard]] std::vector<Peer>::iterator peer_of(std::size_t wire_node) {
+    return std::ranges::find_if(peers_, [wire_node](const Peer& peer) {
+      return peer.wire_node == wire_node && wire_node != HubWire::host;
     });
+  }
+
+  /// Hands the report of a controller to its own node alone.
+  void tell(const WireReport& report) {
+    if (report.node == HubWire::host) return queue_ready(report.frame, report.t_ns, false);
+    const auto peer = peer_of(report.node);
+    if (peer == peers_.end()) return;
+    Datagram datagram;
+    local::encode(report.frame, datagram);
+    datagram.t_ns = report.t_ns;
+    deliver_to(*peer, datagram, no_origin);
+    if (behind_ > 0) watch_all();
+  }
+
+  void arrive(const Carried& carried) {
+    const auto from = peer_of(carried.node);
     Datagram datagram;
     local::encode(carried.frame, datagram);
     datagram.t_ns = carried.delivered_ns;

@@ -9,6 +9,7 @@ namespace canhil {
 namespace {
 
 // ISO 11898-1:2015, 12.1.4: the counters and what they lead to.
+constexpr int error_warning_from = 96;
 constexpr int error_passive_above = 127;
 constexpr int bus_off_above = 255;
 constexpr int transmit_error = 8;
@@ -24,6 +25,12 @@ constexpr std::int64_t suspend_bits = 8;
 constexpr std::int64_t after_acknowledgement_bits = 1 + 7 + intermission_bits;  // delimiter, end of frame
 
 bool is_passive(int tec, int rec) { return std::max(tec, rec) > error_passive_above; }
+
+BusEvent level_of(int tec, int rec) {
+  if (tec > bus_off_above) return BusEvent::bus_off;
+  if (is_passive(tec, rec)) return BusEvent::error_passive;
+  return std::max(tec, rec) >= error_warning_from ? BusEvent::error_warning : BusEvent::error_active;
+}
 
 }  // namespace
 
@@ -55,6 +62,7 @@ std::optional<Carried> SimulatedWire::next(std::int64_t until_ns) {
       if (running_->over_ns > until_ns) return std::nullopt;
       if (!running_->error) return succeed();
       fail();
+      if (has_report()) return std::nullopt;  // it is older than the next frame
       continue;
     }
     const std::int64_t start_ns = first_start_ns();
@@ -67,10 +75,23 @@ std::optional<Carried> SimulatedWire::next(std::int64_t until_ns) {
   }
 }
 
+std::optional<WireReport> SimulatedWire::report() {
+  if (reports_.empty()) return std::nullopt;
+  const WireReport report = reports_.front();
+  reports_.pop_front();
+  return report;
+}
+
 std::int64_t SimulatedWire::next_event_ns() const {
   if (running_) return running_->over_ns;
   const std::int64_t start_ns = first_start_ns();
-  return start_ns == never ? never : start_ns + bit_ns_;
+  std::int64_t event_ns = start_ns == never ? never : start_ns + bit_ns_;
+  for (const Node& node : nodes_) {
+    if (!node.off || !node.setup.told) continue;
+    const std::int64_t runs = recovery_runs - node.recessive_runs;
+    event_ns = std::min(event_ns, idle_ns_ + runs * recessive_run_bits * bit_ns_);
+  }
+  return event_ns;
 }
 
 NodeState SimulatedWire::state(std::size_t node) const {
@@ -171,23 +192,41 @@ Carried SimulatedWire::succeed() {
     other.rec = other.rec > error_passive_above ? receive_errors_after_success : std::max(other.rec - 1, 0);
   }
   ++counters_.frames;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) tell(n, carried.delivered_ns, SeenError::none);
   finish();
   return carried;
 }
 
 /// An error frame: the frame stays in its queue for the next attempt.
 void SimulatedWire::fail() {
-  Node& sender = nodes_[running_->from.node];
+  const std::size_t from = running_->from.node;
+  const std::int64_t noticed_ns = running_->attempt.start_ns + running_->error->after_ns;
+  const bool missed = !running_->acknowledged;
+  Node& sender = nodes_[from];
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Node& other = nodes_[n];
-    if (&other == &sender || other.off) continue;
+    if (n == from || other.off) continue;
     other.rec += receive_error + (running_->error->at == n ? first_to_notice : 0);
+    tell(n, noticed_ns, SeenError::stuff);
   }
   // Alone on the bus an error passive sender counts no further: it must not go off for lack of company.
   if (running_->acknowledged || !is_passive(sender.tec, sender.rec)) sender.tec += transmit_error;
   ++counters_.error_frames;
+  tell(from, noticed_ns, missed ? SeenError::acknowledgement : SeenError::bit);
   finish();
   if (sender.tec > bus_off_above) go_off(sender);
+}
+
+/// The controller of a node tells of an error that it saw, and of its state where that is another.
+void SimulatedWire::tell(std::size_t node, std::int64_t t_ns, SeenError seen) {
+  Node& n = nodes_[node];
+  if (!n.setup.told) return;
+  const BusEvent level = level_of(n.tec, n.rec);
+  ControllerNews news{.seen = seen, .tx_counter = n.tec, .rx_counter = n.rec};
+  if (level != n.level) news.event = n.level == BusEvent::bus_off ? BusEvent::restarted : level;
+  n.level = level;
+  if (seen == SeenError::none && !news.event) return;
+  reports_.push_back({.node = node, .frame = error_frame(news), .t_ns = t_ns});
 }
 
 void SimulatedWire::go_off(Node& node) {
@@ -204,7 +243,8 @@ void SimulatedWire::finish() {
   counters_.busy_ns += running_->over_ns - running_->attempt.start_ns;
   if (is_passive(sender.tec, sender.rec)) sender.silent_until_ns = free_ns_ + suspend_bits * bit_ns_;
   running_.reset();
-  see_recessive(1);  // a delimiter, the end of frame or the rest of an error frame, the intermission
+  see_recessive(1,
+                free_ns_);  // a delimiter, the end of frame or the rest of an error frame, the intermission
 }
 
 /// Counts the recessive bits of an idle bus.
@@ -212,15 +252,20 @@ void SimulatedWire::idle_until(std::int64_t t_ns) {
   if (running_ || t_ns <= idle_ns_) return;
   const std::int64_t runs = (t_ns - idle_ns_) / (recessive_run_bits * bit_ns_);
   idle_ns_ += runs * recessive_run_bits * bit_ns_;
-  see_recessive(runs);
+  see_recessive(runs, idle_ns_);
 }
 
-/// A node that is off comes back after 128 times 11 recessive bits.
-void SimulatedWire::see_recessive(std::int64_t runs) {
-  for (Node& node : nodes_) {
+/// A node that is off comes back after 128 times 11 recessive bits. The last of these runs is over at
+/// last_ns.
+void SimulatedWire::see_recessive(std::int64_t runs, std::int64_t last_ns) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Node& node = nodes_[n];
     if (!node.off) continue;
-    node.recessive_runs += std::min(runs, recovery_runs);
-    if (node.recessive_runs >= recovery_runs) node = Node{.setup = node.setup};
+    const std::int64_t missing = recovery_runs - node.recessive_runs;
+    node.recessive_runs += std::min(runs, missing);
+    if (runs < missing) continue;
+    node = Node{.setup = node.setup, .level = BusEvent::bus_off};
+    tell(n, last_ns - (runs - missing) * recessive_run_bits * bit_ns_, SeenError::none);
   }
 }
 

@@ -3,16 +3,18 @@
 //
 // After Bosch CAN 2.0 and ISO 11898-1:2015. A node joins the arbitration if it has a frame before the first
 // bit of the frame on the wire is over. Errors come from outside (Disturb); which nodes notice, and what it
-// costs them, is in the model. Left out: overload frames, and two nodes that send the same id at once (the
-// node with the lower number then sends first).
+// costs them, is in the model, and what their controllers tell of it. Left out: overload frames, and two
+// nodes that send the same id at once (the node with the lower number then sends first).
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "dbc/ports/bus_errors.hpp"
 #include "dbc/wire/bit_length.hpp"
 #include "dbc/wire/frame.hpp"
 
@@ -26,6 +28,7 @@ enum class NodeState : std::uint8_t { error_active, error_passive, bus_off };
 struct WireNode {
   QueueOrder order = QueueOrder::priority;
   std::size_t depth = 64;  ///< frames that can wait, the one on the wire among them
+  bool told = false;       ///< its controller reports errors, see SimulatedWire::report()
 };
 
 /// One try to send a frame.
@@ -58,6 +61,13 @@ struct Carried {
   std::int64_t end_ns = 0;        ///< the intermission is over: the next frame may start
 };
 
+/// What the controller of a node tells its host, as an error frame of Linux.
+struct WireReport {
+  std::size_t node = 0;
+  Frame frame{};
+  std::int64_t t_ns = 0;
+};
+
 struct WireCounters {
   std::uint64_t frames = 0;
   std::uint64_t error_frames = 0;
@@ -74,13 +84,19 @@ class SimulatedWire {
   /// One more node; gives its number.
   std::size_t add_node(const WireNode& setup);
 
-  /// Puts a frame into a node's queue at t_ns, which is no earlier than at any call before. False: the queue
-  /// is full or the node is off the bus, and the frame was not taken.
+  /// Puts a frame into a node's queue at t_ns, which is no earlier than at any call before; what answers the
+  /// frame that next() gave last may be queued at its delivered_ns. False: the queue is full or the node is
+  /// off the bus, and the frame was not taken.
   bool queue(std::size_t node, const Frame& frame, std::int64_t t_ns);
 
-  /// The next frame that is sent by until_ns; none: ask again later. All that was queued before until_ns must
-  /// have been.
+  /// The next frame that is sent by until_ns; none: ask again later, or at once if has_report() says so. All
+  /// that was queued before until_ns must have been.
   std::optional<Carried> next(std::int64_t until_ns);
+
+  /// The next report of a node that is `told`, in the order of time. Those that are there when next() gives a
+  /// frame come after it.
+  std::optional<WireReport> report();
+  [[nodiscard]] bool has_report() const { return !reports_.empty(); }
 
   /// From when on next() can have more to say; never: not before a frame is queued.
   [[nodiscard]] std::int64_t next_event_ns() const;
@@ -108,7 +124,8 @@ class SimulatedWire {
     int rec = 0;
     std::int64_t silent_until_ns = long_ago;  ///< an error passive sender lets others go first
     bool off = false;
-    std::int64_t recessive_runs = 0;  ///< of 11 bits, while off
+    std::int64_t recessive_runs = 0;          ///< of 11 bits, while off
+    BusEvent level = BusEvent::error_active;  ///< the last one that it told of
   };
   struct Candidate {
     std::size_t node = 0;
@@ -130,9 +147,10 @@ class SimulatedWire {
   Carried succeed();
   void fail();
   void go_off(Node& node);
+  void tell(std::size_t node, std::int64_t t_ns, SeenError seen);
   void finish();
   void idle_until(std::int64_t t_ns);
-  void see_recessive(std::int64_t runs);
+  void see_recessive(std::int64_t runs, std::int64_t last_ns);
 
   wire::BitRates rates_;
   std::int64_t bit_ns_;
@@ -141,6 +159,7 @@ class SimulatedWire {
   std::optional<Running> running_{};
   std::int64_t free_ns_ = long_ago;  ///< nothing is on the wire since
   std::int64_t idle_ns_ = free_ns_;  ///< up to here the recessive bits since then are counted
+  std::deque<WireReport> reports_{};
   WireCounters counters_{};
 };
 

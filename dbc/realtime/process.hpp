@@ -28,6 +28,10 @@ struct Request {
 /// missing.
 Result<void> enter(const Request& request);
 
+/// Makes the memory of a process that has entered present again: after a fork() each page of it would cost a
+/// fault when it is first written to. False: the memory may not be locked.
+bool own_memory_again();
+
 /// The CPUs that this process may run on.
 std::vector<int> cpus();
 /// Error: it is none of the CPUs that this process may run on. `option`: where it was asked for.

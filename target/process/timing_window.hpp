@@ -8,27 +8,25 @@
 
 namespace canhil::target {
 
-/// Collects what each frame waited and took.
+/// Collects what each frame that was answered waited and took: the last ones of sample groups.
 class TimingWindow {
  public:
-  /// One frame: its wait between stamp and processing, its processing time, and whether it was answered.
-  void add(std::int64_t queue_ns, std::int64_t compute_ns, bool answered) {
+  /// Its wait between stamp and processing, and the processing.
+  void add(std::int64_t queue_ns, std::int64_t compute_ns) {
     queue_max_ns_ = std::max(queue_max_ns_, queue_ns);
     queue_sum_ns_ += queue_ns;
-    ++frames_;
-    if (!answered) return;
     compute_max_ns_ = std::max(compute_max_ns_, compute_ns);
     compute_sum_ns_ += compute_ns;
-    ++answers_;
+    ++count_;
   }
 
   /// The message of the window; starts a new one. Times saturate at 8191 us, as the message does.
   messages::TargetTiming take() {
-    const messages::TargetTiming message{
-        .queue_max_us = microseconds(queue_max_ns_),
-        .queue_mean_us = microseconds(queue_sum_ns_ / std::max<std::int64_t>(frames_, 1)),
-        .compute_max_us = microseconds(compute_max_ns_),
-        .compute_mean_us = microseconds(compute_sum_ns_ / std::max<std::int64_t>(answers_, 1))};
+    const std::int64_t count = std::max<std::int64_t>(count_, 1);
+    const messages::TargetTiming message{.queue_max_us = microseconds(queue_max_ns_),
+                                         .queue_mean_us = microseconds(queue_sum_ns_ / count),
+                                         .compute_max_us = microseconds(compute_max_ns_),
+                                         .compute_mean_us = microseconds(compute_sum_ns_ / count)};
     *this = TimingWindow();
     return message;
   }
@@ -41,8 +39,7 @@ class TimingWindow {
   std::int64_t queue_sum_ns_ = 0;
   std::int64_t compute_max_ns_ = 0;
   std::int64_t compute_sum_ns_ = 0;
-  std::int64_t frames_ = 0;
-  std::int64_t answers_ = 0;
+  std::int64_t count_ = 0;
 };
 
 }  // namespace canhil::target

@@ -12,7 +12,7 @@ bash tests/setup/install.sh tests
 
 build=build/default
 cmake --preset default >/dev/null
-ninja -C "$build" tests/perf/all
+ninja -C "$build" tests/perf/all hil-bench hil-target
 
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo unknown)
 if [[ -n "$(git status --porcelain 2>/dev/null)" ]]; then commit+=-changed; fi
@@ -41,7 +41,7 @@ as_text() { # as_text NAME COMMAND...
 while read -r program; do
   name=${program##*/}
   case $name in
-    *_instructions | vcan_node) ;; # for callgrind, and on vcan: below
+    *_instructions | vcan_node | run_turnaround) ;; # for callgrind, on vcan, in real time: below
     *_benchmark)
       printf '\n== %s\n' "$name"
       "$program" --benchmark_context="${context%,}" --benchmark_out="$records/$name.json" --benchmark_out_format=json "$@" ||
@@ -52,6 +52,15 @@ while read -r program; do
   esac
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
 as_text ports_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py "$build/tests/perf/ports/vcan_node"
+# At a priority of their own where that is permitted. One CPU: no wake-up of another hides what the target costs.
+real_time=(chrt -f 30)
+"${real_time[@]}" true 2>/dev/null || real_time=()
+last_cpu=$(taskset -cp $$ | sed 's/.*[ ,-]//')
+as_text turnaround "${real_time[@]}" taskset -c "$last_cpu" "$build/tests/perf/run/run_turnaround"
+as_text turnaround_all_cpus "${real_time[@]}" "$build/tests/perf/run/run_turnaround"
+as_text turnaround_vcan tests/vcan/run.sh "${real_time[@]}" "$build/tests/perf/run/run_turnaround" --bus vcan0 vcan1
+as_text jitter /usr/bin/python3 tests/perf/run/jitter.py "$build/hil-bench"
+as_text jitter_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/run/jitter.py "$build/hil-bench" 5 vcan0
 as_text codec_instructions sh tests/perf/codec/count_instructions.sh "$build/tests/perf/codec/codec_instructions"
 as_text estimators_instructions sh tests/perf/estimators/count_instructions.sh "$build"
 as_text run_stages python3 tests/perf/run/stages.py "$build"

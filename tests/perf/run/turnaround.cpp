@@ -1,172 +1,274 @@
-// What the target adds to a bus: from the last frame of a Seeker group to the last frame of its answer, over
-// the embedded bus, beside a process that only echoes (three frames for the fourth of each group), in one
-// run.
-//   turnaround [GROUPS]; prints p50, p99 and maximum of both, their ratio, and the answers that did not come.
+// What the target adds to a bus: from the last frame of a stimulus to the last frame of its answer, beside a
+// process that only receives and sends: to the same frames as many, the same, known beforehand.
+//   turnaround [--flights N] [--only NAME] [--bus BUS ECHO_BUS]
+// The embedded bus where none is named, else two CAN interfaces of a kind, so that neither hears the other.
+// Prints for every estimator, by the message that ends the answer: p50, p99 and maximum of both, the answers
+// that did not come, and the ratios.
 //
-// Groups of the one and the other alternate in blocks, so that whatever else the machine does meets both.
-// Time is not awaited: the device's only time is that of the frames.
-#include <fmt/format.h>
+// Blocks of the one and the other take turns, so that whatever else the machine does meets both. Time is not
+// awaited: the device's only time is that of the frames.
+#include <fcntl.h>
+#include <linux/can.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
-#include <optional>
-#include <vector>
+#include <cstring>
+#include <map>
 
-#include "bench/run/contract.hpp"
-#include "bench/run/flight.hpp"
-#include "bench/run/handshake.hpp"
 #include "bench/run/target_process.hpp"
 #include "dbc/ports/local_bus.hpp"
-#include "dbc/wire/time_base.hpp"
+#include "tests/perf/run/flight_rounds.hpp"
 
 namespace canhil {
 namespace {
 
-using namespace messages;
-
-constexpr int block = 500;
-constexpr std::int64_t period_us = 5000;
+constexpr std::size_t block = 200;  // rounds
 constexpr std::int64_t patience_ns = 1'000'000'000;
+constexpr int most_unanswered = 10;
+constexpr std::int64_t breath = 8;  // rests for a part of the time it worked, as Linux stops real-time
+                                    // processes that want a whole CPU
 
-// A seeker that looks at a target far away, closing slowly: a flight long enough for every sample.
-void put_group(nodes::Transmission& out, std::int64_t k) {
-  constexpr double closing_mps = 20;
-  const double t_s = 1e-6 * static_cast<double>(k * period_us);
-  out.send(SeekerAntenna{.antenna_increment_pitch_rad = 1e-5, .antenna_validity = Validity::valid});
-  out.send(SeekerAngles{.error_pitch_rad = 1e-3,
-                        .error_yaw_rad = k % 2 == 0 ? 1e-3 : 0.9e-3,
-                        .interval_us = period_us,
-                        .error_validity = Validity::valid});
-  out.send(SeekerMotion{.closing_speed_mps = closing_mps,
-                        .acceleration_validity = Validity::valid,
-                        .closing_speed_validity = Validity::valid});
-  out.send(SeekerRange{.range_m = 9500 - closing_mps * t_s,
-                       .time_of_validity_us = wrap_us(k * period_us),
-                       .range_validity = Validity::valid});
-}
-
-// One side of the comparison: a bus, and who answers on it.
-class Side {
- public:
-  explicit Side(LocalHub& hub) : hub_(hub) {}
-
-  // Sends a group and waits for the last frame of its answer; counts it as missing after a second.
-  void round(bool count) {
-    ++k_;
-    out_.clear();
-    if (k_ % 2 == 1) out_.send(Sync{.time_us = static_cast<std::uint64_t>((k_ + 1) * period_us)});
-    put_group(out_, k_);
-    std::int64_t sent_ns = 0;
-    for (const Frame& frame : out_.frames()) {
-      sent_ns = clock_ns(CLOCK_MONOTONIC);
-      while (hub_.send(frame) == SendOutcome::queue_full) wait(hub_, WaitFor::room, no_deadline);
-    }
-    if (!answered(sent_ns + patience_ns)) {
-      ++missing;
-    } else if (count) {
-      ns.push_back(clock_ns(CLOCK_MONOTONIC) - sent_ns);
-    }
-  }
-  nodes::Transmission& out() { return out_; }
-
-  std::vector<std::int64_t> ns;
-  int missing = 0;
-
- private:
-  bool answered(std::int64_t deadline_ns) {
-    while (!hub_.closed() && clock_ns(CLOCK_MONOTONIC) < deadline_ns) {
-      while (const auto received = hub_.receive()) {
-        if (received->frame.id == LosRateTarget::info.id) return true;
-      }
-      wait(hub_, WaitFor::frame, deadline_ns);
-    }
-    return false;
-  }
-
-  LocalHub& hub_;
-  nodes::Transmission out_;
-  std::int64_t k_ = 0;
+struct Estimator {
+  std::string name;
+  std::string scenario;
+  std::string algorithm;
+  int flights = 1;
 };
 
-// Answers the last frame of each group with three frames; the last has the id that ends an answer.
-[[noreturn]] void echo(const std::string& bus) {
-  auto node = join_local_bus(bus, {});
-  if (!node) ::_exit(1);
-  while (!(*node)->closed()) {
-    while (const auto received = (*node)->receive()) {
-      if (received->frame.id != SeekerRange::info.id) continue;
-      Frame answer = received->frame;
-      for (const std::uint32_t id :
-           {LosRateEstimate::info.id, LosRateSigma::info.id, LosRateTarget::info.id}) {
-        answer.id = id;
-        static_cast<void>((*node)->send(answer));
-      }
-    }
-    wait(**node, WaitFor::frame, no_deadline);
-  }
-  ::_exit(0);
-}
-
-double us(const std::vector<std::int64_t>& sorted, double quantile) {
-  return 1e-3 * static_cast<double>(
-                    sorted[static_cast<std::size_t>(quantile * static_cast<double>(sorted.size() - 1))]);
-}
+const std::vector<Estimator> estimators{
+    {"LOS rate", "los_quick", "combined", 20},
+    {"transfer alignment KF", "transfer_alignment", "kalman", 5},
+    {"transfer alignment H2", "transfer_alignment_h2", "robust_h2", 5},
+    {"in-flight UKF", "inflight_gps", "ukf", 2},
+    {"in-flight EKF", "inflight_gps", "ekf", 2},
+    {"wind EKF", "wind_ekf", "ekf", 2},
+    {"wind H-infinity", "wind_h_infinity", "h_infinity", 2},
+};
 
 int complain(const std::string& what) {
   fmt::print(stderr, "turnaround: {}\n", what);
   return 2;
 }
 
-int compare(int groups) {
-  const auto scenario = scenario::read_file(SOURCE_DIR "/bench/scenarios/los_quick.toml", run::contract());
-  if (!scenario) return complain(scenario.error().message);
-  const auto truth = run::make_truth(*scenario);
-  if (!truth) return complain(truth.error().message);
-  const auto own_truth = run::make_own_truth(*scenario, 0);
-  if (!own_truth) return complain(own_truth.error().message);
-  const auto initial = run::make_initial_states(*scenario, *truth, *own_truth, 0);
-  if (!initial) return complain(initial.error().message);
+/// How the echo reads and writes: by one blocking call each, and nothing else.
+struct Bare {
+  std::function<void()> read;
+  std::function<void(const Frame&)> write;
+};
 
-  const std::string bus = fmt::format("local:turnaround-{}", ::getpid()), echo_bus = bus + "-echo";
-  auto hub = host_local_bus(bus, {}), echo_hub = host_local_bus(echo_bus, {});
-  if (!hub || !echo_hub) return complain("cannot host an embedded bus");
+Bare bare_node(const std::string& bus) {
+  if (bus.starts_with("local:")) {
+    auto joined = join_local_bus(bus, {});
+    if (!joined) ::_exit(complain(joined.error().message));
+    const std::shared_ptr<Port> node = std::move(*joined);
+    ::fcntl(node->descriptor(), F_SETFL, ::fcntl(node->descriptor(), F_GETFL) & ~O_NONBLOCK);
+    return {[node] {
+              if (!node->receive()) ::_exit(0);
+            },
+            [node](const Frame& frame) { static_cast<void>(node->send(frame)); }};
+  }
+  const int socket = ::socket(AF_CAN, SOCK_RAW, CAN_RAW);
+  sockaddr_can at{};
+  at.can_family = AF_CAN;
+  at.can_ifindex = static_cast<int>(::if_nametoindex(bus.c_str()));
+  if (::bind(socket, reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0)
+    ::_exit(complain("cannot bind"));
+  return {[socket] {
+            can_frame frame{};
+            if (::read(socket, &frame, sizeof frame) < 0) ::_exit(1);
+          },
+          [socket](const Frame& frame) {
+            can_frame raw{};
+            raw.can_id = frame.id;
+            raw.len = frame.size;
+            std::memcpy(raw.data, frame.data.data(), frame.size);
+            static_cast<void>(::write(socket, &raw, sizeof raw));
+          }};
+}
+
+[[noreturn]] void echo(const std::string& bus, const std::vector<Round>& rounds) {
+  const Bare node = bare_node(bus);
+  node.write({.id = messages::TargetHeartbeat::info.id, .size = 8});  // here I am
+  for (const Round& round : rounds) {
+    for (std::size_t n = 0; n < round.stimulus.size(); ++n) node.read();
+    for (const Frame& answer : round.answers) node.write(answer);
+  }
+  ::pause();
+  ::_exit(0);
+}
+
+/// Times by the message that ends the answer.
+struct Times {
+  std::vector<std::int64_t> ns;
+  int unanswered = 0;
+};
+using TimesByAnswer = std::map<std::uint32_t, Times>;
+
+/// One side of the comparison: who answers on this bus.
+class Side {
+ public:
+  explicit Side(Port& port) : port_(port) {}
+
+  /// Takes what is left over.
+  void settle() {
+    for (int empty = 0; empty < 2;) empty = port_.receive() ? 0 : empty + 1;
+  }
+
+  bool hears(std::uint32_t id) {
+    const std::int64_t deadline_ns = clock_ns(CLOCK_MONOTONIC) + patience_ns;
+    while (clock_ns(CLOCK_MONOTONIC) < deadline_ns) {
+      while (const auto received = port_.receive()) {
+        if (received->frame.id == id) return true;
+      }
+      wait(port_, WaitFor::frame, deadline_ns);
+    }
+    return false;
+  }
+
+  void play(const Round& round, bool count) {
+    std::int64_t sent_ns = 0;
+    for (const Frame& frame : round.stimulus) {
+      sent_ns = clock_ns(CLOCK_MONOTONIC);
+      while (port_.send(frame) == SendOutcome::queue_full) wait(port_, WaitFor::room, no_deadline);
+    }
+    const std::uint32_t last = round.answers.back().id;
+    const bool answered = hears(last);
+    const std::int64_t took_ns = clock_ns(CLOCK_MONOTONIC) - sent_ns;
+    unanswered_ += answered ? 0 : 1;
+    if (!answered) ++times[last].unanswered;
+    if (answered && count) times[last].ns.push_back(took_ns);
+  }
+  [[nodiscard]] bool alive() const { return unanswered_ < most_unanswered; }
+
+  TimesByAnswer times;
+
+ private:
+  Port& port_;
+  int unanswered_ = 0;
+};
+
+Result<std::unique_ptr<Port>> open_here(const std::string& bus) {
+  if (!bus.starts_with("local:")) return open_port(bus, {});
+  auto hub = host_local_bus(bus, {});
+  if (!hub) return tl::unexpected(hub.error());
+  return std::move(*hub);
+}
+
+void rest(std::int64_t since_ns) {
+  ::usleep(static_cast<unsigned>((clock_ns(CLOCK_MONOTONIC) - since_ns) / breath / 1000));
+}
+
+/// Rounds by blocks in turn; the first one warms up.
+void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
+  for (std::size_t first = 0; first < rounds.size() && device.alive() && bare.alive(); first += block) {
+    const std::size_t end = std::min(first + block, rounds.size());
+    for (Side* side : {&bare, &device}) {
+      const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
+      for (std::size_t k = first; k < end; ++k) side->play(rounds[k], first > 0);
+      rest(start_ns);
+    }
+  }
+}
+
+Result<void> fly(const std::vector<Round>& rounds, const std::array<std::string, 2>& buses, Side& device,
+                 Side& bare) {
+  // Those who left before: what is left of them must not live on in a new process.
+  device.settle();
+  bare.settle();
   const pid_t child = ::fork();
-  if (child == 0) echo(echo_bus);
-  auto target = run::TargetProcess::start(HIL_TARGET, bus);
-  if (!target) return complain(target.error().message);
-
-  Side device(**hub), bare(**echo_hub);
-  run::Link link(**hub);
-  const auto configured =
-      run::configure(link, device.out(), scenario->targets, *initial, [&] { return target->ended(); });
-  if (!configured) return complain(configured.error().message);
-  while ((*echo_hub)->nodes().empty()) {  // until the echo has joined
-    static_cast<void>((*echo_hub)->receive());
-    ::usleep(1000);
+  if (child == 0) {
+    ::close_range(3, ~0U, 0);
+    echo(buses[1], rounds);
   }
-  for (int n = 0; n < groups + block; n += block) {  // the first block warms up
-    for (int i = 0; i < block; ++i) bare.round(n > 0);
-    for (int i = 0; i < block; ++i) device.round(n > 0);
-  }
+  auto target = run::TargetProcess::start(HIL_TARGET, buses[0]);
+  if (!target) return tl::unexpected(target.error());
+  const bool ready =
+      bare.hears(messages::TargetHeartbeat::info.id) && device.hears(messages::TargetHeartbeat::info.id);
+  if (ready) alternate(rounds, device, bare);
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
-  if (bare.ns.empty() || device.ns.empty()) return complain("no answers");
-  std::ranges::sort(bare.ns);
-  std::ranges::sort(device.ns);
-  fmt::print("{} groups each           p50      p99       max   unanswered\n", groups);
-  for (const auto& [name, side] :
-       {std::pair("echo process", &bare), std::pair("hil-target, LOS rate", &device)})
-    fmt::print("{:<22}{:>9.2f}{:>9.2f}{:>10.2f}  us{:>9}\n", name, us(side->ns, 0.5), us(side->ns, 0.99),
-               us(side->ns, 1), side->missing);
-  fmt::print("ratio of p50 {:.3f}, of p99 {:.3f}\n", us(device.ns, 0.5) / us(bare.ns, 0.5),
-             us(device.ns, 0.99) / us(bare.ns, 0.99));
+  if (!ready) return failure("target or echo do not come up");
+  if (!device.alive() || !bare.alive())
+    return failure(fmt::format("{} does not answer", device.alive() ? "the echo" : "the target"));
+  return {};
+}
+
+double us(const std::vector<std::int64_t>& sorted, double quantile) {
+  const double rank = std::ceil(quantile * static_cast<double>(sorted.size()));
+  return 1e-3 * static_cast<double>(sorted[static_cast<std::size_t>(rank) - 1]);
+}
+
+std::string_view message_of(std::uint32_t id) {
+  return std::ranges::find(messages::all_messages, id, &MessageInfo::id)->name;
+}
+
+bool by_an_estimator(std::uint32_t id) {
+  return !std::ranges::find(messages::all_messages, id, &MessageInfo::id)->answers.empty();
+}
+
+void print(const Estimator& estimator, TimesByAnswer& device, TimesByAnswer& bare) {
+  constexpr std::size_t enough = 100;
+  for (auto& [id, own] : device) {
+    Times& echo = bare[id];
+    if (own.ns.size() < enough || echo.ns.size() < enough || !by_an_estimator(id)) continue;
+    std::ranges::sort(own.ns);
+    std::ranges::sort(echo.ns);
+    fmt::print("{:<22} {:<15}{:>7}", estimator.name, message_of(id), own.ns.size());
+    for (const Times* times : {&own, &echo})
+      fmt::print(" |{:>8.1f}{:>8.1f}{:>9.1f}{:>3}", us(times->ns, 0.5), us(times->ns, 0.99), us(times->ns, 1),
+                 times->unanswered);
+    fmt::print(" |{:>6.2f}{:>6.2f}{:>6.2f}\n", us(own.ns, 0.5) / us(echo.ns, 0.5),
+               us(own.ns, 0.99) / us(echo.ns, 0.99), us(own.ns, 1) / us(echo.ns, 1));
+  }
+  std::fflush(stdout);
+}
+
+int compare(int flights, const std::string& only, const std::array<std::string, 2>& buses) {
+  auto port = open_here(buses[0]), echo_port = open_here(buses[1]);
+  if (!port) return complain(port.error().message);
+  if (!echo_port) return complain(echo_port.error().message);
+  fmt::print(
+      "turnaround [us]                          rounds |       of hil-target            |        of a bare "
+      "echo          |      ratio\n"
+      "estimator              answer ends with       |     p50     p99      max  ? |     p50     p99      "
+      "max  ? |   p50   p99   max"
+      "   (?: unanswered)\n");
+  for (const Estimator& estimator : estimators) {
+    if (!estimator.name.starts_with(only)) continue;
+    Side device(**port), bare(**echo_port);
+    for (int flight = 0; flight < estimator.flights * flights; ++flight) {
+      const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
+      const auto rounds =
+          record_flight(fmt::format("{}/bench/scenarios/{}.toml", SOURCE_DIR, estimator.scenario),
+                        estimator.algorithm, static_cast<std::uint64_t>(flight));
+      if (!rounds) return complain(rounds.error().message);
+      rest(start_ns);
+      if (auto flown = fly(*rounds, buses, device, bare); !flown)
+        return complain(estimator.name + ": " + flown.error().message);
+    }
+    print(estimator, device.times, bare.times);
+  }
   return 0;
 }
 
 }  // namespace
 }  // namespace canhil
 
-int main(int argc, char** argv) { return canhil::compare(argc > 1 ? std::atoi(argv[1]) : 20'000); }
+int main(int argc, char** argv) {
+  CLI::App app{"Turnaround of hil-target beside that of a bare echo."};
+  int flights = 1;
+  std::string only;
+  const std::string local = fmt::format("local:turnaround-{}", ::getpid());
+  std::array<std::string, 2> buses{local, local + "-echo"};
+  app.add_option("--flights", flights, "how many times as many as it takes");
+  app.add_option("--only", only, "estimators whose name begins so");
+  app.add_option("--bus", buses, "of the target and of the echo: two CAN interfaces");
+  CLI11_PARSE(app, argc, argv);
+  return canhil::compare(flights, only, buses);
+}

@@ -301,6 +301,21 @@ TEST(BadInput, BusMisspelt) {
   expect_one_line(hil_bench(run + "in-process --target /bin/false"), "--target: with --bus in-process");
 }
 
+TEST(BadInput, SettingsOfAWire) {
+  for (const std::string bus : {"in-process", "local:"}) {
+    const auto run = [&](const std::string& settings) {
+      return hil_bench(
+          fmt::format("run {} --bus '{}?{}'", scenario("transfer_alignment_quick"), bus, settings));
+    };
+    expect_one_line(run("bitrate=500000&bit-error-rate=2"),
+                    "'bit-error-rate=2' is not understood, expected bitrate=1000..1000000");
+    expect_one_line(run("bit-error-rate=1e-6"), "expected bitrate=1000..1000000 after '?'");
+  }
+  expect_one_line(hil_bench(fmt::format("run {} --bus 'in-process?bitrate=500000' --target /bin/false",
+                                        scenario("transfer_alignment_quick"))),
+                  "--target: with --bus in-process");
+}
+
 // Nor what an earlier one left there: it could be taken for this one's.
 TEST(BadInput, AnUnfinishedRunLeavesNoLogAndNoReport) {
   const std::filesystem::path folder = scratch("unfinished");

@@ -62,6 +62,22 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
                                          "los_closed_loop", "los_closed_loop_500hz", "wind_quick",
                                          "all_four"));
 
+class BitsOnAWire : public testing::TestWithParam<const char*> {};
+
+// Frames that take time come in the same order; in the closed loop they take effect at the same time.
+TEST_P(BitsOnAWire, AreThoseWithoutOne) {
+  const std::string name = GetParam();
+  const auto without = target_frames(record(name + ".no_wire.log", "--bus in-process", name));
+  const auto with = target_frames(
+      record(name + ".wire.log", "--bus 'in-process?bitrate=500000&bit-error-rate=1e-5'", name));
+  EXPECT_GT(without.size(), 500U);
+  EXPECT_TRUE(without == with);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bits, BitsOnAWire,
+                         testing::Values("transfer_alignment_quick", "inflight_quick", "los_closed_loop",
+                                         "wind_quick"));
+
 TEST(Bits, InflightInProcessAndRealTimeAgree) {
   const std::string name = "inflight_quick";
   const auto in_process = target_frames(record("inflight.in_process.log", "--bus in-process", name));

@@ -111,6 +111,51 @@ TEST(Run, ACheckThatCannotHoldFailsTheRun) {
   EXPECT_THAT(read(junit), HasSubstr("value=\"R&lt;1&gt;\""));
 }
 
+// In virtual time the wire is exact: no host disturbs it, and every run is the same.
+TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
+  const std::string report = scratch("wire.json");
+  const std::string run = fmt::format("run {} --bus 'in-process?bitrate=500000&bit-error-rate=1e-4' --json ",
+                                      scenario("transfer_alignment_quick"));
+  const Ended first = hil_bench(run + report);
+  EXPECT_EQ(first.code, 0) << first.out << first.err;
+  EXPECT_THAT(first.out, HasSubstr(" · virtual, simulated wire · "));
+  EXPECT_THAT(first.out, HasSubstr("latency by the simulated wire's stamps in virtual time"));
+  const nlohmann::json page = read_json(report);
+  EXPECT_EQ(page["provenance"]["clock"], "virtual, simulated wire");
+  EXPECT_EQ(page["timing"]["judged"], true);
+  EXPECT_GT(page["timing"]["answer_stamps"]["virtual_time"], 500);
+  EXPECT_GT(page["bus"]["error_frames"], 10);
+  const std::string again = scratch("again.json");
+  ASSERT_EQ(hil_bench(run + again).code, 0);
+  const nlohmann::json second = read_json(again);
+  EXPECT_EQ(page["latency_s"], second["latency_s"]);
+  EXPECT_EQ(page["jitter_s"], second["jitter_s"]);
+  const Ended compared = hil_bench("compare " + report + " " + again);
+  EXPECT_EQ(compared.code, 0) << compared.out;
+}
+
+TEST(SimulatedWire, EveryMessageKeepsItsBoundAndTheWholeLatencyIsExplained) {
+  std::ofstream(scratch("bounds.toml"))
+      << read(scenario("los_quick")) << "\n[[check]]\nkind = \"wire_response\"\n";
+  const std::string report = scratch("bounds.json");
+  const Ended ended = hil_bench(
+      fmt::format("run {} --bus 'in-process?bitrate=500000' --json {}", scratch("bounds.toml"), report));
+  EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+  const nlohmann::json page = read_json(report);
+  EXPECT_GE(page["wire"]["messages"].size(), 8U);
+  for (const auto& message : page["wire"]["messages"]) {
+    EXPECT_LE(message["longest_s"].get<double>(), message["bound_s"].get<double>()) << message;
+    EXPECT_LE(message["frame_s"].get<double>(), message["bound_s"].get<double>()) << message;
+  }
+  EXPECT_NEAR(page["split"]["parts_s"]["not_explained"].get<double>(), 0, 20e-6)
+      << "what Sync and heartbeats take";
+  EXPECT_GT(page["split"]["parts_s"]["reply_wire"].get<double>(), 3 * 150e-6);
+
+  const Ended without = hil_bench(fmt::format("run {} --bus in-process", scratch("bounds.toml")));
+  EXPECT_EQ(without.code, 3) << without.out;
+  EXPECT_THAT(without.out, HasSubstr("the time of a frame on this bus is not known"));
+}
+
 TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {
   const std::string contract = SOURCE_DIR "/dbc/canhil.dbc";
   const Ended enough = hil_bench("schedulability --bitrate 1000000 --json " + contract);

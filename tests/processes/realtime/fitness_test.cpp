@@ -98,25 +98,27 @@ class Hog {
   std::jthread thread_;
 };
 
-// A virtual machine may itself be hogged meanwhile: that is said first.
+// How a hog shows depends on the scheduler: a process that sleeps most of the time may wait for less than 5 %
+// of the run and still be late each time. A virtual machine may itself be hogged meanwhile: that is said
+// first.
 const std::string no_cpu =
     "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
+const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the bar";
 
-// All that has to do with time stays open, for this reason; what the target said is judged.
-void expect_not_measured(const Ended& ended, const nlohmann::json& report, const std::string& reason) {
+// Bars of a few ms stay open, for one of these reasons; what the target said is judged.
+void expect_not_measured(const Ended& ended, const nlohmann::json& report) {
   EXPECT_EQ(report["verdict"], "not measured");
   EXPECT_EQ(ended.code, 3) << ended.out;
-  EXPECT_FALSE(report["timing"]["judged"]);
   int open = 0;
   for (const auto& one : report["checks"]) {
-    const bool timing =
-        one["kind"] == "latency" || one["kind"] == "output_period" || one["kind"] == "heartbeat";
+    if (one["kind"] == "heartbeat") continue;  // its bar is half a second
+    const bool timing = one["kind"] == "latency" || one["kind"] == "output_period";
     EXPECT_EQ(one["outcome"], timing ? "not measured" : "pass") << one;
     if (!timing) continue;
-    EXPECT_THAT(one["measured"].get<std::string>(), MatchesRegex(reason));
+    EXPECT_THAT(one["measured"].get<std::string>(), AnyOf(MatchesRegex(no_cpu), MatchesRegex(late)));
     ++open;
   }
-  EXPECT_EQ(open, 3);
+  EXPECT_EQ(open, 2);
 }
 
 TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
@@ -129,7 +131,7 @@ TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
   }();
   const Ended ended = shell(fmt::format("taskset -c {} {} run {} --json {}", cpu, HIL_BENCH,
                                         scenario("transfer_alignment_quick"), report));
-  expect_not_measured(ended, read_json(report), no_cpu);
+  expect_not_measured(ended, read_json(report));
 }
 
 // Too seldom to take the CPU away for a share of the run worth speaking of, but for longer than the 10 ms
@@ -146,7 +148,6 @@ TEST(CpuHog, OfAHigherPriorityLeavesTheWorstLatencyNotMeasured) {
   const Ended ended = hil_bench(
       fmt::format("run {} --realtime --priority 40 --cpu {} --json {}", judged_by("1"), cpu, report));
   EXPECT_EQ(ended.code, 3) << ended.out;
-  const std::string late = "this host kept the bench itself .* ms late \\(max\\), more than 50 % of the bar";
   EXPECT_THAT(check(read_json(report), "latency")["measured"].get<std::string>(),
               AnyOf(MatchesRegex(late), MatchesRegex(no_cpu)));
 }

@@ -73,12 +73,15 @@ TEST(Realtime, IsNotInForceUnlessAskedFor) {
   EXPECT_EQ(process["locked_kib"], 0);
 }
 
-// What /proc says of the started target halfway through a run.
+// What /proc says of the started target halfway through a run, and how many page faults the bench had
+// meanwhile.
 std::string started_target(const std::string& options) {
-  const Ended seen = shell(
-      fmt::format("{} {} {} >{} 2>&1 & sleep 1.5; read pid rest </proc/$!/task/$!/children; chrt -p $pid; "
-                  "grep -E '^(VmLck|Cpus_allowed_list)' /proc/self/status /proc/$pid/status; wait $!",
-                  HIL_BENCH, quick_run(), options, scratch("started.out")));
+  const Ended seen = shell(fmt::format(
+      "faults() {{ cut -d' ' -f10 /proc/$1/stat; }}; "
+      "{} {} {} >{} 2>&1 & sleep 1.2; before=$(faults $!); read pid rest </proc/$!/task/$!/children; "
+      "chrt -p $pid; grep -E '^(VmLck|Cpus_allowed_list)' /proc/self/status /proc/$pid/status; "
+      "sleep 1.5; echo bench: $(($(faults $!) - before)) faults; wait $!",
+      HIL_BENCH, quick_run(), options, scratch("started.out")));
   return seen.out + seen.err + read(scratch("started.out"));
 }
 
@@ -91,6 +94,8 @@ TEST(Realtime, TheStartedTargetTakesItTooOnTheCpusThatTheBenchHadOrOnOneOfItsOwn
   EXPECT_THAT(beside, HasSubstr("priority: 40\n"));
   EXPECT_THAT(beside, ContainsRegex("/proc/[0-9]+/status:" + all_cpus));
   EXPECT_THAT(beside, ContainsRegex(memory_is_locked ? "/proc/[0-9]+/status:VmLck:[\t ]*[1-9]" : "VmLck"));
+  EXPECT_THAT(beside, ContainsRegex(memory_is_locked ? "bench: [0-9] faults" : "bench: [0-9]+ faults"))
+      << "in mid-run, each at the cost of a late frame";
   const std::string pinned = started_target(fmt::format("--target-cpu {}", last_cpu));
   EXPECT_THAT(pinned, HasSubstr("SCHED_OTHER"));
   EXPECT_THAT(pinned, ContainsRegex(fmt::format("/proc/[0-9]+/status:Cpus_allowed_list:\t{}\n", last_cpu)));

@@ -14,6 +14,7 @@
 #include "bench/report/json.hpp"
 #include "bench/report/plot.hpp"
 #include "bench/report/provenance.hpp"
+#include "bench/report/text.hpp"
 #include "bench/world/motion/rest.hpp"
 
 namespace canhil::report {
@@ -73,6 +74,76 @@ TEST(Page, NeedsNothingOutsideItself) {
                     Not(HasSubstr("<link")), Not(HasSubstr("@import"))));
 }
 
+// A run at 500 kbit/s: 100 stimuli of 0.3 ms to their echo, 0.2 of it the frame, and 1 ms from there on.
+run::Run run_on_a_wire() {
+  run::Run run = run_of();
+  run.seen.bit_rates = {.nominal = 500'000};
+  run.seen.transmit_stamps_echoed = true;
+  run.seen.last_ns = 2'000'000'000;
+  checks::TimingRecord& timing = run.seen.timing;
+  timing.wire.rates = run.seen.bit_rates;
+  timing.split = {.stimuli = 100,
+                  .echoed = 100,
+                  .to_echo_ns = 30'000'000,
+                  .stimulus_wire_ns = 20'000'000,
+                  .latency_ns = 100'000'000,
+                  .reply_wire_ns = 60'000'000,
+                  .told = 50,
+                  .target_queue_ns = 5'000'000,
+                  .target_compute_ns = 10'000'000};
+  timing.slowest = {.message = "AlignVelocityD", .t_ns = 1'500'000'000, .latency_ns = 9'000'000};
+  timing.slowest.queue_max_us = 8191;
+  timing.responses[message_index<messages::Sync>()] = {.count = 200, .max_ns = 250'000};
+  timing.responses[message_index<messages::AlignVelocityD>()] = {.count = 100, .max_ns = 9'000'000};
+  timing.answers[message_index<messages::AlignVelocityD>()].last_ns = 1;
+  return run;
+}
+
+TEST(Page, TheLatencyIsSplitAndThePartsAddUp) {
+  const auto split = document(scenario_of(), run_on_a_wire()).at("split");
+  EXPECT_DOUBLE_EQ(split.at("total_s").get<double>(), 1.3e-3);
+  double sum_s = 0;
+  for (const auto& [key, mean] : split.at("parts_s").items()) sum_s += mean.get<double>();
+  EXPECT_NEAR(sum_s, 1.3e-3, 1e-12);
+  EXPECT_NEAR(split.at("parts_s").at("stimulus_wait").get<double>(), 0.1e-3, 1e-12);
+  EXPECT_NEAR(split.at("parts_s").at("target_compute").get<double>(), 0.2e-3, 1e-12);
+  EXPECT_NEAR(split.at("parts_s").at("not_explained").get<double>(), 0.1e-3, 1e-12);
+  const std::string page = page_of(run_on_a_wire());
+  EXPECT_THAT(page, HasSubstr("mean of 100 answered stimuli"));
+  EXPECT_THAT(
+      page,
+      HasSubstr("target: computing</td><td data-label=\"ms\">0.200</td><td data-label=\"share\">15.4 %"));
+  EXPECT_THAT(
+      text(scenario_of(), run_on_a_wire()),
+      AllOf(HasSubstr("mean 1.300 ms of 100 stimuli"), HasSubstr("0.600 ms  answer: its frames on the wire"),
+            HasSubstr("longest wait was 8191 us or more")));
+}
+
+TEST(Page, WhatIsNotKnownOfTheSplitIsNotAZero) {
+  run::Run run = run_on_a_wire();
+  run.seen.timing.wire.rates = {};
+  run.seen.timing.split.told = 0;
+  const auto parts = document(scenario_of(), run).at("split").at("parts_s");
+  EXPECT_TRUE(parts.at("reply_wire").is_null());
+  EXPECT_TRUE(parts.at("target_queue").is_null());
+  EXPECT_NEAR(parts.at("not_explained").get<double>(), 1e-3, 1e-12);
+  EXPECT_THAT(page_of(run), HasSubstr("<td data-label=\"ms\">not known</td>"));
+  EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("target: computing")));
+}
+
+TEST(Page, ShowsEachMessageBesideItsBound) {
+  const auto wire = document(scenario_of(), run_on_a_wire()).at("wire");
+  ASSERT_EQ(wire.at("messages").size(), 2U);
+  EXPECT_EQ(wire.at("messages")[0].at("name"), "Sync");
+  EXPECT_DOUBLE_EQ(wire.at("messages")[0].at("longest_s").get<double>(), 250e-6);
+  EXPECT_FALSE(wire.at("messages")[0].at("at_least").get<bool>());
+  EXPECT_TRUE(wire.at("messages")[1].at("at_least").get<bool>());
+  EXPECT_THAT(page_of(run_on_a_wire()), AllOf(HasSubstr("&#10007; beyond"), HasSubstr("&ge; 9.000")));
+  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), HasSubstr("beyond: AlignVelocityD 9.000 ms, bound "));
+  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), HasSubstr("bus load at 500 kbit/s"));
+  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), Not(HasSubstr("bus load at 1000 kbit/s")));
+}
+
 TEST(Page, SaysVerdictReasonChecksAndRequirement) {
   const std::string page = page_of(run_of());
   EXPECT_THAT(page, AllOf(HasSubstr("1 of 2 checks failed"), HasSubstr("REQ-7"), HasSubstr("late &amp; slow"),
@@ -81,8 +152,7 @@ TEST(Page, SaysVerdictReasonChecksAndRequirement) {
 
 TEST(Page, ShowsLatencyJitterErrorsAndProvenance) {
   const std::string page = page_of(run_of());
-  EXPECT_THAT(page, AllOf(HasSubstr("Latency of AlignVelocityD"),
-                          HasSubstr("Deviation of the period of AlignVelocityD"),
+  EXPECT_THAT(page, AllOf(HasSubstr("<h3>AlignVelocityD</h3>"), HasSubstr("Deviation of its period"),
                           HasSubstr("attitude error about north"), HasSubstr("normalised innovation squared"),
                           HasSubstr("velocity error down"), HasSubstr("cpu_model"), HasSubstr("dbc_hash")));
 }

@@ -396,7 +396,9 @@ TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
 // At 1 Mbit/s a bit takes 1 us: what a frame takes is its length in bits.
 class OnAWire : public Watched {
  protected:
-  OnAWire() : monitor_at_rate_(std::vector<checks::TimedWindow>{}, wire::BitRates{.nominal = 1'000'000}) {}
+  OnAWire()
+      : monitor_at_rate_(std::vector<checks::TimedWindow>{},
+                         checks::WireFacts{.rates = {.nominal = 1'000'000}}) {}
   static std::int64_t ns(const Frame& frame) { return wire::bit_length(frame).nominal * 1000; }
 
   Monitor monitor_at_rate_;

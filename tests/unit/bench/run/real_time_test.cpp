@@ -2,9 +2,12 @@
 
 #include <gmock/gmock.h>
 #include <linux/can/error.h>
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <csignal>
 
 #include "bench/nodes/time_keeper.hpp"
 #include "tests/unit/bench/run/fake_port.hpp"
@@ -69,6 +72,30 @@ TEST_F(RealTime, LooksAtTheBusAllTheTimeThatItSpins) {
   const int asleep = looks(0), spinning = looks(5'000'000);
   EXPECT_LT(asleep, 50) << "it sleeps up to its deadline";
   EXPECT_GT(spinning, 10 * asleep);
+}
+
+TEST_F(RealTime, ASignalThatEndsAWaitMakesNoFrameEarly) {
+  class Lateness final : public Observer {
+   public:
+    void transmitted(const Frame& /*frame*/, std::int64_t /*t_ns*/, std::int64_t late_ns) override {
+      least_ns = std::min(least_ns, late_ns);
+    }
+    std::int64_t least_ns = patient_ns;
+  };
+  SilentPort port;
+  Link link(port);
+  Lateness lateness;
+  const Attached attached(link, lateness);
+  Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, false));
+  const auto before = std::signal(SIGALRM, [](int) {});
+  const itimerval often{.it_interval = {0, 1000}, .it_value = {0, 1000}}, never{};
+  ::setitimer(ITIMER_REAL, &often, nullptr);
+  const Ending ending = run_real_time(link, schedule, patient_ns, stop_, [](std::int64_t) {});
+  ::setitimer(ITIMER_REAL, &never, nullptr);
+  std::signal(SIGALRM, before);
+  EXPECT_EQ(ending.kind, Ending::Kind::completed);
+  EXPECT_EQ(port.sent.size(), 6U);
+  EXPECT_GE(lateness.least_ns, 0);
 }
 
 TEST_F(RealTime, NamesASilentTarget) {

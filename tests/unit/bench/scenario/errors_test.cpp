@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
               "17: key 'check[1].kind': 'banana' is unknown, expected one of: attitude_error, convergence, "
               "velocity_error, "
               "consistency, output_period, latency, counters, heartbeat, position_error, fixes, coasting, "
-              "los_rate_error, miss_distance, wind_error, wind_answers, bus_load, bus_errors"},
+              "los_rate_error, miss_distance, wind_error, wind_answers, bus_load, bus_errors, wire_response"},
         Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'yaw'\nbelow_mrad = 1"),
               "18: key 'check[1].axis': 'yaw' is unknown, expected one of: roll, pitch, heading"},
         Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),

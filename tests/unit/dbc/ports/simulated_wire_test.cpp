@@ -192,6 +192,93 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   EXPECT_EQ(wire.state(0), NodeState::error_active);
 }
 
+/// What a controller told, in order: event, counters, time.
+struct Told {
+  std::optional<BusEvent> event;
+  int tx = 0, rx = 0;
+  std::int64_t t_ns = 0;
+};
+std::vector<Told> reports(SimulatedWire& wire, std::size_t node, BusErrors& errors) {
+  std::vector<Told> told;
+  while (const auto report = wire.report()) {
+    if (report->node != node) continue;
+    const auto event = add(errors, report->frame);
+    told.push_back({event, errors.tx_counter, errors.rx_counter, report->t_ns});
+  }
+  return told;
+}
+std::vector<Told> events(std::vector<Told> told) {
+  std::erase_if(told, [](const Told& t) { return !t.event; });
+  return told;
+}
+
+TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
+  SimulatedWire wire(rates, {{.told = true}, {}}, failing(0x100, 1000));
+  wire.queue(0, frame(0x100), 0);
+  BusErrors errors;
+  std::vector<Told> told;
+  while (wire.next_event_ns() != SimulatedWire::never) {
+    ASSERT_FALSE(wire.next(wire.next_event_ns()));
+    for (const Told& t : reports(wire, 0, errors)) told.push_back(t);
+  }
+  EXPECT_EQ(errors.bus_error, 32U);
+  EXPECT_EQ(errors.no_ack, 0U);
+  const auto changes = events(told);
+  ASSERT_EQ(changes.size(), 4U);
+  EXPECT_EQ(changes[0].event, BusEvent::error_warning);
+  EXPECT_EQ(changes[0].tx, 96);
+  EXPECT_EQ(changes[0].t_ns, (11 * 37 + 20) * bit_ns);  // as the 12th error flag begins
+  EXPECT_EQ(changes[1].event, BusEvent::error_passive);
+  EXPECT_EQ(changes[1].tx, 128);
+  EXPECT_EQ(changes[2].event, BusEvent::bus_off);
+  EXPECT_EQ(changes[3].event, BusEvent::restarted);
+  EXPECT_EQ(changes[3].tx, 0);
+  EXPECT_EQ(changes[3].t_ns, (32 * 37 + 16 * 8 + 128 * 11) * bit_ns);
+  EXPECT_TRUE(wire.queue(0, frame(0x200), changes[3].t_ns));
+}
+
+TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
+  SimulatedWire wire(rates, {{}, {.told = true}}, failing(0x123, 3, {.after_ns = 20 * bit_ns, .at = 1}));
+  wire.queue(0, frame(0x123), 0);
+  while (!wire.next(long_enough)) ASSERT_TRUE(wire.has_report());
+  BusErrors errors;
+  reports(wire, 1, errors);
+  EXPECT_EQ(errors.frames, 3U);
+  EXPECT_EQ(errors.protocol, 3U);
+  EXPECT_EQ(errors.rx_counter_max, 27);
+  EXPECT_EQ(errors.tx_counter_max, 0);
+}
+
+// 12 errors are a warning; one frame that is through ends it, and another frame is no news.
+TEST(SimulatedWire, TheWayBackIsToldAfterTheFrameThatLedThere) {
+  SimulatedWire wire(rates, {{.told = true}, {}}, failing(0x123, 12));
+  for (int i = 0; i < 2; ++i) wire.queue(0, frame(0x123), 0);
+  BusErrors errors;
+  std::vector<Told> told;
+  std::optional<Carried> carried;
+  while (!(carried = wire.next(long_enough))) {
+    for (const Told& t : reports(wire, 0, errors)) told.push_back(t);
+  }
+  EXPECT_EQ(told.size(), 12U);
+  const auto after = reports(wire, 0, errors);
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(after[0].event, BusEvent::error_active);
+  EXPECT_EQ(after[0].tx, 95);
+  EXPECT_EQ(after[0].t_ns, carried->delivered_ns);
+  ASSERT_TRUE(wire.next(long_enough));
+  EXPECT_FALSE(wire.has_report());
+}
+
+TEST(SimulatedWire, WhatNobodyHearsIsNotAcknowledged) {
+  SimulatedWire wire(rates, {{.told = true}});
+  wire.queue(0, frame(0x100), 0);
+  EXPECT_FALSE(wire.next(1'000'000));
+  BusErrors errors;
+  reports(wire, 0, errors);
+  EXPECT_GT(errors.no_ack, 0U);
+  EXPECT_EQ(errors.protocol, 0U);
+}
+
 TEST(SimulatedWire, AloneOnTheBusASenderGoesPassiveButNeverOff) {
   SimulatedWire wire(rates, std::vector<WireNode>(1));
   wire.queue(0, frame(0x100), 0);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include "dbc/ports/bus_errors.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/wire/bit_length.hpp"
 #include "tests/unit/dbc/ports/frames.hpp"
@@ -136,6 +137,87 @@ TEST_F(TimedBus, CarriesFdAtTwoBitRates) {
   for (int i = 0; i < 2; ++i) ASSERT_EQ(node->send(fd), SendOutcome::sent);
   const std::int64_t first_ns = next_frame(*hub)->t_ns;
   EXPECT_EQ(next_frame(*hub)->t_ns - first_ns, duration_ns(fd, rates));
+}
+
+// About one attempt in 20 is hit: warnings, perhaps error passive, but no bus-off.
+TEST_F(TimedBus, ADisturbedBusLosesNothing) {
+  const auto hub = host("?bitrate=1000000&bit-error-rate=5e-4&seed=2");
+  const auto node = join(*hub);
+  constexpr std::uint32_t count = 300;
+  std::uint32_t from_hub = 0, from_node = 0, at_hub = 0, at_node = 0;
+  BusErrors hub_errors, node_errors;
+  const auto take = [](Port& port, std::uint32_t& next, BusErrors& errors) {
+    while (const auto received = port.receive()) {
+      if (received->frame.error) {
+        add(errors, received->frame);
+      } else {
+        ASSERT_EQ(number_of(received->frame), next++);
+      }
+    }
+  };
+  const std::int64_t deadline_ns = in_seconds(20);
+  while (at_hub < count || at_node < count) {
+    while (from_hub < count && hub->send(numbered(1, from_hub)) == SendOutcome::sent) ++from_hub;
+    while (from_node < count && node->send(numbered(2, from_node)) == SendOutcome::sent) ++from_node;
+    ASSERT_TRUE(wait(*hub, WaitFor::frame, deadline_ns));
+    take(*hub, at_hub, hub_errors);
+    take(*node, at_node, node_errors);
+  }
+  EXPECT_GT(hub_errors.bus_error, 5U);
+  EXPECT_EQ(hub_errors.bus_error, node_errors.bus_error);  // both were there
+  EXPECT_EQ(hub_errors.bus_off + node_errors.bus_off, 0U);
+  EXPECT_GT(hub_errors.tx_counter_max, 0);
+  EXPECT_EQ(hub->counters().error_frames, hub_errors.frames);
+}
+
+TEST_F(TimedBus, WhereEveryBitIsWrongASenderGoesOffTheBusAndComesBack) {
+  const auto hub = host("?bitrate=10000&bit-error-rate=1");
+  const auto node = join(*hub), other = join(*hub);
+  ASSERT_EQ(node->send(frame_of(1)), SendOutcome::sent);
+  std::vector<BusEvent> events;
+  BusErrors errors, of_other;
+  const std::int64_t deadline_ns = in_seconds(5);
+  while (errors.restarted == 0 && wait(*hub, WaitFor::frame, deadline_ns)) {
+    EXPECT_FALSE(hub->receive() && !hub->counters().error_frames);
+    while (const auto received = node->receive()) {
+      ASSERT_TRUE(received->frame.error);
+      if (const auto event = add(errors, received->frame)) events.push_back(*event);
+      if (errors.bus_off == 1 && errors.restarted == 0) {
+        ASSERT_EQ(node->send(frame_of(2)), SendOutcome::sent);
+      }
+    }
+  }
+  EXPECT_THAT(events, ElementsAre(BusEvent::error_warning, BusEvent::error_passive, BusEvent::bus_off,
+                                  BusEvent::restarted));
+  EXPECT_EQ(errors.bus_error, 32U);
+  // What it sent while it was off is tried now.
+  while (errors.bus_error == 32U && wait(*hub, WaitFor::frame, deadline_ns)) {
+    while (hub->receive()) {
+    }
+    while (const auto received = node->receive()) add(errors, received->frame);
+  }
+  EXPECT_GT(errors.bus_error, 32U);
+  while (const auto received = other->receive()) EXPECT_FALSE(add(of_other, received->frame));
+  EXPECT_GT(of_other.bus_error, 32U);
+  EXPECT_GT(of_other.rx_counter_max, 32);
+  EXPECT_EQ(of_other.tx_counter_max, 0);
+}
+
+// While the host is off the bus it has no room; then its frames go on.
+TEST_F(TimedBus, AHostThatIsOffTheBusWaitsForItsReturn) {
+  const auto hub = host("?bitrate=10000&bit-error-rate=1");
+  ASSERT_EQ(hub->send(frame_of(1)), SendOutcome::sent);
+  BusErrors errors;
+  const std::int64_t deadline_ns = in_seconds(5);
+  while (errors.bus_off == 0 && wait(*hub, WaitFor::frame, deadline_ns)) {
+    while (const auto received = hub->receive()) add(errors, received->frame);
+  }
+  ASSERT_EQ(errors.bus_off, 1U);
+  EXPECT_EQ(hub->send(frame_of(2)), SendOutcome::queue_full);
+  while (errors.restarted == 0 && wait(*hub, WaitFor::frame, deadline_ns)) {
+    while (const auto received = hub->receive()) add(errors, received->frame);
+  }
+  EXPECT_EQ(hub->send(frame_of(2)), SendOutcome::sent);
 }
 
 // What a controller reports is not on the wire: it does not wait for the frame that is.

@@ -2,8 +2,15 @@
 
 #include <gmock/gmock.h>
 #include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <vector>
 
 #include "dbc/realtime/command_line.hpp"
+#include "dbc/realtime/host.hpp"
 
 namespace canhil::realtime {
 namespace {
@@ -41,6 +48,38 @@ TEST(Cpu, OneThatThisProcessHasNotIsNamedWithThoseThatItHas) {
   ASSERT_FALSE(refused);
   EXPECT_THAT(refused.error().message,
               HasSubstr("--cpu 1023: this process may not run there, expected one of "));
+}
+
+long page_faults() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_minflt;
+}
+
+TEST(OwnMemory, CostsNoFaultsAfterAFork) {
+  constexpr std::size_t pages = 500, page_bytes = 4096;
+  std::vector<char> memory(pages * page_bytes, 1);
+  const auto faults_of_writing = [&] {
+    const long before = page_faults();
+    for (std::size_t at = 0; at < memory.size(); at += page_bytes) {
+      const_cast<volatile char&>(memory[at]) = 2;
+    }
+    return page_faults() - before;
+  };
+  const auto fork_once = [] {
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ::waitpid(child, nullptr, 0);
+  };
+  fork_once();
+  EXPECT_GE(faults_of_writing(), long{pages} / 2) << "the page faults that this is about";
+  fork_once();
+  if (!own_memory_again()) {
+    EXPECT_NE(missing_rights(1), "");
+    return;
+  }
+  EXPECT_LE(faults_of_writing(), 10);
+  ::munlockall();
 }
 
 std::string parse(const std::string& line, Options& options) {

@@ -1,0 +1,25 @@
+// Where the time of an answer went: the mean of each part, and what no part explains.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "bench/checks/timing_record.hpp"
+
+namespace canhil::report {
+
+/// A part of the way from the hand-over of the last frame of a stimulus to the last frame of its answer.
+struct SplitPart {
+  std::string_view key{};          ///< in the JSON
+  std::string_view what{};         ///< for people
+  std::optional<double> mean_s{};  ///< none: not known of this bus, or not told by the target
+};
+
+/// In the order of time; the parts that are known add up to total_s().
+std::vector<SplitPart> parts(const checks::TimingRecord& timing);
+/// For people, of a key; the key itself if it is none of them.
+std::string_view what_of(std::string_view key);
+double total_s(const checks::LatencySplit& split);
+
+}  // namespace canhil::report

@@ -1,0 +1,82 @@
+// A flight as questions and answers: what the target will say to every frame, known beforehand.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "bench/run/contract.hpp"
+#include "bench/run/flight.hpp"
+#include "bench/run/handshake.hpp"
+#include "bench/run/in_process_port.hpp"
+
+namespace canhil {
+
+/// Frames up to and including one that is answered, and the answers.
+struct Round {
+  std::vector<Frame> stimulus;
+  std::vector<Frame> answers;
+};
+
+/// Hands everything to a device in this process and keeps what it says.
+class RecordingPort final : public Port {
+ public:
+  SendOutcome send(const Frame& frame) override {
+    const SendOutcome outcome = device_.send(frame);
+    rounds.back().stimulus.push_back(frame);
+    while (const auto answer = device_.receive()) {
+      heard_.push_back(*answer);
+      rounds.back().answers.push_back(answer->frame);
+    }
+    if (!rounds.back().answers.empty()) rounds.emplace_back();
+    return outcome;
+  }
+  std::optional<Received> receive() override {
+    if (auto first = device_.receive()) return first;  // the heartbeat of a device that is new
+    if (next_ == heard_.size()) return std::nullopt;
+    return heard_[next_++];
+  }
+  [[nodiscard]] int descriptor() const override { return -1; }
+  [[nodiscard]] RoomWait room_wait() const override { return {}; }
+  [[nodiscard]] bool closed() const override { return false; }
+  [[nodiscard]] PortCounters counters() const override { return {}; }
+  [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
+  [[nodiscard]] const std::string& name() const override { return device_.name(); }
+
+  std::vector<Round> rounds{1};  // the last one is without an answer yet
+
+ private:
+  run::InProcessPort device_;
+  std::vector<Received> heard_;
+  std::size_t next_ = 0;
+};
+
+/// The rounds of run `run_index` of a scenario with another algorithm, from the reset of the target on.
+/// Error: one line.
+inline Result<std::vector<Round>> record_flight(const std::string& file, const std::string& algorithm,
+                                                std::uint64_t run_index) {
+  auto scenario = scenario::read_file(file, run::contract());
+  if (!scenario) return tl::unexpected(scenario.error());
+  scenario->targets.front().algorithm = algorithm;
+  const auto truth = run::make_truth(*scenario);
+  if (!truth) return tl::unexpected(truth.error());
+  auto own_truth = run::make_own_truth(*scenario, run_index);
+  if (!own_truth) return tl::unexpected(own_truth.error());
+  const auto initial = run::make_initial_states(*scenario, *truth, *own_truth, run_index);
+  if (!initial) return tl::unexpected(initial.error());
+
+  RecordingPort port;
+  run::Link link(port);
+  run::Schedule schedule = run::make_schedule(*scenario, *truth, *own_truth, run_index, false);
+  const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
+  auto ready = run::configure(link, schedule.outbox(), scenario->targets, *initial, gone);
+  if (!ready) return tl::unexpected(ready.error());
+  while (schedule.due_us() != nodes::never_us) {
+    for (const Frame& frame : schedule.take()) port.send(frame);
+  }
+  port.rounds.pop_back();
+  return std::move(port.rounds);
+}
+
+}  // namespace canhil

@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""Holds the latencies that hil-bench reports against an independent measurement: candump's stamps of the same bus.
+
+  tests/vcan/run.sh /usr/bin/python3 tests/vcan/latency.py HIL_BENCH CANHIL.dbc SCENARIO...
+
+Flies each scenario in real time over vcan0 while candump records it. Pairs, from that log and the DBC alone (as canmatrix reads
+it), the last frame of every stimulus group with the answers to it: by the time of validity that both carry. Nearest-rank p50 and
+p99 of every answering message must agree with those of --json to 2 us (candump cuts its stamps to whole us, the bench's buckets
+are 1 us wide), and the counts exactly. Prints the table; exit code 1 and a line for each disagreement.
+"""
+
+import collections
+import json
+import math
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True
+import canmatrix.formats  # noqa: E402
+
+LIMIT_US = 2.0
+
+
+class Contract:
+    """What the DBC says of groups: by CAN id, the group of a message, what that answers, and how to decode."""
+
+    def __init__(self, dbc):
+        matrix = next(iter(canmatrix.formats.loadp(dbc).values()))
+        self.frames = {frame.arbitration_id.id: frame for frame in matrix.frames}
+        self.group = {i: self.attribute(frame, "SampleGroup") for i, frame in self.frames.items()}
+        self.answers = {i: self.attribute(frame, "Answers").split() for i, frame in self.frames.items()}
+        self.answered = {group for groups in self.answers.values() for group in groups}
+
+    @staticmethod
+    def attribute(frame, name):
+        return str(frame.attributes.get(name, "")).strip('"')
+
+    def value(self, identifier, data, signal_name):
+        """The raw value of a signal; None where the message has none of that name."""
+        frame = self.frames[identifier]
+        if all(one.name != signal_name for one in frame.signals):
+            return None
+        return int(frame.decode(data)[signal_name].raw_value)
+
+
+def frames_of(log):
+    """(stamp [us], id, data) of every classic line "(seconds.microseconds) interface ID#DATA"."""
+    for line in log.splitlines():
+        stamp, _, frame = line.split()[:3]
+        seconds, _, microseconds = stamp.strip("()").partition(".")
+        identifier, _, data = frame.partition("#")
+        yield int(seconds) * 1_000_000 + int(microseconds), int(identifier, 16), bytes.fromhex(data)
+
+
+def latencies_us(log, contract):
+    """Latencies of each answering message, from the last frame of its stimulus."""
+    stimulus_us = {}  # by (group, time of validity): when its last frame was on the bus
+    group_so_far = collections.defaultdict(list)  # by group of answers: (message, stamp)
+    latencies = collections.defaultdict(list)
+    for t_us, identifier, data in frames_of(log):
+        if identifier not in contract.frames or not contract.group[identifier]:
+            continue
+        group = contract.group[identifier]
+        if group in contract.answered:
+            valid = contract.value(identifier, data, "time_of_validity_us")
+            if valid is not None:  # only the last frame of a group carries it
+                stimulus_us[group, valid] = t_us
+        elif contract.answers[identifier]:
+            group_so_far[group].append((contract.frames[identifier].name, t_us))
+            cause = contract.value(identifier, data, "cause_time_us")
+            if cause is None:
+                continue
+            causes = [stimulus_us[one, cause] for one in contract.answers[identifier] if (one, cause) in stimulus_us]
+            for name, answer_us in group_so_far.pop(group):
+                latencies[name] += [answer_us - one for one in causes]
+    return latencies
+
+
+def nearest_rank(sample, q):
+    return sorted(sample)[math.ceil(q * len(sample)) - 1]
+
+
+def listeners():
+    with open("/proc/net/can/rcvlist_all", encoding="ascii") as file:
+        return file.read().count(" raw")
+
+
+def fly(bench, scenario, folder):
+    """Log of candump and the bench's report."""
+    report, log = f"{folder}/report.json", f"{folder}/candump.log"
+    with open(log, "wb") as out:
+        candump = subprocess.Popen(["candump", "-L", "-r", "4000000", "vcan0"], stdout=out, stdin=subprocess.DEVNULL)
+        deadline = time.monotonic() + 20
+        while listeners() == 0 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        time.sleep(0.1)  # the kernel turns stamping on a moment after it was asked for
+        run = subprocess.run([bench, "run", scenario, "--bus", "vcan0", "--json", report],
+                             capture_output=True, text=True, timeout=200, stdin=subprocess.DEVNULL)
+        candump.send_signal(signal.SIGINT)
+        candump.wait(20)
+    if run.returncode not in (0, 1, 3):  # what the run is worth is not the question here
+        sys.exit(f"{scenario}: hil-bench ended with {run.returncode}: {run.stderr}")
+    with open(log, encoding="ascii") as file, open(report, encoding="utf-8") as page:
+        return file.read(), json.load(page)
+
+
+def disagreements(scenario, measured, reported, closing):
+    """Prints both; a line for each that differs."""
+    wrong = []
+    if set(measured) != set(reported):
+        wrong.append(f"answering messages {sorted(measured)}, in the report {sorted(reported)}")
+    if not closing or not closing <= set(measured):
+        wrong.append(f"messages that close an answer: {sorted(closing)}, measured: {sorted(measured)}")
+    print(f"{scenario}\n  {'latency [us]':<24}{'count':>7}{'p50':>10}{'report':>10}{'p99':>10}{'report':>10}")
+    for name in sorted(set(measured) & set(reported)):
+        sample, theirs = measured[name], reported[name]
+        if len(sample) != theirs["count"]:
+            wrong.append(f"{name}: {len(sample)} answers, in the report {theirs['count']}")
+        row = f"  {name:<24}{len(sample):>7}"
+        for key, q in (("p50", 0.5), ("p99", 0.99)):
+            mine, other = nearest_rank(sample, q), theirs[key] * 1e6
+            row += f"{mine:>10}{other:>10.1f}"
+            if abs(mine - other) > LIMIT_US:
+                wrong.append(f"{name}: {key} {mine} us, in the report {other:.1f} us, expected within {LIMIT_US:g} us")
+        print(row)
+    return [f"{scenario}: {line}" for line in wrong]
+
+
+def main(bench, dbc, *scenarios):
+    contract = Contract(dbc)
+    wrong = []
+    for scenario in scenarios:
+        with tempfile.TemporaryDirectory() as folder:
+            log, report = fly(bench, scenario, folder)
+        closing = {name for name, latency in report["latency_s"].items() if latency["closes_group"]}
+        wrong += disagreements(scenario, latencies_us(log, contract), report["latency_s"], closing)
+    print("\n".join(wrong) or f"all within {LIMIT_US:g} us")
+    return 1 if wrong or not scenarios else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
