@@ -345,18 +345,6 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
   return scenario::Check{.name = std::string(rule.kind), .requirement = "", .rule = rule};
 }
 
-// The first of the checks with this outcome.
-std::string names(const Verdict& verdict, Outcome outcome) {
-  constexpr int shown = 3;
-  int found = 0;
-  std::string list;
-  for (const CheckResult& check : verdict.checks) {
-    if (check.outcome != outcome || ++found > shown) continue;
-    list += (list.empty() ? "" : ", ") + check.name;
-  }
-  return found > shown ? list + ", ..." : list;
-}
-
 }  // namespace
 
 std::string seconds(const scenario::Window& window) {
@@ -382,24 +370,7 @@ Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
                               .measured = std::move(finding.measured),
                               .expected = std::move(finding.expected)});
   }
-  const auto count = [&](Outcome outcome) {
-    return std::ranges::count(verdict.checks, outcome, &CheckResult::outcome);
-  };
-  if (!evidence.ended_early.empty()) {
-    verdict.outcome = Outcome::fail;
-    verdict.reason = evidence.ended_early;
-  } else if (count(Outcome::fail) > 0) {
-    verdict.outcome = Outcome::fail;
-    verdict.reason = fmt::format("{} of {} checks failed: {}", count(Outcome::fail), verdict.checks.size(),
-                                 names(verdict, Outcome::fail));
-  } else if (count(Outcome::not_measured) > 0) {
-    verdict.outcome = Outcome::not_measured;
-    verdict.reason = fmt::format("{} of {} checks could not be measured: {}", count(Outcome::not_measured),
-                                 verdict.checks.size(), names(verdict, Outcome::not_measured));
-  } else {
-    verdict.outcome = Outcome::pass;
-    verdict.reason = fmt::format("{} checks passed", verdict.checks.size());
-  }
+  conclude(verdict, evidence.ended_early);
   return verdict;
 }
 

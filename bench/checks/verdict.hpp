@@ -39,4 +39,8 @@ struct Verdict {
   std::vector<CheckResult> checks;
 };
 
+/// Sets outcome and reason by the checks; `ended_early`: why the run did not come to its end, empty if it
+/// did.
+void conclude(Verdict& verdict, const std::string& ended_early);
+
 }  // namespace canhil::checks

@@ -1,0 +1,45 @@
+#include "bench/checks/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace canhil::checks {
+namespace {
+
+// The first of the checks with this outcome.
+std::string names(const Verdict& verdict, Outcome outcome) {
+  constexpr int shown = 3;
+  int found = 0;
+  std::string list;
+  for (const CheckResult& check : verdict.checks) {
+    if (check.outcome != outcome || ++found > shown) continue;
+    list += (list.empty() ? "" : ", ") + check.name;
+  }
+  return found > shown ? list + ", ..." : list;
+}
+
+}  // namespace
+
+void conclude(Verdict& verdict, const std::string& ended_early) {
+  const auto count = [&](Outcome outcome) {
+    return std::ranges::count(verdict.checks, outcome, &CheckResult::outcome);
+  };
+  if (!ended_early.empty()) {
+    verdict.outcome = Outcome::fail;
+    verdict.reason = ended_early;
+  } else if (count(Outcome::fail) > 0) {
+    verdict.outcome = Outcome::fail;
+    verdict.reason = fmt::format("{} of {} checks failed: {}", count(Outcome::fail), verdict.checks.size(),
+                                 names(verdict, Outcome::fail));
+  } else if (count(Outcome::not_measured) > 0) {
+    verdict.outcome = Outcome::not_measured;
+    verdict.reason = fmt::format("{} of {} checks could not be measured: {}", count(Outcome::not_measured),
+                                 verdict.checks.size(), names(verdict, Outcome::not_measured));
+  } else {
+    verdict.outcome = Outcome::pass;
+    verdict.reason = fmt::format("{} checks passed", verdict.checks.size());
+  }
+}
+
+}  // namespace canhil::checks
