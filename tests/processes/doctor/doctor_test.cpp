@@ -104,7 +104,7 @@ TEST(Doctor, WhatIsNoBusIsOneLine) {
   };
   refused("", "--bus is required");
   refused("--bus a/b", "--bus 'a/b': expected a CAN interface such as can0, or local:NAME");
-  refused("--bus local:", "expected local:NAME");
+  refused("--bus local:a/b", "expected local:NAME");
   refused("--bus can0 --loop log:x", "--loop 'log:x': expected a CAN interface");
   refused("--bus can0 --seconds 0", "is not a whole number from 1 to 86400");
   refused("--bus can0 --cpu 1023", "--cpu 1023: this process may not run there");
