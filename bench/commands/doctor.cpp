@@ -226,7 +226,8 @@ void add_doctor(CLI::App& app, int& code) {
   arguments->frames = 1000;
   CLI::App* command = app.add_subcommand(
       "doctor", "tell what this machine and its CAN interface can do; exit code 1 if something is bad");
-  command->add_option("--bus", arguments->bus, "can0, vcan0, or local:NAME")->required();
+  command->add_option("--bus", arguments->bus, "can0, vcan0, local:NAME, or local: for a private one")
+      ->required();
   command->add_option("--loop", arguments->loop,
                       "a second interface on the same bus: send frames there and back. They disturb no node "
                       "that keeps to the DBC");

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/commands/exit_code.hpp"
@@ -134,6 +135,14 @@ run::Options options_of(const Arguments& arguments, BusFormat format) {
 std::string progress_text(std::int64_t t_us, std::int64_t duration_us) {
   const double t_s = 1e-6 * static_cast<double>(t_us), duration_s = 1e-6 * static_cast<double>(duration_us);
   return fmt::format("{} {:.1f} / {:g} s", progress_bar(t_s / duration_s), t_s, duration_s);
+}
+
+// A run that has begun leaves no report of an earlier one that could be taken for its own, however it ends.
+void remove_earlier(const Arguments& arguments) {
+  for (const std::string& path : {arguments.json, arguments.junit, arguments.html, arguments.log}) {
+    std::error_code ignored;
+    if (path != report::to_stdout) std::filesystem::remove(path, ignored);
+  }
 }
 
 // A report on stdout stands in place of the text.
@@ -270,15 +279,12 @@ ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_format(*format); !fine) return complain(fine.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
-  // Should this run come to nothing, nothing is left that could be taken for its report.
-  for (const std::string& path : {arguments.json, arguments.junit, arguments.html, arguments.log}) {
-    std::error_code ignored;
-    if (path != report::to_stdout) std::filesystem::remove(path, ignored);
-  }
   catch_interrupts();
   Result<run::Run> finished = [&] {
     const ProgressLine line;
+    bool begun = false;
     return run::run(*scenario, options_of(arguments, *format), interrupted, [&](std::int64_t t_us) {
+      if (!std::exchange(begun, true)) remove_earlier(arguments);
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();

@@ -316,18 +316,27 @@ TEST(BadInput, SettingsOfAWire) {
                   "--target: with --bus in-process");
 }
 
-// Nor what an earlier one left there: it could be taken for this one's.
-TEST(BadInput, AnUnfinishedRunLeavesNoLogAndNoReport) {
-  const std::filesystem::path folder = scratch("unfinished");
+TEST(BadInput, ARunThatDoesNotBeginLosesNothingAndLeavesNothing) {
+  const std::filesystem::path folder = scratch("not_begun");
   std::filesystem::create_directories(folder);
-  for (const char* name : {"a.log", "a.json", "a.xml", "a.html"})
-    std::ofstream(folder / name) << "of an earlier run";
+  const std::vector<std::string> names{"a.log", "a.json", "a.xml", "a.html"};
+  for (const std::string& name : names) std::ofstream(folder / name) << "of an earlier run";
   const Ended ended = hil_bench(fmt::format(
       "run {0} --bus {1} --target /bin/false --log {2}/a.log --json {2}/a.json --junit {2}/a.xml --html "
       "{2}/a.html",
       scenario("transfer_alignment_quick"), bus(), folder.string()));
   EXPECT_EQ(ended.code, 2);
-  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  for (const std::string& name : names) EXPECT_EQ(read(folder / name), "of an earlier run") << name;
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 4) << "nothing unfinished stays";
+}
+
+// Killed in mid-run it writes no report: then there is none, not that of an earlier run.
+TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
+  const std::string report = scratch("stale.json");
+  std::ofstream(report) << "of an earlier run";
+  shell(fmt::format("timeout -s KILL 2 {} run {} --bus {} --json {}", HIL_BENCH,
+                    scenario("transfer_alignment_quick"), bus(), report));
+  EXPECT_FALSE(std::filesystem::exists(report));
 }
 
 // A target of another DBC: the test hosts the bus and beats with another hash.
