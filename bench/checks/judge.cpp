@@ -194,7 +194,15 @@ class Judge {
             std::move(finding.expected)};
   }
 
-  Finding operator()(const scenario::WireResponse& rule) const { return checks::judge(rule, evidence_.seen); }
+  Finding operator()(const scenario::WireResponse& rule) const {
+    constexpr double bar_s = 1e-3;
+    Finding finding = checks::judge(rule, evidence_.seen);
+    if (finding.outcome != Outcome::fail) return finding;
+    // A host that stops a program between two frames makes them late through no fault of the bus.
+    if (auto why = unfit(1, bar_s); !why.empty())
+      return {Outcome::not_measured, std::move(why), std::move(finding.expected)};
+    return finding;
+  }
   Finding operator()(const scenario::BusLoad& rule) const { return checks::judge(rule, evidence_.seen); }
   Finding operator()(const scenario::PositionError& rule) const {
     return checks::judge(rule, evidence_.seen, evidence_.truth);
