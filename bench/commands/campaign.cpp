@@ -37,6 +37,7 @@ struct Arguments {
   std::string shard;
   std::optional<std::uint64_t> runs;
   bool resume = false;
+  bool unrounded = false;
   std::string json;
 };
 struct MergeArguments {
@@ -95,10 +96,15 @@ ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, 
   return evaluation->passed ? ExitCode::pass : ExitCode::fail;
 }
 
+Rounding rounding_of(const Arguments& arguments) {
+  return arguments.unrounded ? Rounding::none : Rounding::as_on_the_bus;
+}
+
 ExitCode execute(const Arguments& arguments) {
   auto campaign = campaign::read_campaign(arguments.file);
   if (!campaign) return complain(campaign.error());
   if (arguments.runs) campaign->runs = *arguments.runs;
+  campaign->rounding = rounding_of(arguments);
   const auto shard =
       arguments.shard.empty() ? campaign::shard_of_environment() : campaign::parse_shard(arguments.shard);
   if (!shard) return complain(shard.error());
@@ -153,6 +159,7 @@ ExitCode report_on(const ReportArguments& arguments) {
   auto campaign = campaign::parse_campaign(*sources);
   if (!campaign) return complain(campaign.error());
   campaign->runs = store->identity().runs;
+  campaign->rounding = store->identity().rounding;
   return print_report(*campaign, arguments.merged, std::string(arguments.json ? report::to_stdout : ""));
 }
 
@@ -232,6 +239,8 @@ void add_campaign(CLI::App& app, int& code) {
   add_whole_number(*command, "--runs", arguments->runs, "another number of runs than the campaign's", 1,
                    campaign::most_runs);
   command->add_flag("--resume", arguments->resume, "go on with results that are there");
+  command->add_flag("--unrounded", arguments->unrounded,
+                    "frames that round nothing: the difference is what the bus's resolution costs");
   command->add_option("--json", arguments->json,
                       "write the report as JSON to a file; -: to stdout, in place of the text");
   auto paper = std::make_shared<PaperArguments>();
@@ -250,6 +259,7 @@ void add_campaign(CLI::App& app, int& code) {
     if (!name->empty()) {
       paper->folder = arguments->out;
       paper->runs = arguments->runs;
+      paper->rounding = rounding_of(*arguments);
       code = static_cast<int>(reproduce_paper(*paper));
       return;
     }

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "dbc/codegen/exact.hpp"
 #include "dbc/codegen/fd.hpp"
 #include "dbc/codegen/generate.hpp"
 #include "dbc/codegen/json.hpp"
@@ -22,7 +21,8 @@ struct Options {
   std::string dbc;
   std::string output;
   std::string name_space = "messages";
-  bool exact = false;
+  std::string source;
+  std::string include;
   bool quantisation = false;
   bool load = false;
   bool json = false;
@@ -52,17 +52,24 @@ bool holds(const std::string& path, const std::string& text) {
   return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
 }
 
+// A file that is the same already stays as it is: nobody who includes it need be compiled again.
+int write_file(const std::string& path, const std::string& text) {
+  if (holds(path, text)) return 0;
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  return file ? 0 : complain(fmt::format("{}: cannot be written, expected a path for the result", path));
+}
+
 int write(const canhil::dbc::Database& database, const Options& options) {
   const auto text = text_for(database, options);
   if (!text) return complain(text.error().message);
-  if (options.output.empty()) return print(*text);
-  // A file that is the same already stays as it is: nobody who includes it need be compiled again.
-  if (holds(options.output, *text)) return 0;
-  std::ofstream file(options.output, std::ios::binary);
-  file << *text << std::flush;
-  return file
-             ? 0
-             : complain(fmt::format("{}: cannot be written, expected a path for the result", options.output));
+  if (!options.source.empty()) {
+    const std::string name = std::filesystem::path(options.dbc).filename().string();
+    const int code = write_file(
+        options.source, canhil::dbc::generate_source(database, options.name_space, name, options.include));
+    if (code != 0) return code;
+  }
+  return options.output.empty() ? print(*text) : write_file(options.output, *text);
 }
 
 int run(int argc, char** argv) {
@@ -71,8 +78,9 @@ int run(int argc, char** argv) {
   app.add_option("dbc", options.dbc, "the DBC file")->required();
   app.add_option("-o,--output", options.output, "the file to write; standard output if not given");
   app.add_option("-n,--namespace", options.name_space, "namespace of the header");
-  app.add_flag("--exact", options.exact,
-               "carry every scaled signal as a 64-bit float in CAN FD frames: nothing is rounded");
+  app.add_option("--source", options.source,
+                 "also write the definitions that the header declares, to this file");
+  app.add_option("--include", options.include, "how that file includes the header");
   app.add_flag("--quantisation", options.quantisation,
                "print the resolution of every measurement against its sensor");
   app.add_flag("--load", options.load, "print the worst-case bus load of every sender");
@@ -89,7 +97,6 @@ int run(int argc, char** argv) {
   }
 
   auto database = canhil::dbc::read_file(options.dbc);
-  if (database && options.exact) database = canhil::dbc::exact(*database, options.dbc);
   if (!database) return complain(database.error().message);
   if (options.quantisation) return print(canhil::dbc::quantisation_table(*database));
   if (options.load) return print(canhil::dbc::load_table(*database));
