@@ -1,7 +1,6 @@
 // dbcgen: a DBC file to a C++ header, or to what a person wants to know of it.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "dbc/codegen/json.hpp"
 #include "dbc/codegen/load.hpp"
 #include "dbc/codegen/rules.hpp"
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/parser/parse.hpp"
 
 namespace {
@@ -74,27 +74,23 @@ int write(const canhil::dbc::Database& database, const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app{"Turns a DBC file into a C++ header of constexpr codecs."};
-  app.add_option("dbc", options.dbc, "the DBC file")->required();
-  app.add_option("-o,--output", options.output, "the file to write; standard output if not given");
-  app.add_option("-n,--namespace", options.name_space, "namespace of the header");
-  app.add_option("--source", options.source,
-                 "also write the definitions that the header declares, to this file");
-  app.add_option("--include", options.include, "how that file includes the header");
-  app.add_flag("--quantisation", options.quantisation,
-               "print the resolution of every measurement against its sensor");
-  app.add_flag("--load", options.load, "print the worst-case bus load of every sender");
-  app.add_flag("--json", options.json, "print the database as JSON");
-  app.add_flag("--fd", options.fd,
-               "write the same contract for CAN FD, one frame a sample group, as a DBC file");
-  app.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("dbcgen: {}; see dbcgen --help", error.what()));
-  }
+  canhil::command_line::Program program{"Turns a DBC file into a C++ header of constexpr codecs."};
+  program.add_option("dbc", options.dbc, "the DBC file").required();
+  program.add_option("-o,--output", options.output, "the file to write; standard output if not given");
+  program.add_option("-n,--namespace", options.name_space, "namespace of the header");
+  program.add_option("--source", options.source,
+                     "also write the definitions that the header declares, to this file");
+  program.add_option("--include", options.include, "how that file includes the header");
+  program.add_flag("--quantisation", options.quantisation,
+                   "print the resolution of every measurement against its sensor");
+  program.add_flag("--load", options.load, "print the worst-case bus load of every sender");
+  program.add_flag("--json", options.json, "print the database as JSON");
+  program.add_flag("--fd", options.fd,
+                   "write the same contract for CAN FD, one frame a sample group, as a DBC file");
+  program.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
+  const auto parsed = program.parse(argc, argv);
+  if (!parsed) return complain(fmt::format("dbcgen: {}; see dbcgen --help", parsed.error().message));
+  if (*parsed) return **parsed;
 
   auto database = canhil::dbc::read_file(options.dbc);
   if (!database) return complain(database.error().message);
