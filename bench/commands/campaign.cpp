@@ -12,6 +12,7 @@
 #include "bench/campaign/execute.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/campaign/report.hpp"
+#include "bench/commands/campaign_program.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/paper.hpp"
@@ -228,8 +229,7 @@ void add_replay(command_line::Command campaign, int& code) {
 
 void add_campaign(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
-  const auto command =
-      app.add_subcommand("campaign", "fly variants of scenarios many times, and compare them");
+  const auto command = app.add_subcommand(std::string(campaign_name), std::string(campaign_summary));
   const auto file = command.add_option("FILE", arguments->file, "campaign file (TOML)");
   command.add_option("--out", arguments->out, "folder, or file.sqlite, of the results (default: here)");
   command.add_number("--threads", arguments->threads, "default: one a core", 1, most_threads);

@@ -11,6 +11,7 @@
 
 #include "bench/papers/page.hpp"
 #include "dbc/wire/result.hpp"
+#include "dbc/wire/unrounded.hpp"
 
 namespace canhil::papers {
 
