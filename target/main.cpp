@@ -1,7 +1,6 @@
 // hil-target: a Device on a bus.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "messages/canhil.hpp"
 #include "target/device/version.hpp"
@@ -28,34 +28,31 @@ int complain(const canhil::Error& error) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"The device under test: navigation and guidance estimators behind a CAN interface."};
-  app.set_version_flag("--version", [] {
-    return fmt::format("hil-target {}.{} · DBC {:016x}", canhil::target::version_major,
-                       canhil::target::version_minor, canhil::messages::dbc_hash);
-  });
+  canhil::command_line::Program program{
+      "The device under test: navigation and guidance estimators behind a CAN interface.",
+      fmt::format("hil-target {}.{} · DBC {:016x}", canhil::target::version_major,
+                  canhil::target::version_minor, canhil::messages::dbc_hash)};
   std::vector<std::string> buses;
   std::string log;
   std::string dbc{canhil::name_of(canhil::BusFormat::classic)};
-  auto* bus_option = app.add_option("--bus", buses,
-                                    "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME; "
-                                    "several: listen on all, answer on the first")
-                         ->allow_extra_args(false);
-  auto* replay_option = app.add_option(
+  const auto bus_option = program
+                              .add_option("--bus", buses,
+                                          "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME; "
+                                          "several: listen on all, answer on the first")
+                              .one_word_each();
+  const auto replay_option = program.add_option(
       "--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
-  bus_option->excludes(replay_option);
-  app.add_option("--dbc", dbc, "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them")
-      ->excludes(replay_option);
+  bus_option.excludes(replay_option);
+  program
+      .add_option("--dbc", dbc, "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them")
+      .excludes(replay_option);
   canhil::realtime::Options realtime;
-  canhil::realtime::add_options(app, realtime)->excludes(replay_option);
-  canhil::realtime::refuse_empty(app);
-  try {
-    app.parse(argc, argv);
-    if (buses.empty() && log.empty()) throw CLI::RequiredError("--bus or --replay");
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    return complain({std::string(error.what()) + "; see hil-target --help"});
-  }
+  canhil::realtime::add_options(program, realtime).excludes(replay_option);
+  program.refuse_empty();
+  const auto parsed = program.parse(argc, argv);
+  if (!parsed) return complain({parsed.error().message + "; see hil-target --help"});
+  if (*parsed) return **parsed;
+  if (buses.empty() && log.empty()) return complain({"--bus or --replay is required; see hil-target --help"});
 
   if (!log.empty()) {
     const auto replayed = canhil::target::replay(log, stdout);

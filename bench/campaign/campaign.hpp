@@ -13,6 +13,7 @@
 #include "bench/campaign/metric.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/wire/result.hpp"
+#include "dbc/wire/unrounded.hpp"
 
 namespace canhil::campaign {
 
@@ -42,6 +43,7 @@ struct Campaign {
   std::uint64_t seed = 0;
   std::vector<Variant> variants;  ///< in the order of the file, then of the sweep
   std::vector<Metric> metrics;
+  Rounding rounding = Rounding::as_on_the_bus;  ///< not of the file: what a run of it is told
 };
 
 /// Reads a campaign file and its scenarios. The error is one line.

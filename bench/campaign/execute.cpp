@@ -77,7 +77,7 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
     const auto [variant, run] = work.tasks[place];
     const world::FlightRecord& truth = *work.truths[variant];
     const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
-    const auto flown = run::run_in_process(scenario, truth, run);
+    const auto flown = run::run_in_process(scenario, truth, run, work.campaign.rounding);
     if (!flown) {
       finishing.fail(in_variant(work.campaign, variant, flown.error()));
       work.halt = true;

@@ -10,11 +10,11 @@
 namespace canhil::campaign {
 namespace {
 
-constexpr int application_id = 0x43484332;  // "CHC2": canhil campaign, format 2
+constexpr int application_id = 0x43484333;  // "CHC3": canhil campaign, format 3
 
 // id is variant * runs + run: one order of rows, whoever wrote them. ending: "completed" or why not.
 constexpr std::string_view schema = R"(
-create table identity (campaign_hash text, dbc_hash text, program text, runs integer);
+create table identity (campaign_hash text, dbc_hash text, program text, runs integer, unrounded integer);
 create table source (kind text, name text, content text);
 create table run (id integer primary key, variant integer, run integer, ending integer, end_us integer,
                   detail text, family integer, samples blob);
@@ -65,8 +65,13 @@ Identity identity_of(const Campaign& campaign) {
   static const std::string program = hash_of_this_program();
   return {.campaign_hash = campaign.hash,
           .dbc_hash = messages::dbc_hash,
+          .rounding = campaign.rounding,
           .program = program,
           .runs = campaign.runs};
+}
+
+std::string_view in_words(Rounding rounding) {
+  return rounding == Rounding::none ? "without the bus's rounding" : "with the bus's rounding";
 }
 
 std::string difference(const Identity& found, const Identity& expected) {
@@ -77,6 +82,8 @@ std::string difference(const Identity& found, const Identity& expected) {
   if (found.dbc_hash != expected.dbc_hash) {
     return fmt::format("is of another DBC ({:016x}), expected {:016x}", found.dbc_hash, expected.dbc_hash);
   }
+  if (found.rounding != expected.rounding)
+    return fmt::format("was flown {}, expected {}", in_words(found.rounding), in_words(expected.rounding));
   if (found.program != expected.program) {
     return fmt::format("is of another program ({}), expected {}", found.program, expected.program);
   }
@@ -112,12 +119,13 @@ Result<void> Store::initialise(const Identity& identity, const Sources& sources)
       !made) {
     return made;
   }
-  auto insert = database_.prepare("insert into identity values (?, ?, ?, ?)");
+  auto insert = database_.prepare("insert into identity values (?, ?, ?, ?, ?)");
   if (!insert) return tl::unexpected(insert.error());
   insert->bind(1, fmt::format("{:016x}", identity.campaign_hash))
       .bind(2, fmt::format("{:016x}", identity.dbc_hash))
       .bind(3, identity.program)
-      .bind(4, static_cast<std::int64_t>(identity.runs));
+      .bind(4, static_cast<std::int64_t>(identity.runs))
+      .bind(5, std::int64_t{identity.rounding == Rounding::none});
   if (auto done = insert->step(); !done) return tl::unexpected(done.error());
   auto source = database_.prepare("insert into source values (?, ?, ?)");
   if (!source) return tl::unexpected(source.error());
@@ -142,7 +150,7 @@ Result<void> Store::read_identity() {
   const auto known = id->step();
   if (!known) return tl::unexpected(known.error());
   if (!*known || id->integer(0) != application_id) return not_results(database_.file());
-  auto row = database_.prepare("select campaign_hash, dbc_hash, program, runs from identity");
+  auto row = database_.prepare("select campaign_hash, dbc_hash, program, runs, unrounded from identity");
   if (!row) return tl::unexpected(row.error());
   const auto there = row->step();
   if (!there) return tl::unexpected(there.error());
@@ -155,6 +163,7 @@ Result<void> Store::read_identity() {
   };
   identity_ = {.campaign_hash = hash(0),
                .dbc_hash = hash(1),
+               .rounding = row->integer(4) == 0 ? Rounding::as_on_the_bus : Rounding::none,
                .program = row->text(2),
                .runs = static_cast<std::uint64_t>(row->integer(3))};
   return {};

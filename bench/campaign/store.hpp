@@ -21,6 +21,7 @@ namespace canhil::campaign {
 struct Identity {
   std::uint64_t campaign_hash = 0;
   std::uint64_t dbc_hash = 0;
+  Rounding rounding = Rounding::as_on_the_bus;
   std::string program;  ///< version and hash of the program that ran it
   std::uint64_t runs = 0;
   friend bool operator==(const Identity&, const Identity&) = default;

@@ -26,13 +26,14 @@ ExitCode host(const std::string& bus, bool fd) {
 
 }  // namespace
 
-void add_bus(CLI::App& app, int& code) {
+void add_bus(command_line::Command app, int& code) {
   auto bus = std::make_shared<std::string>();
   auto fd = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("bus", "host an embedded bus for other programs, until interrupted");
-  command->add_option("BUS", *bus, "local:NAME")->required();
-  command->add_flag("--fd", *fd, "carry CAN FD frames");
-  command->callback([&code, bus, fd] { code = static_cast<int>(host(*bus, *fd)); });
+  const auto command =
+      app.add_subcommand("bus", "host an embedded bus for other programs, until interrupted");
+  command.add_option("BUS", *bus, "local:NAME").required();
+  command.add_flag("--fd", *fd, "carry CAN FD frames");
+  command.on_given([&code, bus, fd] { code = static_cast<int>(host(*bus, *fd)); });
 }
 
 }  // namespace canhil::commands

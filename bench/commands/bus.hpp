@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "dbc/command_line/command_line.hpp"
 
 namespace canhil::commands {
 
 /// `hil-bench bus local:NAME`: hosts an embedded bus for other programs until interrupted.
-void add_bus(CLI::App& app, int& code);
+void add_bus(command_line::Command app, int& code);
 
 }  // namespace canhil::commands

@@ -16,7 +16,6 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/paper.hpp"
 #include "bench/commands/progress_line.hpp"
-#include "bench/commands/whole_number.hpp"
 #include "bench/papers/paper.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/text.hpp"
@@ -37,6 +36,7 @@ struct Arguments {
   std::string shard;
   std::optional<std::uint64_t> runs;
   bool resume = false;
+  bool unrounded = false;
   std::string json;
 };
 struct MergeArguments {
@@ -95,10 +95,15 @@ ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, 
   return evaluation->passed ? ExitCode::pass : ExitCode::fail;
 }
 
+Rounding rounding_of(const Arguments& arguments) {
+  return arguments.unrounded ? Rounding::none : Rounding::as_on_the_bus;
+}
+
 ExitCode execute(const Arguments& arguments) {
   auto campaign = campaign::read_campaign(arguments.file);
   if (!campaign) return complain(campaign.error());
   if (arguments.runs) campaign->runs = *arguments.runs;
+  campaign->rounding = rounding_of(arguments);
   const auto shard =
       arguments.shard.empty() ? campaign::shard_of_environment() : campaign::parse_shard(arguments.shard);
   if (!shard) return complain(shard.error());
@@ -153,6 +158,7 @@ ExitCode report_on(const ReportArguments& arguments) {
   auto campaign = campaign::parse_campaign(*sources);
   if (!campaign) return complain(campaign.error());
   campaign->runs = store->identity().runs;
+  campaign->rounding = store->identity().rounding;
   return print_report(*campaign, arguments.merged, std::string(arguments.json ? report::to_stdout : ""));
 }
 
@@ -190,70 +196,73 @@ ExitCode replay(const ReplayArguments& arguments) {
   return exit_code(finished->verdict.outcome);
 }
 
-void add_merge(CLI::App& campaign, int& code) {
+void add_merge(command_line::Command campaign, int& code) {
   auto arguments = std::make_shared<MergeArguments>();
-  CLI::App* command =
+  const auto command =
       campaign.add_subcommand("merge", "put shards together: the same bytes for any division");
-  command->add_option("OUT", arguments->out, "file to write (SQLite)")->required();
-  command->add_option("SHARD", arguments->shards, "results of the shards")->required();
-  command->callback([&code, arguments] { code = static_cast<int>(merge(*arguments)); });
+  command.add_option("OUT", arguments->out, "file to write (SQLite)").required();
+  command.add_option("SHARD", arguments->shards, "results of the shards").required();
+  command.on_given([&code, arguments] { code = static_cast<int>(merge(*arguments)); });
 }
 
-void add_report(CLI::App& campaign, int& code) {
+void add_report(command_line::Command campaign, int& code) {
   auto arguments = std::make_shared<ReportArguments>();
-  CLI::App* command = campaign.add_subcommand("report", "answer the campaign's questions from its results");
-  command->add_option("RESULTS", arguments->merged, "merged results, or those of an undivided campaign")
-      ->required();
-  command->add_flag("--json", arguments->json, "as JSON, with the curves");
-  command->callback([&code, arguments] { code = static_cast<int>(report_on(*arguments)); });
+  const auto command = campaign.add_subcommand("report", "answer the campaign's questions from its results");
+  command.add_option("RESULTS", arguments->merged, "merged results, or those of an undivided campaign")
+      .required();
+  command.add_flag("--json", arguments->json, "as JSON, with the curves");
+  command.on_given([&code, arguments] { code = static_cast<int>(report_on(*arguments)); });
 }
 
-void add_replay(CLI::App& campaign, int& code) {
+void add_replay(command_line::Command campaign, int& code) {
   auto arguments = std::make_shared<ReplayArguments>();
-  CLI::App* command = campaign.add_subcommand("replay", "one run again, with its checks and its frames");
-  command->add_option("FILE", arguments->file, "campaign file (TOML)")->required();
-  add_whole_number(*command, "RUN", arguments->run, "index of the run, from 0")->required();
-  command->add_option("--variant", arguments->variant, "by name (default: the first)");
-  command->add_option("--log", arguments->log, "record every frame in candump's log format");
-  command->callback([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
+  const auto command = campaign.add_subcommand("replay", "one run again, with its checks and its frames");
+  command.add_option("FILE", arguments->file, "campaign file (TOML)").required();
+  command.add_number("RUN", arguments->run, "index of the run, from 0").required();
+  command.add_option("--variant", arguments->variant, "by name (default: the first)");
+  command.add_option("--log", arguments->log, "record every frame in candump's log format");
+  command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
 }
 
 }  // namespace
 
-void add_campaign(CLI::App& app, int& code) {
+void add_campaign(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
+  const auto command =
       app.add_subcommand("campaign", "fly variants of scenarios many times, and compare them");
-  CLI::Option* file = command->add_option("FILE", arguments->file, "campaign file (TOML)");
-  command->add_option("--out", arguments->out, "folder, or file.sqlite, of the results (default: here)");
-  add_whole_number(*command, "--threads", arguments->threads, "default: one a core", 1, most_threads);
-  command->add_option("--shard", arguments->shard,
-                      "i/N: only runs with run % N == i (default: the task of a Slurm array, or all)");
-  add_whole_number(*command, "--runs", arguments->runs, "another number of runs than the campaign's", 1,
-                   campaign::most_runs);
-  command->add_flag("--resume", arguments->resume, "go on with results that are there");
-  command->add_option("--json", arguments->json,
-                      "write the report as JSON to a file; -: to stdout, in place of the text");
+  const auto file = command.add_option("FILE", arguments->file, "campaign file (TOML)");
+  command.add_option("--out", arguments->out, "folder, or file.sqlite, of the results (default: here)");
+  command.add_number("--threads", arguments->threads, "default: one a core", 1, most_threads);
+  command.add_option("--shard", arguments->shard,
+                     "i/N: only runs with run % N == i (default: the task of a Slurm array, or all)");
+  command.add_number("--runs", arguments->runs, "another number of runs than the campaign's", 1,
+                     campaign::most_runs);
+  command.add_flag("--resume", arguments->resume, "go on with results that are there");
+  command.add_flag("--unrounded", arguments->unrounded,
+                   "frames that round nothing: the difference is what the bus's resolution costs");
+  command.add_option("--json", arguments->json,
+                     "write the report as JSON to a file; -: to stdout, in place of the text");
   auto paper = std::make_shared<PaperArguments>();
-  CLI::Option* name = command->add_option(
-      "--paper", paper->paper,
-      "in place of FILE: what a paper claims, with a page of figures: " + papers::names());
-  command->add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
-      ->needs(name);
-  name->excludes(file);
-  command->require_subcommand(0, 1);
-  add_merge(*command, code);
-  add_report(*command, code);
-  add_replay(*command, code);
-  command->callback([&code, arguments, paper, command, file, name] {
-    if (!command->get_subcommands().empty()) return;
-    if (!name->empty()) {
+  const auto name =
+      command.add_option("--paper", paper->paper,
+                         "in place of FILE: what a paper claims, with a page of figures: " + papers::names());
+  command.add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
+      .needs(name);
+  name.excludes(file);
+  command.require_subcommands(0, 1);
+  add_merge(command, code);
+  add_report(command, code);
+  add_replay(command, code);
+  command.on_given([&code, arguments, paper, command, file, name] {
+    if (command.subcommand_given()) return;
+    if (name.given()) {
       paper->folder = arguments->out;
       paper->runs = arguments->runs;
+      paper->rounding = rounding_of(*arguments);
       code = static_cast<int>(reproduce_paper(*paper));
       return;
     }
-    if (file->empty()) throw CLI::RequiredError("FILE, or merge, report or replay");
+    if (!file.given()) command_line::throw_required("FILE, or merge, report or replay");
     code = static_cast<int>(execute(*arguments));
   });
 }

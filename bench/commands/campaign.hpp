@@ -1,10 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "dbc/command_line/command_line.hpp"
 
 namespace canhil::commands {
 
 /// `hil-bench campaign FILE` and its subcommands merge, report, replay: many runs in process, and statistics.
-void add_campaign(CLI::App& app, int& code);
+void add_campaign(command_line::Command app, int& code);
 
 }  // namespace canhil::commands

@@ -38,13 +38,13 @@ ExitCode execute(const std::string& log_a, const std::string& log_b) {
 
 }  // namespace
 
-void add_diverge(CLI::App& app, int& code) {
+void add_diverge(command_line::Command app, int& code) {
   auto logs = std::make_shared<std::pair<std::string, std::string>>();
-  CLI::App* command =
+  const auto command =
       app.add_subcommand("diverge", "compare two recorded runs: the first frame of the target that differs");
-  command->add_option("A", logs->first, "log of a run (hil-bench run --log)")->required();
-  command->add_option("B", logs->second, "log of another")->required();
-  command->callback([&code, logs] { code = static_cast<int>(execute(logs->first, logs->second)); });
+  command.add_option("A", logs->first, "log of a run (hil-bench run --log)").required();
+  command.add_option("B", logs->second, "log of another").required();
+  command.on_given([&code, logs] { code = static_cast<int>(execute(logs->first, logs->second)); });
 }
 
 }  // namespace canhil::commands

@@ -220,24 +220,24 @@ ExitCode execute(Arguments arguments) {
 
 }  // namespace
 
-void add_doctor(CLI::App& app, int& code) {
+void add_doctor(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
   arguments->seconds = 5;
   arguments->frames = 1000;
-  CLI::App* command = app.add_subcommand(
+  const auto command = app.add_subcommand(
       "doctor", "tell what this machine and its CAN interface can do; exit code 1 if something is bad");
-  command->add_option("--bus", arguments->bus, "can0, vcan0, local:NAME, or local: for a private one")
-      ->required();
-  command->add_option("--loop", arguments->loop,
-                      "a second interface on the same bus: send frames there and back. They disturb no node "
-                      "that keeps to the DBC");
-  realtime::add_number(*command, "--frames", arguments->frames, 1, 1'000'000, "of the loop (default 1000)");
-  realtime::add_number(*command, "--seconds", arguments->seconds, 1, 86'400,
-                       "how long the timer's jitter is measured (default 5)");
-  realtime::add_number(*command, "--cpu", arguments->cpu, 0, 1023, "the only CPU to measure on");
-  command->add_option("--json", arguments->json,
-                      "write what was found as JSON to a file; -: to stdout, in place of the text");
-  command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+  command.add_option("--bus", arguments->bus, "can0, vcan0, local:NAME, or local: for a private one")
+      .required();
+  command.add_option("--loop", arguments->loop,
+                     "a second interface on the same bus: send frames there and back. They disturb no node "
+                     "that keeps to the DBC");
+  command.add_number("--frames", arguments->frames, "of the loop (default 1000)", 1, 1'000'000);
+  command.add_number("--seconds", arguments->seconds, "how long the timer's jitter is measured (default 5)",
+                     1, 86'400);
+  command.add_number("--cpu", arguments->cpu, "the only CPU to measure on", 0, 1023);
+  command.add_option("--json", arguments->json,
+                     "write what was found as JSON to a file; -: to stdout, in place of the text");
+  command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }
 
 }  // namespace canhil::commands

@@ -18,6 +18,7 @@ ExitCode reproduce_paper(const PaperArguments& arguments) {
       {.paper = arguments.paper,
        .folder = arguments.folder.empty() ? fmt::format("paper-{}", arguments.paper) : arguments.folder,
        .runs = arguments.runs,
+       .rounding = arguments.rounding,
        .exact = arguments.exact,
        .progress =
            [&](std::string_view campaign, std::size_t done, std::size_t total) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/commands/exit_code.hpp"
+#include "dbc/wire/unrounded.hpp"
 
 namespace canhil::commands {
 
@@ -12,6 +13,7 @@ namespace canhil::commands {
 struct PaperArguments {
   std::string paper;
   std::string folder;  // empty: paper-NAME here
+  Rounding rounding = Rounding::as_on_the_bus;
   std::string exact;
   std::optional<std::uint64_t> runs;
 };

@@ -61,23 +61,22 @@ ExitCode compare_both(const std::string& before, const std::string& after) {
 
 }  // namespace
 
-void add_report(CLI::App& app, int& code) {
+void add_report(command_line::Command app, int& code) {
   auto paths = std::make_shared<std::vector<std::string>>();
-  CLI::App* rebuild = app.add_subcommand("report", "make the HTML pages of reports again from their JSON");
-  rebuild
-      ->add_option("FILE.json", *paths, "reports of hil-bench run --json; FILE.html is written beside each")
-      ->required();
-  rebuild->callback([&code, paths] { code = static_cast<int>(rebuild_all(*paths)); });
+  const auto rebuild = app.add_subcommand("report", "make the HTML pages of reports again from their JSON");
+  rebuild.add_option("FILE.json", *paths, "reports of hil-bench run --json; FILE.html is written beside each")
+      .required();
+  rebuild.on_given([&code, paths] { code = static_cast<int>(rebuild_all(*paths)); });
 
   auto before = std::make_shared<std::string>();
   auto after = std::make_shared<std::string>();
-  CLI::App* compare = app.add_subcommand(
+  const auto compare = app.add_subcommand(
       "compare",
       "say what got worse from one run to another of the same scenario: 0 nothing, 1 something, 3 not "
       "comparable");
-  compare->add_option("A.json", *before, "the report to compare with")->required();
-  compare->add_option("B.json", *after, "the report that is judged")->required();
-  compare->callback([&code, before, after] { code = static_cast<int>(compare_both(*before, *after)); });
+  compare.add_option("A.json", *before, "the report to compare with").required();
+  compare.add_option("B.json", *after, "the report that is judged").required();
+  compare.on_given([&code, before, after] { code = static_cast<int>(compare_both(*before, *after)); });
 }
 
 }  // namespace canhil::commands

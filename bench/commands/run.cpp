@@ -17,7 +17,6 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/progress_line.hpp"
-#include "bench/commands/whole_number.hpp"
 #include "bench/doctor/interface.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
@@ -188,6 +187,9 @@ Result<void> check_bus(const Arguments& arguments) {
   if (here && (arguments.realtime.wanted || arguments.spin_us))
     return failure(
         "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
+  if (run::rounding_of(arguments.bus) == Rounding::none && !arguments.log.empty())
+    return failure(
+        fmt::format("--log: a log has no room for the frames of '{}', expected in-process", arguments.bus));
   for (const std::string& text : arguments.bus_of) {
     const auto named = node_and_bus(text);
     if (!named) return tl::unexpected(named.error());
@@ -235,11 +237,6 @@ Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario
   return named;
 }
 
-Result<void> check_format(BusFormat format) {
-  if (format == BusFormat::classic || run::frames_round()) return {};
-  return failure("canhil-fd: this program carries every signal as a 64-bit float, expected one that rounds");
-}
-
 // Where bit rates differ, or nobody else is there, the controller is in trouble before a word is understood.
 Error with_controller(Error error, const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
@@ -276,7 +273,6 @@ ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
   const auto format = format_of(arguments, *scenario);
   if (!format) return complain(format.error());
-  if (auto fine = check_format(*format); !fine) return complain(fine.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   catch_interrupts();
@@ -297,43 +293,45 @@ ExitCode execute(const Arguments& arguments) {
 
 }  // namespace
 
-void add_run(CLI::App& app, int& code) {
+void add_run(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("run", "run a scenario against a target and judge it");
-  command->add_option("SCENARIO", arguments->scenario, "scenario file (TOML)")->required();
-  command->add_option(
+  const auto command = app.add_subcommand("run", "run a scenario against a target and judge it");
+  command.add_option("SCENARIO", arguments->scenario, "scenario file (TOML)").required();
+  command.add_option(
       "--bus", arguments->bus,
       "can0, vcan0: SocketCAN; local:NAME: embedded bus; local: a private one (default); in-process: virtual "
       "time. local: and in-process take a simulated wire: '?bitrate=500000', then &data-bitrate=2000000, "
-      "&queue=fifo|priority, &bit-error-rate=1e-6, &seed=3");
+      "&queue=fifo|priority, &bit-error-rate=1e-6, &seed=3. 'in-process?unrounded': frames that round "
+      "nothing");
   command
-      ->add_option("--bus-of", arguments->bus_of,
-                   "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
-                   "target is to listen there too")
-      ->allow_extra_args(false);
-  command->add_option(
+      .add_option("--bus-of", arguments->bus_of,
+                  "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
+                  "target is to listen there too")
+      .one_word_each();
+  command.add_option(
       "--target", arguments->target,
       "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
-  command->add_option(
+  command.add_option(
       "--dbc", arguments->dbc,
       "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "
       "scenario's, else canhil)");
-  CLI::Option* lockstep =
-      command->add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
-  realtime::add_options(*command, arguments->realtime)->excludes(lockstep);
-  realtime::add_number(*command, "--target-cpu", arguments->target_cpu, 0, 1023,
-                       "the only CPU of the target that this command starts");
-  realtime::add_number(*command, "--spin-us", arguments->spin_us, 0, 10'000,
-                       "poll for so long before each deadline instead of sleeping up to it")
-      ->excludes(lockstep);
-  add_whole_number(*command, "--seed", arguments->seed, "another seed than the scenario's");
-  command->add_option("--json", arguments->json,
-                      "write the report as JSON to a file; -: to stdout, in place of the text");
-  command->add_option("--junit", arguments->junit,
-                      "write the checks as JUnit XML to a file; -: to stdout, in place of the text");
-  command->add_option("--html", arguments->html, "write the report as one HTML page to a file");
-  command->add_option("--log", arguments->log, "record every frame in candump's log format");
-  command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+  const auto lockstep =
+      command.add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
+  realtime::add_options(command, arguments->realtime).excludes(lockstep);
+  command.add_number("--target-cpu", arguments->target_cpu,
+                     "the only CPU of the target that this command starts", 0, 1023);
+  command
+      .add_number("--spin-us", arguments->spin_us,
+                  "poll for so long before each deadline instead of sleeping up to it", 0, 10'000)
+      .excludes(lockstep);
+  command.add_number("--seed", arguments->seed, "another seed than the scenario's");
+  command.add_option("--json", arguments->json,
+                     "write the report as JSON to a file; -: to stdout, in place of the text");
+  command.add_option("--junit", arguments->junit,
+                     "write the checks as JUnit XML to a file; -: to stdout, in place of the text");
+  command.add_option("--html", arguments->html, "write the report as one HTML page to a file");
+  command.add_option("--log", arguments->log, "record every frame in candump's log format");
+  command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }
 
 }  // namespace canhil::commands

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "bench/commands/exit_code.hpp"
-#include "bench/commands/whole_number.hpp"
 #include "bench/schedulability/message_set.hpp"
 #include "bench/schedulability/report.hpp"
 #include "dbc/parser/parse.hpp"
@@ -66,34 +65,33 @@ ExitCode execute(const Arguments& arguments) {
 
 }  // namespace
 
-void add_schedulability(CLI::App& app, int& code) {
+void add_schedulability(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command =
+  const auto command =
       app.add_subcommand("schedulability", "worst-case response time of every message of a DBC");
-  command->add_option("FILE", arguments->file, "the DBC")->required();
+  command.add_option("FILE", arguments->file, "the DBC").required();
   constexpr std::uint64_t slowest = 1'000;
-  add_whole_number(*command, "--bitrate", arguments->bitrate, "bit/s (the DBC's Baudrate)", slowest,
-                   1'000'000);
-  add_whole_number(*command, "--data-bitrate", arguments->data_bitrate,
-                   "bit/s of the data phase of FD frames (the DBC's BaudrateCANFD)", slowest, 20'000'000);
+  command.add_number("--bitrate", arguments->bitrate, "bit/s (the DBC's Baudrate)", slowest, 1'000'000);
+  command.add_number("--data-bitrate", arguments->data_bitrate,
+                     "bit/s of the data phase of FD frames (the DBC's BaudrateCANFD)", slowest, 20'000'000);
   command
-      ->add_option("--errors-per-second", arguments->errors_per_second,
-                   "bus errors, each an error frame and a retransmission")
-      ->check(CLI::Range(1e-6, 1e5));
-  add_whole_number(*command, "--error-burst", arguments->error_burst, "so many of them may come at once (1)",
-                   1, 10'000);
+      .add_option("--errors-per-second", arguments->errors_per_second,
+                  "bus errors, each an error frame and a retransmission")
+      .within(1e-6, 1e5);
+  command.add_number("--error-burst", arguments->error_burst, "so many of them may come at once (1)", 1,
+                     10'000);
   command
-      ->add_option("--event-interval-ms", arguments->event_interval_ms,
-                   "least interval of event messages that give none")
-      ->check(CLI::Range(1e-3, 1e9));
+      .add_option("--event-interval-ms", arguments->event_interval_ms,
+                  "least interval of event messages that give none")
+      .within(1e-3, 1e9);
   command
-      ->add_option("--queue", arguments->queue,
-                   "what every node sends first: the most urgent frame, or the oldest as Linux does")
-      ->check(CLI::IsMember({"priority", "fifo"}));
-  add_whole_number(*command, "--jitter-us", arguments->jitter_us,
-                   "how late messages without GenMsgJitter may be queued (0)", 0, 1'000'000'000);
-  command->add_flag("--json", arguments->json, "JSON instead of a table");
-  command->callback([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+      .add_option("--queue", arguments->queue,
+                  "what every node sends first: the most urgent frame, or the oldest as Linux does")
+      .one_of({"priority", "fifo"});
+  command.add_number("--jitter-us", arguments->jitter_us,
+                     "how late messages without GenMsgJitter may be queued (0)", 0, 1'000'000'000);
+  command.add_flag("--json", arguments->json, "JSON instead of a table");
+  command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }
 
 }  // namespace canhil::commands

@@ -7,27 +7,29 @@
 
 #include "bench/world/attitude.hpp"
 #include "dbc/wire/message_info.hpp"
+#include "dbc/wire/unrounded.hpp"
 
 namespace canhil::nodes {
 
-/// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders. A float
-/// rounds nothing: only what its range cuts off remains.
+/// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders. Without
+/// rounding only what the range cuts off remains.
 class IncrementRounding {
  public:
   explicit IncrementRounding(const SignalInfo& signal)
       : lsb_(wire::lsb(signal)), minimum_(signal.minimum), maximum_(signal.maximum) {}
 
   /// sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the signal.
-  world::Vector3 round(const world::Vector3& increment) {
+  world::Vector3 round(const world::Vector3& increment, Rounding rounding) {
+    const double step = rounding == Rounding::none ? 0 : lsb_;
     const world::Vector3 wanted = increment + remainder_;
     world::Vector3 sent =
-        wanted.unaryExpr([this](double x) { return std::clamp(nearest(x), minimum_, maximum_); });
+        wanted.unaryExpr([&](double x) { return std::clamp(nearest(x, step), minimum_, maximum_); });
     remainder_ = wanted - sent;
     return sent;
   }
 
  private:
-  [[nodiscard]] double nearest(double x) const { return lsb_ == 0 ? x : std::nearbyint(x / lsb_) * lsb_; }
+  static double nearest(double x, double step) { return step == 0 ? x : std::nearbyint(x / step) * step; }
 
   double lsb_;
   double minimum_;

@@ -29,7 +29,7 @@ Seeker::Seeker(const world::EngagementPlan& plan, const scenario::Seeker& config
       end_us_(end_us),
       record_(record),
       valid_us_(0),
-      rounding_(SeekerAntenna::info.signals[0]) {
+      rounding_(SeekerAntenna::signals()[0]) {
   advance();
 }
 
@@ -70,7 +70,7 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
   const auto& blackout = config_.blackout_us;
   const bool black = blackout && measured.t_us >= blackout->first && measured.t_us <= blackout->second;
   const bool seen = measured.in_view && !invalid && !black;
-  const world::Vector3 antenna = rounding_.round(measured.antenna);
+  const world::Vector3 antenna = rounding_.round(measured.antenna, out.rounding());
   out.send(SeekerAntenna{.antenna_increment_roll_rad = antenna.x(),
                          .antenna_increment_pitch_rad = antenna.y(),
                          .antenna_increment_yaw_rad = antenna.z(),

@@ -21,13 +21,13 @@ SlaveImu::SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& 
       losses_(losses),
       loss_probability_(config.loss_probability),
       sampling_(flight.interval_us(), config.schedule.latency_us, flight.end_us()),
-      theta_rounding_(SlaveImuDeltaTheta::info.signals[0]),
-      velocity_rounding_(SlaveImuDeltaV::info.signals[0]) {}
+      theta_rounding_(SlaveImuDeltaTheta::signals()[0]),
+      velocity_rounding_(SlaveImuDeltaV::signals()[0]) {}
 
 void SlaveImu::transmit(Transmission& out) {
   const world::ImuIncrement measured = imu_.measure(flight_.increments()[next_]);
-  const world::Vector3 delta_theta = theta_rounding_.round(measured.delta_theta);
-  const world::Vector3 delta_v = velocity_rounding_.round(measured.delta_v);
+  const world::Vector3 delta_theta = theta_rounding_.round(measured.delta_theta, out.rounding());
+  const world::Vector3 delta_v = velocity_rounding_.round(measured.delta_v, out.rounding());
   out.send(SlaveImuDeltaTheta{.delta_theta_x_rad = delta_theta.x(),
                               .delta_theta_y_rad = delta_theta.y(),
                               .delta_theta_z_rad = delta_theta.z(),

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "bench/campaign/execute.hpp"
-#include "bench/run/contract.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -86,9 +85,11 @@ double figure(const campaign::Answer& answer, std::string_view name) {
   return found == answer.figures.end() ? nan : found->second.value_or(nan);
 }
 
-std::string_view frames_flown() {
-  return run::frames_round() ? "frames quantised as on the bus"
-                             : "frames without the bus's rounding (hil-bench-exact)";
+Rounding rounding_of(const std::vector<Flown>& flown) { return flown.front().campaign.rounding; }
+
+std::string_view frames_flown(const std::vector<Flown>& flown) {
+  return rounding_of(flown) == Rounding::none ? "frames without the bus's rounding (--unrounded)"
+                                              : "frames quantised as on the bus";
 }
 
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store) {
@@ -109,6 +110,7 @@ Result<std::optional<std::vector<Flown>>> fly(const Campaigns& files, const FlyO
     auto campaign = read_embedded(file, files.scenarios);
     if (!campaign) return tl::unexpected(campaign.error());
     if (options.runs) campaign->runs = *options.runs;
+    campaign->rounding = options.rounding;
     const campaign::Options flying{.file = results_file(options, file.name),
                                    .shard = {},
                                    .threads = 0,

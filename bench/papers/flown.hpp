@@ -32,6 +32,7 @@ struct Campaigns {
 struct FlyOptions {
   std::filesystem::path folder;       ///< for the results, NAME.sqlite; must exist
   std::optional<std::uint64_t> runs;  ///< in place of the campaigns' own numbers
+  Rounding rounding = Rounding::as_on_the_bus;
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
@@ -64,8 +65,11 @@ std::size_t flights(const std::vector<Flown>& flown);
 /// A figure of an answer, by its name in the report; NaN: it has none.
 double figure(const campaign::Answer& answer, std::string_view name);
 
-/// "frames quantised as on the bus", or that they were not: hil-bench-exact rounds nothing.
-std::string_view frames_flown();
+/// How the campaigns of a paper were flown, all alike.
+Rounding rounding_of(const std::vector<Flown>& flown);
+
+/// "frames quantised as on the bus", or that they were not.
+std::string_view frames_flown(const std::vector<Flown>& flown);
 
 /// A campaign with the answers that its results give. Error: results cannot be read, or runs are missing.
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store);

@@ -13,7 +13,6 @@
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/papers/wind/reproduction.hpp"
 #include "bench/report/file.hpp"
-#include "bench/run/contract.hpp"
 
 namespace canhil::papers {
 namespace {
@@ -24,7 +23,7 @@ struct Paper {
   Result<std::optional<Reproduction>> (*reproduce)(const FlyOptions& options,
                                                    const std::filesystem::path& exact,
                                                    const std::atomic<bool>& stop);
-  bool compares = false;  // with results of the twin that rounds nothing
+  bool compares = false;  // with results without rounding
 };
 constexpr std::array papers{
     Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
@@ -70,8 +69,9 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
                     "--paper transfer",
                     request.paper));
   if (request.runs == 0U) return failure("--runs 0: expected at least 1");
-  if (!request.exact.empty() && !run::frames_round())
-    return failure("--exact: this program rounds nothing itself, expected hil-bench to compare with");
+  if (!request.exact.empty() && request.rounding == Rounding::none)
+    return failure(
+        "--exact: with --unrounded nothing rounds that could be compared, expected one of the two");
   std::error_code error;
   std::filesystem::create_directories(request.folder, error);
   if (error)
@@ -86,8 +86,11 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
     if (auto there = campaign::Store::open(request.exact); !there) return tl::unexpected(there.error());
   }
 
-  const auto written = paper->reproduce(
-      {.folder = request.folder, .runs = request.runs, .progress = request.progress}, request.exact, stop);
+  const auto written = paper->reproduce({.folder = request.folder,
+                                         .runs = request.runs,
+                                         .rounding = request.rounding,
+                                         .progress = request.progress},
+                                        request.exact, stop);
   if (!written) return tl::unexpected(written.error());
   if (!*written) return reproduced;
   const Reproduction& judged = **written;

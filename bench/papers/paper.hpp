@@ -18,7 +18,8 @@ struct Request {
   std::string paper;             ///< one of names()
   std::filesystem::path folder;  ///< is made; gets NAME.html and the campaigns' results, which are resumed
   std::optional<std::uint64_t> runs;  ///< a variant; none: as the campaigns say
-  std::filesystem::path exact;        ///< results of the twin without rounding; empty: none
+  Rounding rounding = Rounding::as_on_the_bus;
+  std::filesystem::path exact;  ///< results without rounding, to compare with; empty: none
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 

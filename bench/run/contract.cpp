@@ -69,6 +69,4 @@ scenario::Contract contract() {
   return built_in;
 }
 
-bool frames_round() { return wire::lsb(messages::SlaveImuDeltaTheta::info.signals[0]) != 0; }
-
 }  // namespace canhil::run

@@ -4,7 +4,6 @@
 
 #include <tuple>
 
-#include "bench/run/contract.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
@@ -20,7 +19,7 @@ constexpr Routes comparable([](const MessageInfo& info) {
 // The frames of one log that count, one after the other.
 class Answers {
  public:
-  explicit Answers(LogReader reader) : reader_(std::move(reader), frames_round()) {}
+  explicit Answers(LogReader reader) : reader_(std::move(reader)) {}
 
   // The next one; none at the end.
   Result<std::optional<LogEntry>> next() {

@@ -87,7 +87,7 @@ Result<std::vector<InitialState>> make_initial_states(const scenario::Scenario& 
 }
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep) {
+                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep, Rounding rounding) {
   std::vector<std::unique_ptr<nodes::Node>> sensors;
   const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
   if (scenario.slave_imu) {
@@ -115,7 +115,7 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
     sensors.push_back(std::make_unique<nodes::Seeker>(*scenario.engagement, *scenario.seeker, streams,
                                                       truth.end_us(), *own_truth.engagement));
   }
-  return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep)};
+  return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding};
 }
 
 }  // namespace canhil::run

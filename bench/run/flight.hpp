@@ -35,6 +35,7 @@ Result<std::vector<InitialState>> make_initial_states(const scenario::Scenario& 
 
 /// The nodes of run `run_index`, in the order of precedence. All but the index must outlive the schedule.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep);
+                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep,
+                       Rounding rounding = Rounding::as_on_the_bus);
 
 }  // namespace canhil::run

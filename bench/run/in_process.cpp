@@ -11,7 +11,7 @@
 namespace canhil::run {
 
 Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                    std::uint64_t run_index) {
+                                    std::uint64_t run_index, Rounding rounding) {
   constexpr std::int64_t step_limit_ns = 1'000'000'000;  // an answer is there when send() returns
   static const std::atomic<bool> never = false;
   auto own_truth = make_own_truth(scenario, run_index);
@@ -19,9 +19,9 @@ Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const wo
   const auto initial = make_initial_states(scenario, truth, *own_truth, run_index);
   if (!initial) return tl::unexpected(initial.error());
 
-  InProcessPort port;
+  InProcessPort port(rounding);
   Link link(port);
-  Schedule schedule = make_schedule(scenario, truth, *own_truth, run_index, true);
+  Schedule schedule = make_schedule(scenario, truth, *own_truth, run_index, true, rounding);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
   if (auto ready = configure(link, schedule.outbox(), scenario.targets, *initial, gone); !ready) {
     return tl::unexpected(ready.error());

@@ -21,6 +21,6 @@ struct InProcessRun {
 /// Runs a scenario with the random numbers of (seed, run_index). A pure function: same arguments, same bits,
 /// on any thread. Error: the scenario cannot be run (configuration); a target that gives up is an ending.
 Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                    std::uint64_t run_index);
+                                    std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus);
 
 }  // namespace canhil::run

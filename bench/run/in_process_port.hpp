@@ -13,7 +13,10 @@ namespace canhil::run {
 /// The host's clock plays no part: every stamp is 0.
 class InProcessPort final : public Port {
  public:
-  InProcessPort() { append(device_.idle_heartbeat()); }
+  explicit InProcessPort(Rounding rounding = Rounding::as_on_the_bus)
+      : device_(rounding), name_(rounding == Rounding::none ? "in-process?unrounded" : "in-process") {
+    append(device_.idle_heartbeat());
+  }
 
   SendOutcome send(const Frame& frame) override {
     append(device_.receive(frame));
@@ -48,7 +51,7 @@ class InProcessPort final : public Port {
   std::vector<Frame> answers_;
   std::size_t next_ = 0;  // the first of answers_ that was not received yet
   PortCounters counters_;
-  std::string name_ = "in-process";
+  std::string name_;
 };
 
 }  // namespace canhil::run

@@ -14,8 +14,9 @@ namespace canhil::run {
 class Schedule {
  public:
   /// `keeper` closes every step, so it comes last among equals.
-  Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper)
-      : nodes_(std::move(sensors)) {
+  Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
+           Rounding rounding = Rounding::as_on_the_bus)
+      : nodes_(std::move(sensors)), out_(rounding) {
     nodes_.push_back(std::move(keeper));
     for (const auto& node : nodes_) {
       due_us_.push_back(node->due_us());

@@ -30,9 +30,11 @@ constexpr std::int64_t silence_limit_ns =
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
 constexpr std::string_view in_process = "in-process";
 
+static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
+
 // Without a wire there is no bus, and frames travel as they are in both contracts.
 Result<std::unique_ptr<Port>> open_in_process(const std::string& bus, BusFormat format) {
-  if (bus == in_process) return std::make_unique<InProcessPort>();
+  if (bus == in_process || bus == unrounded_bus) return std::make_unique<InProcessPort>(rounding_of(bus));
   const auto wire = wire_settings(bus);
   if (!wire) return tl::unexpected(wire.error());
   auto port = std::make_unique<InProcessWire>(bus, *wire, format);
@@ -94,8 +96,13 @@ Result<std::unique_ptr<Port>> open_all(const Options& options) {
 
 bool is_in_process(std::string_view bus) { return bus.substr(0, bus.find('?')) == in_process; }
 
+Rounding rounding_of(std::string_view bus) {
+  return bus == unrounded_bus ? Rounding::none : Rounding::as_on_the_bus;
+}
+
 ClockKind clock_of(std::string_view bus, bool lockstep) {
-  if (is_in_process(bus)) return bus == in_process ? ClockKind::lockstep : ClockKind::simulated_wire;
+  const bool has_wire = bus != in_process && bus != unrounded_bus;
+  if (is_in_process(bus)) return has_wire ? ClockKind::simulated_wire : ClockKind::lockstep;
   return lockstep ? ClockKind::lockstep : ClockKind::real_time;
 }
 
@@ -142,7 +149,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return why ? std::optional("target: " + *why) : std::nullopt;
   };
 
-  Schedule schedule = make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep);
+  Schedule schedule =
+      make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep, rounding_of(options.bus));
   if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone, options.format);
       !configured) {
     return tl::unexpected(configured.error());

@@ -35,6 +35,11 @@ constexpr std::string_view name(ClockKind clock) {
 
 /// True for `in-process` and `in-process?bitrate=500000`: no bus, the device is in this process.
 bool is_in_process(std::string_view bus);
+
+/// The bus of frames that round nothing: in process, virtual time.
+inline constexpr std::string_view unrounded_bus = "in-process?unrounded";
+/// What a bus makes of scaled signals.
+Rounding rounding_of(std::string_view bus);
 /// The clock of a run on a bus.
 ClockKind clock_of(std::string_view bus, bool lockstep);
 

@@ -35,7 +35,7 @@ void check(const Message& message, std::string& wrong) {
 template <class Message>
 Result<void> check_interval(std::string_view what, std::int64_t interval_us) {
   const auto interval = static_cast<double>(interval_us);
-  for (const SignalInfo& signal : Message::info.signals) {
+  for (const SignalInfo& signal : Message::signals()) {
     if (signal.name != "interval_us") continue;
     const double lsb = wire::lsb(signal);
     const bool between_steps = lsb != 0 && interval / lsb != std::nearbyint(interval / lsb);
@@ -85,7 +85,7 @@ std::string check_triad(const Names& names, const world::TriadErrorModel& model,
   const double dt = 1e-6 * static_cast<double>(truth.interval_us());
   for (const world::ImuIncrement& exact : truth.increments()) {
     for (int axis = 0; axis < 3; ++axis) {
-      const SignalInfo& signal = Message::info.signals[static_cast<std::size_t>(axis)];
+      const SignalInfo& signal = Message::signals()[static_cast<std::size_t>(axis)];
       const auto parts = parts_of(model, exact.*delta, axis, dt);
       const double reach = std::reduce(parts.begin(), parts.end());
       if (reach <= std::min(-signal.minimum, signal.maximum)) continue;
@@ -122,7 +122,7 @@ Result<void> check_fits(const world::EngagementPlan& engagement, const scenario:
       !fits)
     return fits;
   const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
-  const SignalInfo& signal = SeekerAntenna::info.signals[0];
+  const SignalInfo& signal = SeekerAntenna::signals()[0];
   if (roll > signal.maximum) return failure(complaint("roll increment", roll, SeekerAntenna::info, signal));
   const std::int64_t least_us = messages::Sync::info.cycle_time_us;
   if (engagement.guidance == world::Guidance::target && engagement.guidance_delay_us < least_us) {

@@ -1,4 +1,5 @@
-// Database -> one constexpr C++ header: structs with pack() and unpack(), enumerations, metadata, hash.
+// Database -> C++: a header of structs with pack() and unpack(), enumerations and hash, and a source with
+// what few need of the messages and with the checks on it all, compiled once.
 #pragma once
 
 #include <string>
@@ -13,5 +14,9 @@ namespace canhil::dbc {
 /// relies on (E2E fields where a data id is given, resolution of measurements).
 Result<std::string> generate_header(const Database& database, std::string_view name_space,
                                     std::string_view dbc_name);
+
+/// The source's text, of a database that has a header; `header` is how it includes that.
+std::string generate_source(const Database& database, std::string_view name_space, std::string_view dbc_name,
+                            std::string_view header);
 
 }  // namespace canhil::dbc

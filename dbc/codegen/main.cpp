@@ -1,19 +1,18 @@
 // dbcgen: a DBC file to a C++ header, or to what a person wants to know of it.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
-#include "dbc/codegen/exact.hpp"
 #include "dbc/codegen/fd.hpp"
 #include "dbc/codegen/generate.hpp"
 #include "dbc/codegen/json.hpp"
 #include "dbc/codegen/load.hpp"
 #include "dbc/codegen/rules.hpp"
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/parser/parse.hpp"
 
 namespace {
@@ -22,7 +21,8 @@ struct Options {
   std::string dbc;
   std::string output;
   std::string name_space = "messages";
-  bool exact = false;
+  std::string source;
+  std::string include;
   bool quantisation = false;
   bool load = false;
   bool json = false;
@@ -52,44 +52,47 @@ bool holds(const std::string& path, const std::string& text) {
   return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
 }
 
+// A file that is the same already stays as it is: nobody who includes it need be compiled again.
+int write_file(const std::string& path, const std::string& text) {
+  if (holds(path, text)) return 0;
+  std::ofstream file(path, std::ios::binary);
+  file << text << std::flush;
+  return file ? 0 : complain(fmt::format("{}: cannot be written, expected a path for the result", path));
+}
+
 int write(const canhil::dbc::Database& database, const Options& options) {
   const auto text = text_for(database, options);
   if (!text) return complain(text.error().message);
-  if (options.output.empty()) return print(*text);
-  // A file that is the same already stays as it is: nobody who includes it need be compiled again.
-  if (holds(options.output, *text)) return 0;
-  std::ofstream file(options.output, std::ios::binary);
-  file << *text << std::flush;
-  return file
-             ? 0
-             : complain(fmt::format("{}: cannot be written, expected a path for the result", options.output));
+  if (!options.source.empty()) {
+    const std::string name = std::filesystem::path(options.dbc).filename().string();
+    const int code = write_file(
+        options.source, canhil::dbc::generate_source(database, options.name_space, name, options.include));
+    if (code != 0) return code;
+  }
+  return options.output.empty() ? print(*text) : write_file(options.output, *text);
 }
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app{"Turns a DBC file into a C++ header of constexpr codecs."};
-  app.add_option("dbc", options.dbc, "the DBC file")->required();
-  app.add_option("-o,--output", options.output, "the file to write; standard output if not given");
-  app.add_option("-n,--namespace", options.name_space, "namespace of the header");
-  app.add_flag("--exact", options.exact,
-               "carry every scaled signal as a 64-bit float in CAN FD frames: nothing is rounded");
-  app.add_flag("--quantisation", options.quantisation,
-               "print the resolution of every measurement against its sensor");
-  app.add_flag("--load", options.load, "print the worst-case bus load of every sender");
-  app.add_flag("--json", options.json, "print the database as JSON");
-  app.add_flag("--fd", options.fd,
-               "write the same contract for CAN FD, one frame a sample group, as a DBC file");
-  app.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("dbcgen: {}; see dbcgen --help", error.what()));
-  }
+  canhil::command_line::Program program{"Turns a DBC file into a C++ header of constexpr codecs."};
+  program.add_option("dbc", options.dbc, "the DBC file").required();
+  program.add_option("-o,--output", options.output, "the file to write; standard output if not given");
+  program.add_option("-n,--namespace", options.name_space, "namespace of the header");
+  program.add_option("--source", options.source,
+                     "also write the definitions that the header declares, to this file");
+  program.add_option("--include", options.include, "how that file includes the header");
+  program.add_flag("--quantisation", options.quantisation,
+                   "print the resolution of every measurement against its sensor");
+  program.add_flag("--load", options.load, "print the worst-case bus load of every sender");
+  program.add_flag("--json", options.json, "print the database as JSON");
+  program.add_flag("--fd", options.fd,
+                   "write the same contract for CAN FD, one frame a sample group, as a DBC file");
+  program.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
+  const auto parsed = program.parse(argc, argv);
+  if (!parsed) return complain(fmt::format("dbcgen: {}; see dbcgen --help", parsed.error().message));
+  if (*parsed) return **parsed;
 
   auto database = canhil::dbc::read_file(options.dbc);
-  if (database && options.exact) database = canhil::dbc::exact(*database, options.dbc);
   if (!database) return complain(database.error().message);
   if (options.quantisation) return print(canhil::dbc::quantisation_table(*database));
   if (options.load) return print(canhil::dbc::load_table(*database));

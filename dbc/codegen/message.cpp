@@ -6,19 +6,12 @@
 #include <cmath>
 #include <set>
 
+#include "dbc/codegen/definitions.hpp"
 #include "dbc/codegen/placement.hpp"
 #include "dbc/wire/quantise.hpp"
 
 namespace canhil::dbc {
 namespace {
-
-std::vector<const Signal*> members_of(const Message& message) {
-  std::vector<const Signal*> members;
-  for (const Signal& signal : message.signals) {
-    if (!is_protection(message, signal)) members.push_back(&signal);
-  }
-  return members;
-}
 
 std::string word_name(const Word& word) {
   return fmt::format("{}_word_{}_", word.order == ByteOrder::little_endian ? "le" : "be", word.first);
@@ -181,14 +174,13 @@ std::string pack_text(const Message& message, const std::vector<const Signal*>& 
 
 std::string visit_text(const Message& message, const std::vector<const Signal*>& members) {
   std::string calls;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    calls += fmt::format("    visitor_(detail::signals_of_{}[{}], message_.{});\n", type_name(message), i,
-                         member_name(message, *members[i]));
-  }
+  for (std::size_t i = 0; i < members.size(); ++i)
+    calls += fmt::format("    visitor_(signals_[{}], message_.{});\n", i, member_name(message, *members[i]));
   return fmt::format(
       "  /// Calls visitor(info, member) for every signal, in the order of the DBC.\n"
-      "  template <class Message_, class Visitor_>\n  static constexpr void visit([[maybe_unused]] Message_& "
-      "message_, [[maybe_unused]] Visitor_&& visitor_) {{\n{}  }}\n",
+      "  template <class Message_, class Visitor_>\n  static void visit([[maybe_unused]] Message_& message_, "
+      "[[maybe_unused]] Visitor_&& visitor_) {{\n    [[maybe_unused]] const auto signals_ = signals();\n{}  "
+      "}}\n",
       calls);
 }
 
@@ -212,28 +204,12 @@ std::string members_text(const Enums& enums, const Message& message,
   return text;
 }
 
-std::string info_text(const Message& message, const std::vector<const Signal*>& members) {
-  const std::string type = type_name(message);
+std::string answers_text(const Message& message) {
   std::string text =
-      fmt::format("namespace detail {{\ninline constexpr std::array<SignalInfo, {}> signals_of_{}{{{{\n",
-                  members.size(), type);
-  for (const Signal* s : members) {
-    text += fmt::format(
-        "    {{.name = {}, .unit = {}, .scale = {}, .offset = {}, .minimum = {}, .maximum = {},\n"
-        "     .sensor_sigma = {}, .carries_remainder = {}, .start_bit = {}, .length = {}, .big_endian = {},\n"
-        "     .is_float = {}, .multiplexed = {}}},\n",
-        quoted(s->name), quoted(s->unit), literal(s->scale), literal(s->offset), literal(s->minimum),
-        literal(s->maximum), literal(s->sensor_sigma), s->carries_remainder, s->start_bit, s->length,
-        s->byte_order == ByteOrder::big_endian, s->is_float(), !s->multiplexed_by.empty());
-  }
-  text += "}};\n";
-  if (!message.answers.empty()) {
-    text += fmt::format("inline constexpr std::array<std::string_view, {}> answers_of_{}{{",
-                        message.answers.size(), type);
-    for (const std::string& group : message.answers) text += quoted(group) + ", ";
-    text += "};\n";
-  }
-  return text + "}  // namespace detail\n\n";
+      fmt::format("namespace detail {{\ninline constexpr std::array<std::string_view, {}> answers_of_{}{{",
+                  message.answers.size(), type_name(message));
+  for (const std::string& group : message.answers) text += quoted(group) + ", ";
+  return text + "};\n}  // namespace detail\n\n";
 }
 
 }  // namespace
@@ -241,7 +217,8 @@ std::string info_text(const Message& message, const std::vector<const Signal*>& 
 std::string message_text(const Enums& enums, const Message& message) {
   const auto members = members_of(message);
   const std::string type = type_name(message);
-  std::string text = info_text(message, members) + comment_line("", message.comment);
+  std::string text = message.answers.empty() ? "" : answers_text(message);
+  text += comment_line("", message.comment);
   text += fmt::format("struct {} {{\n", type) + members_text(enums, message, members);
   text += fmt::format("\n  static constexpr std::size_t size = {};\n", message.size);
   text += fmt::format(
@@ -249,14 +226,18 @@ std::string message_text(const Enums& enums, const Message& message) {
       "size,\n"
       "                                   .cycle_time_us = {}, .e2e_data_id = {}, .sender = {},\n"
       "                                   .sample_group = {}, .answers = {},\n"
-      "                                   .signals = detail::signals_of_{}}};\n\n",
+      "                                   .can_travel_unrounded = {}}};\n"
+      "  /// In the order of the DBC, without the E2E fields.\n"
+      "  static std::span<const SignalInfo> signals() noexcept;\n"
+      "  /// What `pack` rounds.\n"
+      "  static std::span<const wire::ScaledMember> scaled() noexcept;\n\n",
       quoted(message.name), message.id, message.extended, message.fd, message.cycle_time_us,
       message.e2e_data_id, quoted(message.sender), quoted(message.sample_group),
-      message.answers.empty() ? "{}" : fmt::format("detail::answers_of_{}", type), type);
+      message.answers.empty() ? "{}" : fmt::format("detail::answers_of_{}", type),
+      can_travel_unrounded(message));
   text += unpack_text(enums, message, members) + pack_text(message, members) + visit_text(message, members);
-  text += fmt::format("\n  friend constexpr bool operator==(const {0}&, const {0}&) = default;\n}};\n", type);
-  text += fmt::format(
-      "static_assert(wire::is_sound({0}::info));\nstatic_assert(wire::is_fine_enough({0}::info));\n\n", type);
+  text +=
+      fmt::format("\n  friend constexpr bool operator==(const {0}&, const {0}&) = default;\n}};\n\n", type);
   return text;
 }
 

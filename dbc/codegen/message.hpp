@@ -7,7 +7,7 @@
 
 namespace canhil::dbc {
 
-/// Signal metadata and the struct, as C++.
+/// The struct, as C++.
 std::string message_text(const Enums& enums, const Message& message);
 
 }  // namespace canhil::dbc

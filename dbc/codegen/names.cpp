@@ -93,7 +93,8 @@ std::string type_name(const Message& message) {
 }
 
 std::string member_name(const Message& message, const Signal& signal) {
-  constexpr std::array<std::string_view, 5> taken{"size", "info", "pack", "unpack", "visit"};
+  constexpr std::array<std::string_view, 7> taken{"size", "info",   "signals", "scaled",
+                                                  "pack", "unpack", "visit"};
   std::string name = identifier(signal.name);
   if (std::ranges::find(taken, name) != taken.end() || name == type_name(message)) name += '_';
   return name;
@@ -152,6 +153,14 @@ std::string member_type(const Enums& enums, const Message& message, const Signal
 
 bool is_protection(const Message& message, const Signal& signal) {
   return message.e2e_data_id != 0 && (signal.name == "e2e_crc" || signal.name == "e2e_counter");
+}
+
+std::vector<const Signal*> members_of(const Message& message) {
+  std::vector<const Signal*> members;
+  for (const Signal& signal : message.signals) {
+    if (!is_protection(message, signal)) members.push_back(&signal);
+  }
+  return members;
 }
 
 std::string literal(double value) {

@@ -47,6 +47,8 @@ std::string integer_type(unsigned bits, bool is_signed);
 std::string member_type(const Enums& enums, const Message& message, const Signal& signal);
 /// True if the signal is E2E's own and so no member.
 bool is_protection(const Message& message, const Signal& signal);
+/// The message's signals that are members, in the order of the DBC.
+std::vector<const Signal*> members_of(const Message& message);
 /// A literal of exactly this value.
 std::string literal(double value);
 std::string quoted(std::string_view text);

@@ -148,7 +148,7 @@ std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner) {
 Result<std::optional<LogEntry>> ClassicLogReader::next() {
   while (next_ == unpacked_.frames().size()) {
     auto entry = reader_.next();
-    if (!entry || !*entry || !(*entry)->frame.fd || !takes_apart_) return entry;
+    if (!entry || !*entry || !(*entry)->frame.fd) return entry;
     unpacked_ = FdUnpacked((*entry)->frame);
     next_ = 0;
     envelope_ = std::move(**entry);

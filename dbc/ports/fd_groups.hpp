@@ -72,16 +72,12 @@ std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner);
 /// frames in both, candump on an FD bus the containers.
 class ClassicLogReader {
  public:
-  /// `contract_is_classic` is false in programs built on a contract of FD messages, whose logs are read as
-  /// they are.
-  ClassicLogReader(LogReader reader, bool contract_is_classic)
-      : reader_(std::move(reader)), takes_apart_(contract_is_classic) {}
+  explicit ClassicLogReader(LogReader reader) : reader_(std::move(reader)) {}
   /// As LogReader::next().
   Result<std::optional<LogEntry>> next();
 
  private:
   LogReader reader_;
-  bool takes_apart_;
   FdUnpacked unpacked_;
   std::size_t next_ = 0;  // the first of unpacked_ that was not given yet
   LogEntry envelope_;

@@ -12,14 +12,15 @@
 #include "dbc/wire/bits.hpp"
 #include "dbc/wire/message_info.hpp"
 #include "dbc/wire/quantise.hpp"
+#include "dbc/wire/unrounded.hpp"
 
 namespace canhil::wire {
 
 /// True if every signal lies inside of its message and, multiplexed ones aside, on bits of its own.
-constexpr bool is_sound(const MessageInfo& message) {
+constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> signals) {
   std::array<bool, 512> taken{};
   if (message.e2e_data_id != 0) std::fill_n(taken.begin(), 12, true);
-  for (const SignalInfo& signal : message.signals) {
+  for (const SignalInfo& signal : signals) {
     for (unsigned i = 0; i < signal.length; ++i) {
       const unsigned bit = bit_position(signal.start_bit, i, signal.big_endian);
       if (bit >= message.size * 8U || (!signal.multiplexed && taken[bit])) return false;
@@ -56,9 +57,9 @@ constexpr Resolution resolution_of(std::string_view name, double lsb, double sen
                                                                              : Resolution::too_coarse;
 }
 
-/// True if every measurement of the message is fine enough for its sensor.
-constexpr bool is_fine_enough(const MessageInfo& message) {
-  return std::ranges::all_of(message.signals, [](const SignalInfo& s) {
+/// True if every measurement among a message's signals is fine enough for its sensor.
+constexpr bool is_fine_enough(std::span<const SignalInfo> signals) {
+  return std::ranges::all_of(signals, [](const SignalInfo& s) {
     return resolution_of(s.name, lsb(s), s.sensor_sigma, s.carries_remainder) == Resolution::enough;
   });
 }

@@ -3,13 +3,14 @@
 
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/frame.hpp"
+#include "dbc/wire/unrounded.hpp"
 
 namespace canhil {
 
 /// Packs a generated message (rounding, saturating) and, if it has an E2E data id, protects it with the
-/// counter given (0..14).
+/// counter given (0..14). Without rounding its scaled signals travel beside the packed bytes.
 template <class Message>
-Frame to_frame(const Message& message, std::uint8_t counter) {
+Frame to_frame(const Message& message, std::uint8_t counter, Rounding rounding = Rounding::as_on_the_bus) {
   Frame frame;
   frame.id = Message::info.id;
   frame.extended = Message::info.extended;
@@ -19,13 +20,19 @@ Frame to_frame(const Message& message, std::uint8_t counter) {
   message.pack(std::span<std::uint8_t, Message::size>(frame.data.data(), Message::size));
   if constexpr (Message::info.e2e_data_id != 0)
     e2e::protect({frame.data.data(), Message::size}, Message::info.e2e_data_id, counter);
+  if (rounding == Rounding::none) [[unlikely]]
+    wire::carry_unrounded(&message, Message::scaled(), frame);
   return frame;
 }
 
 /// Unpacks a frame whose id and size are known to be the message's. The E2E fields are not looked at.
 template <class Message>
 Message from_frame(const Frame& frame) {
-  return Message::unpack(std::span<const std::uint8_t, Message::size>(frame.data.data(), Message::size));
+  Message message =
+      Message::unpack(std::span<const std::uint8_t, Message::size>(frame.data.data(), Message::size));
+  if (frame.unrounded) [[unlikely]]
+    wire::take_unrounded(frame, Message::scaled(), &message);
+  return message;
 }
 
 }  // namespace canhil

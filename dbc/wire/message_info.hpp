@@ -45,7 +45,7 @@ struct MessageInfo {
   std::string_view sender{};
   std::string_view sample_group{};              ///< empty: stands alone
   std::span<const std::string_view> answers{};  ///< sample groups, each of which brings this message about
-  std::span<const SignalInfo> signals{};        ///< in the order of the DBC, without the E2E fields
+  bool can_travel_unrounded = false;            ///< its scaled signals as doubles fit behind its bytes
 };
 
 }  // namespace canhil

@@ -44,12 +44,16 @@ class TransmitCounters {
 template <std::size_t capacity>
 class Outbox {
  public:
+  explicit Outbox(Rounding rounding = Rounding::as_on_the_bus) : rounding_(rounding) {}
+
   /// Packs, protects and appends one message.
   template <class Message>
   void send(const Message& message) {
-    if (size_ < capacity) frames_[size_++] = to_frame(message, counters_.take<Message>());
+    if (size_ < capacity) frames_[size_++] = to_frame(message, counters_.take<Message>(), rounding_);
   }
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), size_}; }
+  /// What becomes of the scaled signals of what is sent.
+  [[nodiscard]] Rounding rounding() const { return rounding_; }
   void clear() { size_ = 0; }
   void reset_counters() { counters_.reset(); }
 
@@ -57,6 +61,7 @@ class Outbox {
   std::array<Frame, capacity> frames_{};
   std::size_t size_ = 0;
   TransmitCounters counters_;
+  Rounding rounding_;
 };
 
 }  // namespace canhil

@@ -23,7 +23,7 @@ constexpr std::uint16_t saturated(std::uint32_t count) {
 
 }  // namespace
 
-Device::Device() : adapters_(make_adapters()) {
+Device::Device(Rounding rounding) : answers_(rounding), adapters_(make_adapters()) {
   selected_.reserve(adapters_.size());
   selected_.emplace_back();
 }

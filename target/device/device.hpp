@@ -20,7 +20,8 @@ namespace canhil::target {
 /// other.
 class Device {
  public:
-  Device();
+  /// `rounding`: of its answers; other than on the bus only for a bench in the same process.
+  explicit Device(Rounding rounding = Rounding::as_on_the_bus);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   ~Device() = default;

@@ -51,12 +51,10 @@ bool on_earth(double latitude_deg, double longitude_deg) {
   return std::abs(latitude_deg) < 90 && std::abs(longitude_deg) <= 180;
 }
 
-// A limit of a signal's range, from the DBC.
+// The largest value of a counter's signal, from the DBC; the signal must exist.
 template <class Message>
-consteval double maximum(std::string_view signal) {
-  for (const SignalInfo& info : Message::info.signals)
-    if (info.name == signal) return info.maximum;
-  throw "no such signal";
+double maximum(std::string_view signal) {
+  return std::ranges::find(Message::signals(), signal, &SignalInfo::name)->maximum;
 }
 
 class InflightAlignmentAdapter final : public Adapter {

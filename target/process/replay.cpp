@@ -1,7 +1,5 @@
 #include "target/process/replay.hpp"
 
-#include <algorithm>
-
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
 #include "target/device/device.hpp"
@@ -12,10 +10,6 @@ namespace {
 constexpr Routes from_target_route([](const MessageInfo& info) {
   return info.sender == messages::TargetHeartbeat::info.sender;
 });
-// Not so in the twin that rounds nothing.
-constexpr bool contract_is_classic =
-    std::ranges::none_of(messages::all_messages, [](const MessageInfo& info) { return info.fd; });
-
 bool from_target(const Frame& frame) { return from_target_route(frame) != Routes::nowhere; }
 
 // Reads a log to its end, before the first line of a replay is written. One without frames is no recording.
@@ -36,7 +30,7 @@ Result<void> replay(const std::string& log_path, std::FILE* out) {
   if (auto whole = check(log_path); !whole) return whole;
   auto opened = LogReader::open(log_path);
   if (!opened) return tl::unexpected(opened.error());
-  ClassicLogReader reader(std::move(*opened), contract_is_classic);
+  ClassicLogReader reader(std::move(*opened));
   Device device;
   const auto print = [&](const LogEntry& entry) {
     std::fprintf(out, "%s\n", format_log_line(entry).c_str());

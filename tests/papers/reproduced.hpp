@@ -29,8 +29,7 @@ struct Written {
 };
 
 /// In a new folder.
-inline Written reproduced(const char* paper, const char* folder) {
-  const Request asked = request(paper, folder);
+inline Written reproduced(const Request& asked) {
   std::filesystem::remove_all(asked.folder);
   const auto reproduced = reproduce(asked, go_on);
   if (!reproduced) {
@@ -42,6 +41,10 @@ inline Written reproduced(const char* paper, const char* folder) {
   std::ostringstream content;
   content << std::ifstream(reproduced->page).rdbuf();
   return {.html = content.str(), .text = reproduced->text};
+}
+
+inline Written reproduced(const char* paper, const char* folder) {
+  return reproduced(request(paper, folder));
 }
 
 inline std::string complaint(const Request& asked) {

@@ -30,7 +30,6 @@ class Source:
     def __init__(self, entry):
         self.file = entry["file"]
         self.name = os.path.relpath(self.file, ROOT)
-        self.twin = "generated_exact" in entry["command"]  # the same sources again, on the twin of the contract
         self.object = None
         self.flags = []  # each a tuple of one word or two
         words = iter(shlex.split(entry["command"]))
@@ -50,7 +49,7 @@ def sources_of(build):
     for entry in json.loads((build / "compile_commands.json").read_text()):
         source = Source(entry)
         file = Path(source.file)
-        if file.is_relative_to(ROOT) and not file.is_relative_to(build) and (source.file not in found or not source.twin):
+        if file.is_relative_to(ROOT) and not file.is_relative_to(build):
             found[source.file] = source
     return list(found.values())
 

@@ -50,7 +50,7 @@ Figure figure(const Results& results, int number, const char* campaign, const ch
           "loop; EKF nav: closed loop, error in navigation axes; sin/cos: this product's filter. IMU 50 Hz, "
           "a fix "
           "each second, {}.",
-          std::min<std::uint64_t>(100, results.runs), frames_flown()),
+          std::min<std::uint64_t>(100, results.runs), frames_flown(results.campaigns)),
       .y_label = "heading error, RMS [deg]",
       .x_range = {0, 300},
       .y_range = {0.3, 200},

@@ -158,7 +158,7 @@ Section settings(const Results& results) {
                        "in virtual time, each "
                        "through the codec with {}. Run r has the same random numbers in every variant (seed "
                        "20060707).",
-                       results.runs, results.flights, frames_flown()),
+                       results.runs, results.flights, frames_flown(results.campaigns)),
            "The paper gives: sensors, initial position, tilt and heading errors, 300 s, 3 m/s. It does not "
            "give the path. Chosen: "
            "yaw 40 + 50 sin(2π t/33 s) deg, pitch 2 deg in 80 s, roll 2 deg; initial velocity error 0.1 m/s; "

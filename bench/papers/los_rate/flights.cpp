@@ -283,7 +283,7 @@ Section settings(const Results& results) {
           {fmt::format(
                "{} flights in virtual time, each through the codec with {}. Run r has the same random "
                "numbers in every variant (seed 20260501).",
-               results.flights, frames_flown()),
+               results.flights, frames_flown(results.campaigns)),
            "Head-on at 900 m/s from 5 km, PN with N = 4, autopilot 0.15 s, 35 g; heading error 3 deg, 1 "
            "sigma, and "
            "a turn of 4 g to either side from 1 s to go, in each of two planes. Seeker 200 Hz: thermal 2.5 "

@@ -191,17 +191,16 @@ Section claims(const Results& results) {
 
 Section cost_of_the_bus(const Results& results) {
   Section section{.id = "bus", .title = "What the bus costs", .paragraphs = {}, .tables = {}, .figures = {}};
-  if (!results.rounded) {
+  if (rounding_of(results.campaigns) == Rounding::none) {
     section.paragraphs = {
-        "Nothing on this page has the bus's rounding: it was flown by hil-bench-exact. hil-bench shows what "
-        "it costs."};
+        "Nothing on this page has the bus's rounding: it was flown with --unrounded. A page flown without "
+        "that shows what the rounding costs."};
     return section;
   }
   if (!results.exact) {
     section.paragraphs = {
-        "Not compared: hil-bench-exact campaign bench/campaigns/paper_transfer/table2.toml gives the results "
-        "without the "
-        "bus's rounding; pass its file with --exact."};
+        "Not compared: hil-bench campaign bench/campaigns/paper_transfer/table2.toml --unrounded gives the "
+        "results without the bus's rounding; pass its file with --exact."};
     return section;
   }
   Table table{.head = {"filter", "over the bus", "without rounding", "heading at 20 s", "difference"},
@@ -230,7 +229,7 @@ Section settings(const Results& results) {
                          "{} runs a variant, {} flights of 20 s in virtual time, each through the "
                          "codec with {}. Run r has the same random numbers in every variant (seed 20010101), "
                          "so runs are compared in pairs.",
-                         results.runs, results.flights, frames_flown()),
+                         results.runs, results.flights, frames_flown(results.campaigns)),
                      "Flight: 500 km/h north at 37 deg latitude, 10 s of cruise, then 1 g (9.80665 m/s²) for "
                      "10 s. IMU 100 Hz, velocity update "
                      "10 Hz, closed loop. R = 0.01 (m/s)² s, that is 0.316 m/s at 10 Hz; master without "

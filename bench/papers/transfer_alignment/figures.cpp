@@ -21,7 +21,7 @@ Curve curve(std::string label, std::span<const CurvePoint> points, double unit =
 }
 
 std::string runs_of(const Results& results) {
-  return fmt::format("{} runs a curve, seed 20010101, {}", results.runs, frames_flown());
+  return fmt::format("{} runs a curve, seed 20010101, {}", results.runs, frames_flown(results.campaigns));
 }
 
 constexpr std::string_view standard =

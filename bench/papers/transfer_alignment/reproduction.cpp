@@ -13,7 +13,7 @@ Page page(const Results& results) {
       .subtitle = fmt::format(
           "Yang, Shim, Park, \"Velocity Matching Algorithm Using Robust H2 Filter\", 2001, flown over the "
           "bus{}: {} runs a variant.",
-          results.rounded ? "" : " without its rounding", results.runs),
+          rounding_of(results.campaigns) == Rounding::none ? " without its rounding" : "", results.runs),
       .sections = {claims(results), table_2(results), cases(results), cruise(results), sizes(results),
                    axes(results), artefact(results), noise(results), rates(results), cost_of_the_bus(results),
                    settings(results)}};

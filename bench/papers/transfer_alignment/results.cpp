@@ -8,7 +8,6 @@
 #include "bench/campaign/statistics.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/papers/transfer_alignment/embedded.hpp"
-#include "bench/run/contract.hpp"
 
 namespace canhil::papers::transfer_alignment {
 namespace {
@@ -59,13 +58,12 @@ Result<Flown> read_exact(const std::filesystem::path& path, const campaign::Camp
   if (!store) return tl::unexpected(store.error());
   const campaign::Identity& found = store->identity();
   const auto refused = [&](std::string_view what) {
-    return failure(fmt::format("{}: {}, expected {} runs of {} by hil-bench-exact", path.string(), what,
+    return failure(fmt::format("{}: {}, expected {} runs of {} with --unrounded", path.string(), what,
                                ours.runs, ours.sources.file));
   };
   if (found.campaign_hash != ours.hash) return refused("is of another campaign");
   if (found.runs != ours.runs) return refused(fmt::format("has {} runs", found.runs));
-  if (found.dbc_hash == campaign::identity_of(ours).dbc_hash)
-    return refused("was flown with the bus's rounding");
+  if (found.rounding != Rounding::none) return refused("was flown with the bus's rounding");
   return evaluated("exact", ours, *store);
 }
 
@@ -98,7 +96,6 @@ Result<std::optional<Results>> fly(const FlyOptions& options, const std::filesys
   if (!flown) return tl::unexpected(flown.error());
   if (!*flown) return std::nullopt;
   Results results;
-  results.rounded = run::frames_round();
   results.campaigns = std::move(**flown);
   results.flights = flights(results.campaigns);
   const campaign::Campaign& table = results.of(main_campaign).campaign;

@@ -41,7 +41,6 @@ struct Spread {
 struct Results {
   std::uint64_t runs = 0;
   std::size_t flights = 0;
-  bool rounded = true;  ///< frames as on the bus; false: flown by the twin that rounds nothing
   std::vector<Flown> campaigns;
   std::vector<std::pair<std::string, Spread>> spreads;  ///< by variant of table2
   std::optional<Flown> exact;                           ///< table2 without the rounding of the bus

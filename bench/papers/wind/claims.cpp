@@ -108,7 +108,7 @@ Section settings(const Results& results) {
           {fmt::format(
                "{} runs a variant of Table 1, 12 to 20 elsewhere; {} flights of 100 s in virtual time, each "
                "through the codec with {}. Run r has the same random numbers in every variant (seed 2026).",
-               results.runs, results.flights, frames_flown()),
+               results.runs, results.flights, frames_flown(results.campaigns)),
            "Truth: six degrees of freedom, 100 Hz, quaternion and ground velocity, the airframe of a 500-lb "
            "body with a "
            "planar wing kit (textbook coefficients, no real weapon's), ISA, synthetic profiles of the wind. "

@@ -38,7 +38,7 @@ Figure error_figure(const Results& results, int number, int level) {
   Figure figure{.id = fmt::format("fig{}", number),
                 .title = fmt::format("Fig {}: coefficients wrong by {} %", number, level),
                 .caption = fmt::format("RMS over {} runs of the 3-D error of the wind. {}.", results.runs,
-                                       frames_flown()),
+                                       frames_flown(results.campaigns)),
                 .y_label = "wind error, RMS [m/s]",
                 .x_range = {0, 100},
                 .y_range = {0.1, 30},

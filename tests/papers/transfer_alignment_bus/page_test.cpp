@@ -24,7 +24,7 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
     EXPECT_THAT(html, HasSubstr(bar));
   EXPECT_THAT(html, HasSubstr("2 runs a curve, seed 20010101, frames quantised as on the bus"));
   EXPECT_THAT(html, HasSubstr("each through the codec with frames quantised as on the bus."));
-  EXPECT_THAT(html, Not(HasSubstr("rounding (hil-bench-exact)")));
+  EXPECT_THAT(html, Not(HasSubstr("rounding (--unrounded)")));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(text, HasSubstr("The bars are for 300 runs: with fewer they may fail by chance."));

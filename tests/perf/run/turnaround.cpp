@@ -15,13 +15,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "bench/run/target_process.hpp"
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "tests/perf/run/flight_rounds.hpp"
 
@@ -176,7 +179,7 @@ void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
   }
 }
 
-Result<void> fly(const std::vector<Round>& rounds, const std::array<std::string, 2>& buses, Side& device,
+Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string>& buses, Side& device,
                  Side& bare) {
   // Those who left before: what is left of them must not live on in a new process.
   device.settle();
@@ -229,7 +232,7 @@ void print(const Estimator& estimator, TimesByAnswer& device, TimesByAnswer& bar
   std::fflush(stdout);
 }
 
-int compare(int flights, const std::string& only, const std::array<std::string, 2>& buses) {
+int compare(int flights, const std::string& only, const std::vector<std::string>& buses) {
   auto port = open_here(buses[0]), echo_port = open_here(buses[1]);
   if (!port) return complain(port.error().message);
   if (!echo_port) return complain(echo_port.error().message);
@@ -261,14 +264,16 @@ int compare(int flights, const std::string& only, const std::array<std::string, 
 }  // namespace canhil
 
 int main(int argc, char** argv) {
-  CLI::App app{"Turnaround of hil-target beside that of a bare echo."};
-  int flights = 1;
+  canhil::command_line::Program program{"Turnaround of hil-target beside that of a bare echo."};
+  std::optional<int> flights;
   std::string only;
   const std::string local = fmt::format("local:turnaround-{}", ::getpid());
-  std::array<std::string, 2> buses{local, local + "-echo"};
-  app.add_option("--flights", flights, "how many times as many as it takes");
-  app.add_option("--only", only, "estimators whose name begins so");
-  app.add_option("--bus", buses, "of the target and of the echo: two CAN interfaces");
-  CLI11_PARSE(app, argc, argv);
-  return canhil::compare(flights, only, buses);
+  std::vector<std::string> buses{local, local + "-echo"};
+  program.add_number("--flights", flights, "how many times as many as it takes", 1, 1000);
+  program.add_option("--only", only, "estimators whose name begins so");
+  program.add_option("--bus", buses, "of the target and of the echo: two CAN interfaces").words(2);
+  const auto parsed = program.parse(argc, argv);
+  if (!parsed) std::fprintf(stderr, "run_turnaround: %s; see --help\n", parsed.error().message.c_str());
+  if (!parsed || *parsed) return parsed ? **parsed : 2;
+  return canhil::compare(flights.value_or(1), only, buses);
 }

@@ -49,8 +49,8 @@ TEST(QuantisationRule, WhatCarriesARemainderIsJudgedBySomeSensor) {
 TEST(QuantisationRule, TheHeaderAssertsTheSame) {
   constexpr SignalInfo fine{.name = "v", .scale = 0.8, .sensor_sigma = 1};
   constexpr SignalInfo coarse{.name = "v", .scale = 0.9, .sensor_sigma = 1};
-  EXPECT_TRUE(wire::is_fine_enough({.signals = {&fine, 1}}));
-  EXPECT_FALSE(wire::is_fine_enough({.signals = {&coarse, 1}}));
+  EXPECT_TRUE(wire::is_fine_enough({&fine, 1}));
+  EXPECT_FALSE(wire::is_fine_enough({&coarse, 1}));
 }
 
 TEST(SoundLayout, AssertsBoundsOverlapAndProtection) {
@@ -58,10 +58,10 @@ TEST(SoundLayout, AssertsBoundsOverlapAndProtection) {
                          SignalInfo{.start_bit = 15, .length = 8, .big_endian = true}};
   const std::array overlapping{SignalInfo{.start_bit = 0, .length = 9},
                                SignalInfo{.start_bit = 8, .length = 8}};
-  EXPECT_TRUE(wire::is_sound({.size = 2, .signals = apart}));
-  EXPECT_FALSE(wire::is_sound({.size = 1, .signals = apart}));
-  EXPECT_FALSE(wire::is_sound({.size = 2, .signals = overlapping}));
-  EXPECT_FALSE(wire::is_sound({.size = 2, .e2e_data_id = 1, .signals = apart}));
+  EXPECT_TRUE(wire::is_sound({.size = 2}, apart));
+  EXPECT_FALSE(wire::is_sound({.size = 1}, apart));
+  EXPECT_FALSE(wire::is_sound({.size = 2}, overlapping));
+  EXPECT_FALSE(wire::is_sound({.size = 2, .e2e_data_id = 1}, apart));
 }
 
 /// What is wrong when M and N of a sample group of node B answer these, and L of group "Left" is A's.

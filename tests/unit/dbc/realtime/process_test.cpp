@@ -7,8 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <iterator>
+#include <sstream>
+#include <string>
 #include <vector>
 
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "dbc/realtime/host.hpp"
 
@@ -92,14 +96,14 @@ TEST(OwnMemory, CostsNoFaultsAfterAFork) {
 }
 
 std::string parse(const std::string& line, Options& options) {
-  CLI::App app;
-  add_options(app, options);
-  try {
-    app.parse(line);
-    return "";
-  } catch (const CLI::ParseError& error) {
-    return error.what();
-  }
+  command_line::Program program("");
+  add_options(program, options);
+  std::istringstream text("program " + line);
+  const std::vector<std::string> words{std::istream_iterator<std::string>(text), {}};
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  const auto parsed = program.parse(static_cast<int>(argv.size()), argv.data());
+  return parsed ? "" : parsed.error().message;
 }
 
 TEST(CommandLine, AsksForNothingUnlessTold) {
