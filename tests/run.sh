@@ -200,6 +200,6 @@ elif [[ $mode != coverage ]]; then
   not_run+=("clang's static analyser: $again --analyse")
 fi
 if [[ $mode != coverage ]]; then not_run+=("the lines that the tests run, counted: bash tests/run.sh --coverage"); fi
-if [[ -n "$only" ]]; then not_run+=("every test whose name does not match '$only': without --only"); fi
+if [[ -n "$only" ]]; then not_run+=("clang-format, and every test whose name does not match '$only': without --only"); fi
 if [[ -n "$only" ]] && ((!passed && !failed)); then failure "no test matches '$only'"; fi
 finish
