@@ -44,6 +44,6 @@ progress_stop() {
 }
 
 progress_rest() {
-  grep -avE '^\[[0-9]+/[0-9]+\] |^ninja: (Entering directory|no work)|^ +Start +[0-9]+: |^ *[0-9]+/[0-9]+ Test +#[0-9]+: .* Passed ' \
+  grep -avE '^-- |^\[[0-9]+/[0-9]+\] |^ninja: (Entering directory|no work)|^ +Start +[0-9]+: |^ *[0-9]+/[0-9]+ Test +#[0-9]+: .* Passed ' \
     "$1" || true
 }
