@@ -9,14 +9,23 @@ case "${1:-}" in
   *) echo "demo.sh: unknown option '$1': expected none, or --help" >&2; exit 2 ;;
 esac
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:$PATH
-progress() { echo "demo: $*" >&2; }
+source tests/setup/progress.sh
+say() { echo "demo: $*" >&2; }
 
-progress "packages"
-bash tests/setup/install.sh build || exit 2
-progress "building (some minutes the first time)"
+say "packages"
+bash tests/setup/install.sh build >&2 || exit 2
+say "building (some minutes the first time)"
 mkdir -p build
-{ cmake --preset default && cmake --build build/default --target hil-bench hil-target; } >build/demo.log 2>&1 ||
-  { tail -n 20 build/demo.log >&2; progress "the build failed; see build/demo.log"; exit 2; }
+: >build/demo.log
+progress_start "demo: building" build/demo.log >&2
+built=yes
+{ cmake --preset default && cmake --build build/default --target hil-bench hil-target; } >build/demo.log 2>&1 || built=no
+progress_stop >&2
+if [[ $built == no ]]; then
+  progress_rest build/demo.log | tail -n 40 >&2
+  say "the build failed; see build/demo.log"
+  exit 2
+fi
 
 # vcan is the kernel's own CAN stack, the embedded bus a stand-in for machines without it.
 choose_bus() {
@@ -30,12 +39,18 @@ had_vcan=no
 if [[ -d /sys/class/net/vcan0 ]]; then had_vcan=yes; fi
 bus=$(choose_bus)
 if [[ $bus == vcan0 && $had_vcan == no ]]; then trap 'ip link del vcan0' EXIT; fi
-if [[ $bus == vcan0 ]]; then progress "bus: vcan0"; else progress "bus: embedded (this kernel has no vcan that this user may make)"; fi
+if [[ $bus == vcan0 ]]; then say "bus: vcan0"; else say "bus: embedded (this kernel has no vcan that this user may make)"; fi
 
+# What the bench says is shown when it has ended, not in the middle of the line that moves.
+say "flying 20 s in real time"
 code=0
-build/default/hil-bench run bench/scenarios/transfer_alignment.toml --bus "$bus" || code=$?
+progress_start "demo: flying 20 s" /dev/null >&2
+build/default/hil-bench run bench/scenarios/transfer_alignment.toml --bus "$bus" >build/demo.out 2>build/demo.err || code=$?
+progress_stop >&2
+cat build/demo.err >&2
+cat build/demo.out
 if ((code == 3)); then
-  progress "outputs passed; timing was not measured on this host, for the reason above"
+  say "outputs passed; timing was not measured on this host, for the reason above"
   code=0
 fi
 exit $code

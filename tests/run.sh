@@ -1,53 +1,61 @@
 #!/usr/bin/env bash
-# Builds and runs every test of the project; the last line is "N passed, N failed", the exit code 0 only when none failed.
-#   bash tests/run.sh                 everything
-#   bash tests/run.sh --quick         the optimised build and its tests, no sanitizers, no static checks
-#   bash tests/run.sh --tidy          everything, and clang-tidy on every source: about ten minutes more on two cores
-#   bash tests/run.sh --analyse       everything, and clang's static analyser on every source: about an hour more
-#   bash tests/run.sh --fuzz          everything, and a short run of each fuzzer: what it finds need not be of the last change
-#   bash tests/run.sh --only REGEX    the CTest cases whose name matches, in every configuration
+# Builds and runs the tests of the project; the last line is "N passed, N failed", the exit code 0 only when none failed.
+#   bash tests/run.sh                 format and structure, every unit, property and process test, one pass over vcan
+#   bash tests/run.sh --full          also the sanitizers, all of vcan, two emulated controllers, Slurm, the papers, the fuzzers
+#   bash tests/run.sh --coverage      unit tests, process tests and the papers' pages, and the lines of dbc, target and bench they run
+#   bash tests/run.sh --tidy          with either of the first two: also clang-tidy on every source, about ten minutes
+#   bash tests/run.sh --analyse       with either of the first two: also clang's static analyser on every source, about an hour
+#   bash tests/run.sh --only REGEX    with any: of its CTest cases those whose name matches, in every configuration
 # Counted: each CTest case in each configuration, each static check, and each build that fails.
-# JUnit files and logs: build/results/.
+# What a mode did not run it says at its end. JUnit files and logs: build/results/.
 set -uo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
 root=$PWD
 results=$root/build/results
 
-quick=no tidy=no analyse=no fuzz=no only=
+usage() { echo "tests/run.sh: $*" >&2; exit 2; }
+mode=default tidy=no analyse=no only=
 while (($#)); do
   case "$1" in
-    --quick) quick=yes ;;
+    --full | --coverage)
+      if [[ $mode != default && $mode != "${1#--}" ]]; then usage "$1 excludes --$mode"; fi
+      mode=${1#--} ;;
     --tidy) tidy=yes ;;
     --analyse) analyse=yes ;;
-    --fuzz) fuzz=yes ;;
     --only)
       only=${2:-}
-      if [[ -z "$only" ]]; then echo "tests/run.sh: --only: expected a regular expression" >&2; exit 2; fi
+      if [[ -z "$only" ]]; then usage "--only: expected a regular expression"; fi
       shift ;;
     -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/run.sh; exit ;;
-    *) echo "tests/run.sh: unknown option '$1': expected --quick, --tidy, --analyse, --fuzz or --only REGEX" >&2; exit 2 ;;
+    --quick) usage "--quick is now what it does without an option: bash tests/run.sh" ;;
+    --fuzz) usage "--fuzz is now a part of --full: bash tests/run.sh --full" ;;
+    *) usage "unknown option '$1': expected --full, --coverage, --tidy, --analyse or --only REGEX" ;;
   esac
   shift
 done
+if [[ $mode == coverage && $tidy$analyse != nono ]]; then usage "--coverage excludes --tidy and --analyse"; fi
 
 # The same result from any shell: Debian's tools first, one locale, no settings of the caller's builds.
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
 unset CXXFLAGS CPPFLAGS LDFLAGS CXX CC CMAKE_GENERATOR MAKEFLAGS DESTDIR LD_PRELOAD CDPATH
-unset "${!GTEST_@}" "${!CTEST_@}"
+unset "${!GTEST_@}" "${!CTEST_@}" "${!GCOV_@}"
+source tests/setup/progress.sh
 jobs=$(nproc)
 mkdir -p "$results" && rm -f "$results"/* || exit 2
 if [[ ! -w "${HOME:-/nonexistent}" ]]; then export HOME=$root/build/home && mkdir -p "$HOME"; fi # for ccache
 
-passed=0 failed=0 rows=()
+passed=0 failed=0 rows=() not_run=()
 finish() {
   printf '\n%-34s %7s %7s %8s\n' stage passed failed time
   ((${#rows[@]})) && printf '%s\n' "${rows[@]}"
+  ((${#not_run[@]})) && printf '\n' && printf 'not run: %s\n' "${not_run[@]}"
   printf '\n%d passed, %d failed\n' "$passed" "$failed"
   exit $((failed > 0))
 }
-running= # process group of the ctest that runs
+running= # process group of the command that runs
 interrupted() {
+  progress_stop
   echo "tests/run.sh: interrupted" >&2
   if [[ -n "$running" ]]; then kill -TERM -- "-$running" 2>/dev/null; fi
   failed=$((failed + 1))
@@ -70,27 +78,38 @@ one_check() { # one_check COMMAND...: counts as one
 
 failure() { echo "FAILED: $*"; failed=$((failed + 1)); }
 
+logged() { # logged WHAT LOG COMMAND...: its exit code; what it says goes to the log, how far it is to the terminal
+  local what=$1 log=$2 code=0
+  shift 2
+  : >"$log"
+  setsid "$@" >"$log" 2>&1 & # not waited for in the foreground, so that an interruption is heeded at once
+  running=$!
+  progress_start "$what" "$log"
+  wait "$running" || code=$?
+  progress_stop
+  running=
+  return "$code"
+}
+
 build() { # build PRESET [TARGET...]
   local preset=$1 log=$results/$1.build.log
   shift
   { cmake --preset "$preset" || cmake --fresh --preset "$preset"; } >"$log" 2>&1 ||
     { tail -n 20 "$log"; failure "configuring $preset"; return 1; }
   # -k 0: what still builds is still tested.
-  if ! ninja -C "build/$preset" -j "$jobs" -k 0 "$@" 2>&1 | tee -a "$log"; then
+  if ! logged "building $preset" "$log" ninja -C "build/$preset" -j "$jobs" -k 0 "$@"; then
+    progress_rest "$log"
     failure "building $preset"
   fi
 }
 
 run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
-  local preset=$1 junit=$results/$1.xml code=0 counts
+  local preset=$1 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
   shift
-  setsid "${personality[@]}" ctest --test-dir "build/$preset" -j "$jobs" --timeout 300 --output-on-failure \
-    --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" &
-  running=$!
-  wait "$running" || code=$?
-  running=
+  logged "testing $preset" "$log" "${personality[@]}" ctest --test-dir "build/$preset" -j "$jobs" --timeout 300 \
+    --output-on-failure --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" || code=$?
+  progress_rest "$log"
   if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then failure "no results of ctest for $preset"; return; fi
-  local p f
   read -r p f <<<"$counts"
   passed=$((passed + p)) failed=$((failed + f))
   if ((code && !f)); then failure "ctest for $preset ended with $code"; fi
@@ -98,7 +117,11 @@ run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
 }
 personality=()
 
-optimised() { build default && run_ctest default; }
+# Labels are joined by a plus sign (tests/CMakeLists.txt): "unit+threads" is of unit and of threads, "vcan-full" not of vcan.
+labelled() { echo "(^|[+])($1)([+]|$)"; }
+
+optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default -L "$(labelled 'static|unit|processes|vcan')"; }
+optimised_all() { build default && run_ctest default; }
 
 # Whether the sanitizers run here: some need fixed addresses (setarch -R), the leak checker needs ptrace.
 probe_sanitizers() {
@@ -122,49 +145,63 @@ probe_sanitizers() {
 }
 
 address_sanitizer() {
-  echo "address, leak and undefined-behaviour sanitizers on: unit, processes"
-  echo "not under them: vcan and controller (a whole kernel runs in each test), papers (long runs of code that unit tests cover), static"
-  build asan tests_unit tests_processes && run_ctest asan -L '^(unit|processes)'
+  echo "address, leak and undefined-behaviour sanitizers on: what reads input from outside, and both programs; docs/ci.md says what not"
+  build asan tests_input tests_processes && run_ctest asan -L "$(labelled 'input|processes')"
 }
 
 thread_sanitizer() {
   echo "thread sanitizer on: what has threads (hil-target and hil-bench run have one thread each)"
-  build tsan tests_threads && run_ctest tsan -L threads
+  build tsan tests_threads && run_ctest tsan -L "$(labelled threads)"
 }
 
 fuzzers() {
-  build fuzz tests_fuzz && run_ctest fuzz -L '^fuzz$'
+  build fuzz tests_fuzz && run_ctest fuzz -L "$(labelled fuzz)"
 }
 
-if ! bash tests/setup/install.sh tests; then
+coverage() {
+  find build/coverage -name '*.gcda' -delete 2>/dev/null # the counts of an earlier run
+  export GCOV_ERROR_FILE=/dev/null # a process without the right to write its counts says so, where a test expects one line
+  # Left out: two tests in which the program may not write files, and so not its counts.
+  build coverage tests_unit tests_processes tests_pages &&
+    run_ctest coverage -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
+    python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"
+}
+
+packages=tests
+if [[ $tidy$analyse != nono ]]; then packages=tidy; fi
+if [[ $mode != default ]]; then packages=$mode; fi
+if ! bash tests/setup/install.sh "$packages"; then
   failure "installing packages"
   finish
 fi
 
-static=yes
-if [[ $quick == yes || -n "$only" ]]; then static=no; fi
-if [[ $static == yes ]]; then stage "clang-format" one_check bash tests/static/format.sh; fi
-stage "optimised build, all tests" optimised
-if [[ $quick == no ]]; then
-  probe_sanitizers
-  stage "address and UB sanitizers" address_sanitizer
-  stage "thread sanitizer" thread_sanitizer
-  if [[ $fuzz == yes ]]; then
-    stage "fuzzing, a short run each" fuzzers
-  else
-    echo "not run: the fuzzers; bash tests/run.sh --fuzz runs them"
-  fi
-fi
-# With clang-tidy a first run on two cores would take longer than the 45 minutes that it may.
+if [[ $mode != coverage && -z "$only" ]]; then stage "clang-format" one_check bash tests/static/format.sh; fi
+case $mode in
+  default)
+    stage "optimised build, its tests" optimised
+    not_run+=("address, undefined-behaviour and thread sanitizers, all of vcan, controllers, Slurm, papers, fuzzers: bash tests/run.sh --full") ;;
+  full)
+    stage "optimised build, all tests" optimised_all
+    probe_sanitizers
+    stage "address and UB sanitizers" address_sanitizer
+    stage "thread sanitizer" thread_sanitizer
+    stage "fuzzing, a minute each" fuzzers ;;
+  coverage)
+    stage "coverage" coverage
+    not_run+=("all that needs no lines counted, vcan among it: bash tests/run.sh, and bash tests/run.sh --full") ;;
+esac
+again="bash tests/run.sh$([[ $mode == full ]] && echo ' --full')"
 if [[ $tidy == yes ]]; then
   stage "clang-tidy" one_check python3 tests/static/tidy.py build/default
-elif [[ $static == yes ]]; then
-  echo "not run: clang-tidy; bash tests/run.sh --tidy runs it"
+elif [[ $mode != coverage ]]; then
+  not_run+=("clang-tidy: $again --tidy")
 fi
 if [[ $analyse == yes ]]; then
   stage "clang static analyser" one_check python3 tests/static/tidy.py --each build/default
-elif [[ $static == yes ]]; then
-  echo "not run: clang's static analyser; bash tests/run.sh --analyse runs it"
+elif [[ $mode != coverage ]]; then
+  not_run+=("clang's static analyser: $again --analyse")
 fi
+if [[ $mode != coverage ]]; then not_run+=("the lines that the tests run, counted: bash tests/run.sh --coverage"); fi
+if [[ -n "$only" ]]; then not_run+=("clang-format, and every test whose name does not match '$only': without --only"); fi
 if [[ -n "$only" ]] && ((!passed && !failed)); then failure "no test matches '$only'"; fi
 finish

@@ -8,7 +8,7 @@ set -euo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
-bash tests/setup/install.sh tests
+bash tests/setup/install.sh full
 
 build=build/default
 cmake --preset default >/dev/null

@@ -1,32 +1,44 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages of this project; does nothing, and needs no rights, when all are there.
-#   install.sh build    what it takes to build and run the programs (the default)
-#   install.sh tests    that, and what the tests use besides
-#   install.sh list build|tests    prints the package names
+#   install.sh build       what it takes to build and run the programs (the default)
+#   install.sh tests       that, and what tests/run.sh uses besides
+#   install.sh coverage    that, and what tests/run.sh --coverage does
+#   install.sh tidy        what tests/run.sh --tidy and --analyse use
+#   install.sh full        all that tests/run.sh --full and tests/perf/run.sh use
+#   install.sh list SET    prints the package names of a set
 set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 
 build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev
-  gnuplot-nox # draws the figures of hil-bench campaign --paper
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # CMake configures the tests too
 )
 test_packages=(
+  clang-format
   python3 python3-can python3-canmatrix # an independent DBC reader and CAN node
-  can-utils iproute2 kmod busybox user-mode-linux rt-tests # vcan where the kernel has none
+  can-utils iproute2 kmod busybox user-mode-linux # vcan where the kernel has none
+)
+paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper; without it that says so and flies nothing
+tidy_packages=(clang clang-tidy)
+full_packages=(
+  rt-tests valgrind libclang-rt-14-dev
   qemu-system-x86 make gcc-12 libelf1 # two CAN controllers with the kernel's driver, in an emulated PC; its kernel is not installed
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
-  clang clang-format clang-tidy libclang-rt-14-dev valgrind
 )
 
 die() { echo "install.sh: $*" >&2; exit 2; }
 
 select_packages() {
+  wanted=("${build_packages[@]}")
   case "$1" in
-    build) wanted=("${build_packages[@]}") ;;
-    tests) wanted=("${build_packages[@]}" "${test_packages[@]}") ;;
-    *) die "unknown set '$1': expected build or tests" ;;
+    build) ;;
+    tests) wanted+=("${test_packages[@]}") ;;
+    coverage) wanted+=("${test_packages[@]}" "${paper_packages[@]}") ;;
+    tidy) wanted+=("${test_packages[@]}" "${tidy_packages[@]}") ;;
+    full) wanted+=("${test_packages[@]}" "${paper_packages[@]}" "${tidy_packages[@]}" "${full_packages[@]}") ;;
+    *) die "unknown set '$1': expected build, tests, coverage, tidy or full" ;;
   esac
 }
 
@@ -59,12 +71,17 @@ apt() {
     apt-get -q -y -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3 -o Dpkg::Use-Pty=0 "$@" </dev/null
 }
 log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+trap 'progress_stop; rm -f "$log"' EXIT
 echo "install.sh: installing ${missing[*]}"
+"${as_root[@]}" true # a password is asked for before the line that moves
+progress_start packages "$log"
 # Without package lists, or with old ones, the first try fails within a second: only then are they fetched.
 if ! apt install --no-install-recommends "${missing[@]}" >"$log" 2>&1; then
+  progress_stop
   echo "install.sh: fetching package lists"
+  progress_start packages "$log"
   if ! { apt update && apt install --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    progress_stop
     tail -n 15 "$log" >&2
     die "apt-get could not install (Debian 12 expected): ${missing[*]}"
   fi

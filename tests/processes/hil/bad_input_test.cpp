@@ -233,8 +233,14 @@ TEST(Scripts, TellTheirUseAndRefuseWhatTheyDoNotKnow) {
     EXPECT_EQ(help.out.find('#'), std::string::npos) << help.out;
     expect_one_line(shell(command + "--colour"), "unknown option '--colour': expected");
   }
-  expect_one_line(shell(fmt::format("bash {}/tests/run.sh --only", SOURCE_DIR)),
-                  "--only: expected a regular");
+  const auto refused = [](const std::string& options, const std::string& what) {
+    expect_one_line(shell(fmt::format("bash {}/tests/run.sh {}", SOURCE_DIR, options)), what);
+  };
+  refused("--only", "--only: expected a regular");
+  refused("--quick", "--quick is now what it does without an option: bash tests/run.sh");
+  refused("--fuzz", "--fuzz is now a part of --full: bash tests/run.sh --full");
+  refused("--full --coverage", "--coverage excludes --full");
+  refused("--coverage --tidy", "--coverage excludes --tidy");
 }
 
 TEST(BadInput, ReportThatCannotBeWrittenIsToldBeforeTheRun) {

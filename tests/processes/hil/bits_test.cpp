@@ -11,21 +11,22 @@ namespace canhil::test {
 namespace {
 
 std::string record(const std::string& name, const std::string& options,
-                   const std::string& file = "transfer_alignment_quick") {
+                   const std::string& file = "transfer_alignment_quick", Ended* how = nullptr) {
   std::string log = scratch(name);
   const Ended ended = hil_bench(fmt::format("run {} {} --log {}", scenario(file), options, log));
   EXPECT_NE(ended.code, 2) << ended.err;
+  if (how != nullptr) *how = ended;
   return log;
 }
 
 // A record in real time that is whole: a host that keeps a program waiting for half a second loses frames of
 // vcan in its receive queue, or the target is silent for too long, or the bench is away for so long that the
 // target's process speaks up itself; the programs say so, and the property says nothing of such a run.
-std::string record_in_real_time(const std::string& name,
-                                const std::string& file = "transfer_alignment_quick") {
+std::string record_in_real_time(const std::string& name, const std::string& file = "transfer_alignment_quick",
+                                Ended* how = nullptr) {
   const std::string report = scratch(name + ".json");
   for (int attempt = 0; attempt < 4; ++attempt) {
-    std::string log = record(name, fmt::format("--bus {} --json {}", bus(), report), file);
+    std::string log = record(name, fmt::format("--bus {} --json {}", bus(), report), file, how);
     const auto json = read_json(report);
     const double late_s = json["bench_lateness_s"]["max"];
     if (late_s < 1 && json["ending"]["completed"] == true && json["target_counters"]["frames_lost"] == 0 &&
@@ -78,12 +79,18 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOnAWire,
                          testing::Values("transfer_alignment_quick", "inflight_quick", "los_closed_loop",
                                          "wind_quick"));
 
-TEST(Bits, InflightInProcessAndRealTimeAgree) {
+/// Its 30 s are flown once, for the bits and for the verdict.
+TEST(Bits, AnAlignmentInFlightPassesInRealTimeAndAgreesWithInProcess) {
   const std::string name = "inflight_quick";
   const auto in_process = target_frames(record("inflight.in_process.log", "--bus in-process", name));
-  const auto real_time = target_frames(record_in_real_time("inflight.real_time.log", name));
+  Ended ended;
+  const auto real_time = target_frames(record_in_real_time("inflight.real_time.log", name, &ended));
   EXPECT_GT(in_process.size(), 1000U);
   EXPECT_TRUE(in_process == real_time);
+  const auto report = read_json(scratch("inflight.real_time.log.json"));
+  expect_outputs_passed(ended, report);
+  EXPECT_EQ(report["from_target"]["navigation_answers"], 1500);
+  EXPECT_EQ(report["alignments"][0]["fixes"]["outcomes"]["accepted"], 29);
 }
 
 TEST(Bits, LosRateInProcessAndRealTimeAgree) {

@@ -40,16 +40,6 @@ INSTANTIATE_TEST_SUITE_P(Run, RunOfScenario,
                                          "los_closed_loop", "los_closed_loop_500hz", "wind_ekf",
                                          "wind_h_infinity"));
 
-TEST(Run, AnAlignmentInFlightPassesInRealTime) {
-  const std::string report = scratch("inflight.json");
-  const Ended ended =
-      hil_bench(fmt::format("run {} --bus {} --json {}", scenario("inflight_quick"), bus(), report));
-  ASSERT_NE(ended.code, 2) << ended.err;
-  expect_outputs_passed(ended, read_json(report));
-  EXPECT_EQ(read_json(report)["from_target"]["navigation_answers"], 1500);
-  EXPECT_EQ(read_json(report)["alignments"][0]["fixes"]["outcomes"]["accepted"], 29);
-}
-
 TEST(Run, AMissileIsGuidedByTheTargetInRealTime) {
   const std::string report = scratch("los.json");
   const Ended ended =

@@ -5,7 +5,7 @@ bench=$(realpath "$1")
 root=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../../..")
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin LC_ALL=C.UTF-8
 for program in munged mungekey slurmctld slurmd sbatch; do
-  command -v $program >/dev/null || { echo "no $program: bash tests/setup/install.sh tests installs it" >&2; exit 1; }
+  command -v $program >/dev/null || { echo "no $program: bash tests/setup/install.sh full installs it" >&2; exit 1; }
 done
 source "$root/tests/processes/slurm/cluster.sh"
 
