@@ -14,7 +14,7 @@ struct Factor {
 };
 
 // Column c of P less what the first `done` columns of L account for; `rows` rows, from c (or one above it)
-// down.
+// down. P has no padding where N is odd.
 template <int rows>
 Vector<rows> column_left(const Factor& of, const double* L, int c, int done) {
   const int first = of.stride - rows;
