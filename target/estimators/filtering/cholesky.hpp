@@ -37,7 +37,7 @@ Matrix<N - K, N - K> cholesky_rest(const Matrix<N, N>& P, const Matrix<even_rows
 /// anywhere reaches a pivot.
 template <int N>
 bool is_positive_definite(const Matrix<N, N>& P) {
-  Matrix<even_rows(N), N> L = Matrix<even_rows(N), N>::Zero();
+  Matrix<even_rows(N), N> L;
   return cholesky_columns<N, N>(P, L);
 }
 

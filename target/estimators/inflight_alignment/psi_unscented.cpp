@@ -31,7 +31,7 @@ void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moment
 // repairs that P needed.
 template <int N>
 filtering::Moments<N, 9> moments_about(const PsiMap& centre, Matrix<N, N>& P, UkfRoot kind, int& repairs) {
-  const auto parts = [&centre](const Vector<N>& d) { return centre.parts(d.template head<15>()); };
+  const auto parts = [&centre](const auto& d) { return centre.parts(d.template head<15>()); };
   if (kind == UkfRoot::symmetric) {
     repairs += filtering::repair<N>(P) ? 1 : 0;
     return filtering::unscented_moments<9, N>(filtering::padded(filtering::symmetric_root<N>(P)), spread,
