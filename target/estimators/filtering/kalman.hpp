@@ -1,9 +1,7 @@
 #pragma once
 // Kalman recursions of fixed size, without a domain: N states, M measurements. No allocation, no exception.
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <cstdint>
+#include <cmath>
 
 namespace canhil::filtering {
 
@@ -51,6 +49,40 @@ Matrix<N, N> propagate_covariance(const Matrix<N, N>& P, const Matrix<N, N>& Phi
   return next;
 }
 
+/// The inverse of symmetric S through its Cholesky factor L (lower triangle read): S = L L', then L Y = I, L'
+/// X = Y. False when S is not positive definite or not finite. By hand, for Eigen's solver of triangular
+/// systems brings its product of large matrices along, which costs every user more than a second to compile.
+template <int M>
+bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
+  Matrix<M, M> L = S;
+  for (int k = 0; k < M; ++k) {
+    double square = 0;
+    for (int j = 0; j < k; ++j) square += L(k, j) * L(k, j);
+    const double pivot = L(k, k) - square;
+    if (pivot <= 0) return false;
+    L(k, k) = std::sqrt(pivot);
+    for (int row = k + 1; row < M; ++row) {
+      double product = 0;
+      for (int j = 0; j < k; ++j) product += L(row, j) * L(k, j);
+      L(row, k) = (L(row, k) - product) / L(k, k);
+    }
+  }
+  if (!S.allFinite()) return false;
+  inverse.setIdentity();
+  for (int column = 0; column < M; ++column) {
+    for (int k = 0; k < M; ++k) {
+      inverse(k, column) *= 1 / L(k, k);
+      for (int row = k + 1; row < M; ++row) inverse(row, column) -= inverse(k, column) * L(row, k);
+    }
+    for (int k = M - 1; k >= 0; --k) {
+      double product = 0;
+      for (int row = k + 1; row < M; ++row) product += L(row, k) * inverse(row, column);
+      inverse(k, column) = (inverse(k, column) - product) * (1 / L(k, k));
+    }
+  }
+  return true;
+}
+
 /// The outcome of a measurement update: dx = K innovation, the posterior P, and the innovation statistic
 /// (NIS).
 template <int N, int M>
@@ -77,10 +109,9 @@ Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Ma
                         const Matrix<M, M>& R, const Vector<M>& innovation, TimesHt times_Ht) {
   Correction<N, M> c;
   c.S = HPHt + R;
-  const Eigen::LLT<Matrix<M, M>> factor(c.S);
-  if (!c.S.allFinite() || factor.info() != Eigen::Success) return c;
-  c.positive_definite = true;
-  const Matrix<M, M> S_inverse = factor.solve(Matrix<M, M>::Identity());
+  Matrix<M, M> S_inverse;
+  c.positive_definite = invert_positive_definite<M>(c.S, S_inverse);
+  if (!c.positive_definite) return c;
   c.K.noalias() = PHt.lazyProduct(S_inverse);
   c.dx.noalias() = c.K.lazyProduct(innovation);
   c.nis = innovation.dot(S_inverse * innovation);

@@ -1,8 +1,7 @@
 #pragma once
 // What to do with a covariance that has lost its positive definiteness.
-#include <Eigen/Eigenvalues>
-
 #include "target/estimators/filtering/cholesky.hpp"
+#include "target/estimators/filtering/symmetric_eigen.hpp"
 
 namespace canhil::filtering {
 
@@ -14,9 +13,9 @@ Matrix<N, N> with_eigenvalue_floor(const Matrix<N, N>& P, double floor = 1e-9) {
   const Vector<N> sigma = P.diagonal().cwiseAbs().cwiseMax(1e-30).cwiseSqrt();
   const Vector<N> weight = sigma.cwiseInverse();
   const Matrix<N, N> correlation = weight.asDiagonal() * P * weight.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix<N, N>> solver(correlation);
-  const Vector<N> root = solver.eigenvalues().cwiseMax(floor).cwiseSqrt();
-  const Matrix<N, N> scaled = sigma.asDiagonal() * solver.eigenvectors() * root.asDiagonal();
+  const SymmetricEigen eigen = symmetric_eigen(correlation);
+  const Vector<N> root = Vector<N>(eigen.values).cwiseMax(floor).cwiseSqrt();
+  const Matrix<N, N> scaled = sigma.asDiagonal() * Matrix<N, N>(eigen.vectors) * root.asDiagonal();
   return scaled.lazyProduct(scaled.transpose());
 }
 

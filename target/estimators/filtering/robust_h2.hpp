@@ -3,20 +3,12 @@
 // (16)). With Phi = I + (A + P N'N/beta) dt the Riccati equation gains 2 P N'N P/beta + beta L L', which for
 // any beta > 0 bounds what the uncertainty adds.
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/filtering/symmetric_eigen.hpp"
 
 namespace canhil::filtering {
-
-/// The largest eigenvalue of a symmetric matrix (iterative: the closed form of 3 x 3 loses half the digits
-/// where two eigenvalues meet, as they do for an isotropic P).
-template <int N>
-double largest_eigenvalue(const Matrix<N, N>& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Matrix<N, N>> solver(symmetric, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues()(N - 1);
-}
 
 /// beta = sqrt(2 lmax(P N'N P) / lmax(L L')), which minimises 2 lmax(P N'N P)/beta + beta lmax(L L');
 /// 0 when either vanishes (or overflows): then both terms are to be dropped, for 1/beta is 0/0.

@@ -3,20 +3,20 @@
 // others keep their value. Sigma points x, x +- sqrt(spread) columns of a root of P, weights 1/(2 spread)
 // each and the rest on the centre. In differences to the centre's image the centre drops out, and a pair of
 // points enters by its even and odd part.
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/filtering/symmetric_eigen.hpp"
 
 namespace canhil::filtering {
 
 /// The symmetric root of P, positive semi-definite.
 template <int N>
 Matrix<N, N> symmetric_root(const Matrix<N, N>& P) {
-  const Eigen::SelfAdjointEigenSolver<Matrix<N, N>> solver(P);
-  const Vector<N> root = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
-  const Matrix<N, N> scaled = solver.eigenvectors() * root.asDiagonal();
-  return scaled.lazyProduct(solver.eigenvectors().transpose());
+  const SymmetricEigen eigen = symmetric_eigen(P);
+  const Matrix<N, N> vectors = eigen.vectors;
+  const Matrix<N, N> scaled = vectors * Vector<N>(eigen.values).cwiseMax(0).cwiseSqrt().asDiagonal();
+  return scaled.lazyProduct(vectors.transpose());
 }
 
 /// Half the sum and half the difference of a map's images of x + d and x - d, less the centre's image in the

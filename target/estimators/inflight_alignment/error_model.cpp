@@ -1,5 +1,7 @@
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
+#include <Eigen/Geometry>
+
 #include "target/estimators/strapdown/attitude.hpp"
 
 namespace canhil::inflight_alignment {

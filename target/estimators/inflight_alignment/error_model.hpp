@@ -57,30 +57,9 @@ struct Transition {
 template <int A>
 Transition<A> kinematic_transition(const Interval& interval);
 
-/// M G' [Rows x moving] of M [Rows x N].
-template <int N, int Rows, int A>
-Matrix<Rows, 6 + A> times_transposed(const Matrix<Rows, N>& M, const Transition<A>& G) {
-  using At = Layout<N>;
-  const double T = G.T;
-  Matrix<Rows, 6 + A> out;
-  auto position = out.template middleCols<3>(At::position);
-  auto velocity = out.template middleCols<3>(At::velocity);
-  auto attitude = out.template middleCols<A>(At::attitude);
-  const auto M_R = M.template middleCols<3>(At::position);
-  const auto M_V = M.template middleCols<3>(At::velocity);
-  const auto M_att = M.template middleCols<A>(At::attitude);
-  const auto M_acc = M.template middleCols<3>(At::accel_bias);
-  const auto M_gyr = M.template middleCols<3>(At::gyro_bias);
-  velocity.noalias() = M_att.lazyProduct(G.velocity_attitude.transpose());
-  velocity.noalias() += M_acc.lazyProduct(G.velocity_accel.transpose());
-  velocity.noalias() += M_V.lazyProduct(G.coriolis.transpose());
-  velocity.noalias() += M_R * (T * gravity_error_per_m()).asDiagonal();
-  position.noalias() = M_R.lazyProduct(G.transport.transpose());
-  position += T * M_V + (T / 2) * velocity;
-  attitude.noalias() = M_att.lazyProduct(G.attitude_attitude.transpose());
-  attitude.noalias() += M_gyr.lazyProduct(G.attitude_gyro.transpose());
-  return out;
-}
+/// (I + G) P (I + G)'.
+template <int N, int A>
+Matrix<N, N> propagated(const Matrix<N, N>& P, const Transition<A>& G);
 
 /// x after the interval from what the specific force adds to dV [m/s] and what is added to the attitude.
 template <int N>

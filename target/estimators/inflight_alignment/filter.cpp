@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "target/estimators/filtering/kalman.hpp"
+#include "target/estimators/inflight_alignment/fix.hpp"
 #include "target/estimators/inflight_alignment/psi_angle.hpp"
 #include "target/estimators/inflight_alignment/sin_cos.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
@@ -16,9 +16,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr std::uint32_t orthonormalisation_period = 50;  // steps
-
-template <int N>
-constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
 
 template <int N>
 Errors<N> initial_errors(const Settings& settings) {
@@ -51,48 +48,11 @@ int predict_errors(Errors<N>& errors, const Interval& interval, const Settings& 
   return 0;
 }
 
-// z = dR - rho + noise (eq. (10)); without a fix bias z = dR + noise.
-template <int N>
-filtering::Correction<N, 3> correction(const Errors<N>& prior, const Vector3d& innovation,
-                                       const Settings& settings) {
-  const double h = settings.fix_noise_horizontal * settings.fix_noise_horizontal;
-  const double v = settings.fix_noise_vertical * settings.fix_noise_vertical;
-  const Matrix3d R = Vector3d(h, h, v).asDiagonal();
-  if constexpr (Layout<N>::has_fix_bias) {
-    return filtering::update_state_difference<Layout<N>::position, Layout<N>::fix_bias, N, 3>(prior.P, R,
-                                                                                              innovation);
-  } else {
-    return filtering::update_states<Layout<N>::position, N, 3>(prior.P, R, innovation);
-  }
-}
-
 Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition& fix) {
   const strapdown::LocalEarth earth = strapdown::local_earth(ins.latitude, ins.height);
   const double d_longitude = std::remainder(ins.longitude - fix.longitude, 2 * std::numbers::pi);
   return {(ins.latitude - fix.latitude) * (earth.meridian_radius + ins.height),
           d_longitude * (earth.transverse_radius + ins.height) * earth.cos_latitude, fix.height - ins.height};
-}
-
-GeodeticPosition position_of(const strapdown::NavState& nav) {
-  return {nav.latitude, nav.longitude, nav.height};
-}
-
-GeodeticPosition corrected(const GeodeticPosition& ins, const Vector3d& dR) {
-  const strapdown::LocalEarth earth = strapdown::local_earth(ins.latitude, ins.height);
-  const double latitude = ins.latitude - dR.x() / (earth.meridian_radius + ins.height);
-  const double parallel_radius = (earth.transverse_radius + ins.height) * std::cos(latitude);
-  return {latitude, ins.longitude - dR.y() / parallel_radius, ins.height + dR.z()};
-}
-
-// The INS less position [m] and velocity errors, and its attitude turned to the computer frame by C_pc.
-strapdown::NavState corrected(const strapdown::NavState& nav, const Vector3d& dR, const Vector3d& dV,
-                              const Matrix3d& C_pc) {
-  const GeodeticPosition position = corrected(position_of(nav), dR);
-  return {.C_bn = C_pc * nav.C_bn,
-          .v_eb_n = nav.v_eb_n - dV,
-          .latitude = position.latitude,
-          .longitude = position.longitude,
-          .height = position.height};
 }
 
 // Position, velocity and biases into the INS; their states zero.
@@ -181,22 +141,6 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Geodetic
   return result;
 }
 
-template <int N>
-Vector<N> errors_now(const Errors<N>& errors, const Interval& interval) {
-  if (!(interval.duration > 0)) return errors.x;
-  if constexpr (is_sin_cos<N>) {
-    return predicted_sin_cos<N>(errors.x, interval);
-  } else {
-    return predicted<N>(errors.x, interval);
-  }
-}
-
-template <class Visitor>
-auto with_errors(const State& state, const Visitor& visitor) {
-  return std::visit([&]<int N>(const Errors<N>& errors) { return visitor.template operator()<N>(errors); },
-                    state.errors);
-}
-
 }  // namespace
 
 State initial(const strapdown::NavState& nav, const Settings& settings) {
@@ -259,48 +203,6 @@ UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPos
         return update_errors<N>(state, errors, ins, difference, settings);
       },
       state.errors);
-}
-
-Estimate estimate(const State& state) {
-  return with_errors(state, [&]<int N>(const Errors<N>& errors) {
-    using At = Layout<N>;
-    const Vector<N> x = errors_now<N>(errors, state.ins.interval);
-    Matrix3d C_pc;
-    if constexpr (is_sin_cos<N>) {
-      C_pc = tilt_and_heading<N>(x);
-    } else {
-      C_pc = platform_to_computer(x.template segment<3>(At::attitude));
-    }
-    Estimate best;
-    best.nav = corrected(state.ins.nav, x.template segment<3>(At::position),
-                         x.template segment<3>(At::velocity), C_pc);
-    best.accel_bias = state.accel_bias + x.template segment<3>(At::accel_bias);
-    best.gyro_bias = state.gyro_bias + x.template segment<3>(At::gyro_bias);
-    best.fix_bias = state.fix_bias;
-    if constexpr (At::has_fix_bias) best.fix_bias += x.template segment<3>(At::fix_bias);
-    return best;
-  });
-}
-
-Uncertainty uncertainty(const State& state) {
-  return with_errors(state, []<int N>(const Errors<N>& errors) {
-    using At = Layout<N>;
-    Matrix<3, At::attitude_count> angles;
-    if constexpr (is_sin_cos<N>) {
-      angles = angles_of_states<N>(errors.x);
-    } else {
-      angles = rotation_axes(errors.x.template segment<3>(At::attitude));
-    }
-    const auto P_attitude = errors.P.template block<At::attitude_count, At::attitude_count>(6, 6);
-    const Vector<N> sigma = errors.P.diagonal().cwiseMax(0).cwiseSqrt();
-    Uncertainty u{.position = sigma.template segment<3>(At::position),
-                  .velocity = sigma.template segment<3>(At::velocity),
-                  .attitude = angles * P_attitude * angles.transpose(),
-                  .accel_bias = sigma.template segment<3>(At::accel_bias),
-                  .gyro_bias = sigma.template segment<3>(At::gyro_bias)};
-    if constexpr (At::has_fix_bias) u.fix_bias = sigma.template segment<3>(At::fix_bias);
-    return u;
-  });
 }
 
 }  // namespace canhil::inflight_alignment

@@ -1,10 +1,9 @@
 #include "target/estimators/inflight_alignment/sin_cos.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
-#include "target/estimators/filtering/block_transition.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 
 namespace canhil::inflight_alignment {
@@ -115,9 +114,7 @@ void predict_sin_cos(Errors<N>& errors, const Interval& interval, const Settings
   const Vector<4> heading(0, 0, std::cos(psi), std::sin(psi));
   Matrix<4, 4> shape = heading * heading.transpose();
   shape(0, 0) = shape(1, 1) = 1;
-  errors.P = filtering::propagate_covariance_moving<10, N>(errors.P, [&](const auto& M) {
-    return times_transposed<N, std::decay_t<decltype(M)>::RowsAtCompileTime>(M, G);
-  });
+  errors.P = propagated<N, 4>(errors.P, G);
   errors.x = predicted_sin_cos<N>(errors.x, interval);
   add_process_noise<N>(errors.P, settings, interval.duration, shape);
 }

@@ -1,5 +1,7 @@
 #include "target/estimators/strapdown/mechanization.hpp"
 
+#include <Eigen/Geometry>
+
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/strapdown/earth.hpp"
 

@@ -1,5 +1,6 @@
 #include "target/estimators/wind/model.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

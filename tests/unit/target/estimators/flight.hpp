@@ -1,7 +1,7 @@
 #pragma once
 // The paper's flight (level, heading 0, 500 km/h north for 10 s, then 9.81 m/s^2 north) and its error-free
 // IMU, as in the published vectors.
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/strapdown/earth.hpp"

@@ -2,6 +2,7 @@
 // Jacobians against differences.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
 

@@ -1,0 +1,75 @@
+#include "target/estimators/filtering/symmetric_eigen.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace canhil::filtering {
+namespace {
+
+// A / scale = Q T Q' of a symmetric A, with its elements within +-1: no overflow, no underflow.
+struct Tridiagonal {
+  double scale;
+  SquareMatrix packed;  // T's diagonals, and below them the reflections whose product is Q
+  ColumnVector storage;
+
+  explicit Tridiagonal(const SquareMatrix& symmetric)
+      : scale(largest_element(symmetric)), packed(symmetric / scale), storage(symmetric.rows()) {
+    auto h = coefficients();
+    Eigen::internal::tridiagonalization_inplace(packed, h);
+  }
+
+  // Of the reflections. Eigen's product sums up in an order that depends on whether its result begins at a
+  // multiple of 16 bytes: this is where SelfAdjointEigenSolver of a fixed size has them, for the same bits.
+  Eigen::VectorBlock<ColumnVector> coefficients() {
+    const Eigen::Index n = packed.rows();
+    return storage.segment((n + 1) % 2, n - 1);
+  }
+
+  static double largest_element(const SquareMatrix& symmetric) {
+    const double largest = SquareMatrix(symmetric.triangularView<Eigen::Lower>()).cwiseAbs().maxCoeff();
+    return largest == 0 ? 1 : largest;
+  }
+
+  SquareMatrix Q() {
+    const Eigen::Index n = packed.rows();
+    SquareMatrix product = SquareMatrix::Identity(n, n);
+    ColumnVector workspace(n);
+    for (Eigen::Index k = n - 2; k >= 0; --k) {
+      const Eigen::Index rows = n - k - 1;
+      product.bottomRightCorner(rows, rows)
+          .applyHouseholderOnTheLeft(packed.col(k).tail(rows - 1), coefficients()(k), workspace.data());
+    }
+    return product;
+  }
+};
+
+}  // namespace
+
+// Eigen::SelfAdjointEigenSolver in its own steps, to the same bits: it would bring along the block-wise
+// reflections of matrices beyond 48 rows, which take far longer to compile than all the rest.
+SymmetricEigen symmetric_eigen(const SquareMatrix& symmetric) {
+  using Solver = Eigen::SelfAdjointEigenSolver<SquareMatrix>;
+  Tridiagonal T(symmetric);
+  SymmetricEigen eigen{T.packed.diagonal(), T.Q()};
+  ColumnVector subdiagonal = T.packed.diagonal<-1>();
+  Eigen::internal::computeFromTridiagonal_impl(eigen.values, subdiagonal, Solver::m_maxIterations, true,
+                                               eigen.vectors);
+  eigen.values *= T.scale;
+  return eigen;
+}
+
+namespace detail {
+
+double largest_eigenvalue(const SquareMatrix& symmetric) {
+  const Tridiagonal T(symmetric);
+  Eigen::SelfAdjointEigenSolver<SquareMatrix> solver(symmetric.rows());
+  solver.computeFromTridiagonal(T.packed.diagonal(), T.packed.diagonal<-1>(), Eigen::EigenvaluesOnly);
+  return T.scale * solver.eigenvalues()(symmetric.rows() - 1);
+}
+
+double largest_eigenvalue_of_3(const Matrix<3, 3>& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<Matrix<3, 3>> solver(symmetric, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(2);
+}
+
+}  // namespace detail
+}  // namespace canhil::filtering

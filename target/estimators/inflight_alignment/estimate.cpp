@@ -1,0 +1,70 @@
+#include "target/estimators/inflight_alignment/fix.hpp"
+#include "target/estimators/inflight_alignment/psi_angle.hpp"
+#include "target/estimators/inflight_alignment/sin_cos.hpp"
+
+namespace canhil::inflight_alignment {
+namespace {
+
+using Eigen::Matrix3d;
+
+template <int N>
+Vector<N> errors_now(const Errors<N>& errors, const Interval& interval) {
+  if (!(interval.duration > 0)) return errors.x;
+  if constexpr (is_sin_cos<N>) {
+    return predicted_sin_cos<N>(errors.x, interval);
+  } else {
+    return predicted<N>(errors.x, interval);
+  }
+}
+
+template <class Visitor>
+auto with_errors(const State& state, const Visitor& visitor) {
+  return std::visit([&]<int N>(const Errors<N>& errors) { return visitor.template operator()<N>(errors); },
+                    state.errors);
+}
+
+}  // namespace
+
+Estimate estimate(const State& state) {
+  return with_errors(state, [&]<int N>(const Errors<N>& errors) {
+    using At = Layout<N>;
+    const Vector<N> x = errors_now<N>(errors, state.ins.interval);
+    Matrix3d C_pc;
+    if constexpr (is_sin_cos<N>) {
+      C_pc = tilt_and_heading<N>(x);
+    } else {
+      C_pc = platform_to_computer(x.template segment<3>(At::attitude));
+    }
+    Estimate best;
+    best.nav = corrected(state.ins.nav, x.template segment<3>(At::position),
+                         x.template segment<3>(At::velocity), C_pc);
+    best.accel_bias = state.accel_bias + x.template segment<3>(At::accel_bias);
+    best.gyro_bias = state.gyro_bias + x.template segment<3>(At::gyro_bias);
+    best.fix_bias = state.fix_bias;
+    if constexpr (At::has_fix_bias) best.fix_bias += x.template segment<3>(At::fix_bias);
+    return best;
+  });
+}
+
+Uncertainty uncertainty(const State& state) {
+  return with_errors(state, []<int N>(const Errors<N>& errors) {
+    using At = Layout<N>;
+    Matrix<3, At::attitude_count> angles;
+    if constexpr (is_sin_cos<N>) {
+      angles = angles_of_states<N>(errors.x);
+    } else {
+      angles = rotation_axes(errors.x.template segment<3>(At::attitude));
+    }
+    const auto P_attitude = errors.P.template block<At::attitude_count, At::attitude_count>(6, 6);
+    const Vector<N> sigma = errors.P.diagonal().cwiseMax(0).cwiseSqrt();
+    Uncertainty u{.position = sigma.template segment<3>(At::position),
+                  .velocity = sigma.template segment<3>(At::velocity),
+                  .attitude = angles * P_attitude * angles.transpose(),
+                  .accel_bias = sigma.template segment<3>(At::accel_bias),
+                  .gyro_bias = sigma.template segment<3>(At::gyro_bias)};
+    if constexpr (At::has_fix_bias) u.fix_bias = sigma.template segment<3>(At::fix_bias);
+    return u;
+  });
+}
+
+}  // namespace canhil::inflight_alignment

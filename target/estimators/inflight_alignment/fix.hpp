@@ -1,0 +1,24 @@
+#pragma once
+// What a fix does to the errors, and the errors to the INS.
+#include "target/estimators/inflight_alignment/filter.hpp"
+
+namespace canhil::inflight_alignment {
+
+template <int N>
+constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
+
+/// z = dR - rho + noise (eq. (10)); without a fix bias z = dR + noise.
+template <int N>
+filtering::Correction<N, 3> correction(const Errors<N>& prior, const Eigen::Vector3d& innovation,
+                                       const Settings& settings);
+
+GeodeticPosition position_of(const strapdown::NavState& nav);
+
+/// The position less its errors [m].
+GeodeticPosition corrected(const GeodeticPosition& ins, const Eigen::Vector3d& dR);
+
+/// The INS less position [m] and velocity errors, and its attitude turned to the computer frame by C_pc.
+strapdown::NavState corrected(const strapdown::NavState& nav, const Eigen::Vector3d& dR,
+                              const Eigen::Vector3d& dV, const Eigen::Matrix3d& C_pc);
+
+}  // namespace canhil::inflight_alignment

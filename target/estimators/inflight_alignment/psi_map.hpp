@@ -1,0 +1,54 @@
+#pragma once
+// The map of psi_angle.hpp about a state x: x's own image, the even and odd parts of x +- d, and its Jacobian
+// with respect to the biases. It reads the first 15 states, so that it is the same for 15 and 18.
+#include "target/estimators/filtering/unscented.hpp"
+#include "target/estimators/inflight_alignment/error_model.hpp"
+
+namespace canhil::inflight_alignment {
+
+struct Trig {
+  Eigen::Vector3d sin, cos;  // of psi_x, psi_y, psi_z
+
+  explicit Trig(const Eigen::Vector3d& psi);
+  Trig(const Eigen::Vector3d& sine, const Eigen::Vector3d& cosine) : sin(sine), cos(cosine) {}
+};
+
+/// C_pc of psi.
+Eigen::Matrix3d rotation(const Trig& t);
+
+/// The interval's terms of the model that depend on psi and on the biases.
+struct Terms {
+  Eigen::Vector3d force;  // C_pc (S - A n)
+  Eigen::Vector3d rates;  // E [(w - C_pc' w) T - A e]
+};
+
+class PsiMap {
+ public:
+  PsiMap(const Vector<15>& x, const Interval& interval);
+
+  /// The image of x: what moved() takes.
+  [[nodiscard]] Eigen::Vector3d force_increment() const { return interval_.delta_v_n - terms_.force; }
+  [[nodiscard]] const Eigen::Vector3d& attitude_increment() const { return terms_.rates; }
+
+  /// Of x +- d; sin and cos of both points come from one set of them.
+  [[nodiscard]] filtering::Parts<9> parts(const Vector<15>& d) const;
+
+  /// C_pc A and -E A: d(velocity+)/d(accelerometer bias) and d(attitude+)/d(gyro bias).
+  [[nodiscard]] Eigen::Matrix3d velocity_accel() const;
+  [[nodiscard]] Eigen::Matrix3d attitude_gyro() const;
+  [[nodiscard]] double duration() const { return interval_.duration; }
+
+ private:
+  // true_force = S - A n, drift = A e
+  [[nodiscard]] Terms terms(const Trig& t, const Eigen::Vector3d& true_force,
+                            const Eigen::Vector3d& drift) const;
+
+  const Interval& interval_;
+  Eigen::Vector3d wT_;  // (w_ie + w_en) T
+  Trig trig_;
+  Eigen::Vector3d true_force_, drift_;
+  Terms terms_;
+  Eigen::Vector3d coriolis_;
+};
+
+}  // namespace canhil::inflight_alignment
