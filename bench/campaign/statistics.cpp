@@ -1,11 +1,10 @@
 #include "bench/campaign/statistics.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 
+#include "bench/checks/probability.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/world/stream.hpp"
 
@@ -232,12 +231,12 @@ PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const Run
     }
   }
   if (paired.pairs == 0) return {.fraction = nan, .low = 0, .high = 1};
-  using Binomial = boost::math::binomial_distribution<double>;
   const auto pairs = static_cast<double>(paired.pairs), better = static_cast<double>(paired.better);
   const double tail = (1 - confidence) / 2;
   paired.fraction = better / pairs;
-  paired.low = Binomial::find_lower_bound_on_p(pairs, better, tail);
-  paired.high = Binomial::find_upper_bound_on_p(pairs, better, tail);
+  const auto [low, high] = checks::success_bounds(pairs, better, tail);
+  paired.low = low;
+  paired.high = high;
   return paired;
 }
 
@@ -246,10 +245,10 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quan
   ConsistencyStatistics statistics;
   if (runs.empty()) return {.mean = nan};
   const auto n = static_cast<double>(runs.size());
-  const boost::math::chi_squared_distribution<double> chi_squared(info(quantity).degrees_of_freedom * n);
+  const double degrees_of_freedom = info(quantity).degrees_of_freedom * n;
   const double tail = (1 - probability) / 2;
-  statistics.low = quantile(chi_squared, tail) / n;
-  statistics.high = quantile(complement(chi_squared, tail)) / n;
+  statistics.low = checks::chi_squared_quantile(degrees_of_freedom, tail) / n;
+  statistics.high = checks::chi_squared_quantile_above(degrees_of_freedom, tail) / n;
   double sum = 0;
   std::size_t count = 0, inside = 0;
   for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {

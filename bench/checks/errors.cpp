@@ -1,5 +1,6 @@
 #include "bench/checks/errors.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <numeric>
 #include <span>
@@ -12,6 +11,7 @@
 #include "bench/checks/finding.hpp"
 #include "bench/checks/fixes.hpp"
 #include "bench/checks/los.hpp"
+#include "bench/checks/probability.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/checks/wire_bounds.hpp"
@@ -332,10 +332,9 @@ class Judge {
       return {between->low, between->high};
     const double probability = std::get<scenario::Probability>(rule.bound).value;
     const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
-    const double degrees_of_freedom = dimension(rule.statistic);
-    const boost::math::chi_squared chi_squared(n * degrees_of_freedom);
-    return {boost::math::quantile(chi_squared, (1 - probability) / 2) / n,
-            boost::math::quantile(chi_squared, (1 + probability) / 2) / n};
+    const double degrees_of_freedom = n * dimension(rule.statistic);
+    return {chi_squared_quantile(degrees_of_freedom, (1 - probability) / 2) / n,
+            chi_squared_quantile(degrees_of_freedom, (1 + probability) / 2) / n};
   }
 
   const Evidence& evidence_;

@@ -1,9 +1,10 @@
 #include "bench/report/compare.hpp"
 
+#include "bench/checks/probability.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -14,9 +15,6 @@ namespace canhil::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// P(Z > z).
-double above(double z) { return boost::math::cdf(boost::math::complement(boost::math::normal(), z)); }
 
 double count_of(const Buckets& sample) {
   double count = 0;
@@ -217,7 +215,7 @@ RankTest rank_test(const Buckets& a, const Buckets& b) {
   const double total = m + n;
   const double variance = m * n / 12 * (total + 1 - ties / (total * (total - 1)));
   if (!(variance > 0)) return {.effect = u / (m * n), .p = 1};
-  return {.effect = u / (m * n), .p = above((u - m * n / 2 - 0.5) / std::sqrt(variance))};
+  return {.effect = u / (m * n), .p = checks::normal_above((u - m * n / 2 - 0.5) / std::sqrt(variance))};
 }
 
 TailTest tail_test(const Buckets& a, const Buckets& b) {
@@ -227,7 +225,7 @@ TailTest tail_test(const Buckets& a, const Buckets& b) {
   TailTest test{.share_a = share_beyond(a, bar_us), .share_b = share_beyond(b, bar_us)};
   const double pooled = (test.share_a * m + test.share_b * n) / (m + n);
   const double variance = pooled * (1 - pooled) * (1 / m + 1 / n);
-  if (variance > 0) test.p = above((test.share_b - test.share_a) / std::sqrt(variance));
+  if (variance > 0) test.p = checks::normal_above((test.share_b - test.share_a) / std::sqrt(variance));
   return test;
 }
 

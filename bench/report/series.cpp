@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <iterator>
 #include <tuple>
@@ -10,6 +9,7 @@
 
 #include "bench/checks/errors.hpp"
 #include "bench/checks/los.hpp"
+#include "bench/checks/probability.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/world/units.hpp"
 
@@ -48,8 +48,8 @@ class Thinned {
 };
 
 std::vector<double> chi_squared_95(double degrees_of_freedom) {
-  const boost::math::chi_squared chi_squared(degrees_of_freedom);
-  return {boost::math::quantile(chi_squared, 0.025), boost::math::quantile(chi_squared, 0.975)};
+  return {checks::chi_squared_quantile(degrees_of_freedom, 0.025),
+          checks::chi_squared_quantile(degrees_of_freedom, 0.975)};
 }
 
 // The samples of `items`: `value` gives the value, or the value and its sigma.

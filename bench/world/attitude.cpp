@@ -1,5 +1,6 @@
 #include "bench/world/attitude.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // in n.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 namespace canhil::world {
 

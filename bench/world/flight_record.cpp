@@ -1,5 +1,6 @@
 #include "bench/world/flight_record.hpp"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cassert>

@@ -1,6 +1,6 @@
 // A transmit queue of 10 frames that is really full: the kernel says ENOBUFS, of which poll() knows nothing.
 #include <fmt/format.h>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <unistd.h>
 

@@ -1,5 +1,6 @@
 #include "bench/world/engagement/engagement.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,7 @@
 // One flight of an engagement, stepped on demand: in closed loop it depends on what the target answers.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <deque>
 #include <vector>
 

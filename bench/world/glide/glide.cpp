@@ -1,5 +1,7 @@
 #include "bench/world/glide/glide.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "bench/world/glide/atmosphere.hpp"

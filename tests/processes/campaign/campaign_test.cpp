@@ -153,7 +153,7 @@ TEST(Report, ComesFromTheMergedFileAlone) {
   fs::copy(scratch("undisturbed") + "/merged.db", at + "/results");
   const Ended ended = hil_bench(fmt::format("campaign report {}/results --json", at));
   expect_done(ended);
-  const auto json = nlohmann::json::parse(ended.out);
+  const auto json = json_of(ended.out);
   EXPECT_EQ(json["variants"].size(), 4U);
   EXPECT_EQ(json["variants"][0]["completed"], 30);
   EXPECT_EQ(json["answers"][0]["curve"]["t_s"].size(), 29U);

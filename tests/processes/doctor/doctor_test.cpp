@@ -66,7 +66,7 @@ TEST(Doctor, FindsATargetOnTheBus) {
       fmt::format("{} sleep 0.3; {} --bus {} & target=$!; {} doctor --bus {} --seconds 1 --json -; code=$?; "
                   "kill $target $hub; exit $code",
                   host, HIL_TARGET, some_bus(), HIL_BENCH, some_bus()));
-  const nlohmann::json page = nlohmann::json::parse(ended.out);
+  const nlohmann::json page = json_of(ended.out);
   EXPECT_EQ(line_of(page, "target")["grade"], "good") << page;
   EXPECT_THAT(line_of(page, "target")["found"].get<std::string>(), HasSubstr("idle, DBC hash"));
 }
@@ -74,7 +74,7 @@ TEST(Doctor, FindsATargetOnTheBus) {
 TEST(Doctor, AnInterfaceThatIsNotThereIsBadAndTheRestIsStillTold) {
   const Ended ended = hil_bench("doctor --bus nocan7 --loop nocan8 --seconds 1 --json -");
   EXPECT_EQ(ended.code, 1);
-  const nlohmann::json page = nlohmann::json::parse(ended.out);
+  const nlohmann::json page = json_of(ended.out);
   EXPECT_EQ(line_of(page, "interface")["grade"], "bad");
   EXPECT_THAT(line_of(page, "interface")["found"].get<std::string>(), HasSubstr("nocan7"));
   EXPECT_EQ(line_of(page, "loop")["grade"], "bad");
@@ -87,7 +87,7 @@ TEST(Doctor, WithoutRightsItSaysHowToGetThemAndMeasuresAllTheSame) {
   const Ended ended = shell(fmt::format(
       "prlimit --rtprio=0 --memlock=65536 {}{} doctor --bus local:doctor-rights --seconds 1 --json -", drop,
       HIL_BENCH));
-  const nlohmann::json page = nlohmann::json::parse(ended.out);
+  const nlohmann::json page = json_of(ended.out);
   EXPECT_EQ(line_of(page, "real time")["grade"], "weak");
   EXPECT_THAT(line_of(page, "real time")["remedy"].get<std::string>(),
               HasSubstr("setcap cap_sys_nice,cap_ipc_lock+ep"));

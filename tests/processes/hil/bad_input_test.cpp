@@ -199,12 +199,11 @@ TEST(Outputs, ADashIsStandardOutputInPlaceOfTheText) {
   const std::string run = fmt::format("run {} --bus in-process ", scenario("transfer_alignment_quick"));
   const Ended json = hil_bench(run + "--json -");
   EXPECT_EQ(json.code, 3) << json.err;
-  EXPECT_EQ(nlohmann::json::parse(json.out)["provenance"]["bus"], "in-process");
+  EXPECT_EQ(json_of(json.out)["provenance"]["bus"], "in-process");
   const Ended junit = hil_bench(run + "--junit - --json " + scratch("beside.json"));
   EXPECT_TRUE(junit.out.starts_with("<?xml")) << junit.out;
   EXPECT_TRUE(junit.out.ends_with("</testsuites>\n")) << junit.out;
-  EXPECT_EQ(read_json(scratch("beside.json"))["checks"].size(),
-            nlohmann::json::parse(json.out)["checks"].size());
+  EXPECT_EQ(read_json(scratch("beside.json"))["checks"].size(), json_of(json.out)["checks"].size());
   expect_one_line(hil_bench(run + "--json - --junit -"), "file '-': is named twice");
   expect_one_line(hil_bench(run + "--log -"), "file '-': standard output cannot hold this");
   EXPECT_FALSE(std::filesystem::exists("-"));

@@ -31,7 +31,8 @@ std::string read(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-nlohmann::json read_json(const std::string& path) { return nlohmann::json::parse(read(path)); }
+nlohmann::json json_of(const std::string& text) { return nlohmann::json::parse(text); }
+nlohmann::json read_json(const std::string& path) { return json_of(read(path)); }
 
 Ended shell(const std::string& command) {
   const std::string out = scratch("stdout");

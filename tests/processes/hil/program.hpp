@@ -28,6 +28,8 @@ std::string scenario(const std::string& name);
 std::string scratch(const std::string& name);
 std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
+/// Here for all: a parser costs each unit that makes one over a second.
+nlohmann::json json_of(const std::string& text);
 
 /// The target's frames in a log, in order, from the first Sync on, without those that speak of the host or of
 /// the step.

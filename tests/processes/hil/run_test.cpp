@@ -150,7 +150,7 @@ TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {
   const std::string contract = SOURCE_DIR "/dbc/canhil.dbc";
   const Ended enough = hil_bench("schedulability --bitrate 1000000 --json " + contract);
   EXPECT_EQ(enough.code, 0) << enough.err;
-  EXPECT_EQ(nlohmann::json::parse(enough.out)["schedulable"], true);
+  EXPECT_EQ(json_of(enough.out)["schedulable"], true);
   const Ended overloaded = hil_bench("schedulability --bitrate 125000 " + contract);
   EXPECT_EQ(overloaded.code, 1) << overloaded.err;
   EXPECT_THAT(overloaded.out,
@@ -167,7 +167,7 @@ TEST(Run, OfSeveralEstimatorsTheTextSaysWhoseLinesTheyAre) {
 TEST(Run, JsonToStdoutReplacesTheText) {
   const Ended ended = hil_bench(
       fmt::format("run {} --bus {} --lockstep --json -", scenario("transfer_alignment_quick"), bus()));
-  const auto report = nlohmann::json::parse(ended.out);
+  const auto report = json_of(ended.out);
   EXPECT_EQ(report["provenance"]["clock"], "lockstep");
 }
 

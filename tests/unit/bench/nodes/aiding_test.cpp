@@ -1,5 +1,5 @@
 // What the SSBL and the GPS send of a vehicle under way.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "bench/nodes/gps.hpp"
 #include "bench/nodes/ssbl.hpp"

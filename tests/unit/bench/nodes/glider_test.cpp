@@ -1,5 +1,5 @@
 // What the glider's navigation and fins send.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 

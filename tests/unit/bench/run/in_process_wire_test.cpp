@@ -2,7 +2,7 @@
 #include "bench/run/in_process_wire.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "bench/run/contract.hpp"
 #include "bench/run/session.hpp"

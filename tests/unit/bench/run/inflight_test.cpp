@@ -1,6 +1,6 @@
 // In-flight alignment from the scenario's text to the checks, against the device in this process: its nodes,
 // their faults, and what the target makes of them.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>

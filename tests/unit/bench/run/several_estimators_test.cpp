@@ -1,5 +1,5 @@
 // All four estimators at once: each gives the answers that it gives alone.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"

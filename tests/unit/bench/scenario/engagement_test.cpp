@@ -1,5 +1,5 @@
 // [engagement] and [seeker]: values, defaults, and what is refused.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"

@@ -1,6 +1,7 @@
 #include "bench/world/attitude.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "bench/world/units.hpp"
 

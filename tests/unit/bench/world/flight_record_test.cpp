@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/NormalGravity.hpp>
 #include <cmath>

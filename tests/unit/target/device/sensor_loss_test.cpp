@@ -1,5 +1,5 @@
 // What the device makes of frames that are lost, broken, late, or say that they are invalid.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "tests/unit/target/device/bench_side.hpp"
 

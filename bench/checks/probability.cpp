@@ -1,0 +1,27 @@
+#include "bench/checks/probability.hpp"
+
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+
+namespace canhil::checks {
+
+using boost::math::complement;
+
+double chi_squared_quantile(double degrees_of_freedom, double p) {
+  return quantile(boost::math::chi_squared(degrees_of_freedom), p);
+}
+
+double chi_squared_quantile_above(double degrees_of_freedom, double p) {
+  return quantile(complement(boost::math::chi_squared(degrees_of_freedom), p));
+}
+
+double normal_above(double z) { return cdf(complement(boost::math::normal(), z)); }
+
+SuccessBounds success_bounds(double trials, double successes, double tail) {
+  using Binomial = boost::math::binomial_distribution<double>;
+  return {Binomial::find_lower_bound_on_p(trials, successes, tail),
+          Binomial::find_upper_bound_on_p(trials, successes, tail)};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,20 @@
+// Quantiles and bounds of distributions, from Boost.Math: it takes seconds to compile, in one unit.
+#pragma once
+
+namespace canhil::checks {
+
+/// x with P(chi-squared of k degrees of freedom <= x) = p.
+double chi_squared_quantile(double degrees_of_freedom, double p);
+/// x with P(chi-squared of k degrees of freedom > x) = p. Of a small p more exact than the quantile of 1 - p.
+double chi_squared_quantile_above(double degrees_of_freedom, double p);
+
+/// P(Z > z) of a standard normal Z.
+double normal_above(double z);
+
+/// Clopper-Pearson bounds of the probability of a success: each is passed with probability `tail`.
+struct SuccessBounds {
+  double low, high;
+};
+SuccessBounds success_bounds(double trials, double successes, double tail);
+
+}  // namespace canhil::checks
