@@ -12,13 +12,15 @@
 namespace canhil::wind {
 namespace {
 
-using H9 = filtering::Matrix<9, 12>;
-using Gain = filtering::Matrix<12, 9>;
-using R9 = filtering::Matrix<9, 9>;
+// Sizes at run time, also of what is always 9 x 12: Eigen unrolls products of fixed sizes while compiling,
+// which took most of a minute here.
+using Dense = Eigen::MatrixXd;
 
-H9 dense_H(const StateVector& x) {
+Dense inverse(const Dense& A) { return A.inverse(); }
+
+Dense dense_H(const StateVector& x) {
   const GroundVelocity at = ground_velocity(x);
-  H9 H = H9::Zero();
+  Dense H = Dense::Zero(9, 12);
   H.block<3, 3>(0, air_velocity_at) = at.C_bn;
   H.block<3, 3>(0, attitude_at) = at.by_attitude;
   H.block<3, 3>(0, wind_at).setIdentity();
@@ -26,7 +28,7 @@ H9 dense_H(const StateVector& x) {
   return H;
 }
 
-R9 dense_R(const Settings& s) {
+Dense dense_R(const Settings& s) {
   Observation sigma;
   sigma << Eigen::Vector3d::Constant(s.velocity_sigma), Eigen::Vector3d::Constant(s.rate_sigma),
       Eigen::Vector3d::Constant(s.attitude_sigma);
@@ -51,14 +53,15 @@ Misses compared(const RecordedRun& run, const Settings& settings, const Expected
   run.run(make_design(settings),
           [&](std::size_t, const StateVector& x, const Covariance& P, const Answer& answer,
               const StateVector& x_prior, const Covariance& P_prior) {
-            const H9 H = dense_H(x_prior);
-            const auto [dx, P_expected] = expected(H, P_prior, answer.innovation);
+            const Dense H = dense_H(x_prior);
+            const Dense P_dense = P_prior;
+            const auto [dx, P_expected] = expected(H, P_dense, answer.innovation);
             const StateVector sigma = P_expected.diagonal().cwiseSqrt();
             worst.x = std::max(worst.x, (x - x_prior - dx).cwiseQuotient(sigma).cwiseAbs().maxCoeff());
             worst.P = std::max(worst.P, scaled_miss(P, P_expected));
             worst.asymmetry = std::max(worst.asymmetry, (P - P.transpose()).cwiseAbs().maxCoeff());
-            const R9 S = H * P_prior * H.transpose() + dense_R(settings);
-            const double nis = answer.innovation.dot(S.inverse() * answer.innovation);
+            const Dense S = H * P_dense * H.transpose() + dense_R(settings);
+            const double nis = answer.innovation.dot(inverse(S) * answer.innovation);
             worst.nis = std::max(worst.nis, std::abs(answer.nis - nis) / nis);
             EXPECT_TRUE(filtering::is_positive_definite<12>(P));
           });
@@ -70,17 +73,17 @@ struct Posterior {
   Covariance P;
 };
 
-Posterior kalman(const H9& H, const Covariance& P, const Observation& innovation, const R9& R) {
-  const R9 S = H * P * H.transpose() + R;
-  const Gain K = P * H.transpose() * S.inverse();
+Posterior kalman(const Dense& H, const Dense& P, const Observation& innovation, const Dense& R) {
+  const Dense S = H * P * H.transpose() + R;
+  const Dense K = P * H.transpose() * inverse(S);
   return {K * innovation, P - K * H * P};
 }
 
 TEST(WindCorrection, ScalarUpdatesAreTheKalmanUpdate) {
   const RecordedRun run;
-  const R9 R = dense_R(run.settings);
+  const Dense R = dense_R(run.settings);
   const Misses worst =
-      compared(run, run.settings, [&](const H9& H, const Covariance& P, const Observation& innovation) {
+      compared(run, run.settings, [&](const Dense& H, const Dense& P, const Observation& innovation) {
         return kalman(H, P, innovation, R);
       });
   EXPECT_LT(worst.x, 1e-9);
@@ -95,16 +98,15 @@ TEST(WindCorrection, HInfinityIsTheFormWithoutInverseOfP) {
   Settings settings = run.settings;
   settings.algorithm = Algorithm::h_infinity;
   settings.rate_weight = 3;
-  const R9 R = dense_R(settings);
+  const Dense R = dense_R(settings);
   const Misses worst =
-      compared(run, settings, [&](const H9& H, const Covariance& P, const Observation& innovation) {
-        const Covariance Pu = kalman(H, P, innovation, R).P;
-        filtering::Matrix<6, 12> SL = filtering::Matrix<6, 12>::Zero();
+      compared(run, settings, [&](const Dense& H, const Dense& P, const Observation& innovation) {
+        const Dense Pu = kalman(H, P, innovation, R).P;
+        Dense SL = Dense::Zero(6, 12);
         SL.leftCols<6>().diagonal() << 1, 1, 1, std::sqrt(3.0), std::sqrt(3.0), std::sqrt(3.0);
-        const filtering::Matrix<6, 6> margin =
-            filtering::Matrix<6, 6>::Identity() / 0.03 - SL * Pu * SL.transpose();
-        const Covariance inflated = Pu + Pu * SL.transpose() * margin.inverse() * SL * Pu;
-        const StateVector dx = inflated * H.transpose() * R.inverse() * innovation;
+        const Dense margin = Dense::Identity(6, 6) / 0.03 - SL * Pu * SL.transpose();
+        const Dense inflated = Pu + Pu * SL.transpose() * inverse(margin) * SL * Pu;
+        const StateVector dx = inflated * H.transpose() * inverse(R) * innovation;
         return Posterior{dx, inflated};
       });
   EXPECT_LT(worst.x, 1e-8);
@@ -117,14 +119,14 @@ TEST(WindCorrection, Eq24To27PrintedRecursionMatches) {
   const RecordedRun run;
   Settings settings = run.settings;
   settings.algorithm = Algorithm::h_infinity;
-  const R9 R = dense_R(settings);
+  const Dense R = dense_R(settings);
   const Misses worst =
-      compared(run, settings, [&](const H9& H, const Covariance& P, const Observation& innovation) {
-        Covariance S_bar = Covariance::Zero();
+      compared(run, settings, [&](const Dense& H, const Dense& P, const Observation& innovation) {
+        Dense S_bar = Dense::Zero(12, 12);
         S_bar.diagonal().head<6>().setOnes();
-        const Covariance information = P.inverse() - 0.03 * S_bar + H.transpose() * R.inverse() * H;
-        const Covariance inflated = information.inverse();
-        const StateVector dx = inflated * H.transpose() * R.inverse() * innovation;
+        const Dense information = inverse(P) - 0.03 * S_bar + H.transpose() * inverse(R) * H;
+        const Dense inflated = inverse(information);
+        const StateVector dx = inflated * H.transpose() * inverse(R) * innovation;
         return Posterior{dx, inflated};
       });
   EXPECT_LT(worst.x, 1e-6);
@@ -154,16 +156,14 @@ TEST(WindCorrection, ThetaIsLoweredToTheCap) {
   Settings settings = run.settings;
   settings.algorithm = Algorithm::h_infinity;
   settings.theta_per_s = 0.1 / settings.sample_period;
-  const R9 R = dense_R(settings);
+  const Dense R = dense_R(settings);
   int capped = 0;
   run.run(make_design(settings),
           [&](std::size_t k, const StateVector&, const Covariance& P, const Answer& answer,
               const StateVector& x_prior, const Covariance& P_prior) {
             const Covariance Pu = kalman(dense_H(x_prior), P_prior, answer.innovation, R).P;
-            const double lambda = Eigen::SelfAdjointEigenSolver<filtering::Matrix<6, 6>>(
-                                      filtering::Matrix<6, 6>(Pu.topLeftCorner<6, 6>()))
-                                      .eigenvalues()
-                                      .maxCoeff();
+            const Dense B = Pu.topLeftCorner<6, 6>();
+            const double lambda = Eigen::SelfAdjointEigenSolver<Dense>(B).eigenvalues().maxCoeff();
             EXPECT_EQ(answer.theta_capped, 0.1 * lambda > 0.04) << k;
             EXPECT_NEAR(answer.theta, std::min(0.1, 0.04 / lambda), 1e-9) << k;
             EXPECT_TRUE(filtering::is_positive_definite<12>(P));
