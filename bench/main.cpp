@@ -1,9 +1,11 @@
 // hil-bench: plays every node but the target, and judges it.
 #include <array>
+#include <string>
 #include <string_view>
 
+#include "bench/commands/become.hpp"
 #include "bench/commands/bus.hpp"
-#include "bench/commands/campaign_program.hpp"
+#include "bench/commands/campaign_name.hpp"
 #include "bench/commands/diverge.hpp"
 #include "bench/commands/doctor.hpp"
 #include "bench/commands/program.hpp"
@@ -11,9 +13,19 @@
 #include "bench/commands/run.hpp"
 #include "bench/commands/schedulability.hpp"
 
+namespace {
+
+using namespace canhil::commands;
+
+// For help alone: the subcommand itself is hil-bench-campaign.
+void name_campaign(canhil::command_line::Command program, int& /*code*/) {
+  program.add_subcommand(std::string(campaign_name), std::string(campaign_summary));
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using namespace canhil::commands;
-  if (argc > 1 && std::string_view(argv[1]) == campaign_name) return become_campaign_program(argv);
+  if (argc > 1 && argv[1] == campaign_name) return become("hil-bench-campaign", {argv + 1, argv + argc});
   constexpr std::array<AddCommand, 7> commands{add_run,     add_report, add_bus,           name_campaign,
                                                add_diverge, add_doctor, add_schedulability};
   return run_program(argc, argv, commands);

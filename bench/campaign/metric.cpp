@@ -1,7 +1,6 @@
 #include "bench/campaign/metric.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <tuple>

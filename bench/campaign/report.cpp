@@ -60,27 +60,26 @@ ordered_json json_of(const Answer& answer) {
 
 std::string text(const Campaign& campaign, const Evaluation& evaluation) {
   std::string page;
-  auto out = std::back_inserter(page);
-  fmt::format_to(out, "{}\n  campaign {} · {} runs · seed {} · {}\n\n", campaign.title, campaign.sources.file,
-                 campaign.runs, campaign.seed, verdict(evaluation));
+  page += fmt::format("{}\n  campaign {} · {} runs · seed {} · {}\n\n", campaign.title, campaign.sources.file,
+                      campaign.runs, campaign.seed, verdict(evaluation));
 
   std::size_t width = 7;
   for (const Variant& variant : campaign.variants) width = std::max(width, variant.name.size());
   for (const Endings& endings : evaluation.endings) {
-    fmt::format_to(out, "  {:<{}}  {} of {} runs completed", endings.variant, width, endings.completed,
-                   endings.runs);
+    page += fmt::format("  {:<{}}  {} of {} runs completed", endings.variant, width, endings.completed,
+                        endings.runs);
     if (endings.not_finite > 0)
-      fmt::format_to(out, ", {} with values that are not finite", endings.not_finite);
-    if (!endings.first_fault.empty()) fmt::format_to(out, "; {}", endings.first_fault);
+      page += fmt::format(", {} with values that are not finite", endings.not_finite);
+    if (!endings.first_fault.empty()) page += fmt::format("; {}", endings.first_fault);
     page += '\n';
   }
 
   std::string_view metric;
   for (const Answer& answer : evaluation.answers) {
-    if (answer.metric != metric) fmt::format_to(out, "\n  {}\n", answer.metric);
+    if (answer.metric != metric) page += fmt::format("\n  {}\n", answer.metric);
     metric = answer.metric;
-    fmt::format_to(out, "    {:<4}  {:<{}}  {}", label(answer), answer.variant, width, answer.measured);
-    if (answer.passed) fmt::format_to(out, "  (expected {})", answer.expected);
+    page += fmt::format("    {:<4}  {:<{}}  {}", label(answer), answer.variant, width, answer.measured);
+    if (answer.passed) page += fmt::format("  (expected {})", answer.expected);
     page += '\n';
   }
   return page;

@@ -12,12 +12,12 @@
 #include "bench/campaign/execute.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/campaign/report.hpp"
-#include "bench/commands/campaign_program.hpp"
+#include "bench/commands/become.hpp"
+#include "bench/commands/campaign_name.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
-#include "bench/commands/paper.hpp"
 #include "bench/commands/progress_line.hpp"
-#include "bench/papers/paper.hpp"
+#include "bench/papers/names.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/text.hpp"
 #include "bench/run/session.hpp"
@@ -47,6 +47,10 @@ struct MergeArguments {
 struct ReportArguments {
   std::string merged;
   bool json = false;
+};
+struct PaperArguments {
+  std::string paper;
+  std::string exact;
 };
 struct ReplayArguments {
   std::string file;
@@ -225,6 +229,16 @@ void add_replay(command_line::Command campaign, int& code) {
   command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
 }
 
+// The papers are a program of their own.
+int reproduce(const PaperArguments& paper, const Arguments& arguments) {
+  std::vector<std::string> words{paper.paper};
+  if (!arguments.out.empty()) words.insert(words.end(), {"--out", arguments.out});
+  if (arguments.runs) words.insert(words.end(), {"--runs", std::to_string(*arguments.runs)});
+  if (arguments.unrounded) words.emplace_back("--unrounded");
+  if (!paper.exact.empty()) words.insert(words.end(), {"--exact", paper.exact});
+  return become("hil-bench-paper", words);
+}
+
 }  // namespace
 
 void add_campaign(command_line::Command app, int& code) {
@@ -256,10 +270,7 @@ void add_campaign(command_line::Command app, int& code) {
   command.on_given([&code, arguments, paper, command, file, name] {
     if (command.subcommand_given()) return;
     if (name.given()) {
-      paper->folder = arguments->out;
-      paper->runs = arguments->runs;
-      paper->rounding = rounding_of(*arguments);
-      code = static_cast<int>(reproduce_paper(*paper));
+      code = reproduce(*paper, *arguments);
       return;
     }
     if (!file.given()) command_line::throw_required("FILE, or merge, report or replay");

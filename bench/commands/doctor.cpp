@@ -155,12 +155,11 @@ std::string text(const Examination& found) {
   std::size_t width = 0;
   for (const Line& line : found.lines) width = std::max(width, line.subject.size());
   std::string page;
-  auto out = std::back_inserter(page);
   for (const Line& line : found.lines) {
-    fmt::format_to(out, "  {:<4}  {:<{}}  {}\n", name(line.grade), line.subject, width, line.found);
-    if (!line.remedy.empty()) fmt::format_to(out, "        {:<{}}  -> {}\n", "", width, line.remedy);
+    page += fmt::format("  {:<4}  {:<{}}  {}\n", name(line.grade), line.subject, width, line.found);
+    if (!line.remedy.empty()) page += fmt::format("        {:<{}}  -> {}\n", "", width, line.remedy);
   }
-  fmt::format_to(out, "\n{}\n", name(doctor::worst(found.lines)));
+  page += fmt::format("\n{}\n", name(doctor::worst(found.lines)));
   return page;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <span>
 #include <string>
@@ -66,8 +65,6 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
       "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured.",
       fmt::format("hil-bench {} · DBC {:016x}", CANHIL_VERSION, messages::dbc_hash)};
   program.require_subcommands(1, 1);
-  // A file at its size limit is an error of write(), with a line that names the file.
-  std::signal(SIGXFSZ, SIG_IGN);
   int code = 0;
   for (const AddCommand add : add_commands) add(program, code);
   program.refuse_empty();
@@ -81,13 +78,17 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
 
 }  // namespace
 
-int run_program(int argc, char** argv, std::span<const AddCommand> add_commands) {
+int guarded(const std::function<int()>& run) {
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return run(argc, argv, add_commands);
-  } catch (const std::exception& error) {  // no memory, for one
-    std::fprintf(stderr, "hil-bench: %s\n", error.what());
-    return static_cast<int>(ExitCode::usage);
+    return run();
+  } catch (const std::exception& error) {
+    return static_cast<int>(complain({error.what()}));
   }
+}
+
+int run_program(int argc, char** argv, std::span<const AddCommand> add_commands) {
+  return guarded([&] { return run(argc, argv, add_commands); });
 }
 
 }  // namespace canhil::commands

@@ -1,6 +1,7 @@
 // A program of the bench: the subcommands it has, and what it says of words that are none.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "dbc/command_line/command_line.hpp"
@@ -9,6 +10,10 @@ namespace canhil::commands {
 
 /// Adds a subcommand to the program; `code` is its exit code, once it has run.
 using AddCommand = void (*)(command_line::Command program, int& code);
+
+/// Runs what main is to do. What is thrown, such as that there is no memory, ends with one line and exit code
+/// 2; a file at its size limit is an error of write(), not a signal.
+int guarded(const std::function<int()>& run);
 
 /// Parses the command line, runs what it names, and returns the exit code.
 int run_program(int argc, char** argv, std::span<const AddCommand> add_commands);

@@ -1,7 +1,6 @@
 #include "bench/commands/run.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <net/if.h>
 #include <unistd.h>
 

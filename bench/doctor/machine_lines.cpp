@@ -1,7 +1,6 @@
 #include "bench/doctor/machine_lines.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <fstream>
 

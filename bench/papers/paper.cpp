@@ -1,7 +1,6 @@
 #include "bench/papers/paper.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/inflight_alignment/reproduction.hpp"
 #include "bench/papers/los_rate/reproduction.hpp"
+#include "bench/papers/names.hpp"
 #include "bench/papers/transfer_alignment/reproduction.hpp"
 #include "bench/papers/wind/reproduction.hpp"
 #include "bench/report/file.hpp"
@@ -30,6 +30,7 @@ constexpr std::array papers{
     Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce},
     Paper{.name = "los", .reproduce = los_rate::reproduce},
     Paper{.name = "wind", .reproduce = wind::reproduce}};
+static_assert(std::ranges::equal(papers, paper_names, {}, &Paper::name));
 
 Result<Paper> find_paper(std::string_view name) {
   const auto found = std::ranges::find(papers, name, &Paper::name);
@@ -48,12 +49,6 @@ Page with_caveat(const Reproduction& reproduction) {
 }
 
 }  // namespace
-
-std::string names() {
-  std::array<std::string_view, papers.size()> all{};
-  std::ranges::transform(papers, all.begin(), &Paper::name);
-  return fmt::format("{}", fmt::join(all, " or "));
-}
 
 Outcome outcome_of(const Reproduction& reproduction) {
   if (reproduction.bars_met) return Outcome::bars_met;

@@ -16,7 +16,7 @@
 namespace canhil::papers {
 
 struct Request {
-  std::string paper;             ///< one of names()
+  std::string paper;             ///< one of paper_names
   std::filesystem::path folder;  ///< is made; gets NAME.html and the campaigns' results, which are resumed
   std::optional<std::uint64_t> runs;  ///< a variant; none: as the campaigns say
   Rounding rounding = Rounding::as_on_the_bus;
@@ -34,9 +34,6 @@ struct Reproduced {
   std::string text;            ///< every table, for a terminal
   std::filesystem::path page;  ///< where the HTML is
 };
-
-/// The papers there are, for messages: "transfer or inflight".
-std::string names();
 
 /// Error, one line: unknown paper, folder not writable, gnuplot missing; all found before the first flight.
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop);

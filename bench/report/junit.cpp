@@ -31,25 +31,24 @@ std::string junit(const scenario::Scenario& scenario, const run::Run& run) {
     return std::ranges::count(cases, outcome, &CheckResult::outcome);
   };
   std::string page;
-  auto out = std::back_inserter(page);
-  fmt::format_to(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n");
-  fmt::format_to(
-      out, "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
+  page += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  page += fmt::format(
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
       escaped(scenario.title), cases.size(), count(Outcome::fail), count(Outcome::not_measured), run.wall_s);
   for (const CheckResult& check : cases) {
-    fmt::format_to(out, "    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
-                   escaped(check.name));
+    page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
+                        escaped(check.name));
     if (!check.requirement.empty()) {
-      fmt::format_to(out, "      <properties><property name=\"requirement\" value=\"{}\"/></properties>\n",
-                     escaped(check.requirement));
+      page += fmt::format("      <properties><property name=\"requirement\" value=\"{}\"/></properties>\n",
+                          escaped(check.requirement));
     }
     const std::string message = escaped(fmt::format("{}; expected {}", check.measured, check.expected));
-    if (check.outcome == Outcome::fail) fmt::format_to(out, "      <failure message=\"{}\"/>\n", message);
+    if (check.outcome == Outcome::fail) page += fmt::format("      <failure message=\"{}\"/>\n", message);
     if (check.outcome == Outcome::not_measured)
-      fmt::format_to(out, "      <skipped message=\"not measured: {}\"/>\n", message);
-    fmt::format_to(out, "    </testcase>\n");
+      page += fmt::format("      <skipped message=\"not measured: {}\"/>\n", message);
+    page += "    </testcase>\n";
   }
-  fmt::format_to(out, "  </testsuite>\n</testsuites>\n");
+  page += "  </testsuite>\n</testsuites>\n";
   return page;
 }
 

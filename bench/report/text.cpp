@@ -38,21 +38,20 @@ std::string words(const FixSummary& fixes) {
 
 std::string words(const AlignmentSummary& summary) {
   std::string lines = "  heading error for good within";
-  auto out = std::back_inserter(lines);
   for (const BandEntry& entry : summary.heading_entries) {
-    fmt::format_to(out, "  {:g} {}: {}", entry.within_rad / entry.unit.factor, entry.unit.name,
-                   entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
+    lines += fmt::format("  {:g} {}: {}", entry.within_rad / entry.unit.factor, entry.unit.name,
+                         entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
   }
   if (summary.final_error_rad) {
-    fmt::format_to(out,
-                   "\n  error at the end              roll {:+.3f}  pitch {:+.3f}  heading {:+.3f} mrad  "
-                   "velocity {:.4f} m/s\n",
-                   summary.final_error_rad->roll / mrad, summary.final_error_rad->pitch / mrad,
-                   summary.final_error_rad->heading / mrad, summary.final_velocity_error_mps);
+    lines += fmt::format(
+        "\n  error at the end              roll {:+.3f}  pitch {:+.3f}  heading {:+.3f} mrad  "
+        "velocity {:.4f} m/s\n",
+        summary.final_error_rad->roll / mrad, summary.final_error_rad->pitch / mrad,
+        summary.final_error_rad->heading / mrad, summary.final_velocity_error_mps);
   } else {
-    fmt::format_to(out, "\n  the target gave no navigation answers\n");
+    lines += "\n  the target gave no navigation answers\n";
   }
-  if (summary.fixes) fmt::format_to(out, "  fixes                         {}\n", words(*summary.fixes));
+  if (summary.fixes) lines += fmt::format("  fixes                         {}\n", words(*summary.fixes));
   return lines;
 }
 
@@ -61,17 +60,16 @@ std::string words(const EngagementSummary& engagement) {
                           ? fmt::format("  miss                          {:.3f} m at {:.3f} s",
                                         *engagement.miss_m, engagement.passage_s)
                           : std::string("  miss                          the target was not passed");
-  auto out = std::back_inserter(lines);
   if (engagement.late_commands > 0)
-    fmt::format_to(out, "; {} answers too late to guide", engagement.late_commands);
-  fmt::format_to(out, "\n  LOS rate error by s to go, RMS");
+    lines += fmt::format("; {} answers too late to guide", engagement.late_commands);
+  lines += "\n  LOS rate error by s to go, RMS";
   for (const LosRms& window : engagement.rms) {
-    fmt::format_to(out, "{} {:g}-{:g}: {}", &window == engagement.rms.data() ? "" : " ", window.most_to_go_s,
-                   window.least_to_go_s,
-                   window.rms_radps ? fmt::format("{:.2f}", *window.rms_radps / mrad) : "-");
+    lines += fmt::format("{} {:g}-{:g}: {}", &window == engagement.rms.data() ? "" : " ", window.most_to_go_s,
+                         window.least_to_go_s,
+                         window.rms_radps ? fmt::format("{:.2f}", *window.rms_radps / mrad) : "-");
   }
-  fmt::format_to(out, " mrad/s\n  LOS rate answers              ");
-  for (const auto& [outcome, count] : engagement.outcomes) fmt::format_to(out, "{} {}  ", outcome, count);
+  lines += " mrad/s\n  LOS rate answers              ";
+  for (const auto& [outcome, count] : engagement.outcomes) lines += fmt::format("{} {}  ", outcome, count);
   while (lines.ends_with(' ')) lines.pop_back();
   return lines + '\n';
 }
@@ -99,20 +97,19 @@ std::string words(const WindSummary& wind) {
 std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
   constexpr std::size_t shown = 20;
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
-  auto out = std::back_inserter(lines);
-  if (const std::string said = canhil::words(bus.errors); !said.empty()) fmt::format_to(out, " ({})", said);
-  fmt::format_to(out, "; interface down {} times; late in transmit queue {} frames", bus.downs,
-                 bus.late_in_queue);
-  if (bus.foreign > 0) fmt::format_to(out, "; {} frames in the format that it is not to have", bus.foreign);
+  if (const std::string said = canhil::words(bus.errors); !said.empty()) lines += fmt::format(" ({})", said);
+  lines += fmt::format("; interface down {} times; late in transmit queue {} frames", bus.downs,
+                       bus.late_in_queue);
+  if (bus.foreign > 0) lines += fmt::format("; {} frames in the format that it is not to have", bus.foreign);
   lines += '\n';
   for (const checks::BusIncident& incident : bus.incidents) {
     if (&incident == bus.incidents.data() + shown) break;
-    fmt::format_to(out, "    t={:.3f} s  {} (tx {}, rx {})\n",
-                   static_cast<double>(incident.t_ns - first_ns) * 1e-9, name(incident.event),
-                   incident.tx_counter, incident.rx_counter);
+    lines += fmt::format("    t={:.3f} s  {} (tx {}, rx {})\n",
+                         static_cast<double>(incident.t_ns - first_ns) * 1e-9, name(incident.event),
+                         incident.tx_counter, incident.rx_counter);
   }
   const std::size_t more = bus.incidents.size() + bus.more_incidents;
-  if (more > shown) fmt::format_to(out, "    and {} more\n", more - shown);
+  if (more > shown) lines += fmt::format("    and {} more\n", more - shown);
   return lines;
 }
 
@@ -148,18 +145,17 @@ std::string split_words(const checks::TimingRecord& timing) {
   if (timing.split.stimuli == 0) return "";
   std::string lines = fmt::format("  from stimulus to answer       mean {:.3f} ms of {} stimuli, of it\n",
                                   total_s(timing.split) * 1e3, timing.split.stimuli);
-  auto out = std::back_inserter(lines);
   for (const SplitPart& part : parts(timing)) {
-    if (part.mean_s) fmt::format_to(out, "    {:>8.3f} ms  {}\n", *part.mean_s * 1e3, part.what);
+    if (part.mean_s) lines += fmt::format("    {:>8.3f} ms  {}\n", *part.mean_s * 1e3, part.what);
   }
   const checks::SlowestAnswer& slowest = timing.slowest;
   if (slowest.message.empty()) return lines;
-  fmt::format_to(out,
-                 "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
-                 "{}, its longest computing {}\n",
-                 slowest.message, static_cast<double>(slowest.latency_ns) * 1e-6,
-                 static_cast<double>(slowest.t_ns) * 1e-9, told_us(slowest.queue_max_us),
-                 told_us(slowest.compute_max_us));
+  lines += fmt::format(
+      "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
+      "{}, its longest computing {}\n",
+      slowest.message, static_cast<double>(slowest.latency_ns) * 1e-6,
+      static_cast<double>(slowest.t_ns) * 1e-9, told_us(slowest.queue_max_us),
+      told_us(slowest.compute_max_us));
   return lines;
 }
 
@@ -201,31 +197,31 @@ std::string wire_words(const checks::Observations& seen) {
 std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   const Summary summary = summarise(scenario, run);
   std::string page;
-  auto out = std::back_inserter(page);
 
-  fmt::format_to(out, "{}\n", scenario.title);
-  fmt::format_to(out, "  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
-                 run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", name(run.options.clock),
-                 static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
+  page += fmt::format("{}\n", scenario.title);
+  page += fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
+                      run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "",
+                      name(run.options.clock), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
-  for (const auto& [node, bus] : run.options.bus_of) fmt::format_to(out, "  {} on bus {}\n", node, bus);
+  for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
   if (run.host) {
-    fmt::format_to(out, "  bench {}{}\n", realtime::words(*run.host),
-                   run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
+    page +=
+        fmt::format("  bench {}{}\n", realtime::words(*run.host),
+                    run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
   }
-  for (const std::string& line : period_overrides(scenario)) fmt::format_to(out, "  {}\n", line);
+  for (const std::string& line : period_overrides(scenario)) page += fmt::format("  {}\n", line);
   page += '\n';
 
   std::size_t width = 5;
   for (const checks::CheckResult& check : run.verdict.checks) width = std::max(width, check.name.size());
   for (const checks::CheckResult& check : run.verdict.checks) {
-    fmt::format_to(out, "  {:<12}  {:<{}}  {}  (expected {})\n", label(check.outcome), check.name, width,
-                   check.measured, check.expected);
+    page += fmt::format("  {:<12}  {:<{}}  {}  (expected {})\n", label(check.outcome), check.name, width,
+                        check.measured, check.expected);
   }
 
   page += '\n';
   const auto head = [&](std::string_view estimator) {
-    if (scenario.targets.size() > 1) fmt::format_to(out, "  {}\n", estimator);
+    if (scenario.targets.size() > 1) page += fmt::format("  {}\n", estimator);
   };
   if (summary.engagement) {
     head("los_rate");
@@ -241,23 +237,23 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
   if (run.options.clock != run::ClockKind::lockstep) {
     for (const MessageLatency& row : summary.latencies) {
-      fmt::format_to(out, "  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
-                     row.latency_s.count,
-                     row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
-      fmt::format_to(out, "    its period's deviation      {}\n", milliseconds(row.jitter_s));
+      page += fmt::format("  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
+                          row.latency_s.count,
+                          row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
+      page += fmt::format("    its period's deviation      {}\n", milliseconds(row.jitter_s));
     }
-    fmt::format_to(out, "  bench's own lateness          {}  of {} frames  (latency by {})\n",
-                   milliseconds(summary.lateness_s), summary.lateness_s.count, summary.stamp_source);
+    page += fmt::format("  bench's own lateness          {}  of {} frames  (latency by {})\n",
+                        milliseconds(summary.lateness_s), summary.lateness_s.count, summary.stamp_source);
     page += split_words(run.seen.timing) + wire_words(run.seen);
     if (run.seen.target_timing_seen) {
-      fmt::format_to(out, "  target's own account          queue max {}  compute max {}\n",
-                     told_us(run.seen.queue_max_us), told_us(run.seen.compute_max_us));
+      page += fmt::format("  target's own account          queue max {}  compute max {}\n",
+                          told_us(run.seen.queue_max_us), told_us(run.seen.compute_max_us));
     }
   }
   page += load_words(run);
   const auto& counters = run.seen.counters;
-  fmt::format_to(
-      out, "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",
+  page += fmt::format(
+      "  lost on the way to the target {}; from the target {} frames, {} bad; bench overflow {}\n",
       counters ? fmt::format("{} frames, {} bad CRC, {} bad groups, {} late", counters->frames_lost,
                              counters->bad_crc, counters->bad_group, counters->late)
                : "unknown",
@@ -265,7 +261,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
 
   page += words(run.seen.bus, run.seen.first_ns);
 
-  fmt::format_to(out, "\n{}: {}\n", checks::name(run.verdict.outcome), run.verdict.reason);
+  page += fmt::format("\n{}: {}\n", checks::name(run.verdict.outcome), run.verdict.reason);
   return page;
 }
 

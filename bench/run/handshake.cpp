@@ -1,7 +1,6 @@
 #include "bench/run/handshake.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "bench/scenario/checks.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>

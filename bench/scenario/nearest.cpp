@@ -1,7 +1,6 @@
 #include "bench/scenario/nearest.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 #include "dbc/codegen/rules.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 

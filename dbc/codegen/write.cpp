@@ -1,7 +1,6 @@
 #include "dbc/codegen/write.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -1,7 +1,6 @@
 #include "dbc/ports/can_interface.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <linux/can.h>
 #include <net/if.h>
 #include <net/if_arp.h>

@@ -1,7 +1,6 @@
 #include "dbc/realtime/host.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <linux/capability.h>
 #include <pwd.h>
 #include <sys/resource.h>

@@ -7,7 +7,6 @@
 //   order.
 // Waits without limit: vcan.py sees to that.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
 #include <net/if.h>

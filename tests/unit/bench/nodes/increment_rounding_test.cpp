@@ -11,6 +11,7 @@ using world::Vector3;
 
 constexpr SignalInfo integer{.scale = 0.01, .minimum = -1, .maximum = 1};
 constexpr SignalInfo real{.minimum = -1, .maximum = 1, .is_float = true};
+constexpr Rounding as_on_the_bus = Rounding::as_on_the_bus;
 
 TEST(IncrementRounding, WhatASampleLosesTheNextOneCarries) {
   IncrementRounding rounding(integer);
@@ -20,7 +21,7 @@ TEST(IncrementRounding, WhatASampleLosesTheNextOneCarries) {
   for (int i = 0; i < 10'000; ++i) {
     const Vector3 increment(draw(random), draw(random), draw(random));
     measured += increment;
-    sent += rounding.round(increment);
+    sent += rounding.round(increment, as_on_the_bus);
     // Half a step, and what 1e4 additions of numbers below 100 round by.
     ASSERT_LE((measured - sent).cwiseAbs().maxCoeff(), 0.005 + 1e-9) << i;
   }
@@ -32,16 +33,23 @@ TEST(IncrementRounding, AFloatPassesBitForBit) {
   std::uniform_real_distribution<double> draw(-0.1, 0.1);
   for (int i = 0; i < 1000; ++i) {
     const Vector3 increment(draw(random), draw(random), draw(random));
-    ASSERT_EQ(rounding.round(increment), increment) << i;
+    ASSERT_EQ(rounding.round(increment, as_on_the_bus), increment) << i;
   }
+}
+
+TEST(IncrementRounding, WithoutRoundingAnIntegerPassesBitForBitToo) {
+  IncrementRounding rounding(integer);
+  EXPECT_EQ(rounding.round({0.123456789, -0.4, 0.1}, Rounding::none), Vector3(0.123456789, -0.4, 0.1));
+  EXPECT_EQ(rounding.round({2.5, 0, 0}, Rounding::none).x(), 1);
+  EXPECT_EQ(rounding.round({0, 0, 0}, Rounding::none).x(), 1) << "what the range cuts off follows";
 }
 
 TEST(IncrementRounding, WhatTheRangeCutsOffFollowsLater) {
   for (const SignalInfo& signal : {integer, real}) {
     IncrementRounding rounding(signal);
-    EXPECT_EQ(rounding.round({2.5, 0, 0}).x(), 1);
-    EXPECT_EQ(rounding.round({0, 0, 0}).x(), 1);
-    EXPECT_DOUBLE_EQ(rounding.round({0, 0, 0}).x(), 0.5);
+    EXPECT_EQ(rounding.round({2.5, 0, 0}, as_on_the_bus).x(), 1);
+    EXPECT_EQ(rounding.round({0, 0, 0}, as_on_the_bus).x(), 1);
+    EXPECT_DOUBLE_EQ(rounding.round({0, 0, 0}, as_on_the_bus).x(), 0.5);
   }
 }
 

@@ -29,18 +29,18 @@ std::vector<std::int64_t> times(Node& node) {
 }
 
 TEST(IncrementRounding, TheRemainderNeverAccumulates) {
-  const SignalInfo& signal = SlaveImuDeltaTheta::info.signals[0];
+  const SignalInfo& signal = SlaveImuDeltaTheta::signals()[0];
   IncrementRounding rounding(signal);
   const world::Vector3 increment{0.3 * signal.scale, -0.49 * signal.scale, 123.4567 * signal.scale};
   world::Vector3 sent = world::Vector3::Zero();
   for (int k = 1; k <= 100'000; ++k) {
-    sent += rounding.round(increment);
+    sent += rounding.round(increment, Rounding::as_on_the_bus);
     ASSERT_LE((sent - k * increment).cwiseAbs().maxCoeff(), 0.501 * signal.scale) << k;
   }
 }
 
 TEST(IncrementRounding, SendsWhatTheCodecCarriesExactly) {
-  const SignalInfo& signal = SlaveImuDeltaTheta::info.signals[0];
+  const SignalInfo& signal = SlaveImuDeltaTheta::signals()[0];
   IncrementRounding rounding(signal);
   for (int k = 0; k < 1000; ++k) {
     const double sent = rounding.round({1.23456e-3, 0, 0}).x();
