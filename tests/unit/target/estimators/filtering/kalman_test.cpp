@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <limits>
 #include <random>
 
@@ -21,11 +20,11 @@ TEST(Kalman, UpdateIsTheInformationFormAndSymmetric) {
   const Vector<2> innovation = random_matrix<2, 1>(engine);
   const auto c = update<7, 2>(P, H, R, innovation);
   ASSERT_TRUE(c.positive_definite);
-  const Matrix<7, 7> information = P.inverse() + H.transpose() * R.inverse() * H;
-  EXPECT_LT((c.P - information.inverse()).cwiseAbs().maxCoeff(), 1e-13);
-  EXPECT_LT((c.dx - c.P * H.transpose() * R.inverse() * innovation).cwiseAbs().maxCoeff(), 1e-13);
-  EXPECT_NEAR(c.nis, innovation.dot((H * P * H.transpose() + R).inverse() * innovation), 1e-13);
-  EXPECT_EQ(c.P, c.P.transpose());
+  const Dense h = H, ht = transposed(h), v = innovation;
+  EXPECT_LT(largest_difference(c.P, inverse(inverse(P) + ht * inverse(R) * h)), 1e-13);
+  EXPECT_LT(largest_difference(c.dx, c.P * ht * inverse(R) * v), 1e-13);
+  EXPECT_NEAR(c.nis, dot(v, inverse(h * P * ht + R) * v), 1e-13);
+  EXPECT_EQ(Dense(c.P), transposed(c.P));
 }
 
 TEST(Kalman, MeasuringStatesIsMeasuringThemThroughH) {
@@ -33,12 +32,11 @@ TEST(Kalman, MeasuringStatesIsMeasuringThemThroughH) {
   const Matrix<9, 9> P = random_covariance<9>(engine);
   const Matrix<3, 3> R = random_covariance<3>(engine);
   const Vector<3> innovation = random_matrix<3, 1>(engine);
-  Matrix<3, 9> H = Matrix<3, 9>::Zero();
-  H.block<3, 3>(0, 4).setIdentity();
+  const Dense H = Dense(3, 9).set(0, 4, identity(3));
   const auto direct = update_states<4, 9, 3>(P, R, innovation);
-  const auto general = update<9, 3>(P, H, R, innovation);
-  EXPECT_LT((direct.P - general.P).cwiseAbs().maxCoeff(), 1e-14);
-  EXPECT_LT((direct.dx - general.dx).cwiseAbs().maxCoeff(), 1e-14);
+  const auto general = update<9, 3>(P, H.fixed<3, 9>(), R, innovation);
+  EXPECT_LT(largest_difference(direct.P, general.P), 1e-14);
+  EXPECT_LT(largest_difference(direct.dx, general.dx), 1e-14);
 }
 
 // A measurement far better than the prior: P - K H P is 0 in double precision, the Joseph form is R.
@@ -53,11 +51,11 @@ TEST(Kalman, JosephFormKeepsTheVarianceOfAPreciseMeasurement) {
 }
 
 TEST(Kalman, RefusesAnInnovationCovarianceThatIsNotPositiveDefinite) {
-  EXPECT_FALSE((update<2, 1>(-Matrix<2, 2>::Identity(), Matrix<1, 2>(1, 0), Matrix<1, 1>(0.5), Vector<1>(1))
-                    .positive_definite));
-  const Matrix<1, 1> nan(std::numeric_limits<double>::quiet_NaN());
+  const Matrix<2, 2> one = identity(2).fixed<2, 2>(), negative = (-1 * identity(2)).fixed<2, 2>();
   EXPECT_FALSE(
-      (update<2, 1>(Matrix<2, 2>::Identity(), Matrix<1, 2>(1, 0), nan, Vector<1>(1)).positive_definite));
+      (update<2, 1>(negative, Matrix<1, 2>(1, 0), Matrix<1, 1>(0.5), Vector<1>(1)).positive_definite));
+  const Matrix<1, 1> nan(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_FALSE((update<2, 1>(one, Matrix<1, 2>(1, 0), nan, Vector<1>(1)).positive_definite));
 }
 
 TEST(Kalman, PositiveDefinitenessNeedsMoreThanAPositiveDiagonal) {
@@ -74,14 +72,14 @@ TEST(Kalman, BlockPredictionIsTheDenseOne) {
   static constexpr std::array<Block, 4> pattern{{{0, 1}, {1, 1}, {2, 0}, {0, 2}}};
   std::mt19937_64 engine(4);
   const Matrix<9, 9> P = random_covariance<9>(engine);
-  Matrix<9, 9> G = Matrix<9, 9>::Zero();
-  for (const Block b : pattern) G.block<3, 3>(3L * b.row, 3L * b.column) = random_matrix<3, 3>(engine);
-  const Matrix<9, 9> dense = propagate_covariance<9>(P, Matrix<9, 9>::Identity() + G, Matrix<9, 9>::Zero());
-  const Matrix<9, 9> blocks = propagate_covariance_blocks<pattern, 9>(P, G);
-  EXPECT_LT((dense - blocks).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_EQ(blocks, blocks.transpose());
-  const Matrix<9, 9> Phi = Matrix<9, 9>::Identity() + G;
-  EXPECT_LT((dense - Phi * P * Phi.transpose()).cwiseAbs().maxCoeff(), 1e-12);
+  Dense G(9, 9);
+  for (const Block b : pattern) G.set(3 * b.row, 3 * b.column, random_dense(3, 3, engine));
+  const Dense Phi = identity(9) + G;
+  const Dense dense = propagate_covariance<9>(P, Phi.fixed<9, 9>(), Dense(9, 9).fixed<9, 9>());
+  const Dense blocks = propagate_covariance_blocks<pattern, 9>(P, G.fixed<9, 9>());
+  EXPECT_LT(largest_difference(dense, blocks), 1e-12);
+  EXPECT_EQ(blocks, transposed(blocks));
+  EXPECT_LT(largest_difference(dense, Phi * P * transposed(Phi)), 1e-12);
 }
 
 }  // namespace
