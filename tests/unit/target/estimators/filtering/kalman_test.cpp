@@ -6,7 +6,6 @@
 #include <limits>
 #include <random>
 
-#include "target/estimators/filtering/block_transition.hpp"
 #include "tests/unit/target/estimators/random_matrix.hpp"
 
 namespace canhil::filtering {
@@ -25,18 +24,6 @@ TEST(Kalman, UpdateIsTheInformationFormAndSymmetric) {
   EXPECT_LT(largest_difference(c.dx, c.P * ht * inverse(R) * v), 1e-13);
   EXPECT_NEAR(c.nis, dot(v, inverse(h * P * ht + R) * v), 1e-13);
   EXPECT_EQ(Dense(c.P), transposed(c.P));
-}
-
-TEST(Kalman, MeasuringStatesIsMeasuringThemThroughH) {
-  std::mt19937_64 engine(2);
-  const Matrix<9, 9> P = random_covariance<9>(engine);
-  const Matrix<3, 3> R = random_covariance<3>(engine);
-  const Vector<3> innovation = random_matrix<3, 1>(engine);
-  const Dense H = Dense(3, 9).set(0, 4, identity(3));
-  const auto direct = update_states<4, 9, 3>(P, R, innovation);
-  const auto general = update<9, 3>(P, H.fixed<3, 9>(), R, innovation);
-  EXPECT_LT(largest_difference(direct.P, general.P), 1e-14);
-  EXPECT_LT(largest_difference(direct.dx, general.dx), 1e-14);
 }
 
 // A measurement far better than the prior: P - K H P is 0 in double precision, the Joseph form is R.
@@ -66,20 +53,6 @@ TEST(Kalman, PositiveDefinitenessNeedsMoreThanAPositiveDiagonal) {
   EXPECT_TRUE(is_positive_definite<2>(P));
   P(1, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(is_positive_definite<2>(P));
-}
-
-TEST(Kalman, BlockPredictionIsTheDenseOne) {
-  static constexpr std::array<Block, 4> pattern{{{0, 1}, {1, 1}, {2, 0}, {0, 2}}};
-  std::mt19937_64 engine(4);
-  const Matrix<9, 9> P = random_covariance<9>(engine);
-  Dense G(9, 9);
-  for (const Block b : pattern) G.set(3 * b.row, 3 * b.column, random_dense(3, 3, engine));
-  const Dense Phi = identity(9) + G;
-  const Dense dense = propagate_covariance<9>(P, Phi.fixed<9, 9>(), Dense(9, 9).fixed<9, 9>());
-  const Dense blocks = propagate_covariance_blocks<pattern, 9>(P, G.fixed<9, 9>());
-  EXPECT_LT(largest_difference(dense, blocks), 1e-12);
-  EXPECT_EQ(blocks, transposed(blocks));
-  EXPECT_LT(largest_difference(dense, Phi * P * transposed(Phi)), 1e-12);
 }
 
 }  // namespace

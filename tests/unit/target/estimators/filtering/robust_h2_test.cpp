@@ -41,8 +41,8 @@ TEST(RobustH2, StepBoundsEveryUncertainSystem) {
   const Matrix<4, 2> L = random_matrix<4, 2>(engine);
   const Matrix<2, 4> N = random_matrix<2, 4>(engine);
   const Dense NP = Dense(N) * P;
-  const double beta = h2_beta(symmetric_eigenvalues(NP * transposed(NP)).back(),
-                              symmetric_eigenvalues(transposed(L) * L).back());
+  const double beta = h2_beta(largest_eigenvalue<2>((NP * transposed(NP)).fixed<2, 2>()),
+                              largest_eigenvalue<2>((transposed(L) * L).fixed<2, 2>()));
   const Dense bound = propagate_h2<4, 2, 2>(P, A, Q, L, N, beta, dt);
   for (int k = 0; k < 200; ++k) {
     Dense Delta = random_dense(2, 2, engine);

@@ -6,7 +6,6 @@
 #include <limits>
 #include <random>
 
-#include "target/estimators/filtering/block_transition.hpp"
 #include "target/estimators/filtering/positive_definite.hpp"
 #include "tests/unit/target/estimators/random_matrix.hpp"
 
@@ -93,31 +92,6 @@ TEST(PositiveDefinite, RepairMendsAndLeavesAloneWhatIsWhole) {
   P(4, 4) = -1;
   EXPECT_TRUE(repair<5>(P));
   EXPECT_TRUE(is_positive_definite<5>(P));
-}
-
-TEST(BlockTransition, MovingStatesAloneGiveTheDenseRecursion) {
-  std::mt19937_64 engine(6);
-  constexpr int N = 7, K = 5;
-  const Matrix<N, N> P = random_covariance<N>(engine);
-  const Dense G = random_dense(K, N, engine);
-  const Dense Phi = identity(N) + Dense(N, N).set(0, 0, G);
-  const Dense next = propagate_covariance_moving<K, N>(
-      P, [&]<int Rows>(const Matrix<Rows, N>& M) { return (M * transposed(G)).template fixed<Rows, K>(); });
-  EXPECT_LT(norm(next - Phi * P * transposed(Phi)), 1e-12);
-  EXPECT_EQ(next, transposed(next));
-}
-
-TEST(Kalman, UpdateByADifferenceOfStatesIsTheUpdateByItsH) {
-  std::mt19937_64 engine(7);
-  const Matrix<7, 7> P = random_covariance<7>(engine);
-  const Matrix<2, 2> R = random_covariance<2>(engine);
-  const Vector<2> innovation = random_matrix<2, 1>(engine);
-  const Dense H = Dense(2, 7).set(0, 1, identity(2)).set(0, 5, -1 * identity(2));
-  const auto expected = update<7, 2>(P, H.fixed<2, 7>(), R, innovation);
-  const auto got = update_state_difference<1, 5, 7, 2>(P, R, innovation);
-  EXPECT_LT(norm(Dense(got.P) - expected.P), 1e-13);
-  EXPECT_LT(norm(Dense(got.dx) - expected.dx), 1e-13);
-  EXPECT_NEAR(got.nis, expected.nis, 1e-13);
 }
 
 }  // namespace
