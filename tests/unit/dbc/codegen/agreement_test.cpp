@@ -75,17 +75,6 @@ double random_value(std::mt19937_64& random, const SignalInfo& info) {
   }
 }
 
-/// The message with integers that doubles hold exactly: the run-time codec takes doubles.
-template <class Message>
-Message exact_as_double(Message message) {
-  Message::visit(message, []<class Member>(const SignalInfo&, Member& member) {
-    if constexpr (std::is_integral_v<Member> && sizeof(Member) == 8) {
-      member = static_cast<Member>(member & ~static_cast<Member>(0x7FF));
-    }
-  });
-  return message;
-}
-
 template <class Member>
 Member random_member(std::mt19937_64& random, const SignalInfo& info) {
   if constexpr (std::is_floating_point_v<Member>) {
@@ -95,55 +84,112 @@ Member random_member(std::mt19937_64& random, const SignalInfo& info) {
   }
 }
 
-template <class Message>
-void expect_same_pack(const dbc::Message& definition, const Message& message) {
-  std::array<std::uint8_t, Message::size> packed{};
-  packed.fill(0xA5);
-  message.pack(packed);
-  std::vector<NamedValue> values;
-  Message::visit(message, [&](const SignalInfo& info, auto member) {
+// The visitors are types of their own, not lambdas, which are a type for each message: their work is compiled
+// once for each type of member.
+struct Collect {
+  std::vector<NamedValue>& values;
+  template <class Member>
+  [[gnu::noinline]] void operator()(const SignalInfo& info, const Member& member) const {
     values.push_back({info.name, to_double(member)});
-  });
-  const auto encoded = encode(definition, values);
-  ASSERT_TRUE(encoded);
-  EXPECT_TRUE(std::ranges::equal(packed, *encoded)) << definition.name;
-}
+  }
+};
+
+/// Leaves integers that doubles hold exactly: the run-time codec takes doubles.
+struct MakeExactAsDouble {
+  template <class Member>
+  void operator()(const SignalInfo& /*info*/, Member& member) const {
+    if constexpr (std::is_integral_v<Member> && sizeof(Member) == 8) {
+      member = static_cast<Member>(member & ~static_cast<Member>(0x7FF));
+    }
+  }
+};
+
+struct Randomise {
+  std::mt19937_64& random;
+  template <class Member>
+  [[gnu::noinline]] void operator()(const SignalInfo& info, Member& member) const {
+    member = random_member<Member>(random, info);
+  }
+};
+
+using Bytes = std::span<const std::uint8_t>;
+
+struct Packed {
+  std::vector<std::uint8_t> bytes;
+  std::vector<NamedValue> values;
+};
+
+/// A generated message type without its type.
+struct Codec {
+  const MessageInfo& info;
+  std::size_t size;
+  std::vector<NamedValue> (*unpacked)(Bytes bytes);
+  Packed (*repacked)(Bytes bytes);
+  Packed (*packed_random)(std::mt19937_64& random);
+};
 
 template <class Message>
-void expect_same_unpack(const dbc::Message& definition, std::span<const std::uint8_t, Message::size> bytes) {
-  const Message message = Message::unpack(bytes);
-  Message::visit(message, [&](const SignalInfo& info, auto member) {
-    const Signal* signal = find_signal(definition, info.name);
+struct Erased {
+  static std::vector<NamedValue> values(const Message& message) {
+    std::vector<NamedValue> out;
+    Message::visit(message, Collect{out});
+    return out;
+  }
+  static Message unpack(Bytes bytes) { return Message::unpack(bytes.first<Message::size>()); }
+  static std::vector<NamedValue> unpacked(Bytes bytes) { return values(unpack(bytes)); }
+  static Packed packed(Message& message) {
+    Message::visit(message, MakeExactAsDouble{});
+    std::array<std::uint8_t, Message::size> bytes{};
+    bytes.fill(0xA5);
+    message.pack(bytes);
+    return {{bytes.begin(), bytes.end()}, values(message)};
+  }
+  static Packed repacked(Bytes bytes) {
+    Message message = unpack(bytes);
+    return packed(message);
+  }
+  static Packed packed_random(std::mt19937_64& random) {
+    Message message;
+    Message::visit(message, Randomise{random});
+    return packed(message);
+  }
+  static constexpr Codec codec{Message::info, Message::size, &unpacked, &repacked, &packed_random};
+};
+
+void expect_same_pack(const dbc::Message& definition, const Packed& packed) {
+  const auto encoded = encode(definition, packed.values);
+  ASSERT_TRUE(encoded);
+  EXPECT_TRUE(std::ranges::equal(packed.bytes, *encoded)) << definition.name;
+}
+
+void expect_same_unpack(const dbc::Message& definition, Bytes bytes, const std::vector<NamedValue>& values) {
+  for (const auto& [name, value] : values) {
+    const Signal* signal = find_signal(definition, name);
     ASSERT_NE(signal, nullptr);
     const bool present = is_present(definition, *signal, bytes);
     const double expected = present ? to_physical(*signal, raw_bits(*signal, bytes)) : 0.0;
-    EXPECT_EQ(bits_of(to_double(member)), bits_of(expected)) << definition.name << "." << info.name;
-  });
+    EXPECT_EQ(bits_of(value), bits_of(expected)) << definition.name << "." << name;
+  }
 }
 
-template <class Message>
-void expect_agreement(const Database& database) {
-  const dbc::Message* definition = find_message(database, Message::info.id, Message::info.extended);
+void expect_agreement(const Database& database, const Codec& codec) {
+  const dbc::Message* definition = find_message(database, codec.info.id, codec.info.extended);
   ASSERT_NE(definition, nullptr);
-  EXPECT_EQ(definition->name, Message::info.name);
-  std::mt19937_64 random(Message::info.id);
+  EXPECT_EQ(definition->name, codec.info.name);
+  std::mt19937_64 random(codec.info.id);
   for (int i = 0; i < 2000 && !testing::Test::HasFailure(); ++i) {
-    std::array<std::uint8_t, Message::size> bytes{};
+    std::vector<std::uint8_t> bytes(codec.size);
     std::ranges::generate(bytes, [&] { return static_cast<std::uint8_t>(random()); });
-    expect_same_unpack<Message>(*definition, bytes);
-    expect_same_pack(*definition, exact_as_double(Message::unpack(bytes)));
-    Message message;
-    Message::visit(message, [&]<class Member>(const SignalInfo& info, Member& member) {
-      member = random_member<Member>(random, info);
-    });
-    expect_same_pack(*definition, exact_as_double(message));
+    expect_same_unpack(*definition, bytes, codec.unpacked(bytes));
+    expect_same_pack(*definition, codec.repacked(bytes));
+    expect_same_pack(*definition, codec.packed_random(random));
   }
 }
 
 template <class... Messages>
 void expect_agreement_of_all(const Database& database, const std::tuple<Messages...>* /*types*/) {
   EXPECT_EQ(database.messages.size(), sizeof...(Messages));
-  (expect_agreement<Messages>(database), ...);
+  (expect_agreement(database, Erased<Messages>::codec), ...);
 }
 
 template <class Case>

@@ -2,7 +2,7 @@
 // weight negative.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
+#include <functional>
 #include <random>
 
 #include "target/estimators/filtering/positive_definite.hpp"
@@ -20,10 +20,10 @@ Errors<N> some_errors(double heading_sigma) {
   Settings settings = recorded_settings(Algorithm::ukf, N == 18 ? Aiding::ssbl : Aiding::gps);
   settings.heading_sigma_0 = heading_sigma;
   Errors<N> errors = std::get<Errors<N>>(initial({}, settings).errors);
-  const Vector<N> sigma = errors.P.diagonal().cwiseSqrt();
-  Matrix<N, N> mix = Matrix<N, N>::Identity() + 0.2 * random_matrix<N, N>(engine);
-  errors.P = sigma.asDiagonal() * (mix * mix.transpose()) * sigma.asDiagonal();
-  errors.x = 0.5 * sigma.cwiseProduct(random_matrix<N, 1>(engine));
+  const Dense sigmas = diagonal_matrix(entrywise_roots(diagonal(errors.P)));
+  const Dense mix = identity(N) + 0.2 * random_dense(N, N, engine);
+  errors.P = (sigmas * (mix * transposed(mix)) * sigmas).fixed<N, N>();
+  errors.x = (0.5 * sigmas * random_dense(N, 1, engine)).fixed<N, 1>();
   return errors;
 }
 
@@ -34,30 +34,32 @@ Interval some_interval() {
   return state.ins.interval;
 }
 
-template <int N>
-Errors<N> as_written(const Errors<N>& before, const Interval& interval, const Settings& settings) {
-  const Matrix<N, N> root = settings.ukf_root == UkfRoot::symmetric
-                                ? filtering::symmetric_root<N>(before.P)
-                                : Matrix<N, N>(Eigen::LLT<Matrix<N, N>>(before.P).matrixL());
-  const Vector<N> centre = predicted<N>(before.x, interval);
-  std::vector<Vector<N>> difference;
+struct Normal {
+  Dense x, P;
+};
+
+// `image` is the map of the errors over the interval, `root` a root of P.
+Normal as_written(const Dense& x, const Dense& root, const std::function<Dense(const Dense&)>& image,
+                  const Interval& interval, const Settings& settings) {
+  const int N = x.rows();
+  const Dense centre = image(x);
+  std::vector<Dense> difference;
   for (int j = 0; j < N; ++j)
     for (const double sign : {1.0, -1.0})
-      difference.push_back(predicted<N>(before.x + sign * std::sqrt(3.0) * root.col(j), interval) - centre);
-  Vector<N> shift = Vector<N>::Zero();
-  for (const Vector<N>& d : difference) shift += d / 6;
+      difference.push_back(image(x + sign * std::sqrt(3.0) * root.column(j)) - centre);
+  Dense shift(N, 1);
+  for (const Dense& d : difference) shift = shift + d / 6;
   const bool about_mean = settings.ukf_covariance == UkfCovariance::about_mean;
-  Errors<N> after;
-  after.x = centre + shift;
-  if (about_mean) after.P = (1 - N / 3.0) * shift * shift.transpose();
-  for (Vector<N> d : difference) {
-    if (about_mean) d -= shift;
-    after.P += d * d.transpose() / 6;
+  Normal after{centre + shift, Dense(N, N)};
+  if (about_mean) after.P = (1 - N / 3.0) * shift * transposed(shift);
+  for (Dense d : difference) {
+    if (about_mean) d = d - shift;
+    after.P = after.P + d * transposed(d) / 6;
   }
-  after.P.diagonal().template segment<3>(3).array() +=
-      settings.accel_noise_density * settings.accel_noise_density * interval.duration;
-  after.P.diagonal().template segment<3>(6).array() +=
-      settings.gyro_noise_density * settings.gyro_noise_density * interval.duration;
+  for (int i = 0; i < 3; ++i) {
+    after.P(3 + i, 3 + i) += settings.accel_noise_density * settings.accel_noise_density * interval.duration;
+    after.P(6 + i, 6 + i) += settings.gyro_noise_density * settings.gyro_noise_density * interval.duration;
+  }
   return after;
 }
 
@@ -67,16 +69,17 @@ void expect_as_written(UkfRoot root, UkfCovariance covariance) {
   settings.ukf_root = root;
   settings.ukf_covariance = covariance;
   const Interval interval = some_interval();
-  const Errors<N> before = some_errors<N>(0.3);
-  const Errors<N> expected = as_written<N>(before, interval, settings);
-  Errors<N> errors = before;
+  Errors<N> errors = some_errors<N>(0.3);
+  const Dense root_of_P =
+      root == UkfRoot::symmetric ? Dense(filtering::symmetric_root<N>(errors.P)) : lower_cholesky(errors.P);
+  const auto image = [&](const Dense& x) -> Dense { return predicted<N>(x.fixed<N, 1>(), interval); };
+  const Normal expected = as_written(errors.x, root_of_P, image, interval, settings);
   EXPECT_EQ(predict_ukf<N>(errors, interval, settings), 0);
-  const Vector<N> sigma = expected.P.diagonal().cwiseSqrt();
-  const Matrix<N, N> scaled =
-      sigma.cwiseInverse().asDiagonal() * (errors.P - expected.P) * sigma.cwiseInverse().asDiagonal();
-  EXPECT_LT(scaled.cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LT((errors.x - expected.x).cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 1e-10);
-  EXPECT_EQ(errors.P, errors.P.transpose());
+  const Dense sigma = entrywise_roots(diagonal(expected.P));
+  const Dense weights = inverse(diagonal_matrix(sigma));
+  EXPECT_LT(largest(weights * (errors.P - expected.P) * weights), 1e-9);
+  EXPECT_LT(largest(entrywise_quotient(errors.x - expected.x, sigma)), 1e-10);
+  EXPECT_EQ(Dense(errors.P), transposed(errors.P));
 }
 
 TEST(Ukf, IsTheTransformAsWritten) {

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <complex>
 #include <fstream>
@@ -27,6 +25,8 @@ constexpr double q = 300, Ts = 0.005;
 constexpr Noise thermal{.thermal = 1e-10, .glint = 0, .constant = 0};
 constexpr Noise glint{.thermal = 0, .glint = 0.5, .constant = 0};
 constexpr double thermal_psd = 1e-20 * Ts, glint_psd = 0.25 * Ts;
+
+Dense columns(const std::array<double, 9>& entries) { return {entries.data(), 3, 3}; }
 
 TEST(Riccati, EqualsThePublishedTable) {
   std::ifstream file(TEST_DATA_DIR "/los_rate/are_table.csv");
@@ -53,20 +53,17 @@ TEST(Riccati, SolvesItsEquationWhateverTheRatioOfSpeedToNoise) {
   for (const double x : {0.0, 0.01, 0.15, 0.5, 1.0, 3.0, 10.0}) {
     const double v = x * 7;  // W = 7
     const double s2 = 300 / std::pow(7.0, 6);
-    const Matrix3d P = matrix(riccati(300, s2, v));
-    Matrix3d A;
-    A << 1.5 * v, 1, 0, 0, 2.5 * v, 1, 0, 0, 0.5 * v;
-    Matrix3d Q = Matrix3d::Zero();
-    Q(2, 2) = 300;
-    const Matrix3d residual = A * P + P * A.transpose() - P.col(0) * P.row(0) / s2 + Q;
-    const Matrix3d size = (A * P).cwiseAbs() + P.cwiseAbs() * A.transpose() +
-                          P.col(0).cwiseAbs() * P.row(0).cwiseAbs() / s2 + Q;
-    EXPECT_LT(residual.cwiseQuotient(size).cwiseAbs().maxCoeff(), 1e-12) << x;
+    const Dense P = matrix(riccati(300, s2, v)), P_size = entrywise_sizes(P);
+    const Dense A = columns({1.5 * v, 0, 0, 1, 2.5 * v, 0, 0, 1, 0.5 * v});
+    const Dense Q = diagonal_matrix(Vector3d(0, 0, 300));
+    const Dense residual = A * P + P * transposed(A) - P.column(0) * P.row(0) / s2 + Q;
+    const Dense size =
+        entrywise_sizes(A * P) + P_size * transposed(A) + P_size.column(0) * P_size.row(0) / s2 + Q;
+    EXPECT_LT(largest(entrywise_quotient(residual, size)), 1e-12) << x;
     // Stabilising, of all solutions: (A - k C)' stable for every x.
-    const Vector3d k = P.col(0) / s2;
-    const double c1 = k(0) - 4.5 * v;
+    const double c1 = P(0, 0) / s2 - 4.5 * v;
     EXPECT_GT(c1, 0);
-    EXPECT_GT(P.determinant(), 0);
+    EXPECT_GT(determinant(P), 0);
   }
 }
 
@@ -90,7 +87,7 @@ double worst_gain_error(const Noise& noise, double vc, const Matrix3d& P0, doubl
   return worst;
 }
 
-Matrix3d generic_start() { return Vector3d(6e-6, 0.0025, 1600).asDiagonal(); }
+Matrix3d generic_start() { return diagonal_matrix(Vector3d(6e-6, 0.0025, 1600)).fixed<3, 3>(); }
 
 TEST_P(DifferentialRiccati, ThermalStartedOnTheClosedFormStaysThere) {
   const double vc = GetParam();
@@ -174,7 +171,7 @@ TEST(SteadyState, OfOneNoiseAloneIsThatNoisesClosedForm) {
 Vector3d discrete_gain(double W, double T) {
   const double psd = 0.25 * T, jerk = std::pow(W, 6) * psd;
   Covariance P{.ee = 1, .ww = 1, .aa = 100};
-  Vector3d gain = Vector3d::Zero();
+  Vector3d gain(0, 0, 0);
   for (int k = 0; k < 200'000; ++k) {
     P = predicted(P, {1, 0}, T, jerk);
     const Gain K = kalman_gain(P, 0.25);
@@ -192,17 +189,15 @@ TEST(PoleMatch, EqualsTheDiscreteRiccatiEquationOfGlint) {
     const Gain k{2 * 15.0, 2 * 225.0, 3375.0};
     EXPECT_LT(relative_difference(vector(pole_matched(k, T)), discrete_gain(15, T)), 1e-6) << WT;
     // The low-order rule K Ts fails this comparison.
-    const Vector3d euler = vector(k) * T;
+    const Vector3d euler(k.e * T, k.w * T, k.a * T);
     EXPECT_GT(relative_difference(euler, discrete_gain(15, T)), 0.5 * WT) << WT;
   }
 }
 
 // Poles of I - K H Phi in displacement states.
 double spectral_radius(const Gain& K, double T) {
-  Matrix3d Phi;
-  Phi << 1, T, T * T / 2, 0, 1, T, 0, 0, 1;
-  const Matrix3d closed = Phi - vector(K) * Phi.row(0);
-  return closed.eigenvalues().cwiseAbs().maxCoeff();
+  const Dense Phi = columns({1, 0, 0, T, 1, 0, T * T / 2, T, 1});
+  return canhil::spectral_radius(Phi - vector(K) * Phi.row(0));
 }
 
 TEST(PoleMatch, IsStableForAnyStepWhereEulerIsNot) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "target/estimators/los_rate/closed_form.hpp"
+#include "tests/unit/target/estimators/reference_matrix.hpp"
 
 namespace canhil::los_rate {
 
@@ -15,9 +16,8 @@ inline Eigen::Matrix3d matrix(const Covariance& P) {
 inline Eigen::Vector3d vector(const Gain& K) { return {K.e, K.w, K.a}; }
 
 /// Largest relative difference of the entries.
-template <class A, class B>
-double relative_difference(const A& value, const B& reference) {
-  return ((value - reference).array() / reference.array()).abs().maxCoeff();
+inline double relative_difference(const Dense& value, const Dense& reference) {
+  return largest(entrywise_quotient(value - reference, reference));
 }
 
 /// P' = F P + P F' + q G G' - P H'H P/(R(r) Ts) from r_begin to r_end [m] at constant vc, by the classical

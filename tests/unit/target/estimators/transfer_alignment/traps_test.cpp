@@ -1,7 +1,6 @@
 // What is easily got wrong in this filter; each test names the mistake it catches.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
@@ -15,7 +14,6 @@
 namespace canhil::transfer_alignment {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // A slave that has flown `samples` error-free increments.
@@ -29,6 +27,13 @@ State flown(const Settings& settings, int samples, const strapdown::NavState& st
   return state;
 }
 
+Dense three(const StateVector& x, int first) { return Dense(x).block(first, 0, 3, 1); }
+
+// A covariance of standard deviations of the order of 0.01.
+Covariance small_covariance(std::mt19937_64& engine) {
+  return (1e-4 * random_covariance_dense(state_count, engine)).fixed<state_count, state_count>();
+}
+
 // Chat <- exp(+[phi x]) Chat, phi in n axes and from the left: what dx holds is what the misalignment loses.
 // A heading of 100 deg tells body from navigation axes.
 TEST(Traps, CorrectionRemovesTheEstimatedError) {
@@ -37,17 +42,17 @@ TEST(Traps, CorrectionRemovesTheEstimatedError) {
   strapdown::NavState start = flight_start();
   start.C_bn = strapdown::dcm_from_euler({0.2, 0.1, 100 * rad_per_deg});
   State state = flown(settings, 10, start);
-  state.P = random_covariance<state_count>(engine) * 1e-4;
+  state.P = small_covariance(engine);
   const Ins before = state.ins;
   const UpdateResult result = update(state, before.nav.v_eb_n - Vector3d(0.3, -0.4, 0.5), settings);
   ASSERT_EQ(result.outcome, Outcome::ok);
-  const Vector3d phi = result.dx.segment<3>(attitude_state);
-  ASSERT_GT(phi.norm(), 1e-4);
+  const Dense phi = three(result.dx, attitude_state);
+  ASSERT_GT(norm(phi), 1e-4);
   // Of the INS before the correction, relative to the corrected one: exactly the estimated errors.
-  EXPECT_LT((strapdown::misalignment(before.nav.C_bn, state.ins.nav.C_bn) - phi).norm(), 1e-14);
-  EXPECT_LT((before.nav.v_eb_n - state.ins.nav.v_eb_n - result.dx.segment<3>(velocity_state)).norm(), 1e-13);
-  EXPECT_EQ(state.ins.accel_bias, before.accel_bias + result.dx.segment<3>(accel_bias_state));
-  EXPECT_EQ(state.ins.gyro_bias, before.gyro_bias + result.dx.segment<3>(gyro_bias_state));
+  EXPECT_LT(norm(Dense(strapdown::misalignment(before.nav.C_bn, state.ins.nav.C_bn)) - phi), 1e-14);
+  EXPECT_LT(norm(Dense(before.nav.v_eb_n) - state.ins.nav.v_eb_n - three(result.dx, velocity_state)), 1e-13);
+  EXPECT_EQ(Dense(state.ins.accel_bias), Dense(before.accel_bias) + three(result.dx, accel_bias_state));
+  EXPECT_EQ(Dense(state.ins.gyro_bias), Dense(before.gyro_bias) + three(result.dx, gyro_bias_state));
 }
 
 // The model's own signs: from each error alone the filter moves towards the truth.
@@ -64,7 +69,7 @@ TEST(Traps, EachErrorIsDrivenTowardsZero) {
       truth = flight_next(truth, t, dt);
       if (k % 10 == 9) update(state, truth.v_eb_n, settings);
     }
-    EXPECT_LT(strapdown::misalignment(state.ins.nav.C_bn, truth.C_bn).norm(), 0.002) << axis;
+    EXPECT_LT(norm(strapdown::misalignment(state.ins.nav.C_bn, truth.C_bn)), 0.002) << axis;
   }
 }
 
@@ -93,10 +98,10 @@ TEST(Traps, MeasurementNoiseIsADensity) {
   settings.algorithm = Algorithm::kalman;
   for (const int samples : {5, 10, 30}) {
     State state = flown(settings, samples);
-    state.P = 1e-12 * Covariance::Identity();
+    state.P = (1e-12 * identity(state_count)).fixed<state_count, state_count>();
     const UpdateResult result = update(state, state.ins.nav.v_eb_n, settings);
-    const Matrix3d expected = Matrix3d::Identity() * (0.01 / (samples * 0.01));
-    EXPECT_LT((result.innovation_covariance - expected).norm(), 1e-6) << samples;
+    const Dense expected = 0.01 / (samples * 0.01) * identity(3);
+    EXPECT_LT(norm(result.innovation_covariance - expected), 1e-6) << samples;
   }
 }
 
@@ -107,16 +112,16 @@ TEST(Traps, BetaUsesAllRowsOfThePosterior) {
     Settings settings;
     settings.h2_case = h2_case;
     State state = flown(settings, 10);
-    state.P = random_covariance<state_count>(engine) * 1e-4;
+    state.P = small_covariance(engine);
     const Vector3d f = state.ins.interval.delta_v_n / state.ins.interval.duration;
-    const Matrix3d F = strapdown::skew(f), P_phi = state.P.block<3, 3>(attitude_state, attitude_state);
-    const double alpha = std::sqrt((F * P_phi * F.transpose()).trace());
+    const Dense F = strapdown::skew(f), P = state.P;
+    const Dense F_P_Ft = F * P.block(attitude_state, attitude_state, 3, 3) * transposed(F);
+    const double alpha = std::sqrt(F_P_Ft(0, 0) + F_P_Ft(1, 1) + F_P_Ft(2, 2));
     const Uncertainty u = uncertainty(h2_case, alpha);
-    Covariance NtN = Covariance::Zero();
-    NtN.block<3, 3>(attitude_state, attitude_state) = u.N.transpose() * u.N;
-    const Covariance PNNP = state.P * NtN * state.P;
-    const double beta = std::sqrt(2 * filtering::largest_eigenvalue<state_count>(PNNP) /
-                                  filtering::largest_eigenvalue<3>(u.L * u.L.transpose()));
+    Dense NtN(state_count, state_count);
+    NtN.set(attitude_state, attitude_state, transposed(u.N) * u.N);
+    const double beta = std::sqrt(2 * symmetric_eigenvalues(P * NtN * P).back() /
+                                  symmetric_eigenvalues(Dense(u.L) * transposed(u.L)).back());
     const UpdateResult result = update(state, state.ins.nav.v_eb_n, settings);
     EXPECT_NEAR(result.alpha / alpha, 1, 1e-12);
     EXPECT_NEAR(result.beta / beta, 1, 1e-12);
@@ -128,22 +133,20 @@ TEST(Traps, CovarianceStepIsTheDenseH2Recursion) {
   std::mt19937_64 engine(7);
   const Settings settings;
   State state = flown(settings, 10);
-  state.P = random_covariance<state_count>(engine) * 1e-4;
+  state.P = small_covariance(engine);
   const State before = state;
   const double dt = before.ins.interval.duration;
   const UpdateResult result = update(state, state.ins.nav.v_eb_n, settings);
   const Uncertainty u = uncertainty(settings.h2_case, result.alpha);
-  Eigen::Matrix<double, state_count, 3> L = Eigen::Matrix<double, state_count, 3>::Zero();
-  Eigen::Matrix<double, 3, state_count> N = Eigen::Matrix<double, 3, state_count>::Zero(), H = N;
-  L.topRows<3>() = u.L;
-  N.middleCols<3>(attitude_state) = u.N;
-  H.leftCols<3>().setIdentity();
-  const Covariance A = transition_increment(before.ins.interval) / dt;
-  const Covariance Q = process_noise(settings, 1).asDiagonal();
+  const auto L = Dense(state_count, 3).set(0, 0, u.L).fixed<state_count, 3>();
+  const auto N = Dense(3, state_count).set(0, attitude_state, u.N).fixed<3, state_count>();
+  const auto H = Dense(3, state_count).set(0, 0, identity(3)).fixed<3, state_count>();
+  const auto A = (Dense(transition_increment(before.ins.interval)) / dt).fixed<state_count, state_count>();
+  const auto Q = diagonal_matrix(process_noise(settings, 1)).fixed<state_count, state_count>();
   const Covariance prior = filtering::propagate_h2<state_count, 3, 3>(before.P, A, Q, L, N, result.beta, dt);
-  const Matrix3d R = Matrix3d::Identity() * (settings.velocity_noise_density / dt);
+  const auto R = (settings.velocity_noise_density / dt * identity(3)).fixed<3, 3>();
   const auto expected = filtering::update<state_count, 3>(prior, H, R, Vector3d::Zero());
-  EXPECT_LT((state.P - expected.P).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT(largest_difference(state.P, expected.P), 1e-14);
 }
 
 // alpha = |dC| |f| or an uncapped sqrt(tr P_phi) lets the heading variance run away in cruise.

@@ -4,41 +4,37 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <functional>
 
+#include "tests/unit/target/estimators/reference_matrix.hpp"
 #include "tests/unit/target/estimators/wind/recorded_run.hpp"
 
 namespace canhil::wind {
 namespace {
 
-// Sizes at run time, also of what is always 9 x 12: Eigen unrolls products of fixed sizes while compiling,
-// which took most of a minute here.
-using Dense = Eigen::MatrixXd;
-
-Dense inverse(const Dense& A) { return A.inverse(); }
-
 Dense dense_H(const StateVector& x) {
   const GroundVelocity at = ground_velocity(x);
-  Dense H = Dense::Zero(9, 12);
-  H.block<3, 3>(0, air_velocity_at) = at.C_bn;
-  H.block<3, 3>(0, attitude_at) = at.by_attitude;
-  H.block<3, 3>(0, wind_at).setIdentity();
-  H.block<6, 6>(3, rate_at).setIdentity();
-  return H;
+  return Dense(9, 12)
+      .set(0, air_velocity_at, at.C_bn)
+      .set(0, attitude_at, at.by_attitude)
+      .set(0, wind_at, identity(3))
+      .set(3, rate_at, identity(6));
 }
 
 Dense dense_R(const Settings& s) {
-  Observation sigma;
-  sigma << Eigen::Vector3d::Constant(s.velocity_sigma), Eigen::Vector3d::Constant(s.rate_sigma),
-      Eigen::Vector3d::Constant(s.attitude_sigma);
-  return sigma.cwiseAbs2().asDiagonal();
+  Dense R(9, 9);
+  for (int i = 0; i < 3; ++i) {
+    R(i, i) = s.velocity_sigma * s.velocity_sigma;
+    R(3 + i, 3 + i) = s.rate_sigma * s.rate_sigma;
+    R(6 + i, 6 + i) = s.attitude_sigma * s.attitude_sigma;
+  }
+  return R;
 }
 
 // The largest error of entry (i, j), on the scale of the sigmas of its row and column.
-double scaled_miss(const Covariance& P, const Covariance& expected) {
-  const StateVector weight = expected.diagonal().cwiseSqrt().cwiseInverse();
-  return (weight.asDiagonal() * (P - expected) * weight.asDiagonal()).cwiseAbs().maxCoeff();
+double scaled_miss(const Dense& P, const Dense& expected) {
+  const Dense sigma = entrywise_roots(diagonal(expected));
+  return largest(entrywise_quotient(P - expected, sigma * transposed(sigma)));
 }
 
 struct Misses {
@@ -46,46 +42,45 @@ struct Misses {
   double asymmetry = 0;
 };
 
+struct Posterior {
+  Dense dx, P;
+};
+
 // Runs the vector and compares each update with expected(x_prior, P_prior, innovation) -> {dx, P}.
-template <class Expected>
-Misses compared(const RecordedRun& run, const Settings& settings, const Expected& expected) {
+Misses compared(const RecordedRun& run, const Settings& settings,
+                const std::function<Posterior(const Dense&, const Dense&, const Dense&)>& expected) {
   Misses worst;
   run.run(make_design(settings),
           [&](std::size_t, const StateVector& x, const Covariance& P, const Answer& answer,
               const StateVector& x_prior, const Covariance& P_prior) {
             const Dense H = dense_H(x_prior);
             const Dense P_dense = P_prior;
-            const auto [dx, P_expected] = expected(H, P_dense, answer.innovation);
-            const StateVector sigma = P_expected.diagonal().cwiseSqrt();
-            worst.x = std::max(worst.x, (x - x_prior - dx).cwiseQuotient(sigma).cwiseAbs().maxCoeff());
+            const Dense innovation = answer.innovation;
+            const auto [dx, P_expected] = expected(H, P_dense, innovation);
+            const Dense sigma = entrywise_roots(diagonal(P_expected));
+            worst.x = std::max(worst.x, largest(entrywise_quotient(Dense(x) - x_prior - dx, sigma)));
             worst.P = std::max(worst.P, scaled_miss(P, P_expected));
-            worst.asymmetry = std::max(worst.asymmetry, (P - P.transpose()).cwiseAbs().maxCoeff());
-            const Dense S = H * P_dense * H.transpose() + dense_R(settings);
-            const double nis = answer.innovation.dot(inverse(S) * answer.innovation);
+            worst.asymmetry = std::max(worst.asymmetry, largest_difference(P, transposed(P)));
+            const Dense S = H * P_dense * transposed(H) + dense_R(settings);
+            const double nis = dot(innovation, inverse(S) * innovation);
             worst.nis = std::max(worst.nis, std::abs(answer.nis - nis) / nis);
             EXPECT_TRUE(filtering::is_positive_definite<12>(P));
           });
   return worst;
 }
 
-struct Posterior {
-  StateVector dx;
-  Covariance P;
-};
-
-Posterior kalman(const Dense& H, const Dense& P, const Observation& innovation, const Dense& R) {
-  const Dense S = H * P * H.transpose() + R;
-  const Dense K = P * H.transpose() * inverse(S);
+Posterior kalman(const Dense& H, const Dense& P, const Dense& innovation, const Dense& R) {
+  const Dense S = H * P * transposed(H) + R;
+  const Dense K = P * transposed(H) * inverse(S);
   return {K * innovation, P - K * H * P};
 }
 
 TEST(WindCorrection, ScalarUpdatesAreTheKalmanUpdate) {
   const RecordedRun run;
   const Dense R = dense_R(run.settings);
-  const Misses worst =
-      compared(run, run.settings, [&](const Dense& H, const Dense& P, const Observation& innovation) {
-        return kalman(H, P, innovation, R);
-      });
+  const Misses worst = compared(
+      run, run.settings,
+      [&](const Dense& H, const Dense& P, const Dense& innovation) { return kalman(H, P, innovation, R); });
   EXPECT_LT(worst.x, 1e-9);
   EXPECT_LT(worst.P, 1e-9);
   EXPECT_LT(worst.nis, 1e-9);
@@ -99,16 +94,14 @@ TEST(WindCorrection, HInfinityIsTheFormWithoutInverseOfP) {
   settings.algorithm = Algorithm::h_infinity;
   settings.rate_weight = 3;
   const Dense R = dense_R(settings);
-  const Misses worst =
-      compared(run, settings, [&](const Dense& H, const Dense& P, const Observation& innovation) {
-        const Dense Pu = kalman(H, P, innovation, R).P;
-        Dense SL = Dense::Zero(6, 12);
-        SL.leftCols<6>().diagonal() << 1, 1, 1, std::sqrt(3.0), std::sqrt(3.0), std::sqrt(3.0);
-        const Dense margin = Dense::Identity(6, 6) / 0.03 - SL * Pu * SL.transpose();
-        const Dense inflated = Pu + Pu * SL.transpose() * inverse(margin) * SL * Pu;
-        const StateVector dx = inflated * H.transpose() * inverse(R) * innovation;
-        return Posterior{dx, inflated};
-      });
+  const Misses worst = compared(run, settings, [&](const Dense& H, const Dense& P, const Dense& innovation) {
+    const Dense Pu = kalman(H, P, innovation, R).P;
+    Dense SL = Dense(6, 12).set(0, 0, identity(3)).set(3, 3, std::sqrt(3.0) * identity(3));
+    const Dense margin = identity(6) / 0.03 - SL * Pu * transposed(SL);
+    const Dense inflated = Pu + Pu * transposed(SL) * inverse(margin) * SL * Pu;
+    const Dense dx = inflated * transposed(H) * inverse(R) * innovation;
+    return Posterior{dx, inflated};
+  });
   EXPECT_LT(worst.x, 1e-8);
   EXPECT_LT(worst.P, 1e-9);
   EXPECT_EQ(worst.asymmetry, 0);
@@ -120,15 +113,13 @@ TEST(WindCorrection, Eq24To27PrintedRecursionMatches) {
   Settings settings = run.settings;
   settings.algorithm = Algorithm::h_infinity;
   const Dense R = dense_R(settings);
-  const Misses worst =
-      compared(run, settings, [&](const Dense& H, const Dense& P, const Observation& innovation) {
-        Dense S_bar = Dense::Zero(12, 12);
-        S_bar.diagonal().head<6>().setOnes();
-        const Dense information = inverse(P) - 0.03 * S_bar + H.transpose() * inverse(R) * H;
-        const Dense inflated = inverse(information);
-        const StateVector dx = inflated * H.transpose() * inverse(R) * innovation;
-        return Posterior{dx, inflated};
-      });
+  const Misses worst = compared(run, settings, [&](const Dense& H, const Dense& P, const Dense& innovation) {
+    const Dense S_bar = Dense(12, 12).set(0, 0, identity(6));
+    const Dense information = inverse(P) - 0.03 * S_bar + transposed(H) * inverse(R) * H;
+    const Dense inflated = inverse(information);
+    const Dense dx = inflated * transposed(H) * inverse(R) * innovation;
+    return Posterior{dx, inflated};
+  });
   EXPECT_LT(worst.x, 1e-6);
   EXPECT_LT(worst.P, 1e-6);
 }
@@ -145,7 +136,7 @@ TEST(WindCorrection, ThetaOfZeroIsTheEkf) {
     double worst = 0;
     run.run(make_design(settings),
             [&](std::size_t k, const StateVector& x, const Covariance&, const Answer&, const StateVector&,
-                const Covariance&) { worst = std::max(worst, (x - ekf[k]).cwiseAbs().maxCoeff()); });
+                const Covariance&) { worst = std::max(worst, largest_difference(x, ekf[k])); });
     EXPECT_LT(worst, 1e-12) << theta;
   }
 }
@@ -161,9 +152,8 @@ TEST(WindCorrection, ThetaIsLoweredToTheCap) {
   run.run(make_design(settings),
           [&](std::size_t k, const StateVector&, const Covariance& P, const Answer& answer,
               const StateVector& x_prior, const Covariance& P_prior) {
-            const Covariance Pu = kalman(dense_H(x_prior), P_prior, answer.innovation, R).P;
-            const Dense B = Pu.topLeftCorner<6, 6>();
-            const double lambda = Eigen::SelfAdjointEigenSolver<Dense>(B).eigenvalues().maxCoeff();
+            const Dense Pu = kalman(dense_H(x_prior), P_prior, answer.innovation, R).P;
+            const double lambda = symmetric_eigenvalues(Pu.block(0, 0, 6, 6)).back();
             EXPECT_EQ(answer.theta_capped, 0.1 * lambda > 0.04) << k;
             EXPECT_NEAR(answer.theta, std::min(0.1, 0.04 / lambda), 1e-9) << k;
             EXPECT_TRUE(filtering::is_positive_definite<12>(P));
