@@ -43,7 +43,7 @@ TEST(IncrementRounding, SendsWhatTheCodecCarriesExactly) {
   const SignalInfo& signal = SlaveImuDeltaTheta::signals()[0];
   IncrementRounding rounding(signal);
   for (int k = 0; k < 1000; ++k) {
-    const double sent = rounding.round({1.23456e-3, 0, 0}).x();
+    const double sent = rounding.round({1.23456e-3, 0, 0}, Rounding::as_on_the_bus).x();
     const auto frame = to_frame(SlaveImuDeltaTheta{.delta_theta_x_rad = sent}, 0);
     ASSERT_EQ(from_frame<SlaveImuDeltaTheta>(frame).delta_theta_x_rad, sent);
   }
