@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A campaign on the machines of a list, with GNU parallel; every machine has hil-bench, the campaign and the folder OUT
+# A campaign on the machines of a list, with GNU parallel; every machine has hil-bench and hil-bench-campaign, the campaign and the folder OUT
 # at the same place (a network file system):
 #   docs/examples/gnu_parallel.sh CAMPAIGN.toml OUT SHARDS [--sshloginfile MACHINES]
 # Without a list: processes of this machine, as many at a time as it has cores.

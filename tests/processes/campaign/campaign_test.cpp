@@ -233,8 +233,22 @@ TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {
 std::string hil_bench_of_nobody() {
   if (geteuid() != 0) return HIL_BENCH;
   fs::permissions(scratch(""), fs::perms{0755});
-  fs::copy_file(HIL_BENCH, scratch("hil-bench"), fs::copy_options::overwrite_existing);
+  for (const char* program : {"hil-bench", "hil-bench-campaign"}) {
+    fs::copy_file(fs::path(HIL_BENCH).replace_filename(program), scratch(program),
+                  fs::copy_options::overwrite_existing);
+  }
   return "setpriv --reuid=65534 --regid=65534 --clear-groups " + scratch("hil-bench");
+}
+
+// It is a program of its own, which need not be built.
+TEST(CampaignBadInput, WithoutItsProgramIsOneLineThatSaysHowItIsMade) {
+  const std::string alone = folder("alone") + "/hil-bench";
+  fs::copy_file(HIL_BENCH, alone);
+  expect_one_line(
+      shell(fmt::format("{} campaign {}", alone, campaign_file())),
+      "alone/hil-bench-campaign: No such file or directory, expected it beside hil-bench: cmake --build "
+      "build/default --target hil-bench-campaign");
+  EXPECT_THAT(shell(alone + " --help").out, testing::HasSubstr("campaign"));
 }
 
 TEST(CampaignBadInput, ReadOnlyFolderIsOneLineAndLeavesWhatIsThere) {
