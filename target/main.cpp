@@ -65,8 +65,7 @@ int run(int argc, char** argv) {
     const std::string warning = canhil::realtime::frequency_warning(canhil::realtime::standing());
     if (!warning.empty()) std::fprintf(stderr, "hil-target: %s\n", warning.c_str());
   }
-  std::signal(SIGTERM, request_stop);
-  std::signal(SIGINT, request_stop);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, request_stop);
   const auto served = canhil::target::serve(buses, *format, stop_requested);
   return served ? 0 : complain(served.error());
 }

@@ -186,7 +186,7 @@ ExitCode replay(const ReplayArguments& arguments) {
                                  *arguments.run, campaign->runs - 1)});
   }
   run::Options options;
-  options.bus = "in-process";
+  options.bus = run::in_process_bus;
   options.clock = run::ClockKind::lockstep;
   options.run_index = *arguments.run;
   if (!arguments.log.empty()) {

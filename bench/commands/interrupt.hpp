@@ -1,4 +1,4 @@
-// Ctrl-C and a polite kill end a command in good order.
+// Ctrl-C, a polite kill and a terminal that goes away end a command in good order.
 #pragma once
 
 #include <atomic>
@@ -6,13 +6,12 @@
 
 namespace canhil::commands {
 
-/// Set by SIGINT and SIGTERM once catch_interrupts() was called.
+/// Set by SIGINT, SIGTERM and SIGHUP once catch_interrupts() was called.
 inline std::atomic<bool> interrupted = false;
 
 inline void catch_interrupts() {
   const auto handler = [](int) { interrupted = true; };
-  std::signal(SIGINT, handler);
-  std::signal(SIGTERM, handler);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, handler);
 }
 
 }  // namespace canhil::commands

@@ -33,7 +33,6 @@ namespace canhil::commands {
 namespace {
 
 constexpr std::string_view private_bus = "local:";
-constexpr std::string_view in_process = "in-process";
 constexpr std::size_t heap_bytes = 64 << 20;  // what a run of some minutes records
 
 // As typed.
@@ -143,22 +142,25 @@ void remove_earlier(const Arguments& arguments) {
   }
 }
 
-// A report on stdout stands in place of the text.
+// A report on stdout stands in place of the text. One that cannot be written costs none of the others. Error:
+// of the first.
 Result<void> write_reports(const Arguments& arguments, const scenario::Scenario& scenario,
                            const run::Run& run) {
+  Result<void> all;
+  const auto note = [&](Result<void> written) {
+    if (all && !written) all = std::move(written);
+  };
   if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
-    if (auto shown = report::write_stdout(report::text(scenario, run)); !shown) return shown;
+    note(report::write_stdout(report::text(scenario, run)));
   }
-  if (!arguments.json.empty()) {
-    if (auto written = report::write(arguments.json, report::json(scenario, run)); !written) return written;
+  if (!arguments.json.empty()) note(report::write(arguments.json, report::json(scenario, run)));
+  if (!arguments.junit.empty()) note(report::write(arguments.junit, report::junit(scenario, run)));
+  if (!arguments.html.empty()) {
+    const auto page = report::html(report::document(scenario, run));
+    note(page ? report::write_file(arguments.html, *page) : tl::unexpected(page.error()));
   }
-  if (!arguments.junit.empty()) {
-    if (auto written = report::write(arguments.junit, report::junit(scenario, run)); !written) return written;
-  }
-  if (arguments.html.empty()) return {};
-  const auto page = report::html(report::document(scenario, run));
-  if (!page) return tl::unexpected(page.error());
-  return report::write_file(arguments.html, *page);
+  if (run.log_error) note(tl::unexpected(*run.log_error));
+  return all;
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
@@ -210,7 +212,7 @@ Result<void> check_bus(const Arguments& arguments) {
   if (arguments.target_cpu) {
     if (auto known = realtime::check_cpu("--target-cpu", *arguments.target_cpu); !known) return known;
   }
-  static const std::vector<std::string> known{std::string(in_process), std::string(private_bus)};
+  static const std::vector<std::string> known{std::string(run::in_process_bus), std::string(private_bus)};
   const bool names_one = arguments.bus.starts_with(private_bus) || here;
   const std::string meant = scenario::nearest(arguments.bus, known);
   if (!names_one && !meant.empty() && if_nametoindex(arguments.bus.c_str()) == 0)

@@ -1,5 +1,6 @@
 #include "bench/nodes/master_ins.hpp"
 
+#include "bench/nodes/sample_loss.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
@@ -8,10 +9,12 @@ namespace canhil::nodes {
 using world::units::deg;
 
 MasterIns::MasterIns(const world::FlightRecord& flight, const scenario::MasterIns& config,
-                     world::Stream stream)
+                     world::Stream stream, world::Stream losses)
     : flight_(flight),
       errors_(config.errors),
+      loss_(config.loss),
       stream_(stream),
+      losses_(losses),
       sampling_(config.schedule.period_us.value_or(messages::MasterInsVelocityD::info.cycle_time_us),
                 config.schedule.latency_us, flight.end_us()) {}
 
@@ -28,6 +31,8 @@ void MasterIns::transmit(Transmission& out) {
   out.send(messages::MasterInsLongitude{.longitude_deg = solution.position.longitude / deg});
   out.send(messages::MasterInsVelocityD{.velocity_down_mps = solution.v_eb_n.z(),
                                         .time_of_validity_us = wrap_us(sampling_.valid_us())});
+  if (is_lost(loss_, sampling_.valid_us(), losses_))
+    out.clear();  // counted as sent: the receiver sees the gap
   sampling_.advance();
 }
 

@@ -191,7 +191,7 @@ void add_los(std::vector<Series>& all, const Observations& seen, const world::En
                            .unit = "mrad/s",
                            .points = {},
                            .between = {}},
-                          duration_us, errors, t_us, [&](const checks::LosError& e) {
+                          duration_us, errors, t_us, [&, member = member](const checks::LosError& e) {
                             return std::tuple(
                                 e.rate.*member / mrad,
                                 std::optional(answer_at(seen.los, e.t_us)->rate_sigma.*member / mrad));

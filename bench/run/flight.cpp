@@ -95,7 +95,8 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
                                                         stream("slave_imu.loss")));
   }
   if (scenario.master_ins) {
-    sensors.push_back(std::make_unique<nodes::MasterIns>(truth, *scenario.master_ins, stream("master_ins")));
+    sensors.push_back(std::make_unique<nodes::MasterIns>(truth, *scenario.master_ins, stream("master_ins"),
+                                                         stream("master_ins.loss")));
   }
   if (scenario.ssbl) sensors.push_back(std::make_unique<nodes::Ssbl>(truth, *scenario.ssbl, stream("ssbl")));
   if (scenario.gps) sensors.push_back(std::make_unique<nodes::Gps>(truth, *scenario.gps, stream("gps")));

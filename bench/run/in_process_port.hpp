@@ -4,17 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "bench/run/bus_name.hpp"
 #include "dbc/ports/port.hpp"
 #include "target/device/device.hpp"
 
 namespace canhil::run {
 
 /// A port whose other end is a Device in this process: send() runs the device, receive() gives its answers.
-/// The host's clock plays no part: every stamp is 0.
+/// The host's clock plays no part: every stamp is the virtual time that the port was told last.
 class InProcessPort final : public Port {
  public:
-  explicit InProcessPort(Rounding rounding = Rounding::as_on_the_bus)
-      : device_(rounding), name_(rounding == Rounding::none ? "in-process?unrounded" : "in-process") {
+  explicit InProcessPort(Rounding rounding)
+      : device_(rounding), name_(rounding == Rounding::none ? unrounded_bus : in_process_bus) {
     append(device_.idle_heartbeat());
   }
 
@@ -30,7 +31,7 @@ class InProcessPort final : public Port {
       return std::nullopt;
     }
     ++counters_.received;
-    return Received{.frame = answers_[next_++], .t_ns = 0, .source = StampSource::virtual_time};
+    return Received{.frame = answers_[next_++], .t_ns = now_ns_, .source = StampSource::virtual_time};
   }
   /// What there is to receive came when we sent.
   bool wait_for_frame(std::int64_t /*deadline_ns*/) override { return true; }
@@ -39,7 +40,8 @@ class InProcessPort final : public Port {
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
-  [[nodiscard]] std::int64_t now_ns() const override { return 0; }
+  [[nodiscard]] std::int64_t now_ns() const override { return now_ns_; }
+  void tell_time(std::int64_t t_ns) override { now_ns_ = t_ns; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
@@ -50,6 +52,7 @@ class InProcessPort final : public Port {
   target::Device device_;
   std::vector<Frame> answers_;
   std::size_t next_ = 0;  // the first of answers_ that was not received yet
+  std::int64_t now_ns_ = 0;
   PortCounters counters_;
   std::string name_;
 };

@@ -45,6 +45,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
 
   while (schedule.due_us() != nodes::never_us) {
     t_us = schedule.due_us();
+    link.tell_time(t_us * 1000);
     if (t_us >= progress_due_us) {
       progress(t_us);
       progress_due_us = t_us + progress_period_us;

@@ -45,13 +45,18 @@ void Recorder::write(const Frame& frame, std::int64_t t_ns, bool transmitted) {
 }
 
 Result<void> Recorder::close() {
-  return writer_.close().and_then([&]() -> Result<void> {
-    if (std::rename(unfinished(path_).c_str(), path_.c_str()) == 0) {
-      closed_ = true;
-      return {};
-    }
-    return failure(fmt::format("log '{}': cannot be given its name: {}", path_, std::strerror(errno)));
-  });
+  const auto give_name = [&](const std::string& name) {
+    closed_ = std::rename(unfinished(path_).c_str(), name.c_str()) == 0;
+    return closed_;
+  };
+  auto written = writer_.close();
+  if (written && give_name(path_)) return {};
+  Error error =
+      written ? Error{fmt::format("log '{}': cannot be given its name: {}", path_, std::strerror(errno))}
+              : written.error();
+  if (const std::string rest = path_ + ".incomplete"; give_name(rest))
+    error.message += fmt::format("; what was written is in '{}'", rest);
+  return tl::unexpected(std::move(error));
 }
 
 }  // namespace canhil::run

@@ -20,7 +20,8 @@ class Recorder final : public Observer {
   ~Recorder() override;
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
-  /// Finishes the file. Error: not everything could be written; then nothing stands under `path`.
+  /// Finishes the file. Error: not everything could be written; then nothing stands under `path`, and what
+  /// was written under `path`.incomplete.
   Result<void> close();
 
  private:

@@ -28,13 +28,12 @@ namespace {
 constexpr std::int64_t silence_limit_ns =
     400'000'000;  // four heartbeats; a dead target is named within 0.5 s
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
-constexpr std::string_view in_process = "in-process";
 
 static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
 
 // Without a wire there is no bus, and frames travel as they are in both contracts.
 Result<std::unique_ptr<Port>> open_in_process(const std::string& bus, BusFormat format) {
-  if (bus == in_process || bus == unrounded_bus) return std::make_unique<InProcessPort>(rounding_of(bus));
+  if (bus == in_process_bus || bus == unrounded_bus) return std::make_unique<InProcessPort>(rounding_of(bus));
   const auto wire = wire_settings(bus);
   if (!wire) return tl::unexpected(wire.error());
   auto port = std::make_unique<InProcessWire>(bus, *wire, format);
@@ -74,6 +73,12 @@ std::vector<std::string> buses_of(const Options& options) {
   return buses;
 }
 
+LoadBy load_by(const Options& options) {
+  if (options.clock == ClockKind::lockstep)
+    return is_in_process(options.bus) ? LoadBy::time_base_alone : LoadBy::time_base;
+  return options.wire.rates.nominal > 0 ? LoadBy::stamps : LoadBy::time_base;
+}
+
 // One port over all of them; a frame goes to the bus of its sender.
 Result<std::unique_ptr<Port>> open_all(const Options& options) {
   const std::vector<std::string> buses = buses_of(options);
@@ -94,14 +99,8 @@ Result<std::unique_ptr<Port>> open_all(const Options& options) {
 
 }  // namespace
 
-bool is_in_process(std::string_view bus) { return bus.substr(0, bus.find('?')) == in_process; }
-
-Rounding rounding_of(std::string_view bus) {
-  return bus == unrounded_bus ? Rounding::none : Rounding::as_on_the_bus;
-}
-
 ClockKind clock_of(std::string_view bus, bool lockstep) {
-  const bool has_wire = bus != in_process && bus != unrounded_bus;
+  const bool has_wire = bus != in_process_bus && bus != unrounded_bus;
   if (is_in_process(bus)) return has_wire ? ClockKind::simulated_wire : ClockKind::lockstep;
   return lockstep ? ClockKind::lockstep : ClockKind::real_time;
 }
@@ -160,7 +159,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   Monitor monitor(checks::timed_windows(scenario.checks),
                   options.format == BusFormat::classic ? options.wire : checks::WireFacts{});
   link.attach(monitor);
-  LoadMeter meter(options.format);
+  LoadMeter meter(options.format, load_by(options));
   link.attach(meter);
   HostWatch host((*port)->stamp_clock());
   link.attach(host);
@@ -181,9 +180,10 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     ending.detail += fmt::format(" (its process {})", *why);
   }
   stop(link, schedule.outbox(), scenario.targets);
+  std::optional<Error> log_error;
   if (recorder) {
     link.detach(*recorder);
-    if (auto closed = recorder->close(); !closed) return tl::unexpected(closed.error());
+    if (auto closed = recorder->close(); !closed) log_error = closed.error();
   }
 
   checks::Observations seen = monitor.finish();
@@ -216,7 +216,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
       .timing_unfit = std::move(timing_unfit),
       .host = options.clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
       .wall_s = wall_s,
-      .started_s = started_s};
+      .started_s = started_s,
+      .log_error = std::move(log_error)};
 }
 
 }  // namespace canhil::run

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/checks/judge.hpp"
+#include "bench/run/bus_name.hpp"
 #include "bench/run/ending.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/real_time.hpp"
@@ -33,13 +34,6 @@ constexpr std::string_view name(ClockKind clock) {
   return "?";
 }
 
-/// True for `in-process` and `in-process?bitrate=500000`: no bus, the device is in this process.
-bool is_in_process(std::string_view bus);
-
-/// The bus of frames that round nothing: in process, virtual time.
-inline constexpr std::string_view unrounded_bus = "in-process?unrounded";
-/// What a bus makes of scaled signals.
-Rounding rounding_of(std::string_view bus);
 /// The clock of a run on a bus.
 ClockKind clock_of(std::string_view bus, bool lockstep);
 
@@ -71,6 +65,7 @@ struct Run {
   std::optional<realtime::Standing> host{};  ///< of the bench, in real time
   double wall_s = 0;                         ///< from the start of the estimator to the end
   std::int64_t started_s = 0;                ///< since 1970, UTC; 0: unknown
+  std::optional<Error> log_error{};          ///< why Options::log_path does not hold every frame
 };
 
 /// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a

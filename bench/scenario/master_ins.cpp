@@ -14,6 +14,7 @@ MasterIns read_master_ins(Section& section) {
                               .sigma = section.three("velocity_noise_mps", sigma)},
                  .attitude = {.value = section.three("attitude_bias_deg", Limits::between(-180, 180)),
                               .sigma = section.three("attitude_noise_deg", Limits::between(0, 180))}};
+  node.loss = read_sample_loss(section);
   section.finish();
   return node;
 }

@@ -125,6 +125,12 @@ void parse_data(Cursor& cursor, Frame& frame) {
   }
 }
 
+// A remote frame asks for data and carries none: "(1.000000) can0 123#R8". No message of a DBC is one.
+bool is_remote(std::string_view line) {
+  const std::size_t hash = line.find('#');
+  return hash != std::string_view::npos && line.substr(hash + 1).starts_with('R');
+}
+
 }  // namespace
 
 std::string format_log_line(const LogEntry& entry) {
@@ -170,9 +176,10 @@ Result<LogWriter> LogWriter::create(const std::string& path) {
 }
 
 void LogWriter::write(const LogEntry& entry) {
+  if (error_ != 0) return;  // a log ends somewhere, it has no holes
   std::string line = format_log_line(entry);
   line += '\n';
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() && error_ == 0) error_ = errno;
+  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size()) error_ = errno;
 }
 
 Result<void> LogWriter::close() {
@@ -191,11 +198,14 @@ Result<LogReader> LogReader::open(const std::string& path) {
 }
 
 Result<std::optional<LogEntry>> LogReader::next() {
-  if (!std::getline(file_, line_)) {
-    if (file_.bad()) return failure(fmt::format("cannot read log '{}' after line {}", path_, line_number_));
-    return std::optional<LogEntry>();
-  }
-  ++line_number_;
+  do {
+    if (!std::getline(file_, line_)) {
+      if (file_.bad()) return failure(fmt::format("cannot read log '{}' after line {}", path_, line_number_));
+      return std::optional<LogEntry>();
+    }
+    ++line_number_;
+    if (line_.ends_with('\r')) line_.pop_back();  // of a log that went through Windows
+  } while (is_remote(line_));
   const std::string where = fmt::format("{}:{}", path_, line_number_);
   auto entry = parse_log_line(line_, where);
   if (!entry) return tl::unexpected(entry.error());

@@ -91,6 +91,9 @@ class Port {
   /// Now on the clock of deadlines [ns]: CLOCK_MONOTONIC, except where the port simulates time and waiting
   /// moves it.
   [[nodiscard]] virtual std::int64_t monotonic_ns() const { return clock_ns(CLOCK_MONOTONIC); }
+  /// Virtual time has come to `t_ns` since the start of the run; for a port that is told the time. Others
+  /// know it.
+  virtual void tell_time(std::int64_t /*t_ns*/) {}
   /// As given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
 };

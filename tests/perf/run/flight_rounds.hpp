@@ -47,7 +47,7 @@ class RecordingPort final : public Port {
   std::vector<Round> rounds{1};  // the last one is without an answer yet
 
  private:
-  run::InProcessPort device_;
+  run::InProcessPort device_{Rounding::as_on_the_bus};
   std::vector<Received> heard_;
   std::size_t next_ = 0;
 };

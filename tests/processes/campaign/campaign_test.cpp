@@ -251,6 +251,16 @@ TEST(CampaignBadInput, WithoutItsProgramIsOneLineThatSaysHowItIsMade) {
   EXPECT_THAT(shell(alone + " --help").out, testing::HasSubstr("campaign"));
 }
 
+TEST(CampaignBadInput, WithoutThePapersProgramIsOneLineThatSaysHowItIsMade) {
+  const std::string alone = folder("no_papers") + "/hil-bench";
+  for (const char* program : {"hil-bench", "hil-bench-campaign"})
+    fs::copy_file(fs::path(HIL_BENCH).replace_filename(program), fs::path(alone).replace_filename(program));
+  expect_one_line(
+      shell(alone + " campaign --paper transfer"),
+      "no_papers/hil-bench-paper: No such file or directory, expected it beside hil-bench: cmake --build "
+      "build/default --target hil-bench-paper");
+}
+
 TEST(CampaignBadInput, ReadOnlyFolderIsOneLineAndLeavesWhatIsThere) {
   const std::string at = folder("read_only"), half = at + "/half.sqlite";
   expect_done(hil_bench(fmt::format("campaign {} --shard 0/2 --out {}", campaign_file(), half)));

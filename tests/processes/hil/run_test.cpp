@@ -157,6 +157,29 @@ TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {
               ContainsRegex("NOT schedulable: [0-9]+ of [0-9]+ messages: .* and [0-9]+ more\n"));
 }
 
+TEST(SimulatedWire, AFullWireFailsTheCheckOfItsLoad) {
+  std::ofstream(scratch("full.toml")) << read(scenario("transfer_alignment_quick"))
+                                      << "\n[[check]]\nkind = \"bus_load\"\nbitrate_kbitps = 1000\n"
+                                         "below_percent = 50\n";
+  const auto load_at = [&](const std::string& bus) {
+    const std::string report = scratch("full.json");
+    const Ended ended =
+        hil_bench(fmt::format("run {} --bus '{}' --json {}", scratch("full.toml"), bus, report));
+    EXPECT_NE(ended.code, 2) << ended.err;
+    nlohmann::json page = read_json(report);
+    const auto check =
+        std::ranges::find_if(page["checks"], [](const auto& c) { return c["kind"] == "bus_load"; });
+    EXPECT_NE(check, page["checks"].end());
+    return std::pair((*check)["outcome"].template get<std::string>(),
+                     page["bus_load"][0]["busiest_second"].template get<double>());
+  };
+  EXPECT_EQ(load_at("in-process?bitrate=1000000").first, "pass");
+  const auto [outcome, busiest] = load_at("in-process?bitrate=100000");
+  EXPECT_EQ(outcome, "fail");
+  EXPECT_GT(busiest, 0.95);
+  EXPECT_LE(busiest, 1.0 + 0.002) << "of a second, and at most one frame more";
+}
+
 TEST(Run, OfSeveralEstimatorsTheTextSaysWhoseLinesTheyAre) {
   const std::string text = hil_bench(fmt::format("run {} --bus in-process", scenario("all_four"))).out;
   EXPECT_THAT(text, ContainsRegex("\n  los_rate\n  miss .*\n  LOS rate error"));

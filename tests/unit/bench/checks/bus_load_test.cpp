@@ -20,6 +20,20 @@ TEST(BusLoad, IsThatOfTheBusiestWholeSecond) {
   EXPECT_EQ(judge(rule, seen).outcome, Outcome::fail);
 }
 
+TEST(BusLoad, IsJudgedOnTheWireOfTheRunToo) {
+  Observations seen;
+  seen.length_by_second = {{.nominal = 300'000}};
+  seen.bit_rates = {.nominal = 400'000};
+  const scenario::BusLoad rule{.bitrate = 1'000'000, .below = 0.5};
+  const Finding full = judge(rule, seen);
+  EXPECT_EQ(full.outcome, Outcome::fail);
+  EXPECT_EQ(full.measured,
+            "30.0 % in the busiest second, 30.0 % in the mean; at the 400 kbit/s of this run's bus 75.0 % in "
+            "the busiest second, 75.0 % in the mean");
+  seen.bit_rates = {.nominal = 1'000'000};
+  EXPECT_EQ(judge(rule, seen).outcome, Outcome::pass);
+}
+
 TEST(BusLoad, OfNothingIsNotAPass) {
   EXPECT_EQ(judge(scenario::BusLoad{.bitrate = 1'000'000, .below = 0.5}, {}).outcome, Outcome::fail);
 }

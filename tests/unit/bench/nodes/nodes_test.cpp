@@ -118,7 +118,7 @@ TEST(TimeKeeper, CountsStepsInElevenBits) {
 TEST(MasterIns, ClosesItsGroupWithTheTimeOfValidityNotOfTransmission) {
   const auto flight = at_rest(1'000'000);
   MasterIns node(flight, {.schedule = {.period_us = 50'000, .latency_us = 30'000}, .errors = {}},
-                 world::Stream(1, 0, "master"));
+                 world::Stream(1, 0, "master"), world::Stream(1, 0, "loss"));
   EXPECT_EQ(node.due_us(), 80'000);
   Transmission out;
   node.transmit(out);
@@ -127,6 +127,32 @@ TEST(MasterIns, ClosesItsGroupWithTheTimeOfValidityNotOfTransmission) {
   EXPECT_EQ(out.frames().back().id, messages::MasterInsVelocityD::info.id);
   EXPECT_EQ(closing.time_of_validity_us, 50'000U);
   for (const Frame& frame : out.frames()) EXPECT_EQ(e2e::counter(frame.payload()), 0);
+}
+
+TEST(MasterIns, AGroupLostOrInAnOutageLeavesAGapInTheCountersAndChangesNoMeasurement) {
+  const auto flight = at_rest(10'000'000);
+  scenario::MasterIns config{.schedule = {.period_us = 50'000, .latency_us = 0}, .errors = {}};
+  config.errors.velocity.sigma = {0.1, 0.1, 0.1};
+  MasterIns whole(flight, config, world::Stream(1, 0, "master"), world::Stream(1, 0, "loss"));
+  config.loss = {.probability = 0.3, .outage_us = 2'000'000, .outage_every_us = 10'000'000};
+  MasterIns lossy(flight, config, world::Stream(1, 0, "master"), world::Stream(1, 0, "loss"));
+  Transmission out, lossy_out;
+  int lost = 0;
+  for (; whole.due_us() != never_us; out.clear(), lossy_out.clear()) {
+    const std::int64_t valid_us = whole.due_us();
+    whole.transmit(out);
+    lossy.transmit(lossy_out);
+    const bool is_lost = lossy_out.frames().empty();
+    if (!is_lost) {
+      ASSERT_TRUE(std::ranges::equal(out.frames(), lossy_out.frames()));
+    }
+    if (valid_us < 8'000'000) lost += is_lost ? 1 : 0;
+    if (valid_us >= 8'000'000 && valid_us < 10'000'000) {
+      EXPECT_TRUE(is_lost) << valid_us;
+    }
+  }
+  EXPECT_NEAR(lost, 48, 5 * 5.8);  // binomial: sigma = sqrt(160 0.3 0.7)
+  EXPECT_GT(lost, 0);
 }
 
 TEST(SlaveImu, AGroupLostTakesItsIncrementsWithItAndLeavesAGapInTheCounters) {

@@ -160,6 +160,15 @@ TEST_F(Log, IsFiltered) {
   EXPECT_FALSE((*port)->receive());
 }
 
+TEST_F(Log, ThatWentThroughWindowsIsReadAndRemoteFramesAreNone) {
+  write("(0.000000) c 001#\r\n(0.000000) c 003#R8 R\r\n(0.000000) c 004#R\r\n(0.000000) c 002#11 R\r\n");
+  const auto port = open_port("log:" + path_, {});
+  ASSERT_TRUE(port) << port.error().message;
+  EXPECT_EQ((*port)->receive()->frame, frame_of(1));
+  EXPECT_EQ((*port)->receive()->frame.id, 2U);
+  EXPECT_FALSE((*port)->receive());
+}
+
 TEST_F(Log, IsCheckedOnOpening) {
   write("(0.000000) c 001#\n(0.000000) c 001#0\n");
   EXPECT_EQ(why_not(), path_ + ":2:19: expected two hex digits a byte");
