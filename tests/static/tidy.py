@@ -47,10 +47,13 @@ def sources_of(build):
     """Each once; those of the project only, nothing generated."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
-        source = Source(entry)
-        file = Path(source.file)
-        if file.is_relative_to(ROOT) and not file.is_relative_to(build):
-            found[source.file] = source
+        files = [entry["file"]]
+        if Path(files[0]).parent.name == "Unity":  # several test files, compiled as one
+            files = re.findall(r'^#include "(/.*)"$', Path(files[0]).read_text(), re.MULTILINE)
+        for name in files:
+            file = Path(name)
+            if file.is_relative_to(ROOT) and not file.is_relative_to(build):
+                found[name] = Source({**entry, "file": name})
     return list(found.values())
 
 
