@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/campaign/freshness.hpp"
 #include "bench/run/in_process.hpp"
 #include "bench/world/flight_record.hpp"
 
@@ -74,7 +75,8 @@ struct QuantityInfo {
   Family family = Family::alignment;
   Unit unit;
   int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: none
-  bool may_be_untold = false;  ///< NaN tells of nothing wrong
+  bool may_be_untold = false;  ///< NaN tells of nothing wrong: the sample was not asked for it
+  bool of_whole_run = false;   ///< the same in all samples: it does not age
   std::string_view only_of{};  ///< the one estimator of the family that tells it; empty: all do
 };
 std::span<const QuantityInfo> quantities();
@@ -113,6 +115,7 @@ struct RunSeries {
   std::uint64_t run = 0;
   run::Ending ending;  ///< a run that did not complete keeps the samples it gave
   Samples samples{};
+  Freshness freshness{};
 };
 
 /// The family of a scenario's runs.

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/checks/silence.hpp"
+#include "bench/checks/timing.hpp"
+
 namespace canhil::checks {
 namespace {
 
@@ -114,8 +117,9 @@ Finding judge(const scenario::WindError& rule, const Observations& seen, const w
   if (glide == nullptr) return {Outcome::fail, "no glide to judge against", expected};
   const std::vector<WindError> part = inside(wind_errors(seen, *glide), rule.window);
   if (part.empty()) return {Outcome::fail, "no answers", expected};
-  constexpr std::int64_t longest_us = 1'000'000;
-  if (const std::int64_t gap_us = longest_gap_us(part, rule.window, glide->end_us()); gap_us > longest_us) {
+  const double longest_us = longest_wait_us(1e6 * nominal_period_s(seen, messages::WindUpdate::info.name));
+  if (const std::int64_t gap_us = longest_gap_us(part, rule.window, glide->end_us());
+      static_cast<double>(gap_us) > longest_us) {
     return {Outcome::fail, fmt::format("no answers for {:.2f} s", 1e-6 * static_cast<double>(gap_us)),
             expected};
   }
