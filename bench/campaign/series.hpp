@@ -28,7 +28,7 @@ enum class Family : std::uint8_t {
 };
 
 /// A number of a sample. Errors are signed (estimated - true), in SI; of the LOS rate, RMS within the sample.
-/// Any may be NaN or infinite, as the target sent it.
+/// Any may be NaN or infinite, as the target sent it; NIS and NEES that are no numbers are infinite.
 enum class Quantity : std::uint8_t {
   phi_north,  ///< misalignment, NED
   phi_east,
@@ -45,7 +45,7 @@ enum class Quantity : std::uint8_t {
   heading_over_sigma,  ///< the error over what the target says of it
   repairs,             ///< of the covariance, since the start
   attitude_nees,       ///< 3 degrees of freedom; NaN of a fix: its answer has no covariance
-  nis,                 ///< 3 degrees of freedom
+  nis,                 ///< 3 degrees of freedom; NaN of a fix that the filter did not use
   heading_sigma,       ///< as the target tells it
   los_pitch,           ///< LOS rate in the antenna's axes
   los_yaw,

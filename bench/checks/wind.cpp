@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +11,6 @@
 namespace canhil::checks {
 namespace {
 
-using world::Matrix3;
 using world::Vector3;
 
 bool lies_within(const WindAnswer& answer, const world::GlideRecord& glide) {
@@ -29,17 +27,6 @@ WindError error_of(const WindAnswer& answer, const world::GlideRecord& glide) {
           .error_n = error,
           .along_track = along.x() * error.x() + along.y() * error.y(),
           .cross_track = -along.y() * error.x() + along.x() * error.y()};
-}
-
-// The covariance of the wind from what the bus carries.
-Matrix3 covariance(const WindAnswer& answer) {
-  const Vector3& s = answer.sigma;
-  const Vector3& r = answer.correlation;  // north-east, north-down, east-down
-  Matrix3 P;
-  P << s.x() * s.x(), r.x() * s.x() * s.y(), r.y() * s.x() * s.z(),  //
-      r.x() * s.x() * s.y(), s.y() * s.y(), r.z() * s.y() * s.z(),   //
-      r.y() * s.x() * s.z(), r.z() * s.y() * s.z(), s.z() * s.z();
-  return P;
 }
 
 bool has(const WindAnswer& answer, std::string_view flag) {
@@ -99,7 +86,7 @@ std::vector<Normalised> wind_nees(const Observations& seen, const world::GlideRe
   for (const WindAnswer& answer : seen.wind) {
     if (!lies_within(answer, glide)) continue;
     const Vector3 error = error_of(answer, glide).error_n;
-    all.push_back({answer.cause_us, error.dot(covariance(answer).ldlt().solve(error))});
+    all.push_back({answer.cause_us, nees(error, answer.sigma, answer.correlation)});
   }
   return all;
 }

@@ -156,8 +156,13 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   flown.seen.fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;
   flown.seen.fixes.push_back(fix);
+  fix.outcome = messages::FixOutcome::gated;
+  fix.cause_us = 1'500'000;
+  fix.nis = 900;
+  flown.seen.fixes.push_back(fix);
   const RunSeries series = series_of(5, flown, truth, Family::alignment);
-  ASSERT_EQ(series.samples.size(), 1U) << "only of fixes that were considered";
+  ASSERT_EQ(series.samples.size(), 2U) << "only of fixes that were considered";
+  EXPECT_TRUE(std::isnan(series.samples.value(1, Quantity::nis))) << "the filter did not use it";
   const auto value = [&](Quantity quantity) { return series.samples.value(0, quantity); };
   EXPECT_EQ(series.samples.times()[0], 500'000);
   EXPECT_DOUBLE_EQ(value(Quantity::heading), 1.5) << "the first answer that knew of a late fix";
