@@ -138,6 +138,15 @@ TEST(Evaluate, RefusesResultsWithRunsMissing) {
   EXPECT_THAT(evaluation.error().message, HasSubstr("variant 'B' has 3 of 4 runs"));
 }
 
+TEST(Report, OfACampaignThatAsksForNothingIsNotMeasured) {
+  const auto campaign = parse(two_variants);
+  const auto evaluation = evaluate(*campaign, runs_of);
+  ASSERT_TRUE(evaluation) << evaluation.error().message;
+  EXPECT_EQ(evaluation->outcome(), checks::Outcome::not_measured);
+  EXPECT_EQ(nlohmann::json::parse(json(*campaign, *evaluation))["outcome"], "not measured");
+  EXPECT_THAT(text(*campaign, *evaluation), HasSubstr("seed 3 · not measured"));
+}
+
 TEST(Report, CurvesAreInJson) {
   const auto campaign = parse(two_variants + "[[metric]]\nkind = 'rms_curve'\nquantity = 'heading'\n");
   const auto evaluation = evaluate(*campaign, runs_of);
