@@ -1,5 +1,7 @@
 #include "bench/campaign/series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -289,14 +291,19 @@ std::vector<std::uint8_t> encode(const Samples& samples) {
   return bytes;
 }
 
-Samples decode(std::span<const std::uint8_t> bytes, Family family) {
-  const std::size_t width = 1 + kept(family).size();
+Result<Samples> decode(std::span<const std::uint8_t> bytes, Family family) {
+  constexpr double latest_s = 1e9;
+  const std::size_t width = 1 + kept(family).size(), size = width * sizeof(double);
+  if (bytes.size() % size != 0)
+    return failure(fmt::format("has {} bytes of samples of {} each", bytes.size(), size));
   Samples samples(family);
   std::vector<double> values(width - 1);
-  for (std::size_t i = 0; i < bytes.size() / (width * sizeof(double)); ++i) {
+  for (std::size_t i = 0; i < bytes.size() / size; ++i) {
     for (std::size_t place = 1; place < width; ++place)
       values[place - 1] = number_at(bytes, i * width + place);
-    samples.add(std::llround(number_at(bytes, i * width) * 1e6), values);
+    const double t_s = number_at(bytes, i * width);
+    if (!(std::abs(t_s) <= latest_s)) return failure(fmt::format("has a sample at {} s", t_s));
+    samples.add(std::llround(t_s * 1e6), values);
   }
   return samples;
 }

@@ -11,6 +11,7 @@
 #include "bench/campaign/freshness.hpp"
 #include "bench/run/in_process.hpp"
 #include "bench/world/flight_record.hpp"
+#include "dbc/wire/result.hpp"
 
 namespace canhil::campaign {
 
@@ -26,6 +27,7 @@ enum class Family : std::uint8_t {
   /// A sample is a wind answer of a filter that runs.
   wind
 };
+inline constexpr Family last_family = Family::wind;
 
 /// A number of a sample. Errors are signed (estimated - true), in SI; of the LOS rate, RMS within the sample.
 /// Any may be NaN or infinite, as the target sent it; NIS and NEES that are no numbers are infinite.
@@ -131,6 +133,7 @@ RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
 
 /// Samples as bytes: doubles, little endian: t in s and what is kept, sample by sample.
 std::vector<std::uint8_t> encode(const Samples& samples);
-Samples decode(std::span<const std::uint8_t> bytes, Family family);
+/// Error: in which way the bytes are no samples of the family.
+Result<Samples> decode(std::span<const std::uint8_t> bytes, Family family);
 
 }  // namespace canhil::campaign

@@ -33,7 +33,9 @@ TEST(Series, ComesBackAsItWas) {
     Samples samples(family);
     add(samples, -5'540'000, values);
     add(samples, 86'399'999'999, {});
-    const Samples back = decode(encode(samples), family);
+    const auto decoded = decode(encode(samples), family);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    const Samples& back = *decoded;
     ASSERT_EQ(back.size(), 2U);
     EXPECT_EQ(back.family(), family);
     EXPECT_EQ(back.times()[0], -5'540'000);
@@ -44,6 +46,18 @@ TEST(Series, ComesBackAsItWas) {
     }
     EXPECT_EQ(encode(back), encode(samples));
   }
+}
+
+TEST(Series, BytesThatAreNoSamplesAreRefused) {
+  Samples samples(Family::wind);
+  add(samples, 0, {});
+  auto bytes = encode(samples);
+  bytes.pop_back();
+  EXPECT_EQ(decode(bytes, Family::wind).error().message, "has 55 bytes of samples of 56 each");
+  bytes = encode(samples);
+  bytes[7] = 0x7F;  // not a number, or nearly infinite
+  bytes[6] = 0xF0;
+  EXPECT_EQ(decode(bytes, Family::wind).error().message, "has a sample at inf s");
 }
 
 TEST(Series, QuantitiesThatFollowFromOthers) {
