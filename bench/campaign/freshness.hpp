@@ -20,8 +20,8 @@ struct Freshness {
   std::int64_t begin_us = 0, sample_us = 0;
 };
 
-/// By the rule of the checks (bench/checks/silence.hpp). Losses that the scenario asks for (loss_percent,
-/// invalid_percent, outages, latency) are part of what is judged and make nothing stale; a silence does.
+/// By the rule of the checks (bench/checks/silence.hpp). Fixes may be lost on purpose: those that the
+/// scenario loses at random (loss_percent, invalid_percent) make nothing stale; its silences do.
 Freshness freshness_of(const scenario::Scenario& scenario);
 
 }  // namespace canhil::campaign

@@ -15,11 +15,11 @@ inline constexpr int tolerated_fixes = 2;
 /// Samples of a seeker may be lost on purpose, but this share of them must be answered.
 inline constexpr double least_answered = 0.5;
 
-/// The longest time from one answer to the next that is no silence [us]: a second, or so many of the
-/// answers' periods if that is longer.
+/// The longest time from one answer to the next that is no silence [us]: then so many periods of the answers
+/// have passed, and for a second at least an answer was due that did not come.
 constexpr double longest_wait_us(double period_us, double periods = 2) {
   constexpr double second_us = 1e6;
-  return std::max(second_us, periods * period_us);
+  return std::max(second_us + period_us, periods * period_us);
 }
 
 /// The first stretch of a window without an answer that is longer than `longest_us`; none: nowhere. `times`:
