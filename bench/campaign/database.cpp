@@ -110,6 +110,19 @@ Result<Statement> Database::prepare(std::string_view sql) const {
   return Statement(statement, file_);
 }
 
+Result<void> Database::check_size() const {
+  auto row = prepare("select page_count * page_size from pragma_page_count, pragma_page_size");
+  if (!row) return tl::unexpected(row.error());
+  if (const auto there = row->step(); !there) return tl::unexpected(there.error());
+  std::error_code error;
+  const auto found = std::filesystem::file_size(file_, error);
+  const auto expected = static_cast<std::uintmax_t>(row->integer(0));
+  if (error) return failure(fmt::format("{}: cannot be read or written: {}", file_, error.message()));
+  if (found == expected) return {};
+  return failure(fmt::format("{}: has {} bytes, expected the {} of its pages: the file is {}", file_, found,
+                             expected, found < expected ? "cut off" : "damaged"));
+}
+
 Result<void> Database::close() {
   const int code = sqlite3_close(handle_.get());
   if (code != SQLITE_OK) return complaint(file_, code, handle_.get());

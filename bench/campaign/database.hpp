@@ -29,6 +29,7 @@ class Statement {
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] std::string text(int column) const;
   [[nodiscard]] std::span<const std::uint8_t> bytes(int column) const;  ///< until the next step
+  [[nodiscard]] const std::string& file() const { return file_; }
 
  private:
   friend class Database;
@@ -50,6 +51,8 @@ class Database {
   /// Statements without values or rows.
   Result<void> run(const std::string& sql);
   [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
+  /// Error: the file has not the size that it says it has: its end is missing, or it grew.
+  [[nodiscard]] Result<void> check_size() const;
   Result<void> close();
   [[nodiscard]] const std::string& file() const { return file_; }
 

@@ -349,6 +349,14 @@ Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
       return failure(fmt::format("variant '{}' has {} of {} runs, expected all: resume, or merge the shards",
                                  campaign.variants[variant].name, loaded->size(), campaign.runs));
     }
+    const Family family = family_of(campaign.variants[variant].scenario);
+    const Freshness freshness = freshness_of(campaign.variants[variant].scenario);
+    for (RunSeries& run : *loaded) {
+      if (run.samples.family() != family)
+        return failure(fmt::format("run {} of variant '{}' has samples of another family than its estimator",
+                                   run.run, campaign.variants[variant].name));
+      run.freshness = freshness;
+    }
     evaluation.endings.push_back(endings_of(campaign.variants[variant], *loaded));
     runs.push_back(std::move(*loaded));
   }

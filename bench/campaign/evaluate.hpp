@@ -41,6 +41,11 @@ struct Evaluation {
   std::vector<Endings> endings;
   std::vector<Answer> answers;
   bool passed = true;  ///< no bar failed
+  /// Not measured: the campaign asks for nothing.
+  [[nodiscard]] checks::Outcome outcome() const {
+    if (answers.empty()) return checks::Outcome::not_measured;
+    return passed ? checks::Outcome::pass : checks::Outcome::fail;
+  }
 };
 
 /// Gives the runs of a variant.

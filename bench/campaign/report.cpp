@@ -17,7 +17,7 @@ std::string_view label(const Answer& answer) {
   return *answer.passed ? "PASS" : "FAIL";
 }
 
-std::string_view verdict(const Evaluation& evaluation) { return evaluation.passed ? "pass" : "fail"; }
+std::string_view verdict(const Evaluation& evaluation) { return checks::name(evaluation.outcome()); }
 
 // JSON has no NaN.
 ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }

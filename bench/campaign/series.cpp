@@ -1,5 +1,7 @@
 #include "bench/campaign/series.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -55,15 +57,19 @@ constexpr std::array infos{
                  .degrees_of_freedom = 3,
                  .may_be_untold = true,
                  .only_of = "transfer_alignment"},
-    QuantityInfo{.name = "nis", .family = Family::alignment, .unit = none, .degrees_of_freedom = 3},
+    QuantityInfo{.name = "nis",
+                 .family = Family::alignment,
+                 .unit = none,
+                 .degrees_of_freedom = 3,
+                 .may_be_untold = true},
     QuantityInfo{.name = "heading_sigma", .family = Family::alignment, .unit = mrad},
     QuantityInfo{.name = "los_pitch", .family = Family::los_rate, .unit = mradps},
     QuantityInfo{.name = "los_yaw", .family = Family::los_rate, .unit = mradps},
     QuantityInfo{.name = "los_rate", .family = Family::los_rate, .unit = mradps},
     QuantityInfo{.name = "los_nis", .family = Family::los_rate, .unit = none, .may_be_untold = true},
-    QuantityInfo{.name = "miss_pitch", .family = Family::los_rate, .unit = m},
-    QuantityInfo{.name = "miss_yaw", .family = Family::los_rate, .unit = m},
-    QuantityInfo{.name = "miss", .family = Family::los_rate, .unit = m},
+    QuantityInfo{.name = "miss_pitch", .family = Family::los_rate, .unit = m, .of_whole_run = true},
+    QuantityInfo{.name = "miss_yaw", .family = Family::los_rate, .unit = m, .of_whole_run = true},
+    QuantityInfo{.name = "miss", .family = Family::los_rate, .unit = m, .of_whole_run = true},
     QuantityInfo{.name = "wind_along", .family = Family::wind, .unit = mps},
     QuantityInfo{.name = "wind_cross", .family = Family::wind, .unit = mps},
     QuantityInfo{.name = "wind_down", .family = Family::wind, .unit = mps},
@@ -95,9 +101,15 @@ double number_at(std::span<const std::uint8_t> bytes, std::size_t place) {
   return std::bit_cast<double>(bits);
 }
 
+/// A normalised error squared that was told, so that NaN is left to what was not.
+double told(double normalised) {
+  return std::isnan(normalised) ? std::numeric_limits<double>::infinity() : normalised;
+}
+
 /// Figures of an update beside those of the navigation answer that follows it.
 struct UpdateFigures {
   double attitude_nees = nan;
+  double nis = nan;
   world::Vector3 position = world::Vector3::Constant(nan);
   double heading_sigma = 0;
   double repairs = 0;
@@ -114,7 +126,7 @@ Samples alignment_samples(const checks::Observations& seen, const world::FlightR
     const std::array<double, alignment_kept.size()> values{
         phi.x(),        phi.y(), phi.z(), angles.roll, angles.pitch,
         angles.heading, v.x(),   v.y(),   v.z(),       figures.attitude_nees,
-        update.nis,     p.x(),   p.y(),   p.z(),       figures.heading_sigma,
+        figures.nis,    p.x(),   p.y(),   p.z(),       figures.heading_sigma,
         figures.repairs};
     samples.add(update.cause_us, values);
   };
@@ -123,13 +135,17 @@ Samples alignment_samples(const checks::Observations& seen, const world::FlightR
   const std::vector<checks::Normalised> nees = checks::attitude_nees(seen, transfer);
   for (std::size_t i = 0; i < nees.size(); ++i) {
     const checks::FilterAnswer& update = seen.filter[i];
-    add(transfer, update, {.attitude_nees = nees[i].value, .heading_sigma = update.attitude_sigma.z()});
+    add(transfer, update,
+        {.attitude_nees = told(nees[i].value),
+         .nis = told(update.nis),
+         .heading_sigma = update.attitude_sigma.z()});
   }
   const auto inflight = checks::navigation_errors(seen.fix_navigation, truth);
   for (const checks::FixAnswer& update : seen.fixes) {
     if (!checks::tells_of_its_time(update, truth)) continue;
     add(inflight, update,
-        {.position = checks::position_error(update, truth),
+        {.nis = checks::used(update.outcome) ? told(update.nis) : nan,
+         .position = checks::position_error(update, truth),
          .heading_sigma = update.heading_sigma,
          .repairs = static_cast<double>(update.repairs)});
   }
@@ -167,7 +183,7 @@ Samples los_samples(const checks::Observations& seen, const world::EngagementRec
     if (bin.rates == 0) continue;
     const std::array<double, los_kept.size()> values{
         std::sqrt(bin.pitch_squares / bin.rates), std::sqrt(bin.yaw_squares / bin.rates),
-        bin.updates > 0 ? bin.nis_sum / bin.updates : nan, miss_n.z(), miss_n.y()};
+        bin.updates > 0 ? told(bin.nis_sum / bin.updates) : nan, miss_n.z(), miss_n.y()};
     samples.add((place - 1) * los_sample_us, values);
   }
   return samples;
@@ -181,9 +197,10 @@ Samples wind_samples(const checks::Observations& seen, const world::GlideRecord&
   for (std::size_t i = 0; i < errors.size(); ++i) {
     while (!answer->started || answer->cause_us != errors[i].t_us) ++answer;
     const bool updated = answer->outcome == messages::WindOutcome::updated;
-    const std::array<double, wind_kept.size()> values{errors[i].along_track, errors[i].cross_track,
-                                                      errors[i].error_n.z(), updated ? answer->nis : nan,
-                                                      nees[i].value,         answer->along_track_sigma};
+    const std::array<double, wind_kept.size()> values{
+        errors[i].along_track, errors[i].cross_track,
+        errors[i].error_n.z(), updated ? told(answer->nis) : nan,
+        told(nees[i].value),   answer->along_track_sigma};
     samples.add(errors[i].t_us, values);
     ++answer;
   }
@@ -274,14 +291,19 @@ std::vector<std::uint8_t> encode(const Samples& samples) {
   return bytes;
 }
 
-Samples decode(std::span<const std::uint8_t> bytes, Family family) {
-  const std::size_t width = 1 + kept(family).size();
+Result<Samples> decode(std::span<const std::uint8_t> bytes, Family family) {
+  constexpr double latest_s = 1e9;
+  const std::size_t width = 1 + kept(family).size(), size = width * sizeof(double);
+  if (bytes.size() % size != 0)
+    return failure(fmt::format("has {} bytes of samples of {} each", bytes.size(), size));
   Samples samples(family);
   std::vector<double> values(width - 1);
-  for (std::size_t i = 0; i < bytes.size() / (width * sizeof(double)); ++i) {
+  for (std::size_t i = 0; i < bytes.size() / size; ++i) {
     for (std::size_t place = 1; place < width; ++place)
       values[place - 1] = number_at(bytes, i * width + place);
-    samples.add(std::llround(number_at(bytes, i * width) * 1e6), values);
+    const double t_s = number_at(bytes, i * width);
+    if (!(std::abs(t_s) <= latest_s)) return failure(fmt::format("has a sample at {} s", t_s));
+    samples.add(std::llround(t_s * 1e6), values);
   }
   return samples;
 }

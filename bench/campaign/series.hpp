@@ -8,8 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/campaign/freshness.hpp"
 #include "bench/run/in_process.hpp"
 #include "bench/world/flight_record.hpp"
+#include "dbc/wire/result.hpp"
 
 namespace canhil::campaign {
 
@@ -25,9 +27,10 @@ enum class Family : std::uint8_t {
   /// A sample is a wind answer of a filter that runs.
   wind
 };
+inline constexpr Family last_family = Family::wind;
 
 /// A number of a sample. Errors are signed (estimated - true), in SI; of the LOS rate, RMS within the sample.
-/// Any may be NaN or infinite, as the target sent it.
+/// Any may be NaN or infinite, as the target sent it; NIS and NEES that are no numbers are infinite.
 enum class Quantity : std::uint8_t {
   phi_north,  ///< misalignment, NED
   phi_east,
@@ -44,7 +47,7 @@ enum class Quantity : std::uint8_t {
   heading_over_sigma,  ///< the error over what the target says of it
   repairs,             ///< of the covariance, since the start
   attitude_nees,       ///< 3 degrees of freedom; NaN of a fix: its answer has no covariance
-  nis,                 ///< 3 degrees of freedom
+  nis,                 ///< 3 degrees of freedom; NaN of a fix that the filter did not use
   heading_sigma,       ///< as the target tells it
   los_pitch,           ///< LOS rate in the antenna's axes
   los_yaw,
@@ -74,7 +77,8 @@ struct QuantityInfo {
   Family family = Family::alignment;
   Unit unit;
   int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: none
-  bool may_be_untold = false;  ///< NaN tells of nothing wrong
+  bool may_be_untold = false;  ///< NaN tells of nothing wrong: the sample was not asked for it
+  bool of_whole_run = false;   ///< the same in all samples: it does not age
   std::string_view only_of{};  ///< the one estimator of the family that tells it; empty: all do
 };
 std::span<const QuantityInfo> quantities();
@@ -113,6 +117,7 @@ struct RunSeries {
   std::uint64_t run = 0;
   run::Ending ending;  ///< a run that did not complete keeps the samples it gave
   Samples samples{};
+  Freshness freshness{};
 };
 
 /// The family of a scenario's runs.
@@ -128,6 +133,7 @@ RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
 
 /// Samples as bytes: doubles, little endian: t in s and what is kept, sample by sample.
 std::vector<std::uint8_t> encode(const Samples& samples);
-Samples decode(std::span<const std::uint8_t> bytes, Family family);
+/// Error: in which way the bytes are no samples of the family.
+Result<Samples> decode(std::span<const std::uint8_t> bytes, Family family);
 
 }  // namespace canhil::campaign

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 
+#include "bench/campaign/updates.hpp"
 #include "bench/checks/probability.hpp"
+#include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/world/stream.hpp"
 
@@ -14,51 +18,6 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
-
-// Update times that any run has, ascending.
-std::vector<std::int64_t> update_times(std::span<const RunSeries> runs) {
-  std::vector<std::int64_t> times;
-  for (const RunSeries& run : runs) {
-    std::vector<std::int64_t> both;
-    std::ranges::set_union(times, run.samples.times(), std::back_inserter(both));
-    times = std::move(both);
-  }
-  return times;
-}
-
-std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int64_t from_us,
-                                       std::int64_t to_us) {
-  std::vector<std::int64_t> times = update_times(runs);
-  std::erase_if(times, [&](std::int64_t t_us) { return t_us < from_us || t_us > to_us; });
-  return times;
-}
-
-// NaN: the run has no update at that time, or no finite value.
-double value_at(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
-  const auto times = run.samples.times();
-  const auto at = std::ranges::lower_bound(times, t_us);
-  if (at == times.end() || *at != t_us) return nan;
-  const double value = run.samples.value(static_cast<std::size_t>(at - times.begin()), quantity);
-  return std::isfinite(value) ? value : nan;
-}
-
-// |value| of a run at the last update of its variant at or before a time; infinite: none.
-double magnitude_at(const RunSeries& run, Quantity quantity, std::span<const std::int64_t> times,
-                    std::int64_t t_us) {
-  const auto after = std::ranges::upper_bound(times, t_us);
-  const double value = after == times.begin() ? nan : value_at(run, quantity, *std::prev(after));
-  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
-}
-
-// |value| of a run at its own last update at or before a time; NaN: none, or it had ended by then.
-double last_magnitude(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
-  const bool ended = run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
-  const auto times = run.samples.times();
-  const auto after = std::ranges::upper_bound(times, t_us) - times.begin();
-  if (ended || after == 0) return nan;
-  const double value = std::abs(run.samples.value(static_cast<std::size_t>(after - 1), quantity));
-  return std::isfinite(value) ? value : nan;
-}
 
 // At least one value.
 double median(std::vector<double> values) {
@@ -71,7 +30,7 @@ double median(std::vector<double> values) {
 
 std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity) {
   std::vector<CurvePoint> curve;
-  for (const std::int64_t t_us : update_times(runs)) {
+  for (const std::int64_t t_us : update_times(runs, quantity)) {
     CurvePoint point{.t_us = t_us};
     double sum = 0;
     for (const RunSeries& run : runs) {
@@ -177,7 +136,8 @@ RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int6
     for (auto i = from; i < to; ++i)
       sum += std::abs(run.samples.value(static_cast<std::size_t>(i), quantity));
     const double mean = sum / static_cast<double>(to - from);  // NaN of none
-    if (run.ending.kind == run::Ending::Kind::completed && std::isfinite(mean)) means.push_back(mean);
+    const bool completed = run.ending.kind == run::Ending::Kind::completed;
+    if (completed && std::isfinite(mean) && answers_throughout(run, from_us, to_us)) means.push_back(mean);
   }
   RunMeans found{.missing = runs.size() - means.size()};
   if (means.empty()) {
@@ -210,7 +170,10 @@ ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quanti
       ++statistics.count;
     }
     const bool ended = run.ending.kind != run::Ending::Kind::completed;
-    statistics.missing += ended || statistics.count == before ? 1 : 0;
+    const auto answered = static_cast<double>(statistics.count - before);
+    const bool silent = answered == 0 || answered < checks::least_answered *
+                                                        std::floor(samples_to_go(run.freshness, least, most));
+    statistics.missing += ended || silent ? 1 : 0;
   }
   const auto n = static_cast<double>(statistics.count);
   statistics.mean = statistics.count == 0 ? nan : sum / n;
@@ -220,7 +183,7 @@ ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quanti
 
 PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b, Quantity quantity,
                                std::int64_t t_us, double confidence) {
-  const std::vector<std::int64_t> a_times = update_times(a), b_times = update_times(b);
+  const std::vector<std::int64_t> a_times = update_times(a, quantity), b_times = update_times(b, quantity);
   PairedFraction paired;
   for (const RunSeries& run : a) {
     const auto other = std::ranges::lower_bound(b, run.run, {}, &RunSeries::run);
@@ -244,26 +207,42 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quan
                                   std::int64_t to_us, double probability) {
   ConsistencyStatistics statistics;
   if (runs.empty()) return {.mean = nan};
-  const auto n = static_cast<double>(runs.size());
-  const double degrees_of_freedom = info(quantity).degrees_of_freedom * n;
-  const double tail = (1 - probability) / 2;
-  statistics.low = checks::chi_squared_quantile(degrees_of_freedom, tail) / n;
-  statistics.high = checks::chi_squared_quantile_above(degrees_of_freedom, tail) / n;
+  // Central intervals of the mean over so many runs.
+  std::map<std::size_t, std::pair<double, double>> intervals;
+  const auto interval_of = [&](std::size_t some) {
+    const auto [place, is_new] = intervals.try_emplace(some);
+    if (is_new) {
+      const auto n = static_cast<double>(some);
+      const double degrees_of_freedom = info(quantity).degrees_of_freedom * n;
+      const double tail = (1 - probability) / 2;
+      place->second = {checks::chi_squared_quantile(degrees_of_freedom, tail) / n,
+                       checks::chi_squared_quantile_above(degrees_of_freedom, tail) / n};
+    }
+    return place->second;
+  };
+  std::tie(statistics.low, statistics.high) = interval_of(runs.size());
   double sum = 0;
   std::size_t count = 0, inside = 0;
   for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
     double sum_here = 0;
-    std::size_t here = 0;
+    std::size_t here = 0, untold = 0;
     for (const RunSeries& run : runs) {
+      if (is_untold(run, quantity, t_us)) {
+        ++untold;
+        continue;
+      }
       const double value = value_at(run, quantity, t_us);
       if (std::isnan(value)) continue;
       sum_here += value;
       ++here;
     }
+    const std::size_t asked = runs.size() - untold;
+    if (asked == 0) continue;
     ++statistics.updates;
-    statistics.missing += runs.size() - here;
-    const double mean = sum_here / n;
-    if (here == runs.size() && mean >= statistics.low && mean <= statistics.high) ++inside;
+    statistics.missing += asked - here;
+    const auto [low, high] = interval_of(asked);
+    const double mean = sum_here / static_cast<double>(asked);
+    if (here == asked && mean >= low && mean <= high) ++inside;
     sum += sum_here;
     count += here;
   }
@@ -274,12 +253,12 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quan
 }
 
 Divergence divergence(std::span<const RunSeries> runs, Quantity quantity, double bound) {
+  constexpr std::int64_t at_the_end = std::numeric_limits<std::int64_t>::max();
   Divergence result{.runs = runs.size()};
   for (const RunSeries& run : runs) {
     if (run.ending.kind != run::Ending::Kind::completed) {
       ++result.faulted;
-    } else if (run.samples.empty() ||
-               !(std::abs(run.samples.value(run.samples.size() - 1, quantity)) <= bound)) {
+    } else if (!(last_magnitude(run, quantity, at_the_end) <= bound)) {
       ++result.beyond;
     }
   }

@@ -10,32 +10,52 @@
 namespace canhil::campaign {
 namespace {
 
-constexpr int application_id = 0x43484333;  // "CHC3": canhil campaign, format 3
+constexpr int format = 4;
+constexpr int any_format = 0x43484300;  // "CHC": canhil campaign
+constexpr int application_id = any_format + '0' + format;
 
-// id is variant * runs + run: one order of rows, whoever wrote them. ending: "completed" or why not.
-constexpr std::string_view schema = R"(
-create table identity (campaign_hash text, dbc_hash text, program text, runs integer, unrounded integer);
-create table source (kind text, name text, content text);
-create table run (id integer primary key, variant integer, run integer, ending integer, end_us integer,
-                  detail text, family integer, samples blob);
-)";
-constexpr std::string_view run_columns = "run, ending, end_us, detail, family, samples";
+// identity.hash: of its row and of all sources.
+std::string schema() {
+  return fmt::format(
+      "create table identity (campaign_hash text, dbc_hash text, program text, runs integer, "
+      "unrounded integer, hash integer);"
+      "create table source (kind text, name text, content text);"
+      "create table run ({});",
+      row_schema);
+}
 
 std::string hash_of_this_program() {
   const auto text = scenario::read_text("/proc/self/exe", "this program");
   return fmt::format("{}+{:016x}", CANHIL_VERSION, text ? world::fnv1a_64(*text) : 0);
 }
 
-RunSeries series_in(const Statement& row) {
-  return {.run = static_cast<std::uint64_t>(row.integer(0)),
-          .ending = {.kind = static_cast<run::Ending::Kind>(row.integer(1)),
-                     .t_us = row.integer(2),
-                     .detail = row.text(3)},
-          .samples = decode(row.bytes(5), static_cast<Family>(row.integer(4)))};
+std::int64_t hash_of(const Identity& identity, const Sources& sources) {
+  Digest digest;
+  digest.add(static_cast<std::int64_t>(identity.campaign_hash))
+      .add(static_cast<std::int64_t>(identity.dbc_hash))
+      .add(identity.program)
+      .add(static_cast<std::int64_t>(identity.runs))
+      .add(std::int64_t{identity.rounding == Rounding::none})
+      .add(sources.file)
+      .add(sources.text);
+  for (const auto& [name, text] : sources.scenarios) digest.add(name).add(text);
+  return digest.value();
+}
+
+// As they are kept: without the folder in which the campaign was.
+Sources kept_of(const Sources& sources) {
+  Sources kept = sources;
+  kept.file = std::filesystem::path(sources.file).filename().string();
+  return kept;
 }
 
 auto not_results(const std::string& file) {
   return failure(fmt::format("{}: is another kind of file, expected results of a campaign", file));
+}
+
+auto out_of_place(const Statement& row) {
+  return failure(fmt::format("{}: row {} is out of its place, expected rows in order: the file is damaged",
+                             row.file(), row.integer(0)));
 }
 
 // Everything since BEGIN, or nothing.
@@ -115,25 +135,25 @@ Result<bool> Store::blank() const {
 Result<void> Store::initialise(const Identity& identity, const Sources& sources) {
   Transaction transaction(database_);
   if (auto begun = transaction.begin(); !begun) return begun;
-  if (auto made = database_.run(fmt::format("pragma application_id = {};{}", application_id, schema));
+  if (auto made = database_.run(fmt::format("pragma application_id = {};{}", application_id, schema()));
       !made) {
     return made;
   }
-  auto insert = database_.prepare("insert into identity values (?, ?, ?, ?, ?)");
+  const Sources kept = kept_of(sources);
+  auto insert = database_.prepare("insert into identity values (?, ?, ?, ?, ?, ?)");
   if (!insert) return tl::unexpected(insert.error());
   insert->bind(1, fmt::format("{:016x}", identity.campaign_hash))
       .bind(2, fmt::format("{:016x}", identity.dbc_hash))
       .bind(3, identity.program)
       .bind(4, static_cast<std::int64_t>(identity.runs))
-      .bind(5, std::int64_t{identity.rounding == Rounding::none});
+      .bind(5, std::int64_t{identity.rounding == Rounding::none})
+      .bind(6, hash_of(identity, kept));
   if (auto done = insert->step(); !done) return tl::unexpected(done.error());
   auto source = database_.prepare("insert into source values (?, ?, ?)");
   if (!source) return tl::unexpected(source.error());
-  source->bind(1, "campaign")
-      .bind(2, std::filesystem::path(sources.file).filename().string())
-      .bind(3, sources.text);
+  source->bind(1, "campaign").bind(2, kept.file).bind(3, kept.text);
   if (auto done = source->step(); !done) return tl::unexpected(done.error());
-  for (const auto& [name, text] : sources.scenarios) {
+  for (const auto& [name, text] : kept.scenarios) {
     source->reset();
     source->bind(1, "scenario").bind(2, name).bind(3, text);
     if (auto done = source->step(); !done) return tl::unexpected(done.error());
@@ -144,13 +164,24 @@ Result<void> Store::initialise(const Identity& identity, const Sources& sources)
   return transaction.commit();
 }
 
-Result<void> Store::read_identity() {
+Result<void> Store::check_format() const {
   auto id = database_.prepare("pragma application_id");
   if (!id) return tl::unexpected(id.error());
   const auto known = id->step();
   if (!known) return tl::unexpected(known.error());
-  if (!*known || id->integer(0) != application_id) return not_results(database_.file());
-  auto row = database_.prepare("select campaign_hash, dbc_hash, program, runs, unrounded from identity");
+  const std::int64_t found = *known ? id->integer(0) : 0;
+  const std::int64_t found_format = found - any_format - '0';
+  if (found_format > 0 && found_format < format)
+    return failure(fmt::format("{}: is of format {}, expected {}: it must be flown again", database_.file(),
+                               found_format, format));
+  if (found != application_id) return not_results(database_.file());
+  return database_.check_size();
+}
+
+Result<void> Store::read_identity() {
+  if (auto known = check_format(); !known) return known;
+  auto row =
+      database_.prepare("select campaign_hash, dbc_hash, program, runs, unrounded, hash from identity");
   if (!row) return tl::unexpected(row.error());
   const auto there = row->step();
   if (!there) return tl::unexpected(there.error());
@@ -166,6 +197,13 @@ Result<void> Store::read_identity() {
                .rounding = row->integer(4) == 0 ? Rounding::as_on_the_bus : Rounding::none,
                .program = row->text(2),
                .runs = static_cast<std::uint64_t>(row->integer(3))};
+  const auto kept = sources();
+  if (!kept) return tl::unexpected(kept.error());
+  if (identity_.runs == 0 || hash_of(identity_, *kept) != row->integer(5))
+    return failure(
+        fmt::format("{}: what it says of its campaign has another hash, expected it as it was written: the "
+                    "file is damaged",
+                    database_.file()));
   return {};
 }
 
@@ -226,56 +264,58 @@ Result<Sources> Store::sources() const {
 }
 
 Result<std::vector<Key>> Store::keys() const {
-  auto row = database_.prepare("select variant, run from run order by id");
+  auto row = database_.prepare(fmt::format("select {} from run order by id", key_columns));
   if (!row) return tl::unexpected(row.error());
   std::vector<Key> keys;
   while (true) {
     const auto there = row->step();
     if (!there) return tl::unexpected(there.error());
     if (!*there) return keys;
-    keys.push_back({static_cast<std::size_t>(row->integer(0)), static_cast<std::uint64_t>(row->integer(1))});
+    const auto key = key_of(*row, identity_.runs);
+    if (!key) return tl::unexpected(key.error());
+    if (!keys.empty() && *key <= keys.back()) return out_of_place(*row);
+    keys.push_back(*key);
   }
 }
 
 Result<std::vector<RunSeries>> Store::load(std::size_t variant) const {
   auto row =
-      database_.prepare(fmt::format("select {} from run where id >= ? and id < ? order by id", run_columns));
+      database_.prepare(fmt::format("select {} from run where id >= ? and id < ? order by id", row_columns));
   if (!row) return tl::unexpected(row.error());
-  row->bind(1, static_cast<std::int64_t>(variant * identity_.runs))
-      .bind(2, static_cast<std::int64_t>((variant + 1) * identity_.runs));
+  row->bind(1, row_id({variant, 0}, identity_.runs)).bind(2, row_id({variant + 1, 0}, identity_.runs));
   std::vector<RunSeries> runs;
   while (true) {
     const auto there = row->step();
     if (!there) return tl::unexpected(there.error());
     if (!*there) return runs;
-    runs.push_back(series_in(*row));
+    auto finished = read_row(*row, identity_.runs);
+    if (!finished) return tl::unexpected(finished.error());
+    auto& [found, series] = *finished;
+    if (found != variant || (!runs.empty() && series.run <= runs.back().run)) return out_of_place(*row);
+    runs.push_back(std::move(series));
   }
 }
 
 Result<RunSeries> Store::load(const Key& key) const {
-  auto row = database_.prepare(fmt::format("select {} from run where id = ?", run_columns));
+  auto row = database_.prepare(fmt::format("select {} from run where id = ?", row_columns));
   if (!row) return tl::unexpected(row.error());
-  row->bind(1, static_cast<std::int64_t>(key.variant * identity_.runs + key.run));
+  row->bind(1, row_id(key, identity_.runs));
   const auto there = row->step();
   if (!there) return tl::unexpected(there.error());
   if (!*there) return failure(fmt::format("{}: holds no run {}", database_.file(), key.run));
-  return series_in(*row);
+  auto finished = read_row(*row, identity_.runs);
+  if (!finished) return tl::unexpected(finished.error());
+  if (Key{.variant = finished->variant, .run = finished->series.run} != key) return out_of_place(*row);
+  return std::move(finished->series);
 }
 
 Result<void> Store::add(std::span<const Finished> runs) {
   Transaction transaction(database_);
   if (auto begun = transaction.begin(); !begun) return begun;
-  auto insert = database_.prepare("insert into run values (?, ?, ?, ?, ?, ?, ?, ?)");
+  auto insert = database_.prepare(fmt::format("insert into run values ({})", row_places));
   if (!insert) return tl::unexpected(insert.error());
-  for (const auto& [variant, series] : runs) {
-    insert->bind(1, static_cast<std::int64_t>(variant * identity_.runs + series.run))
-        .bind(2, static_cast<std::int64_t>(variant))
-        .bind(3, static_cast<std::int64_t>(series.run))
-        .bind(4, static_cast<std::int64_t>(series.ending.kind))
-        .bind(5, series.ending.t_us)
-        .bind(6, series.ending.detail)
-        .bind(7, static_cast<std::int64_t>(series.samples.family()))
-        .bind(8, encode(series.samples));
+  for (const Finished& finished : runs) {
+    bind_row(*insert, identity_.runs, finished);
     if (auto done = insert->step(); !done) return tl::unexpected(done.error());
     insert->reset();
   }

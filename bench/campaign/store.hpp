@@ -12,6 +12,7 @@
 
 #include "bench/campaign/campaign.hpp"
 #include "bench/campaign/database.hpp"
+#include "bench/campaign/row.hpp"
 #include "bench/campaign/series.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -32,17 +33,6 @@ Identity identity_of(const Campaign& campaign);
 /// One line that says in what a store's identity differs from what is expected; empty: in nothing.
 std::string difference(const Identity& found, const Identity& expected);
 
-/// A run of a variant, by place in Campaign::variants.
-struct Key {
-  std::size_t variant = 0;
-  std::uint64_t run = 0;
-  friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): false
-};
-struct Finished {
-  std::size_t variant = 0;
-  RunSeries series;
-};
-
 class Store {
  public:
   /// A new file. Error: it exists, or cannot be written.
@@ -51,12 +41,12 @@ class Store {
   /// For more runs; a new file if there is none. Error: another campaign's, in use, or not writable.
   static Result<Store> resume(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// For reading only.
+  /// For reading only. Error: not readable, or damaged.
   static Result<Store> open(const std::filesystem::path& path);
 
   [[nodiscard]] const Identity& identity() const { return identity_; }
   [[nodiscard]] Result<Sources> sources() const;
-  /// What is there, ascending.
+  /// What is there, ascending. Errors of this and of load(): a row is not as it was written.
   [[nodiscard]] Result<std::vector<Key>> keys() const;
   /// All series of a variant, in order of runs.
   [[nodiscard]] Result<std::vector<RunSeries>> load(std::size_t variant) const;
@@ -72,6 +62,7 @@ class Store {
   static Result<Store> open_to_write(const std::filesystem::path& path);
   Result<void> initialise(const Identity& identity, const Sources& sources);
   [[nodiscard]] Result<bool> blank() const;
+  Result<void> check_format() const;
   Result<void> read_identity();
 
   Database database_;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace canhil::checks {
@@ -13,17 +14,6 @@ using world::Matrix3;
 using world::Vector3;
 
 double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
-
-// The covariance of the misalignment from what the bus carries.
-Matrix3 covariance(const FilterAnswer& answer) {
-  const Vector3& s = answer.attitude_sigma;
-  const Vector3& r = answer.attitude_correlation;
-  Matrix3 P;
-  P << s.x() * s.x(), r.x() * s.x() * s.y(), r.y() * s.x() * s.z(),  //
-      r.x() * s.x() * s.y(), s.y() * s.y(), r.z() * s.y() * s.z(),   //
-      r.y() * s.x() * s.z(), r.z() * s.y() * s.z(), s.z() * s.z();
-  return P;
-}
 
 }  // namespace
 
@@ -68,17 +58,25 @@ std::vector<Normalised> nis(const Observations& seen, Aligner aligner) {
   return series;
 }
 
+double nees(const Vector3& error, const Vector3& sigma, const Vector3& correlation) {
+  const Vector3& s = sigma;
+  const Vector3& r = correlation;
+  Matrix3 P;
+  P << s.x() * s.x(), r.x() * s.x() * s.y(), r.y() * s.x() * s.z(),  //
+      r.x() * s.x() * s.y(), s.y() * s.y(), r.z() * s.y() * s.z(),   //
+      r.y() * s.x() * s.z(), r.z() * s.y() * s.z(), s.z() * s.z();
+  const Eigen::LDLT<Matrix3> factor(P);
+  const bool positive = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
+  return positive ? error.dot(factor.solve(error)) : std::numeric_limits<double>::infinity();
+}
+
 std::vector<Normalised> attitude_nees(const Observations& seen, const std::vector<NavigationError>& errors) {
   std::vector<Normalised> series;
   for (const FilterAnswer& answer : seen.filter) {
     const NavigationError* after = first_after(errors, answer.cause_us, answer.navigation_us);
     if (after == nullptr) continue;
-    const Eigen::LDLT<Matrix3> factor(covariance(answer));
-    const bool positive = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
-    // A covariance that is not positive definite after rounding explains no error at all.
-    const double nees = positive ? after->misalignment.dot(factor.solve(after->misalignment))
-                                 : std::numeric_limits<double>::infinity();
-    series.push_back({answer.cause_us, nees});
+    series.push_back(
+        {answer.cause_us, nees(after->misalignment, answer.attitude_sigma, answer.attitude_correlation)});
   }
   return series;
 }

@@ -40,8 +40,11 @@ const NavigationError* first_after(const std::vector<NavigationError>& errors, s
 /// NIS (3 degrees of freedom) of each update: of velocity updates, or of the fixes that the filter used.
 std::vector<Normalised> nis(const Observations& seen, scenario::Aligner aligner);
 
-/// Attitude NEES (3 degrees of freedom) after each velocity update: phi' P^-1 phi, with P from the sigmas and
-/// correlations on the bus and phi from first_after().
+/// error' P^-1 error, with P from the sigmas and correlations (north-east, north-down, east-down) that the
+/// bus carries. Infinite: P is not positive definite, as rounding may leave it, and explains no error at all.
+double nees(const world::Vector3& error, const world::Vector3& sigma, const world::Vector3& correlation);
+
+/// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of phi from first_after().
 std::vector<Normalised> attitude_nees(const Observations& seen, const std::vector<NavigationError>& errors);
 
 /// (error / sigma)^2 of the heading (1 degree of freedom) after each update, with the error from

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bench/checks/errors.hpp"
+#include "bench/checks/silence.hpp"
 #include "dbc/wire/transmit.hpp"
 
 namespace canhil::checks {
@@ -51,7 +52,6 @@ void judge_count(Finding& finding, std::string_view what, std::int64_t value,
 }  // namespace
 
 std::string unanswered_fixes(const Observations& seen, const scenario::Window& window) {
-  constexpr int tolerated = 2;
   std::set<std::pair<FixSource, std::int64_t>> answered;
   for (const FixAnswer& fix : seen.fixes) answered.emplace(fix.source, fix.cause_us);
   std::map<FixSource, int> in_a_row;
@@ -59,7 +59,7 @@ std::string unanswered_fixes(const Observations& seen, const scenario::Window& w
     if (!within(window, valid_us)) continue;
     int& missing = in_a_row[source];
     missing = answered.contains({source, valid_us}) ? 0 : missing + 1;
-    if (missing > tolerated)
+    if (missing > tolerated_fixes)
       return fmt::format("no answers to {} before {:g} s", group_of(source),
                          static_cast<double>(valid_us) * 1e-6);
   }

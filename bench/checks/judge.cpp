@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <ranges>
 #include <span>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "bench/checks/fixes.hpp"
 #include "bench/checks/los.hpp"
 #include "bench/checks/probability.hpp"
+#include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/checks/wire_bounds.hpp"
@@ -36,10 +38,6 @@ double dimension(scenario::Statistic statistic) {
 // The bench must keep its own deadlines to judge those of the target: a host that keeps the bench waiting for
 // more than this share of a bar, as often as the bar is judged for, may keep the target waiting just as long.
 constexpr double lateness_share = 0.5;
-
-// Judged is what was answered; a target that falls silent for longer than this, or than two of its periods,
-// leaves a part of the window unjudged.
-constexpr double longest_stretch_s = 1;
 
 double world::Euler::*member(scenario::AttitudeAxis axis) {
   switch (axis) {
@@ -262,18 +260,10 @@ class Judge {
   [[nodiscard]] std::string unanswered(const Series& part, const scenario::Window& window,
                                        std::string_view message) const {
     if (part.empty()) return "no answers";
-    const double longest_us =
-        1e6 * std::max(longest_stretch_s, 2 * nominal_period_s(evidence_.seen, message));
-    std::int64_t from_us = window.from_us;
-    const auto gap_to = [&](std::int64_t t_us) {
-      return static_cast<double>(t_us - from_us) > longest_us ? seconds({from_us, t_us}) : std::string();
-    };
-    for (const auto& item : part) {
-      if (auto gap = gap_to(item.t_us); !gap.empty()) return "no answers " + gap;
-      from_us = item.t_us;
-    }
-    auto gap = gap_to(std::min(window.to_us, evidence_.duration_us));
-    return gap.empty() ? gap : "no answers " + gap;
+    const auto times = part | std::views::transform([](const auto& item) { return item.t_us; });
+    const auto silent = silent_stretch(times, window, evidence_.duration_us,
+                                       longest_wait_us(1e6 * nominal_period_s(evidence_.seen, message)));
+    return silent ? "no answers " + seconds(*silent) : std::string();
   }
 
   // Why timing with this bar cannot be judged; empty: it can.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bench/checks/silence.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::checks {
@@ -64,8 +65,6 @@ Finding judge(const scenario::LosRateError& rule, const Observations& seen,
                   rule.most_to_go, rule.least_to_go);
   if (engagement == nullptr) return {Outcome::fail, "no engagement", expected};
   const std::vector<LosError> errors = los_errors(seen, *engagement);
-  // Samples may be lost on purpose, but most of them must be answered.
-  constexpr double share = 0.5;
   const auto flown = std::ranges::count_if(engagement->epochs, [&](const world::EngagementTruth& epoch) {
     return epoch.time_to_go() >= rule.least_to_go && epoch.time_to_go() < rule.most_to_go;
   });
@@ -79,7 +78,7 @@ Finding judge(const scenario::LosRateError& rule, const Observations& seen,
   }
   if (flown == 0) return {Outcome::fail, "the flight has no samples there", expected};
   if (answered == 0) return {Outcome::fail, "no answers", expected};
-  if (static_cast<double>(answered) < share * static_cast<double>(flown))
+  if (static_cast<double>(answered) < least_answered * static_cast<double>(flown))
     return {Outcome::fail, fmt::format("answers to {} of {} samples", answered, flown), expected};
   const double value = rms ? los_rms(errors, rule.least_to_go, rule.most_to_go, rule.plane).value() : worst;
   return {pass_if(value < rule.below),

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "bench/checks/silence.hpp"
+#include "bench/checks/timing.hpp"
 
 namespace canhil::checks {
 namespace {
 
-using world::Matrix3;
 using world::Vector3;
 
 bool lies_within(const WindAnswer& answer, const world::GlideRecord& glide) {
@@ -26,17 +27,6 @@ WindError error_of(const WindAnswer& answer, const world::GlideRecord& glide) {
           .error_n = error,
           .along_track = along.x() * error.x() + along.y() * error.y(),
           .cross_track = -along.y() * error.x() + along.x() * error.y()};
-}
-
-// The covariance of the wind from what the bus carries.
-Matrix3 covariance(const WindAnswer& answer) {
-  const Vector3& s = answer.sigma;
-  const Vector3& r = answer.correlation;  // north-east, north-down, east-down
-  Matrix3 P;
-  P << s.x() * s.x(), r.x() * s.x() * s.y(), r.y() * s.x() * s.z(),  //
-      r.x() * s.x() * s.y(), s.y() * s.y(), r.z() * s.y() * s.z(),   //
-      r.y() * s.x() * s.z(), r.z() * s.y() * s.z(), s.z() * s.z();
-  return P;
 }
 
 bool has(const WindAnswer& answer, std::string_view flag) {
@@ -96,7 +86,7 @@ std::vector<Normalised> wind_nees(const Observations& seen, const world::GlideRe
   for (const WindAnswer& answer : seen.wind) {
     if (!lies_within(answer, glide)) continue;
     const Vector3 error = error_of(answer, glide).error_n;
-    all.push_back({answer.cause_us, error.dot(covariance(answer).ldlt().solve(error))});
+    all.push_back({answer.cause_us, nees(error, answer.sigma, answer.correlation)});
   }
   return all;
 }
@@ -114,8 +104,9 @@ Finding judge(const scenario::WindError& rule, const Observations& seen, const w
   if (glide == nullptr) return {Outcome::fail, "no glide to judge against", expected};
   const std::vector<WindError> part = inside(wind_errors(seen, *glide), rule.window);
   if (part.empty()) return {Outcome::fail, "no answers", expected};
-  constexpr std::int64_t longest_us = 1'000'000;
-  if (const std::int64_t gap_us = longest_gap_us(part, rule.window, glide->end_us()); gap_us > longest_us) {
+  const double longest_us = longest_wait_us(1e6 * nominal_period_s(seen, messages::WindUpdate::info.name));
+  if (const std::int64_t gap_us = longest_gap_us(part, rule.window, glide->end_us());
+      static_cast<double>(gap_us) > longest_us) {
     return {Outcome::fail, fmt::format("no answers for {:.2f} s", 1e-6 * static_cast<double>(gap_us)),
             expected};
   }

@@ -97,7 +97,9 @@ ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, 
     if (auto written = report::write(json, campaign::json(campaign, *evaluation)); !written)
       return complain(written.error());
   }
-  return evaluation->passed ? ExitCode::pass : ExitCode::fail;
+  if (evaluation->answers.empty())
+    fmt::print(stderr, "hil-bench: nothing was judged: {} has no [[metric]]\n", campaign.sources.file);
+  return exit_code(evaluation->outcome());
 }
 
 Rounding rounding_of(const Arguments& arguments) {

@@ -48,6 +48,13 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (auto fits = check_fits(*scenario.engagement, *scenario.seeker); !fits)
       return tl::unexpected(fits.error());
   }
+  // What every run tells its target; its draws are checked run by run.
+  for (const scenario::TargetSetup& target : scenario.targets) {
+    world::Stream none(0, 0, "none");
+    const auto start = initial_solution(truth.epochs().front(), world::InitialErrorModel{}, none);
+    if (auto fits = check_fits(initial_state(start, target.initial_sigma)); !fits)
+      return tl::unexpected(fits.error());
+  }
   return truth;
 }
 

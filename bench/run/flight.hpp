@@ -15,7 +15,8 @@
 
 namespace canhil::run {
 
-/// The truth of a scenario on the grid of its IMU. The same for every run: compute it once. Error: one line.
+/// The truth of a scenario on the grid of its IMU. The same for every run: compute it once. Error: one line,
+/// if no run of the scenario can be flown.
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 
 /// What a run flies by itself, because it draws it or its answers steer it.

@@ -9,15 +9,22 @@
 #include "bench/run/monitor.hpp"
 
 namespace canhil::run {
+namespace {
+
+InProcessRun not_flown(const Error& why) {
+  return {.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = why.message}, .seen = {}};
+}
+
+}  // namespace
 
 Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                     std::uint64_t run_index, Rounding rounding) {
   constexpr std::int64_t step_limit_ns = 1'000'000'000;  // an answer is there when send() returns
   static const std::atomic<bool> never = false;
   auto own_truth = make_own_truth(scenario, run_index);
-  if (!own_truth) return tl::unexpected(own_truth.error());
+  if (!own_truth) return not_flown(own_truth.error());
   const auto initial = make_initial_states(scenario, truth, *own_truth, run_index);
-  if (!initial) return tl::unexpected(initial.error());
+  if (!initial) return not_flown(initial.error());
 
   InProcessPort port(rounding);
   Link link(port);

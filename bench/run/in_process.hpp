@@ -19,7 +19,8 @@ struct InProcessRun {
 };
 
 /// Runs a scenario with the random numbers of (seed, run_index). A pure function: same arguments, same bits,
-/// on any thread. Error: the scenario cannot be run (configuration); a target that gives up is an ending.
+/// on any thread. Error: the scenario cannot be run (configuration). A target that gives up is an ending, and
+/// so is what this run drew that cannot be flown.
 Result<InProcessRun> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                     std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus);
 

@@ -16,7 +16,9 @@ FixFaults read_fix_faults(Section& section) {
                    .outlier_probability = section.number("outlier_percent", share, 0),
                    .outlier = section.number("outlier_m", Limits::between(0, largest_outlier_m), 0),
                    .silence_us = {}};
-  if ((faults.outlier_probability > 0) != (faults.outlier > 0)) {
+  // A share of 0 that is given stands at the beginning of a sweep.
+  const bool size_alone = faults.outlier > 0 && !section.has("outlier_percent");
+  if (size_alone || (faults.outlier_probability > 0 && faults.outlier <= 0)) {
     section.reject(faults.outlier > 0 ? "outlier_m" : "outlier_percent", "is given alone",
                    "outlier_percent and outlier_m, both above 0");
   }

@@ -171,6 +171,27 @@ TEST(Report, ABarThatIsNotMetIsExitCode1) {
   EXPECT_THAT(ended.out, HasSubstr("FAIL"));
 }
 
+TEST(Report, OfACampaignThatAsksForNothingIsExitCode3) {
+  const std::string text = read(campaign_file(2));
+  std::ofstream(scratch("asks_nothing.toml")) << text.substr(0, text.find("[[metric]]"));
+  const std::string at = folder("asks_nothing");
+  for (const std::string& command : {"campaign " + scratch("asks_nothing.toml") + " --out " + at,
+                                     "campaign report " + at + "/asks_nothing.sqlite"}) {
+    const Ended ended = hil_bench(command);
+    EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("seed 11 · not measured"));
+    EXPECT_THAT(ended.err, HasSubstr("hil-bench: nothing was judged: "));
+    EXPECT_THAT(ended.err, HasSubstr("asks_nothing.toml has no [[metric]]\n"));
+  }
+}
+
+TEST(Report, OfResultsThatAreCutOffIsOneLine) {
+  const std::string at = folder("cut_off"), whole = at + "/campaign5.sqlite";
+  expect_done(hil_bench(fmt::format("campaign {} --out {}", campaign_file(5), at)));
+  fs::resize_file(whole, fs::file_size(whole) - 1000);
+  expect_one_line(hil_bench("campaign report " + whole), "of its pages: the file is cut off");
+}
+
 TEST(Replay, IsOneRunWithItsLog) {
   const std::string log = scratch("replay.log");
   const auto replay = [&] {

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/run/flight.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
@@ -90,6 +91,34 @@ TEST(Execute, ARunThatCannotBeConfiguredEndsItWithOneLine) {
   EXPECT_THAT(refused.error().message, HasSubstr("c.toml: variant '"));  // of either thread
   EXPECT_THAT(refused.error().message, HasSubstr(" target.parameters.h2_case=7': "));
   EXPECT_THAT(refused.error().message, HasSubstr("out_of_range"));
+}
+
+TEST(Execute, AScenarioOfWhichNoRunCanBeFlownEndsItWithOneLine) {
+  const auto campaign = parse(two_variants + "[sweep]\n\"target.initial_sigma.tilt_deg\" = [0.00001]\n");
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  EXPECT_THAT(execute(*campaign, options_for(scratch("sigma.sqlite"), 2), never).error().message,
+              HasSubstr("does not fit into TargetInitSigma.tilt_sigma"));
+}
+
+TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
+  // Within 10 m of the date line some start beyond it.
+  const auto campaign = parse(two_variants +
+                              "[[metric]]\nkind = 'divergence'\nquantity = 'heading'\nbeyond_mrad = "
+                              "9000\nat_most = 0\n[sweep]\n\"truth.longitude_deg\" = [179.99999]\n"
+                              "\"initial_error.position_sigma_m\" = [5.0]\n");
+  ASSERT_TRUE(campaign) << campaign.error().message;
+  const auto file = scratch("date_line.sqlite");
+  const auto done = execute(*campaign, options_for(file, 2), never);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(*done, Execution::complete);
+  const auto evaluation = evaluate(*campaign, *Store::open(file));
+  ASSERT_TRUE(evaluation) << evaluation.error().message;
+  const Endings& endings = evaluation->endings.at(0);
+  EXPECT_EQ(endings.runs, 4U);
+  EXPECT_GT(endings.completed, 0U);
+  EXPECT_LT(endings.completed, 4U);
+  EXPECT_THAT(endings.first_fault, testing::MatchesRegex("run .: initial value 180 deg does not fit.*"));
+  EXPECT_EQ(evaluation->outcome(), checks::Outcome::fail);
 }
 
 /// No file of this process grows beyond a limit, as on a disk that is full there; until the end of its scope.

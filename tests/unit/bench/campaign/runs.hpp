@@ -33,6 +33,13 @@ inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
   return series;
 }
 
+/// Values up to 3 s, the end of the quick flight: after those given the last of them.
+inline std::vector<double> held(std::vector<double> values) {
+  constexpr std::size_t updates = 30;
+  values.resize(updates, values.back());
+  return values;
+}
+
 inline std::string content(const std::filesystem::path& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();

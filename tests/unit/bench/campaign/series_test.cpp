@@ -33,7 +33,9 @@ TEST(Series, ComesBackAsItWas) {
     Samples samples(family);
     add(samples, -5'540'000, values);
     add(samples, 86'399'999'999, {});
-    const Samples back = decode(encode(samples), family);
+    const auto decoded = decode(encode(samples), family);
+    ASSERT_TRUE(decoded) << decoded.error().message;
+    const Samples& back = *decoded;
     ASSERT_EQ(back.size(), 2U);
     EXPECT_EQ(back.family(), family);
     EXPECT_EQ(back.times()[0], -5'540'000);
@@ -44,6 +46,18 @@ TEST(Series, ComesBackAsItWas) {
     }
     EXPECT_EQ(encode(back), encode(samples));
   }
+}
+
+TEST(Series, BytesThatAreNoSamplesAreRefused) {
+  Samples samples(Family::wind);
+  add(samples, 0, {});
+  auto bytes = encode(samples);
+  bytes.pop_back();
+  EXPECT_EQ(decode(bytes, Family::wind).error().message, "has 55 bytes of samples of 56 each");
+  bytes = encode(samples);
+  bytes[7] = 0x7F;  // not a number, or nearly infinite
+  bytes[6] = 0xF0;
+  EXPECT_EQ(decode(bytes, Family::wind).error().message, "has a sample at inf s");
 }
 
 TEST(Series, QuantitiesThatFollowFromOthers) {
@@ -156,8 +170,13 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   flown.seen.fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;
   flown.seen.fixes.push_back(fix);
+  fix.outcome = messages::FixOutcome::gated;
+  fix.cause_us = 1'500'000;
+  fix.nis = 900;
+  flown.seen.fixes.push_back(fix);
   const RunSeries series = series_of(5, flown, truth, Family::alignment);
-  ASSERT_EQ(series.samples.size(), 1U) << "only of fixes that were considered";
+  ASSERT_EQ(series.samples.size(), 2U) << "only of fixes that were considered";
+  EXPECT_TRUE(std::isnan(series.samples.value(1, Quantity::nis))) << "the filter did not use it";
   const auto value = [&](Quantity quantity) { return series.samples.value(0, quantity); };
   EXPECT_EQ(series.samples.times()[0], 500'000);
   EXPECT_DOUBLE_EQ(value(Quantity::heading), 1.5) << "the first answer that knew of a late fix";

@@ -12,6 +12,7 @@ namespace canhil::campaign {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr Quantity heading = Quantity::heading;
 
 TEST(RmsCurve, IsTheRootOfTheMeanSquareOverRuns) {
@@ -157,9 +158,21 @@ TEST(Consistency, HasTheBoundsOfChiSquareForTheMeanOverRuns) {
   EXPECT_NEAR(found.high, 4.6979, 1e-4);  // at 97.5 %: 46.979
   EXPECT_EQ(found.updates, 2U);
   EXPECT_DOUBLE_EQ(found.inside, 0.5);
-  runs[3] = run_with(3, {nan, 9}, Quantity::nis);
+  runs[3] = run_with(3, {inf, 9}, Quantity::nis);
   EXPECT_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).missing, 1U);
   EXPECT_DOUBLE_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).inside, 0);
+}
+
+TEST(Consistency, IsOfTheRunsThatWereAsked) {
+  // The fixes of the second update were gated in all runs but one, those of the third in all.
+  std::vector<RunSeries> runs(10, run_with(0, {3, nan, nan}, Quantity::nis));
+  runs[4] = run_with(4, {3, 9.3, nan}, Quantity::nis);
+  const auto found = consistency(runs, Quantity::nis, 0, 1'000'000, 0.95);
+  EXPECT_EQ(found.missing, 0U);
+  EXPECT_EQ(found.updates, 2U);
+  EXPECT_DOUBLE_EQ(found.mean, (30 + 9.3) / 11);
+  EXPECT_DOUBLE_EQ(found.inside, 1) << "of one run 9.3 is: chi2(3) at 97.5 % is 9.348";
+  EXPECT_NEAR(found.low, 1.6791, 1e-4) << "of all runs";
 }
 
 RunSeries engagement(std::uint64_t run, const std::map<std::int64_t, double>& pitch_by_ms_to_go) {

@@ -50,7 +50,7 @@ std::optional<bool> passed(const std::string& metric) {
   const auto evaluation = evaluate(*campaign, [](std::size_t variant) -> Result<std::vector<RunSeries>> {
     std::vector<RunSeries> runs;
     for (std::uint64_t run = 0; run < 4; ++run)
-      runs.push_back(run_with(run, variant == 0 ? std::vector{1e-3, -3e-3} : std::vector{6e-3, 6e-3}));
+      runs.push_back(run_with(run, held(variant == 0 ? std::vector{1e-3, -3e-3, 2e-3} : std::vector{6e-3})));
     return runs;
   });
   EXPECT_TRUE(evaluation) << evaluation.error().message;
@@ -65,7 +65,7 @@ TEST(RunMean, Bars) {
   EXPECT_EQ(passed("other = 'B'\nratio_at_most = 0.34\n"), true);
   EXPECT_EQ(passed("other = 'B'\nratio_at_most = 0.33\n"), false);
   EXPECT_EQ(passed("other = 'B'\nratio_at_least = 0.34\n"), false);
-  EXPECT_EQ(passed("from_s = 0.2\nother = 'B'\nratio_at_least = 0.49\n"), true);
+  EXPECT_EQ(passed("from_s = 0.2\nto_s = 0.25\nother = 'B'\nratio_at_least = 0.49\n"), true);
 }
 
 TEST(RunMean, ARatioNeedsAnother) {

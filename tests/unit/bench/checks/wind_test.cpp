@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+
 #include "bench/checks/judge.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "dbc/wire/transmit.hpp"
@@ -103,6 +106,27 @@ TEST_F(Winds, NeesTakesTheCorrelationIn) {
   EXPECT_NEAR(wind_nees(seen_, glide_)[0].value, 3, 1e-9);
   seen_.wind[0].correlation = {0.5, 0, 0};
   EXPECT_NEAR(wind_nees(seen_, glide_)[0].value, 2.0 / 1.5 + 1, 1e-9);  // (1 + 1 - 2 r) / (1 - r^2) and 1
+}
+
+TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {
+  seen_.wind[0].wind_n += Vector3(1, -1, 0);
+  seen_.wind[0].correlation = {0.9, 0.9, -0.9};  // as no three numbers are correlated
+  EXPECT_TRUE(std::isinf(wind_nees(seen_, glide_)[0].value));
+  EXPECT_EQ(judge(scenario::Consistency{.statistic = scenario::Statistic::wind_nees,
+                                        .window = whole,
+                                        .bound = scenario::MeanBetween{.low = 0, .high = 1e9}})
+                .outcome,
+            Outcome::fail);
+}
+
+TEST_F(Winds, SilenceIsTwoPeriodsOfTheNavigationIfThatIsLonger) {
+  seen_.stimuli.clear();
+  for (std::int64_t t_us = 0; t_us <= duration_us; t_us += 1'000'000) seen_.stimuli["GliderNav"].add(t_us);
+  std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us % 1'000'000 != 0; });
+  std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us == 3'000'000; });
+  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1).outcome, Outcome::pass) << "one was lost";
+  std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us == 4'000'000; });
+  EXPECT_THAT(error(WindAxis::norm, WindStatistic::max, 1).measured, HasSubstr("no answers for 3.00 s"));
 }
 
 TEST_F(Winds, NisIsOfNineDegreesOfFreedom) {

@@ -245,6 +245,9 @@ INSTANTIATE_TEST_SUITE_P(
               "17: key 'ssbl.outlier_percent': is given alone, expected outlier_percent and outlier_m, both "
               "above "
               "0"},
+        Wrong{"[[check]]", "[ssbl]\noutlier_m = 5\n[[check]]",
+              "17: key 'ssbl.outlier_m': is given alone, expected outlier_percent and outlier_m, both "
+              "above 0"},
         Wrong{"[[check]]", "[gps]\noutlier_percent = 1\noutlier_m = 1e9\n[[check]]",
               "18: key 'gps.outlier_m': 1000000000 is out of range, expected a number from 0 to 50000"},
         Wrong{"[[check]]", "[initial_error]\nheading_sigma_deg = 5\nheading_magnitude_deg = 90\n[[check]]",

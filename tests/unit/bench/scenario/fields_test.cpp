@@ -265,6 +265,12 @@ TEST(ScenarioFields, Ssbl) {
   EXPECT_EQ(node.faults.silence_us, std::pair(std::int64_t{5'000'000}, std::int64_t{6'500'000}));
 }
 
+TEST(ScenarioFields, OutliersOfNoShareAreNone) {  // as at the beginning of a sweep
+  const auto faults = parsed(aided("[ssbl]\noutlier_percent = 0\noutlier_m = 200")).ssbl.value().faults;
+  EXPECT_EQ(faults.outlier_probability, 0);
+  EXPECT_EQ(faults.outlier, 200);
+}
+
 TEST(ScenarioFields, Gps) {
   const auto bare = parsed(aided("[gps]")).gps.value();
   EXPECT_FALSE(bare.lowest_height.has_value());

@@ -1,0 +1,58 @@
+// A run as a row of the results: what is written, and what is believed of what was read.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bench/campaign/database.hpp"
+#include "bench/campaign/series.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::campaign {
+
+/// A run of a variant, by place in Campaign::variants.
+struct Key {
+  std::size_t variant = 0;
+  std::uint64_t run = 0;
+  friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr): false
+};
+struct Finished {
+  std::size_t variant = 0;
+  RunSeries series;
+};
+/// The place of a run in the file, whoever wrote it, where each variant has so many runs.
+std::int64_t row_id(const Key& key, std::uint64_t runs);
+
+/// FNV-1a over values one after the other, each with its length.
+class Digest {
+ public:
+  Digest& add(std::int64_t value);
+  Digest& add(std::string_view text);
+  /// As SQLite holds it.
+  [[nodiscard]] std::int64_t value() const;
+
+ private:
+  std::string bytes_;
+};
+
+/// What the table of runs consists of, for `create table`, and its columns for `select`.
+inline constexpr std::string_view row_schema =
+    "id integer primary key, variant integer, run integer, ending integer, end_us integer, detail text, "
+    "family integer, samples blob, hash integer";
+inline constexpr std::string_view row_columns =
+    "id, variant, run, ending, end_us, detail, family, samples, hash";
+inline constexpr std::string_view row_places = "?, ?, ?, ?, ?, ?, ?, ?, ?";
+inline constexpr std::string_view key_columns = "id, variant, run";
+
+/// Binds the columns of a row.
+void bind_row(Statement& statement, std::uint64_t runs, const Finished& finished);
+/// The key of a row that a statement for key_columns, or row_columns, has reached. Error: it is none of the
+/// file's, which was damaged.
+Result<Key> key_of(const Statement& row, std::uint64_t runs);
+/// The run in a row that a statement for row_columns has reached. Error: it is not as it was written.
+Result<Finished> read_row(const Statement& row, std::uint64_t runs);
+
+}  // namespace canhil::campaign

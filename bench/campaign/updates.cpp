@@ -1,0 +1,141 @@
+#include "bench/campaign/updates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "bench/checks/silence.hpp"
+
+namespace canhil::campaign {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
+
+// When a run can have answered last.
+std::int64_t end_of(const RunSeries& run) {
+  if (run.samples.empty()) return run.freshness.end_us;
+  const std::size_t last = run.samples.size() - 1;
+  // A missile that did not pass its target has no time that is the end.
+  const bool open =
+      run.samples.family() == Family::los_rate && std::isnan(run.samples.value(last, Quantity::miss));
+  return open ? run.samples.times()[last] : run.freshness.end_us;
+}
+
+// Adds the times at which the last of these updates is stale, up to the end. No run has an update there, so
+// that whoever asks for one finds it missing.
+std::vector<std::int64_t> with_stale(const std::vector<std::int64_t>& times, std::int64_t end_us,
+                                     std::int64_t age_limit_us) {
+  std::vector<std::int64_t> all;
+  const auto add_stale = [&](std::int64_t until_us) {
+    if (all.empty()) return;
+    while (until_us > all.back() && until_us - all.back() > age_limit_us)
+      all.push_back(all.back() + age_limit_us);
+  };
+  for (const std::int64_t t_us : times) {
+    add_stale(t_us);
+    all.push_back(t_us);
+  }
+  add_stale(end_us);
+  return all;
+}
+
+std::int64_t end_of_all(std::span<const RunSeries> runs) {
+  std::int64_t end_us = std::numeric_limits<std::int64_t>::min();
+  for (const RunSeries& run : runs) end_us = std::max(end_us, end_of(run));
+  return end_us;
+}
+
+// Update times that any run has, ascending.
+std::vector<std::int64_t> all_times(std::span<const RunSeries> runs) {
+  std::vector<std::int64_t> times;
+  for (const RunSeries& run : runs) {
+    std::vector<std::int64_t> both;
+    std::ranges::set_union(times, run.samples.times(), std::back_inserter(both));
+    times = std::move(both);
+  }
+  return times;
+}
+
+// Whether a run's update is too old to say anything of a time, or of the end, if that comes first.
+bool stale(const RunSeries& run, Quantity quantity, std::int64_t updated_us, std::int64_t t_us) {
+  if (info(quantity).of_whole_run) return false;
+  const std::int64_t until_us = std::min(t_us, end_of(run));
+  return until_us > updated_us && until_us - updated_us > run.freshness.age_limit_us;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, Quantity quantity) {
+  std::vector<std::int64_t> times = all_times(runs);
+  if (runs.empty() || info(quantity).of_whole_run) return times;
+  return with_stale(times, end_of_all(runs), runs.front().freshness.age_limit_us);
+}
+
+std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int64_t from_us,
+                                       std::int64_t to_us) {
+  std::vector<std::int64_t> times = all_times(runs);
+  std::erase_if(times, [&](std::int64_t t_us) { return t_us < from_us || t_us > to_us; });
+  if (runs.empty()) return times;
+  const bool begins_there = !times.empty() && times.front() == from_us;
+  if (!begins_there) times.insert(times.begin(), from_us);
+  times = with_stale(times, std::min(to_us, end_of_all(runs)), runs.front().freshness.age_limit_us);
+  if (!begins_there) times.erase(times.begin());
+  return times;
+}
+
+double value_at(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+  const auto times = run.samples.times();
+  const auto at = std::ranges::lower_bound(times, t_us);
+  if (at == times.end() || *at != t_us) return nan;
+  const double value = run.samples.value(static_cast<std::size_t>(at - times.begin()), quantity);
+  return std::isfinite(value) ? value : nan;
+}
+
+bool is_untold(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+  const auto times = run.samples.times();
+  auto place = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
+  const auto untold = [&] { return std::isnan(run.samples.value(place, quantity)); };
+  if (!info(quantity).may_be_untold || place == times.size() || times[place] != t_us || !untold())
+    return false;
+  // A gated fix was answered; a filter that coasts on and on says nothing of its updates.
+  if (run.samples.family() == Family::alignment) return true;
+  while (place > 0 && t_us - times[--place] <= run.freshness.age_limit_us) {
+    if (!untold()) return true;
+  }
+  return false;
+}
+
+double magnitude_at(const RunSeries& run, Quantity quantity, std::span<const std::int64_t> times,
+                    std::int64_t t_us) {
+  const auto after = std::ranges::upper_bound(times, t_us);
+  const double value = after == times.begin() ? nan : value_at(run, quantity, *std::prev(after));
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
+}
+
+double last_magnitude(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+  const bool ended = run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
+  const auto times = run.samples.times();
+  const auto after = std::ranges::upper_bound(times, t_us) - times.begin();
+  if (ended || after == 0) return nan;
+  if (stale(run, quantity, times[static_cast<std::size_t>(after - 1)], t_us)) return nan;
+  const double value = std::abs(run.samples.value(static_cast<std::size_t>(after - 1), quantity));
+  return std::isfinite(value) ? value : nan;
+}
+
+bool answers_throughout(const RunSeries& run, std::int64_t from_us, std::int64_t to_us) {
+  const auto times = run.samples.times();
+  const auto from = std::ranges::lower_bound(times, from_us), to = std::ranges::upper_bound(times, to_us);
+  return !checks::silent_stretch(std::span(from, to), {.from_us = from_us, .to_us = to_us}, end_of(run),
+                                 static_cast<double>(run.freshness.age_limit_us));
+}
+
+double samples_to_go(const Freshness& freshness, double least, double most) {
+  if (freshness.sample_us == 0) return 0;
+  const double flown = std::min(most, -seconds(freshness.begin_us)) - least;
+  return std::max(0.0, flown / seconds(freshness.sample_us));
+}
+
+}  // namespace canhil::campaign
