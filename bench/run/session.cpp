@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "bench/checks/timing.hpp"
 #include "bench/run/bus_watch.hpp"
@@ -42,8 +43,10 @@ Result<std::unique_ptr<Port>> open_in_process(const std::string& bus, BusFormat 
   return port;
 }
 
-// A local bus is hosted by the bench, unless somebody does already.
-Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
+// A local bus is hosted by the bench, unless somebody does already. `notes`: whom the bench as a host turns
+// away; must outlive the port.
+Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format,
+                                   std::vector<std::string>& notes) {
   if (is_in_process(bus)) return open_in_process(bus, format);
   PortOptions options;
   options.own_echo = true;
@@ -52,7 +55,9 @@ Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
   auto joined = open_bus(bus, options, format);
   if (joined || !bus.starts_with("local:")) return joined;
   options.fd = format == BusFormat::fd;
-  auto hosted = host_local_bus(bus, options);
+  HubRules rules;
+  rules.on_turned_away = [&notes](const std::string& line) { notes.push_back(line); };
+  auto hosted = host_local_bus(bus, options, std::move(rules));
   // Somebody hosts it after all: why it could not be joined says more.
   if (!hosted) return joined;
   return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
@@ -75,11 +80,11 @@ std::vector<std::string> buses_of(const Options& options) {
 }
 
 // One port over all of them; a frame goes to the bus of its sender.
-Result<std::unique_ptr<Port>> open_all(const Options& options) {
+Result<std::unique_ptr<Port>> open_all(const Options& options, std::vector<std::string>& notes) {
   const std::vector<std::string> buses = buses_of(options);
   std::vector<std::unique_ptr<Port>> ports;
   for (const std::string& bus : buses) {
-    auto opened = open(bus, options.format);
+    auto opened = open(bus, options.format, notes);
     if (!opened) return opened;
     ports.push_back(std::move(*opened));
   }
@@ -124,7 +129,12 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (options.realtime) {
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
   }
-  auto port = open_all(options);
+  std::vector<std::string> notes;
+  // Who was turned away may be why.
+  const auto explained = [&notes](const std::string& why) {
+    return notes.empty() ? why : fmt::format("{}; {}", why, notes.front());
+  };
+  auto port = open_all(options, notes);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
   BusWatch bus(**port);
@@ -153,7 +163,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
       make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep, rounding_of(options.bus));
   if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone, options.format);
       !configured) {
-    return tl::unexpected(configured.error());
+    return failure(explained(configured.error().message));
   }
 
   // A container of CAN FD is none of the frames that the observers see.
@@ -186,6 +196,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (auto closed = recorder->close(); !closed) return tl::unexpected(closed.error());
   }
 
+  if (ending.kind != Ending::Kind::completed) ending.detail = explained(ending.detail);
+
   checks::Observations seen = monitor.finish();
   // What the host did has no part in the times of a simulated wire.
   if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
@@ -195,6 +207,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.bus.reports_errors = std::ranges::all_of(buses_of(options), reports_errors);
   seen.bus.late_in_queue = link.late_in_queue();
   seen.bus.foreign = (*port)->counters().foreign;
+  seen.bus.notes = std::move(notes);
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
   std::string timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen);
   const checks::Evidence evidence{.seen = seen,
