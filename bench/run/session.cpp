@@ -130,13 +130,14 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
   }
   std::vector<std::string> notes;
-  // Who was turned away may be why.
-  const auto explained = [&notes](const std::string& why) {
-    return notes.empty() ? why : fmt::format("{}; {}", why, notes.front());
-  };
   auto port = open_all(options, notes);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
+  // Who floods the bus, or was turned away from it, may be why.
+  const auto explained = [&](const std::string& why) {
+    if (link.flood()) return fmt::format("{}; {}", why, words(*link.flood()));
+    return notes.empty() ? why : fmt::format("{}; {}", why, notes.front());
+  };
   BusWatch bus(**port);
   link.attach(bus);
   std::unique_ptr<Recorder> recorder;
@@ -207,9 +208,12 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.bus.reports_errors = std::ranges::all_of(buses_of(options), reports_errors);
   seen.bus.late_in_queue = link.late_in_queue();
   seen.bus.foreign = (*port)->counters().foreign;
-  seen.bus.notes = std::move(notes);
+  seen.bus.notes = notes;
+  if (link.flood()) seen.bus.notes.push_back(words(*link.flood()));
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
-  std::string timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen);
+  std::string timing_unfit = lockstep       ? "virtual time"
+                             : link.flood() ? words(*link.flood())
+                                            : checks::unfit_for_timing(seen);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
                                   .glide = own_truth->glide ? &*own_truth->glide : nullptr,
@@ -218,6 +222,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                                   .ended_early = ending.detail,
                                   .timing_unfit = timing_unfit};
   checks::Verdict verdict = judge(scenario, evidence);
+  if (evidence.ended_early.empty() && verdict.outcome != checks::Outcome::pass)
+    verdict.reason = explained(verdict.reason);
   if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return Run{
       .verdict = std::move(verdict),
