@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "dbc/ports/bus_errors.hpp"
@@ -26,7 +27,8 @@ struct BusRecord {
   std::uint64_t more_incidents = 0;    ///< those after
   std::uint64_t downs = 0;             ///< how often the interface went down or was removed
   std::uint64_t late_in_queue = 0;     ///< frames of the bench that waited for room beyond their deadline
-  std::uint64_t foreign = 0;  ///< frames of others in the format that the bus's contract does not have
+  std::uint64_t foreign = 0;       ///< frames of others in the format that the bus's contract does not have
+  std::vector<std::string> notes;  ///< who else troubled the bus and how, a line each
 };
 
 }  // namespace canhil::checks

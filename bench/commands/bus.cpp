@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
@@ -15,7 +16,9 @@ ExitCode host(const std::string& bus, bool fd) {
   PortOptions options;
   options.fd = fd;
   options.node_name = "hil-bench bus";
-  auto hub = host_local_bus(bus, options);
+  HubRules rules;
+  rules.on_turned_away = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  auto hub = host_local_bus(bus, options, std::move(rules));
   if (!hub) return complain(hub.error());
   catch_interrupts();
   fmt::print("hosting {}; Ctrl-C ends it\n", bus);

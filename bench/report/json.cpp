@@ -96,6 +96,7 @@ Json object(const checks::BusRecord& bus, std::int64_t first_ns) {
             {"foreign_frames", bus.foreign},
             {"incidents", Json::array()},
             {"more_incidents", bus.more_incidents}};
+  if (!bus.notes.empty()) json["notes"] = bus.notes;
   for (const checks::BusIncident& incident : bus.incidents) {
     json["incidents"].push_back({{"t_s", static_cast<double>(incident.t_ns - first_ns) * 1e-9},
                                  {"event", name(incident.event)},

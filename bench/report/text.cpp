@@ -102,6 +102,7 @@ std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
                        bus.late_in_queue);
   if (bus.foreign > 0) lines += fmt::format("; {} frames in the format that it is not to have", bus.foreign);
   lines += '\n';
+  for (const std::string& note : bus.notes) lines += fmt::format("    {}\n", note);
   for (const checks::BusIncident& incident : bus.incidents) {
     if (&incident == bus.incidents.data() + shown) break;
     lines += fmt::format("    t={:.3f} s  {} (tx {}, rx {})\n",

@@ -7,6 +7,7 @@
 
 #include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
+#include "bench/run/second_target.hpp"
 #include "target/device/device.hpp"
 
 namespace canhil::run {
@@ -60,7 +61,7 @@ class Mailbox final : public Observer {
 class Dialogue {
  public:
   Dialogue(Link& link, nodes::Transmission& out, const std::function<std::optional<std::string>()>& gone)
-      : link_(link), out_(out), gone_(gone), attached_(link, mailbox_) {}
+      : link_(link), out_(out), gone_(gone), attached_(link, mailbox_), second_attached_(link, second_) {}
 
   // Waits until `condition` holds of the mailbox, calling `request` first and whenever it went unanswered for
   // a while.
@@ -75,6 +76,9 @@ class Dialogue {
       }
       if (link_.drain() == LinkState::down)
         return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
+      if (second_.found())
+        return failure(fmt::format("target on '{}': {}, expected to be the only one", link_.port().name(),
+                                   SecondTarget::complaint));
       if (condition(mailbox_)) return {};
       if (const auto why = gone_()) return failure(fmt::format("{} while {}", *why, what));
       if (link_.now_ns() >= deadline_ns) return failure(complaint(what, limit_ns));
@@ -121,7 +125,9 @@ class Dialogue {
   nodes::Transmission& out_;
   const std::function<std::optional<std::string>()>& gone_;
   Mailbox mailbox_;
+  SecondTarget second_;
   Attached attached_;
+  Attached second_attached_;
 };
 
 TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {

@@ -30,15 +30,21 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
     if (now_ns >= deadline_ns) return may_return ? LinkState::down : LinkState::congested;
     // What fills the queue may be a target that waits for us to read its answers.
     if (drain() == LinkState::down) return LinkState::down;
-    wait(port_, WaitFor::room, deadline_ns);
+    if (!backlog_.more()) wait(port_, WaitFor::room, deadline_ns);
   }
 }
 
 LinkState Link::drain() {
-  while (auto received = port_.receive()) {
+  int looked_at = 0;
+  for (; looked_at < most_at_once; ++looked_at) {
+    const auto received = port_.receive();
+    if (!received) break;
+    backlog_.add(received->frame);
     for (Observer* observer : observers_)
       received->foreign ? observer->foreign(*received) : observer->received(*received);
   }
+  if (looked_at == most_at_once || backlog_.stands())
+    backlog_.pause(looked_at == most_at_once, port_.monotonic_ns());
   look_at_interface();
   return port_.closed() ? LinkState::down : LinkState::up;
 }
@@ -49,6 +55,9 @@ void Link::look_at_interface() {
   for (Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
 }
 
-bool Link::wait_until(std::int64_t deadline_ns) { return wait(port_, WaitFor::frame, deadline_ns); }
+// A port that has taken several frames in at once says nothing of those which it still holds.
+bool Link::wait_until(std::int64_t deadline_ns) {
+  return backlog_.more() || wait(port_, WaitFor::frame, deadline_ns);
+}
 
 }  // namespace canhil::run

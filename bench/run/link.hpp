@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bench/run/backlog.hpp"
 #include "dbc/ports/port.hpp"
 
 namespace canhil::run {
@@ -43,8 +44,14 @@ class Link {
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
-  /// Shows every waiting frame to the observers, without blocking; `down` once the bus is gone.
+  /// Shows waiting frames to the observers, without blocking; `down` once the bus is gone. A bus may bring
+  /// frames for ever, so it is `most_at_once` at most: who calls looks at its deadline, and whether it is to
+  /// stop, before it calls again. A wait returns at once while more are there.
   LinkState drain();
+  static constexpr int most_at_once = 256;  ///< a few of the target's groups; less than a millisecond's work
+
+  /// The longest time for which frames came faster than they could be looked at; none: they never did.
+  [[nodiscard]] const std::optional<Flood>& flood() const { return backlog_.flood(); }
 
   /// Now on the clock of all deadlines here: Port::monotonic_ns().
   [[nodiscard]] std::int64_t now_ns() const { return port_.monotonic_ns(); }
@@ -67,6 +74,7 @@ class Link {
   std::vector<Observer*> observers_;
   bool up_ = true;
   std::uint64_t late_in_queue_ = 0;
+  Backlog backlog_;
 };
 
 /// Keeps an observer attached while it lives.

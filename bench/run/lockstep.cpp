@@ -4,6 +4,7 @@
 
 #include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
+#include "bench/run/second_target.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::run {
@@ -39,6 +40,8 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
                     const Progress& progress) {
   StepWatch watch;
   const Attached attached(link, watch);
+  SecondTarget second;
+  const Attached second_attached(link, second);
   std::int64_t progress_due_us = 0;
   std::int64_t t_us = 0;
   constexpr std::int64_t progress_period_us = 1'000'000;
@@ -78,6 +81,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
       }
       link.wait_until(deadline_ns);
     }
+    if (second.found()) return {Ending::Kind::target_fault, t_us, std::string(SecondTarget::complaint)};
     if (watch.fault()) return {Ending::Kind::target_fault, t_us, fault_of(*watch.fault())};
   }
   return {Ending::Kind::completed, t_us, ""};

@@ -6,6 +6,7 @@
 
 #include "bench/run/bus_watch.hpp"
 #include "bench/run/heartbeat_errors.hpp"
+#include "bench/run/second_target.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
@@ -51,6 +52,8 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
   const Attached attached(link, watch);
   BusWatch bus(link.port());
   const Attached bus_attached(link, bus);
+  SecondTarget second;
+  const Attached second_attached(link, second);
   std::int64_t progress_due_us = 0;
 
   // Nobody can be heard, nor hear, while the bus is away: then, and for as long after as always, silence says
@@ -72,6 +75,8 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       const std::int64_t now = link.now_ns();
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
+      if (second.found())
+        return Ending{Ending::Kind::target_fault, bench_us(now), std::string(SecondTarget::complaint)};
       if (watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), fault_of(*watch.fault())};
       if (now > excused_until_ns()) return silent();
       if (now >= deadline_ns) return std::nullopt;

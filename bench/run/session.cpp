@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "bench/checks/timing.hpp"
 #include "bench/run/bus_watch.hpp"
@@ -41,8 +42,10 @@ Result<std::unique_ptr<Port>> open_in_process(const std::string& bus, BusFormat 
   return port;
 }
 
-// A local bus is hosted by the bench, unless somebody does already.
-Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
+// A local bus is hosted by the bench, unless somebody does already. `notes`: whom the bench as a host turns
+// away; must outlive the port.
+Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format,
+                                   std::vector<std::string>& notes) {
   if (is_in_process(bus)) return open_in_process(bus, format);
   PortOptions options;
   options.own_echo = true;
@@ -51,7 +54,9 @@ Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format) {
   auto joined = open_bus(bus, options, format);
   if (joined || !bus.starts_with("local:")) return joined;
   options.fd = format == BusFormat::fd;
-  auto hosted = host_local_bus(bus, options);
+  HubRules rules;
+  rules.on_turned_away = [&notes](const std::string& line) { notes.push_back(line); };
+  auto hosted = host_local_bus(bus, options, std::move(rules));
   // Somebody hosts it after all: why it could not be joined says more.
   if (!hosted) return joined;
   return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
@@ -80,11 +85,11 @@ LoadBy load_by(const Options& options) {
 }
 
 // One port over all of them; a frame goes to the bus of its sender.
-Result<std::unique_ptr<Port>> open_all(const Options& options) {
+Result<std::unique_ptr<Port>> open_all(const Options& options, std::vector<std::string>& notes) {
   const std::vector<std::string> buses = buses_of(options);
   std::vector<std::unique_ptr<Port>> ports;
   for (const std::string& bus : buses) {
-    auto opened = open(bus, options.format);
+    auto opened = open(bus, options.format, notes);
     if (!opened) return opened;
     ports.push_back(std::move(*opened));
   }
@@ -123,9 +128,15 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (options.realtime) {
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
   }
-  auto port = open_all(options);
+  std::vector<std::string> notes;
+  auto port = open_all(options, notes);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
+  // Who floods the bus, or was turned away from it, may be why.
+  const auto explained = [&](const std::string& why) {
+    if (link.flood()) return fmt::format("{}; {}", why, words(*link.flood()));
+    return notes.empty() ? why : fmt::format("{}; {}", why, notes.front());
+  };
   BusWatch bus(**port);
   link.attach(bus);
   std::unique_ptr<Recorder> recorder;
@@ -152,7 +163,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
       make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep, rounding_of(options.bus));
   if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone, options.format);
       !configured) {
-    return tl::unexpected(configured.error());
+    return failure(explained(configured.error().message));
   }
 
   // A container of CAN FD is none of the frames that the observers see.
@@ -186,6 +197,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (auto closed = recorder->close(); !closed) log_error = closed.error();
   }
 
+  if (ending.kind != Ending::Kind::completed) ending.detail = explained(ending.detail);
+
   checks::Observations seen = monitor.finish();
   // What the host did has no part in the times of a simulated wire.
   if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
@@ -195,8 +208,12 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   seen.bus.reports_errors = std::ranges::all_of(buses_of(options), reports_errors);
   seen.bus.late_in_queue = link.late_in_queue();
   seen.bus.foreign = (*port)->counters().foreign;
+  seen.bus.notes = notes;
+  if (link.flood()) seen.bus.notes.push_back(words(*link.flood()));
   seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
-  std::string timing_unfit = lockstep ? "virtual time" : checks::unfit_for_timing(seen);
+  std::string timing_unfit = lockstep       ? "virtual time"
+                             : link.flood() ? words(*link.flood())
+                                            : checks::unfit_for_timing(seen);
   const checks::Evidence evidence{.seen = seen,
                                   .truth = *truth,
                                   .glide = own_truth->glide ? &*own_truth->glide : nullptr,
@@ -205,6 +222,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                                   .ended_early = ending.detail,
                                   .timing_unfit = timing_unfit};
   checks::Verdict verdict = judge(scenario, evidence);
+  if (evidence.ended_early.empty() && verdict.outcome != checks::Outcome::pass)
+    verdict.reason = explained(verdict.reason);
   if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
   return Run{
       .verdict = std::move(verdict),

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "dbc/ports/descriptor.hpp"
+#include "dbc/ports/timer.hpp"
 #include "dbc/ports/wire_settings.hpp"
 
 namespace canhil::local {
@@ -29,7 +29,7 @@ class HubWire {
   [[nodiscard]] bool has_report() const { return wire_.has_report(); }
 
   /// Readable once next() has something to do, since the last set_alarm().
-  [[nodiscard]] int descriptor() const { return timer_.get(); }
+  [[nodiscard]] int descriptor() const { return timer_.descriptor(); }
   void set_alarm();
   void stop_alarm();
 
@@ -37,7 +37,7 @@ class HubWire {
   QueueOrder order_;
   std::int64_t frame_ns_;
   SimulatedWire wire_;
-  Descriptor timer_;
+  Timer timer_;
 };
 
 }  // namespace canhil::local

@@ -16,13 +16,16 @@
 #include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/hub_wire.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/local_gate.hpp"
 #include "dbc/ports/local_peer.hpp"
+#include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
 
 namespace canhil {
 namespace {
 
 using local::Datagram;
+using local::Gate;
 using local::HubWire;
 using local::Peer;
 using local::Place;
@@ -34,10 +37,10 @@ constexpr int accept_every = 64;           // frames in a row after which new no
 
 class Hub final : public LocalHub {
  public:
-  Hub(Descriptor claim, Descriptor listener, std::string name, const PortOptions& options,
-      local::IdSet wanted, std::optional<HubWire> wire)
+  Hub(local::Claim claim, Gate gate, std::string name, const PortOptions& options, local::IdSet wanted,
+      std::optional<HubWire> wire)
       : claim_(std::move(claim)),
-        listener_(std::move(listener)),
+        gate_(std::move(gate)),
         epoll_(::epoll_create1(EPOLL_CLOEXEC)),
         name_(std::move(name)),
         fd_(options.fd),
@@ -50,7 +53,8 @@ class Hub final : public LocalHub {
       watch(ready_event_.get(), EPOLLIN);
     }
     if (wire_) watch(wire_->descriptor(), EPOLLIN);
-    watch(listener_.get(), EPOLLIN);
+    watch(gate_.alarm(), EPOLLIN);
+    watch(gate_.listener(), EPOLLIN);
   }
 
   SendOutcome send(const Frame& frame) override {
@@ -135,21 +139,28 @@ class Hub final : public LocalHub {
   /// While the bus stands still only the nodes it waits for may wake the host: nobody else's frames can pass.
   void watch_all() {
     const std::uint32_t others = behind_ > 0 ? 0 : std::uint32_t{EPOLLIN};
-    watch(listener_.get(), others);
+    watch(gate_.listener(), others);
     for (const Peer& peer : peers_)
       watch(peer.socket.get(), peer.behind ? std::uint32_t{EPOLLOUT} : peer.held ? 0 : others);
+    gate_.set_alarm(peers_);
   }
 
-  /// Delivers the pending frame to the nodes that had no room for it; true if none is left.
+  /// Delivers the pending frame to the nodes that had no room for it, and drops those for which the bus has
+  /// waited long enough; true if none is left.
   bool catch_up() {
     if (behind_ == 0) return true;
     const int before = behind_;
-    for (Peer& peer : peers_) {
-      if (peer.behind && local::offer(peer, pending_, peer.socket.get() == pending_origin_)) {
-        peer.behind = false;
-        --behind_;
-      }
-    }
+    const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
+    std::erase_if(peers_, [&](Peer& peer) {
+      if (!peer.behind) return false;
+      const bool delivered = local::offer(peer, pending_, peer.socket.get() == pending_origin_);
+      if (!delivered && !gate_.has_waited_enough(peer, now_ns)) return false;
+      --behind_;
+      peer.behind = false;
+      peer.arrears_ns += now_ns - peer.behind_since_ns;
+      if (!delivered) gate_.tell_of_dropped_reader(peer);
+      return !delivered;
+    });
     if (behind_ != before) watch_all();
     return behind_ == 0;
   }
@@ -164,6 +175,7 @@ class Hub final : public LocalHub {
   void deliver_to(Peer& peer, Datagram& datagram, int origin) {
     if (local::offer(peer, datagram, peer.socket.get() == origin)) return;
     peer.behind = true;
+    peer.behind_since_ns = clock_ns(CLOCK_MONOTONIC);
     ++behind_;
     pending_ = datagram;
     pending_origin_ = origin;
@@ -180,6 +192,7 @@ class Hub final : public LocalHub {
           ++idle;
           break;
         case Reading::joined:
+          gate_.set_alarm(peers_);
           break;
         case Reading::frame:
           ++next_;
@@ -195,15 +208,13 @@ class Hub final : public LocalHub {
   /// Lets waiting nodes in; true if there were any.
   bool accept_nodes() {
     reads_since_accept_ = 0;
-    pollfd waiting{.fd = listener_.get(), .events = POLLIN, .revents = 0};
-    if (::poll(&waiting, 1, 0) != 1) return false;  // far cheaper than an accept() in vain
-    Descriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-    if (!socket) return false;
-    watch(socket.get(), EPOLLIN);
-    Peer& peer = peers_.emplace_back();
-    peer.socket = std::move(socket);
-    if (wire_) peer.wire_node = wire_->add_node();
-    return true;
+    gate_.drop_silent(peers_, fd_);
+    const Gate::Admission admission = gate_.admit(peers_);
+    if (admission == Gate::Admission::admitted) {
+      watch(peers_.back().socket.get(), EPOLLIN);
+      if (wire_) peers_.back().wire_node = wire_->add_node();
+    }
+    return admission != Gate::Admission::none;
   }
 
   [[nodiscard]] bool wants(const Frame& frame) const {
@@ -314,8 +325,8 @@ class Hub final : public LocalHub {
     if (received.frame.error) ++counters_.error_frames;
   }
 
-  Descriptor claim_;
-  Descriptor listener_;
+  local::Claim claim_;
+  Gate gate_;
   Descriptor epoll_;
   Descriptor ready_event_;
   std::string name_;
@@ -335,33 +346,23 @@ class Hub final : public LocalHub {
   PortCounters counters_;
 };
 
-Descriptor bound(const std::string& name, Place place) {
-  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  const local::Address at = local::address(name, place);
-  if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&at.socket), at.length) != 0) return {};
-  return socket;
-}
-
 }  // namespace
 
-Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const PortOptions& options) {
+Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const PortOptions& options,
+                                                 HubRules rules) {
   const auto name = local::bus_name(bus);
   if (!name) return tl::unexpected(name.error());
   const auto wanted = local::id_set(options.only_ids);
   if (!wanted) return tl::unexpected(wanted.error());
 
-  Descriptor claim = bound(name->name, Place::claim);
-  if (!claim && errno == EADDRINUSE) {
-    return failure(
-        fmt::format("bus '{}' is hosted already by another process: join it or take another name", bus));
-  }
-  Descriptor listener = claim ? bound(name->name, options.fd ? Place::fd : Place::classic) : Descriptor();
-  if (!listener || ::listen(listener.get(), backlog) != 0) {
-    return failure(fmt::format("bus '{}': {}", bus, std::strerror(errno)));
-  }
+  auto claim = local::Claim::take(bus, name->name);
+  if (!claim) return tl::unexpected(claim.error());
+  Descriptor listener = claim->listen(options.fd ? Place::fd : Place::classic, backlog);
+  if (!listener) return failure(fmt::format("bus '{}': {}", bus, std::strerror(errno)));
   std::optional<HubWire> wire;
   if (name->wire.rates.nominal > 0) wire.emplace(name->wire);
-  return std::make_unique<Hub>(std::move(claim), std::move(listener), std::string(bus), options, *wanted,
+  Gate gate(std::move(listener), std::move(rules), std::string(bus));
+  return std::make_unique<Hub>(std::move(*claim), std::move(gate), std::string(bus), options, *wanted,
                                std::move(wire));
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,6 +12,7 @@
 #include "dbc/ports/descriptor.hpp"
 #include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
 
 namespace canhil {
@@ -73,24 +75,19 @@ class LocalNode final : public Port {
   PortCounters counters_;
 };
 
-Descriptor connect_to(const std::string& name, Place place) {
-  Descriptor socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  const local::Address at = local::address(name, place);
-  if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&at.socket), at.length) != 0) return {};
-  return socket;
-}
-
-std::string why_not_joined(std::string_view bus, const std::string& name, bool fd, int error) {
+std::string why_not_joined(std::string_view bus, const std::string& directory, const std::string& name,
+                           bool fd, int error) {
   if (error == EAGAIN)
     return fmt::format("bus '{}': its host takes no more nodes (too many wait to join)", bus);
-  if (error != ECONNREFUSED) return fmt::format("bus '{}': {}", bus, std::strerror(error));
-  if (connect_to(name, fd ? Place::classic : Place::fd)) {
+  if (error != ECONNREFUSED && error != ENOENT) return fmt::format("bus '{}': {}", bus, std::strerror(error));
+  if (local::connect_to(directory, name, fd ? Place::classic : Place::fd)) {
     return fd ? fmt::format(
                     "bus '{}' is classic CAN and this node wants CAN FD: host it with FD, or join without",
                     bus)
               : fmt::format("bus '{}' carries CAN FD and this node is classic: join with FD", bus);
   }
-  return fmt::format("no bus '{0}': nobody hosts it; start `hil-bench` first or `hil-bench bus {0}`", bus);
+  return fmt::format("no bus '{0}': nobody hosts it in {1}; start `hil-bench` first or `hil-bench bus {0}`",
+                     bus, directory);
 }
 
 }  // namespace
@@ -101,8 +98,15 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   const auto wanted = local::id_set(options.only_ids);
   if (!wanted) return tl::unexpected(wanted.error());
 
-  Descriptor socket = connect_to(name->name, options.fd ? Place::fd : Place::classic);
-  if (!socket) return failure(why_not_joined(bus, name->name, options.fd, errno));
+  const auto directory = local::directory();
+  if (!directory) return failure(fmt::format("bus '{}': {}", bus, directory.error().message));
+
+  Descriptor socket = local::connect_to(*directory, name->name, options.fd ? Place::fd : Place::classic);
+  if (!socket) return failure(why_not_joined(bus, *directory, name->name, options.fd, errno));
+  if (const local::Process host = local::process_behind(socket.get()); !local::is_of_this_user(host)) {
+    return failure(fmt::format("bus '{}': its host is {}, expected a process of uid {}", bus,
+                               local::words(host), ::geteuid()));
+  }
 
   local::Hello hello;
   hello.own_echo = options.own_echo ? 1 : 0;

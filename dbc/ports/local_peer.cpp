@@ -1,7 +1,9 @@
 #include "dbc/ports/local_peer.hpp"
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <cerrno>
 
 namespace canhil::local {
@@ -14,6 +16,9 @@ Reading read_hello(Peer& peer) {
   if (bytes != sizeof hello || hello.magic != Hello::expected_magic) return Reading::gone;
   hello.node_name.back() = '\0';
   peer.name = hello.node_name.data();
+  // It is shown to people: no line breaks, nothing that moves a cursor.
+  std::ranges::replace_if(
+      peer.name, [](char c) { return c < ' ' || c > '~'; }, '?');
   peer.own_echo = hello.own_echo != 0;
   peer.only_some = hello.only_some != 0;
   for (std::size_t id = 0; id < peer.wanted.size(); ++id)
@@ -23,6 +28,11 @@ Reading read_hello(Peer& peer) {
 }
 
 }  // namespace
+
+std::string words(const Peer& peer) {
+  return fmt::format("{} ({})", peer.joined ? fmt::format("node '{}'", peer.name) : "a process",
+                     words(peer.process));
+}
 
 Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame) {
   if (!peer.joined) return read_hello(peer);
@@ -43,7 +53,10 @@ bool offer(Peer& peer, Datagram& datagram, bool own) {
   if (peer.only_some && !error && !(selectable && peer.wanted.test(datagram.id))) return true;
   const auto flags = static_cast<std::uint8_t>(datagram.flags & ~Datagram::own);
   datagram.flags = static_cast<std::uint8_t>(flags | (own ? Datagram::own : 0));
-  if (::send(peer.socket.get(), &datagram, datagram.bytes(), MSG_NOSIGNAL) >= 0) return true;
+  if (::send(peer.socket.get(), &datagram, datagram.bytes(), MSG_NOSIGNAL) >= 0) {
+    peer.arrears_ns = std::max<std::int64_t>(peer.arrears_ns - worked_off_ns, 0);
+    return true;
+  }
   if (errno == EAGAIN || errno == ENOBUFS || errno == EINTR) return false;
   peer.mute = true;  // dead; reading from it will end with that
   return true;

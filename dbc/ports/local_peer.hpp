@@ -5,12 +5,15 @@
 #include <string>
 
 #include "dbc/ports/descriptor.hpp"
+#include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
 
 namespace canhil::local {
 
 struct Peer {
   Descriptor socket;
+  Process process;
+  std::int64_t came_ns = 0;  ///< CLOCK_MONOTONIC
   std::string name;
   bool joined = false;  ///< has said Hello
   bool own_echo = false;
@@ -20,7 +23,18 @@ struct Peer {
   bool held = false;    ///< its queue on the simulated wire is full: not read
   std::size_t wire_node = 0;
   IdSet wanted;
+  std::int64_t behind_since_ns = 0;  ///< CLOCK_MONOTONIC, where it is behind
+  /// How long the bus stood still for it, less what it has worked off since by taking frames.
+  std::int64_t arrears_ns = 0;
 };
+
+/// What a node works off with each frame that it takes: a node that never reads and one that reads so slowly
+/// that it drags the bus along are one case. The time of a full frame at 500 kbit/s, which every node keeps
+/// up with on a wire.
+constexpr std::int64_t worked_off_ns = 250'000;
+
+/// Who it is, for a person: "node 'hil-target' (pid 17 of uid 1000)".
+std::string words(const Peer& peer);
 
 /// What came of reading from a node.
 enum class Reading : std::uint8_t { nothing, joined, frame, gone };

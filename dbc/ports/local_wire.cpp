@@ -1,7 +1,6 @@
 #include "dbc/ports/local_wire.hpp"
 
 #include <fmt/format.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <cctype>
@@ -58,17 +57,6 @@ Result<BusName> bus_name(std::string_view bus) {
   auto wire = wire_settings(bus);
   if (!wire) return tl::unexpected(wire.error());
   result.wire = *wire;
-  return result;
-}
-
-Address address(std::string_view name, Place place) {
-  constexpr std::array<std::string_view, 3> suffix{"", "/classic", "/fd"};
-  const std::string text = fmt::format("canhil/{}{}", name, suffix.at(static_cast<std::size_t>(place)));
-  Address result;
-  result.socket.sun_family = AF_UNIX;
-  // A leading 0 byte: the abstract namespace, where a name ends with the socket, however its process ended.
-  std::memcpy(result.socket.sun_path + 1, text.data(), text.size());
-  result.length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + text.size());
   return result;
 }
 

@@ -1,8 +1,6 @@
 // What travels over the sockets of the embedded bus, between processes of one machine and one build.
 #pragma once
 
-#include <sys/un.h>
-
 #include <array>
 #include <bitset>
 #include <cstddef>
@@ -61,15 +59,5 @@ struct BusName {
 
 /// Error: the line that says which names and keys there are.
 Result<BusName> bus_name(std::string_view bus);
-
-/// The abstract addresses of a bus. The host holds `claim`, so there is one; it listens at `classic` or at
-/// `fd`, so a node learns of a wrong frame format from connect() alone, and joining needs no answer from the
-/// host.
-enum class Place : std::uint8_t { claim, classic, fd };
-struct Address {
-  sockaddr_un socket{};
-  socklen_t length = 0;
-};
-Address address(std::string_view name, Place place);
 
 }  // namespace canhil::local

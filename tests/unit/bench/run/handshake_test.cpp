@@ -98,6 +98,24 @@ TEST_F(Handshake, ConfiguresAndStartsWithEachStepOnce) {
                                    TargetInitVelocityD::info.id, TargetCommand::info.id));
 }
 
+TEST_F(Handshake, TwoTargetsThatAcknowledgeEachStepAreNotTaken) {
+  const scenario::Parameter parameter = setup_.parameters.front();
+  setup_.parameters.assign(5, parameter);
+  port_.on_send = [this](const Frame& frame) {
+    answer(frame);
+    std::vector<Received> answers;
+    while (const auto one = port_.receive()) answers.push_back(*one);
+    for (const Received& one : answers) {
+      port_.give(one);
+      port_.give(one);  // the other's, whose counters started with the same command
+    }
+  };
+  const auto done = configure();
+  ASSERT_FALSE(done);
+  EXPECT_EQ(done.error().message,
+            "target on 'fake': a second target answers on this bus, expected to be the only one");
+}
+
 TEST_F(Handshake, RepeatsACommandThatWasNotHeard) {
   deaf_to_commands_ = 2;
   EXPECT_TRUE(configure());

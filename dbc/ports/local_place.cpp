@@ -1,0 +1,141 @@
+#include "dbc/ports/local_place.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+namespace canhil::local {
+namespace {
+
+constexpr std::array<std::string_view, 2> place_names{".classic", ".fd"};
+constexpr std::size_t longest_name = 64;
+constexpr std::size_t longest_directory =
+    sizeof sockaddr_un{}.sun_path - 1 - longest_name - place_names[0].size() - 1;
+
+bool is_ours_alone(const struct stat& entry) {
+  return S_ISDIR(entry.st_mode) && entry.st_uid == ::geteuid() && (entry.st_mode & 077U) == 0;
+}
+
+std::string socket_of(const std::string& path, Place place) {
+  return path + std::string(place_names.at(static_cast<std::size_t>(place)));
+}
+std::string lock_of(const std::string& path) { return path + ".lock"; }
+
+sockaddr_un address(const std::string& path) {
+  sockaddr_un result{};
+  result.sun_family = AF_UNIX;
+  path.copy(result.sun_path, sizeof result.sun_path - 1);
+  return result;
+}
+
+Descriptor new_socket() {
+  return Descriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+}
+
+// Whether the file that was opened still has its name: a host that ends takes its lock file along, and a lock
+// on a file that nobody else can find excludes nobody.
+bool still_named(const Descriptor& file, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(file.get(), &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+}  // namespace
+
+Result<void> make_private(const std::string& path) {
+  if (::mkdir(path.c_str(), 0700) != 0 && errno != EEXIST)
+    return failure(fmt::format("directory '{}': {}", path, std::strerror(errno)));
+  struct stat entry {};
+  if (::lstat(path.c_str(), &entry) != 0)
+    return failure(fmt::format("directory '{}': {}", path, std::strerror(errno)));
+  if (is_ours_alone(entry)) return {};
+  return failure(fmt::format(
+      "'{}': expected a directory of uid {} with mode 0700, is {} of uid {} with mode {:04o}; remove "
+      "it, or set XDG_RUNTIME_DIR to a private directory",
+      path, ::geteuid(),
+      S_ISDIR(entry.st_mode)   ? "a directory"
+      : S_ISLNK(entry.st_mode) ? "a symbolic link"
+                               : "a file",
+      entry.st_uid, entry.st_mode & 07777U));
+}
+
+Result<std::string> directory() {
+  const char* set = std::getenv("XDG_RUNTIME_DIR");
+  const std::string runtime = set == nullptr ? "" : set;
+  struct stat entry {};
+  std::string path = runtime + "/canhil";
+  // That of another user comes along with su and sudo; a long one has no room for a socket's name.
+  const bool fit = runtime.starts_with('/') && path.size() <= longest_directory &&
+                   ::lstat(runtime.c_str(), &entry) == 0 && is_ours_alone(entry);
+  if (!fit) path = fmt::format("/tmp/canhil-uid-{}", ::geteuid());
+  if (auto made = make_private(path); !made) return tl::unexpected(made.error());
+  return path;
+}
+
+Result<Claim> Claim::take(std::string_view bus, const std::string& name) {
+  const auto parent = directory();
+  if (!parent) return failure(fmt::format("bus '{}': {}", bus, parent.error().message));
+  const std::string path = *parent + "/" + name;
+  const std::string lock_path = lock_of(path);
+  for (;;) {
+    Descriptor lock(::open(lock_path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
+    if (!lock) return failure(fmt::format("bus '{}': {}: {}", bus, lock_path, std::strerror(errno)));
+    if (::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) {
+      if (errno == EINTR) continue;
+      return failure(
+          fmt::format("bus '{}' is hosted already by another process: join it or take another name", bus));
+    }
+    if (!still_named(lock, lock_path)) continue;
+    for (const Place left_behind : {Place::classic, Place::fd})
+      ::unlink(socket_of(path, left_behind).c_str());
+    return Claim(std::move(lock), path);
+  }
+}
+
+Claim::~Claim() {
+  if (!lock_) return;
+  for (const Place place : {Place::classic, Place::fd}) ::unlink(socket_of(path_, place).c_str());
+  ::unlink(lock_of(path_).c_str());  // before the lock goes, see still_named()
+}
+
+Descriptor Claim::listen(Place place, int backlog) const {
+  Descriptor socket = new_socket();
+  const sockaddr_un at = address(socket_of(path_, place));
+  if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0 ||
+      ::listen(socket.get(), backlog) != 0) {
+    return {};
+  }
+  return socket;
+}
+
+Descriptor connect_to(const std::string& directory, const std::string& name, Place place) {
+  Descriptor socket = new_socket();
+  const sockaddr_un at = address(socket_of(directory + "/" + name, place));
+  if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0) return {};
+  return socket;
+}
+
+Process process_behind(int socket) {
+  ucred credentials{.pid = 0, .uid = static_cast<uid_t>(-1), .gid = 0};
+  socklen_t length = sizeof credentials;
+  ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &credentials, &length);
+  return {.pid = credentials.pid, .uid = credentials.uid};
+}
+
+std::string words(const Process& process) {
+  return fmt::format("pid {} of uid {}", process.pid, process.uid);
+}
+
+bool is_of_this_user(const Process& process) { return process.uid == ::geteuid(); }
+
+}  // namespace canhil::local

@@ -1,0 +1,74 @@
+// Two targets that both took the bus for their own.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <thread>
+
+#include "dbc/ports/local_bus.hpp"
+#include "messages/canhil.hpp"
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+constexpr std::int64_t ns_per_s = 1'000'000'000;
+
+class TwoTargets : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto hub = host_local_bus(bus_, {});
+    ASSERT_TRUE(hub) << hub.error().message;
+    hub_ = std::move(*hub);
+    server_ = std::thread([this] { run_hub(*hub_, [this] { return stop_.load(); }); });
+  }
+  void TearDown() override {
+    for (const pid_t target : targets_) {
+      ::kill(target, SIGKILL);
+      ::waitpid(target, nullptr, 0);
+    }
+    stop_ = true;
+    if (server_.joinable()) server_.join();
+  }
+  /// Starts one and waits for its first heartbeat, while no other sends any.
+  pid_t start_target() {
+    const auto ear = open_port(bus_, {.only_ids = {messages::TargetHeartbeat::info.id}}).value();
+    const pid_t pid = ::fork();
+    if (pid == 0) {
+      ::execl(HIL_TARGET, HIL_TARGET, "--bus", bus_.c_str(), nullptr);
+      ::_exit(127);
+    }
+    targets_.push_back(pid);
+    EXPECT_TRUE(wait(*ear, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + 20 * ns_per_s)) << "no heartbeat";
+    return pid;
+  }
+
+  const std::string bus_ = fmt::format("local:two-targets-{}", ::getpid());
+  std::unique_ptr<LocalHub> hub_;
+  std::atomic<bool> stop_ = false;
+  std::thread server_;
+  std::vector<pid_t> targets_;
+};
+
+// A target listens before its first word; here the first one is not to be heard meanwhile.
+TEST_F(TwoTargets, EndTheRun) {
+  const pid_t first = start_target();
+  ::kill(first, SIGSTOP);
+  int status = 0;
+  ASSERT_EQ(::waitpid(first, &status, WUNTRACED), first);
+  ASSERT_TRUE(WIFSTOPPED(status));
+  ::usleep(50'000);  // the hub has passed on what it had sent
+  start_target();
+  ::kill(first, SIGCONT);
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --target none", scenario("transfer_alignment_quick"), bus_));
+  EXPECT_TRUE(ended.code == 1 || ended.code == 2) << ended.code;  // by when the bench has noticed
+  EXPECT_THAT(ended.out + ended.err, testing::HasSubstr("a second target answers on this bus"));
+}
+
+}  // namespace
+}  // namespace canhil::test

@@ -1,0 +1,125 @@
+// A bus that brings more frames than the bench can look at.
+#include "bench/run/link.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+
+#include "bench/nodes/time_keeper.hpp"
+#include "bench/run/real_time.hpp"
+#include "tests/unit/bench/run/fake_port.hpp"
+
+namespace canhil::run {
+namespace {
+
+constexpr std::int64_t ns_per_s = 1'000'000'000;
+
+// Brings frames of id 0C0, and of each other id in between a few.
+class FloodedPort final : public FakePort {
+ public:
+  std::optional<Received> receive() override {
+    if (brought == most) return std::nullopt;
+    ++brought;
+    if (on_receive) on_receive();
+    return Received{.frame = {.id = brought % 10 == 0 ? 0x123U : 0x0C0U, .size = 8}};
+  }
+  [[nodiscard]] std::int64_t monotonic_ns() const override {
+    return simulated ? static_cast<std::int64_t>(brought) * frame_ns : FakePort::monotonic_ns();
+  }
+  [[nodiscard]] int descriptor() const override { return ends[0]; }
+  std::array<int, 2> ends{-1, -1};
+  std::uint64_t brought = 0;
+  std::uint64_t most = 50'000'000;
+  bool simulated = false;
+  std::int64_t frame_ns = 10'000;
+  std::function<void()> on_receive;
+};
+
+class Counter final : public Observer {
+ public:
+  void received(const Received& /*received*/) override { ++frames; }
+  int frames = 0;
+};
+
+TEST(LinkDrain, LooksAtSoManyFramesAndNoMore) {
+  FloodedPort port;
+  port.most = 2 * Link::most_at_once + 1;
+  Link link(port);
+  Counter counter;
+  const Attached attached(link, counter);
+  for (const int expected : {Link::most_at_once, 2 * Link::most_at_once, 2 * Link::most_at_once + 1}) {
+    EXPECT_EQ(link.drain(), LinkState::up);
+    EXPECT_EQ(counter.frames, expected);
+  }
+}
+
+TEST(LinkDrain, AWaitEndsAtOnceWhileFramesAreLeft) {
+  FloodedPort port;
+  port.most = Link::most_at_once + 1;
+  ASSERT_EQ(::pipe(port.ends.data()), 0);  // never readable: nothing tells of the frames that the port holds
+  Link link(port);
+  link.drain();
+  EXPECT_TRUE(link.wait_until(clock_ns(CLOCK_MONOTONIC)));
+  link.drain();
+  EXPECT_FALSE(link.wait_until(clock_ns(CLOCK_MONOTONIC)));
+  for (const int end : port.ends) ::close(end);
+}
+
+TEST(LinkFlood, IsNamedByTheIdThatBringsMostFrames) {
+  FloodedPort port;
+  port.simulated = true;
+  Link link(port);
+  link.drain();
+  while (port.monotonic_ns() < ns_per_s / 2) link.drain();
+  ASSERT_TRUE(link.flood());
+  EXPECT_EQ(link.flood()->id, 0x0C0U);
+  EXPECT_THAT(
+      words(*link.flood()),
+      testing::MatchesRegex("the bus was flooded by id 0C0: [0-9]+ of [0-9]+ frames in 0\\.[0-9]+ s"));
+  EXPECT_NEAR(static_cast<double>(link.flood()->of_id) / static_cast<double>(link.flood()->frames), 0.9,
+              0.01);
+}
+
+TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
+  FloodedPort port;
+  port.simulated = true;
+  port.most = 9'000;  // looked at in 90 ms
+  Link link(port);
+  while (port.brought < port.most) link.drain();
+  port.most += 2'000'000;  // time goes by
+  while (port.brought < port.most) port.receive();
+  port.most += 9'000;
+  while (port.brought < port.most) link.drain();
+  EXPECT_FALSE(link.flood());
+}
+
+class Flooded : public testing::Test {
+ protected:
+  Ending run() {
+    Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(50'000, false));
+    return run_real_time(link_, schedule, 60 * ns_per_s, stop_, [](std::int64_t) {});
+  }
+  FloodedPort port_;
+  Link link_{port_};
+  std::atomic<bool> stop_ = false;
+};
+
+TEST_F(Flooded, TheBenchSendsAllTheSame) {
+  std::uint64_t at_last_frame = 0;
+  port_.on_send = [&](const Frame&) { at_last_frame = port_.brought; };
+  EXPECT_EQ(run().kind, Ending::Kind::completed);
+  EXPECT_EQ(port_.sent.size(), 6U);
+  EXPECT_LT(at_last_frame, port_.most) << "it waited for the end of the flood";
+}
+
+TEST_F(Flooded, TheBenchHearsThatItIsToStop) {
+  constexpr std::uint64_t stop_at = 10'000;
+  port_.on_receive = [&] { stop_ = port_.brought >= stop_at; };
+  EXPECT_EQ(run().kind, Ending::Kind::interrupted);
+  EXPECT_LE(port_.brought, stop_at + Link::most_at_once);
+}
+
+}  // namespace
+}  // namespace canhil::run
