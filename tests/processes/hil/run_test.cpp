@@ -186,13 +186,13 @@ TEST(Run, AWireThatIsTooSlowIsNamed) {
 }
 
 TEST(Run, WhatIsNoProgramIsRefusedAsTheTarget) {
-  const std::string text = scratch("text_target");
-  std::ofstream(text) << "no program\n";
-  ASSERT_EQ(shell("chmod +x " + text).code, 0);
+  const std::string text = scratch("text_target"), plain = scratch("plain_target");
+  for (const std::string& path : {text, plain}) std::ofstream(path) << "no program\n";
+  ASSERT_EQ(shell(fmt::format("chmod 755 {}; chmod 644 {}", text, plain)).code, 0);
   for (const auto& [target, why] : {std::pair<std::string, std::string>{"/tmp", "Is a directory"},
                                     {text, "Exec format error"},
                                     {"/no/such", "No such file or directory"},
-                                    {"/etc/hostname", "Permission denied"}}) {
+                                    {plain, "Permission denied"}}) {
     expect_one_line(
         hil_bench(
             fmt::format("run {} --bus {} --target {}", scenario("transfer_alignment_quick"), bus(), target)),
