@@ -74,7 +74,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return canhil::command_line::finish("hil-target", run(argc, argv));
   } catch (const std::exception& error) {  // no memory, for one
     std::fprintf(stderr, "hil-target: %s\n", error.what());
     return exit_usage;

@@ -8,6 +8,7 @@
 #include "bench/run/contract.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
+#include "dbc/files/text_file.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -231,10 +232,10 @@ Result<Campaign> parse_campaign(const Sources& sources) {
 }
 
 Result<Campaign> read_campaign(const std::filesystem::path& path) {
-  const auto text = scenario::read_text(path, "a campaign file");
+  const auto text = read_text_file(path, "a campaign file", scenario::most_toml_bytes);
   if (!text) return tl::unexpected(text.error());
   return parse_campaign(*text, path.string(), [&](const std::string& name) {
-    return scenario::read_text(path.parent_path() / name, "a scenario file");
+    return read_text_file(path.parent_path() / name, "a scenario file", scenario::most_toml_bytes);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "bench/world/hash.hpp"
+#include "dbc/files/text_file.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::campaign {
@@ -25,7 +26,7 @@ std::string schema() {
 }
 
 std::string hash_of_this_program() {
-  const auto text = scenario::read_text("/proc/self/exe", "this program");
+  const auto text = read_text_file("/proc/self/exe", "this program", 1024 * mebibyte);
   return fmt::format("{}+{:016x}", CANHIL_VERSION, text ? world::fnv1a_64(*text) : 0);
 }
 

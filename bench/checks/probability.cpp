@@ -3,6 +3,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 namespace canhil::checks {
 
@@ -17,6 +18,10 @@ double chi_squared_quantile_above(double degrees_of_freedom, double p) {
 }
 
 double normal_above(double z) { return cdf(complement(boost::math::normal(), z)); }
+
+double student_t_above(double degrees_of_freedom, double t) {
+  return cdf(complement(boost::math::students_t(degrees_of_freedom), t));
+}
 
 SuccessBounds success_bounds(double trials, double successes, double tail) {
   using Binomial = boost::math::binomial_distribution<double>;

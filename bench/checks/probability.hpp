@@ -11,6 +11,9 @@ double chi_squared_quantile_above(double degrees_of_freedom, double p);
 /// P(Z > z) of a standard normal Z.
 double normal_above(double z);
 
+/// P(T > t) of Student's T.
+double student_t_above(double degrees_of_freedom, double t);
+
 /// Clopper-Pearson bounds of the probability of a success: each is passed with probability `tail`.
 struct SuccessBounds {
   double low, high;

@@ -25,20 +25,21 @@ void conclude(Verdict& verdict, const std::string& ended_early) {
   const auto count = [&](Outcome outcome) {
     return std::ranges::count(verdict.checks, outcome, &CheckResult::outcome);
   };
+  const std::string_view checks = verdict.checks.size() == 1 ? "check" : "checks";
   if (!ended_early.empty()) {
     verdict.outcome = Outcome::fail;
     verdict.reason = ended_early;
   } else if (count(Outcome::fail) > 0) {
     verdict.outcome = Outcome::fail;
-    verdict.reason = fmt::format("{} of {} checks failed: {}", count(Outcome::fail), verdict.checks.size(),
-                                 names(verdict, Outcome::fail));
+    verdict.reason = fmt::format("{} of {} {} failed: {}", count(Outcome::fail), verdict.checks.size(),
+                                 checks, names(verdict, Outcome::fail));
   } else if (count(Outcome::not_measured) > 0) {
     verdict.outcome = Outcome::not_measured;
-    verdict.reason = fmt::format("{} of {} checks could not be measured: {}", count(Outcome::not_measured),
-                                 verdict.checks.size(), names(verdict, Outcome::not_measured));
+    verdict.reason = fmt::format("{} of {} {} could not be measured: {}", count(Outcome::not_measured),
+                                 verdict.checks.size(), checks, names(verdict, Outcome::not_measured));
   } else {
     verdict.outcome = Outcome::pass;
-    verdict.reason = fmt::format("{} checks passed", verdict.checks.size());
+    verdict.reason = fmt::format("{} {} passed", verdict.checks.size(), checks);
   }
 }
 

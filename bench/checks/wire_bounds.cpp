@@ -112,7 +112,7 @@ Finding judge(const scenario::WireResponse& /*rule*/, const Observations& seen) 
   const WireBound* worst = nullptr;
   for (const WireBound& bound : bounds) {
     if (!bound.bound_ns) {
-      finding.measured = fmt::format("{} has no bound: the bus or a queue is overloaded", bound.message);
+      finding.measured = fmt::format("{} has no bound that the analysis finds", bound.message);
       return finding;
     }
     if (worst == nullptr || share(bound) > share(*worst)) worst = &bound;
@@ -122,9 +122,10 @@ Finding judge(const scenario::WireResponse& /*rule*/, const Observations& seen) 
     return finding;
   }
   finding.outcome = pass_if(worst->longest_ns <= *worst->bound_ns);
-  finding.measured = fmt::format("{}: {:.3f} of {:.3f} ms, the most of {} messages", worst->message,
-                                 static_cast<double>(worst->longest_ns) * 1e-6,
-                                 static_cast<double>(*worst->bound_ns) * 1e-6, bounds.size());
+  finding.measured =
+      fmt::format("{}: {:.3f} of {:.3f} ms, the most of {} message{}", worst->message,
+                  static_cast<double>(worst->longest_ns) * 1e-6, static_cast<double>(*worst->bound_ns) * 1e-6,
+                  bounds.size(), bounds.size() == 1 ? "" : "s");
   return finding;
 }
 

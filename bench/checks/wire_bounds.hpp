@@ -20,7 +20,7 @@ struct WireBound {
   std::uint64_t count = 0;
   std::int64_t longest_ns = 0;
   std::int64_t frame_ns = 0;               ///< the longest that such a frame can be
-  std::optional<std::int64_t> bound_ns{};  ///< none: the bus or a queue is overloaded
+  std::optional<std::int64_t> bound_ns{};  ///< none: the analysis finds none
 };
 
 /// By priority. Empty where the bit rate of the bus is not known.

@@ -81,7 +81,7 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
 int guarded(const std::function<int()>& run) {
   std::signal(SIGXFSZ, SIG_IGN);
   try {
-    return run();
+    return command_line::finish("hil-bench", run());
   } catch (const std::exception& error) {
     return static_cast<int>(complain({error.what()}));
   }

@@ -40,12 +40,37 @@ ExitCode rebuild_all(const std::vector<std::string>& paths) {
   return ExitCode::pass;
 }
 
-ExitCode compare_both(const std::string& before, const std::string& after) {
-  const auto a = report::read_document(before);
-  if (!a) return complain(a.error());
-  const auto b = report::read_document(after);
-  if (!b) return complain(b.error());
-  const auto compared = report::compare(*a, *b);
+// As typed.
+struct Sides {
+  std::string a, b;
+  std::vector<std::string> before, after;
+};
+
+Result<report::Reports> read_all(const std::vector<std::string>& paths) {
+  report::Reports reports;
+  for (const std::string& path : paths) {
+    auto report = report::read_document(path);
+    if (!report) return tl::unexpected(report.error());
+    reports.push_back(std::move(*report));
+  }
+  return reports;
+}
+
+ExitCode compare_sides(Sides sides) {
+  const bool two = !sides.a.empty() && !sides.b.empty();
+  const bool several = !sides.before.empty() && !sides.after.empty();
+  const bool any_option = !sides.before.empty() || !sides.after.empty();
+  if (!(two && !any_option) && !(several && sides.a.empty()))
+    return complain({"compare: expected A.json B.json, or --before A.json... --after B.json..."});
+  if (two) {
+    sides.before = {sides.a};
+    sides.after = {sides.b};
+  }
+  const auto before = read_all(sides.before);
+  if (!before) return complain(before.error());
+  const auto after = read_all(sides.after);
+  if (!after) return complain(after.error());
+  const auto compared = report::compare(*before, *after);
   if (!compared) return complain(compared.error());
   if (auto shown = report::write_stdout(compared->text); !shown) return complain(shown.error());
   switch (compared->outcome) {
@@ -68,15 +93,16 @@ void add_report(command_line::Command app, int& code) {
       .required();
   rebuild.on_given([&code, paths] { code = static_cast<int>(rebuild_all(*paths)); });
 
-  auto before = std::make_shared<std::string>();
-  auto after = std::make_shared<std::string>();
+  auto sides = std::make_shared<Sides>();
   const auto compare = app.add_subcommand(
       "compare",
-      "say what got worse from one run to another of the same scenario: 0 nothing, 1 something, 3 not "
+      "say what got worse from some runs to others of the same scenario: 0 nothing, 1 something, 3 not "
       "comparable");
-  compare.add_option("A.json", *before, "the report to compare with").required();
-  compare.add_option("B.json", *after, "the report that is judged").required();
-  compare.on_given([&code, before, after] { code = static_cast<int>(compare_both(*before, *after)); });
+  compare.add_option("A.json", sides->a, "the report to compare with");
+  compare.add_option("B.json", sides->b, "the report that is judged");
+  compare.add_option("--before", sides->before, "several runs to compare with, in place of A.json");
+  compare.add_option("--after", sides->after, "the runs that are judged, in place of B.json");
+  compare.on_given([&code, sides] { code = static_cast<int>(compare_sides(*sides)); });
 }
 
 }  // namespace canhil::commands

@@ -74,16 +74,12 @@ void add_schedulability(command_line::Command app, int& code) {
   command.add_number("--bitrate", arguments->bitrate, "bit/s (the DBC's Baudrate)", slowest, 1'000'000);
   command.add_number("--data-bitrate", arguments->data_bitrate,
                      "bit/s of the data phase of FD frames (the DBC's BaudrateCANFD)", slowest, 20'000'000);
-  command
-      .add_option("--errors-per-second", arguments->errors_per_second,
-                  "bus errors, each an error frame and a retransmission")
-      .within(1e-6, 1e5);
+  command.add_number("--errors-per-second", arguments->errors_per_second,
+                     "bus errors, each an error frame and a retransmission", 1e-6, 1e5);
   command.add_number("--error-burst", arguments->error_burst, "so many of them may come at once (1)", 1,
                      10'000);
-  command
-      .add_option("--event-interval-ms", arguments->event_interval_ms,
-                  "least interval of event messages that give none")
-      .within(1e-3, 1e9);
+  command.add_number("--event-interval-ms", arguments->event_interval_ms,
+                     "least interval of event messages that give none", 1e-3, 1e9);
   command
       .add_option("--queue", arguments->queue,
                   "what every node sends first: the most urgent frame, or the oldest as Linux does")

@@ -1,43 +1,21 @@
 #include "bench/report/compare.hpp"
 
-#include "bench/checks/probability.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
+#include <string_view>
+#include <utility>
+
+#include "bench/report/latency_tests.hpp"
+#include "bench/report/side_checks.hpp"
 
 namespace canhil::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double count_of(const Buckets& sample) {
-  double count = 0;
-  for (const auto& bucket : sample) count += static_cast<double>(bucket.count);
-  return count;
-}
-
-// Where the 99 % quantile is, by nearest rank.
-std::int64_t p99_bucket(const Buckets& sample) {
-  double left = std::ceil(0.99 * count_of(sample));
-  for (const auto& bucket : sample) {
-    left -= static_cast<double>(bucket.count);
-    if (left <= 0) return bucket.from_us;
-  }
-  return sample.empty() ? 0 : sample.back().from_us;
-}
-
-double share_beyond(const Buckets& sample, std::int64_t from_us) {
-  double beyond = 0;
-  for (const auto& bucket : sample)
-    if (bucket.from_us > from_us) beyond += static_cast<double>(bucket.count);
-  return beyond / count_of(sample);
-}
 
 Buckets buckets_of(const Json& distribution) {
   Buckets buckets;
@@ -47,24 +25,72 @@ Buckets buckets_of(const Json& distribution) {
   return buckets;
 }
 
-// 0 is the best.
-int badness(const std::string& outcome) { return outcome == "pass" ? 0 : outcome == "not measured" ? 1 : 2; }
-
-// Checks by name and kind, as one scenario may have several of a name, in their order.
-struct Side {
-  std::string name, kind, outcome, measured;
+struct Named {
+  const char* path;
+  const char* name;
 };
-std::vector<Side> checks_of(const Json& report) {
-  std::vector<Side> checks;
-  for (const Json& check : report.at("checks"))
-    checks.push_back({check.at("name").get<std::string>(), check.at("kind").get<std::string>(),
-                      check.at("outcome").get<std::string>(), check.at("measured").get<std::string>()});
-  return checks;
+
+// What must be the same.
+constexpr std::array<Named, 3> same{{{"/provenance/scenario_hash", "scenario"},
+                                     {"/provenance/contract", "contract"},
+                                     {"/provenance/clock", "clock"}}};
+// What may be why, and does not keep runs from being compared.
+constexpr std::array<Named, 12> reasons{{{"/provenance/seed", "seed"},
+                                         {"/provenance/run", "run"},
+                                         {"/provenance/dbc_hash", "DBC"},
+                                         {"/provenance/revision", "revision"},
+                                         {"/provenance/bus", "bus"},
+                                         {"/provenance/bus_of", "buses of nodes"},
+                                         {"/wire/bitrate_bitps", "bit rate of the wire"},
+                                         {"/provenance/latency_stamps", "latency stamps"},
+                                         {"/provenance/bench_process/policy", "scheduling"},
+                                         {"/provenance/host", "host"},
+                                         {"/provenance/cpu_model", "CPU"},
+                                         {"/provenance/kernel", "kernel"}}};
+
+Json value_at(const Json& report, const char* path) {
+  const Json::json_pointer pointer(path);
+  return report.contains(pointer) ? report.at(pointer) : Json();
 }
+
+// The bus that a bench made for itself has its process in its name: that is another in each run.
+bool is_own_bus(const Json& value) {
+  constexpr std::string_view own = "local:canhil-";
+  if (!value.is_string()) return false;
+  const std::string& name = value.get_ref<const std::string&>();
+  return name.starts_with(own) && name.size() > own.size() &&
+         name.find_first_not_of("0123456789", own.size()) == std::string::npos;
+}
+
+// Each of a side's values once, in the order of its runs.
+std::vector<std::string> values_of(const Reports& side, const char* path) {
+  std::vector<std::string> values;
+  for (const Json& report : side) {
+    const Json value = value_at(report, path);
+    std::string text = value.is_null()     ? "not known"
+                       : is_own_bus(value) ? "local:"
+                       : value.is_string() ? value.get<std::string>()
+                                           : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (std::ranges::find(values, text) == values.end()) values.push_back(std::move(text));
+  }
+  return values;
+}
+
+// The runs of a side: "first" and "second".
+struct Runs {
+  const Reports& reports;
+  std::string_view ordinal;
+
+  [[nodiscard]] std::string name(std::size_t i) const {
+    return reports.size() == 1 ? fmt::format("the {} run", ordinal)
+                               : fmt::format("run {} of the {} side", i + 1, ordinal);
+  }
+};
 
 class Comparer {
  public:
-  Comparer(const Json& a, const Json& b, const Bars& bars) : a_(a), b_(b), bars_(bars) {}
+  Comparer(const Reports& before, const Reports& after, const Bars& bars)
+      : before_{before, "first"}, after_{after, "second"}, bars_(bars) {}
 
   Compared operator()() {
     if (auto why = not_comparable()) {
@@ -73,13 +99,16 @@ class Comparer {
       return result_;
     }
     differences();
-    checks();
-    const bool measured = latencies();
+    const bool virtual_time = before_.reports[0].at("provenance").at("clock") == "lockstep";
+    const ChecksCompared checks = compare_checks(before_.reports, after_.reports, virtual_time);
+    result_.text += checks.text;
+    if (checks.worse) result_.outcome = Comparison::worse;
+    const bool measured = latencies(virtual_time) && !checks.unknown;
     const bool worse = result_.outcome == Comparison::worse;
     if (!worse && !measured) result_.outcome = Comparison::not_comparable;
     say("{}", worse      ? "worse"
               : measured ? "no worse"
-                         : "not comparable: no regression of a check, and latency was not measured");
+                         : "not comparable: nothing is known to be worse, and not everything was measured");
     return result_;
   }
 
@@ -90,83 +119,94 @@ class Comparer {
   }
 
   [[nodiscard]] std::optional<std::string> not_comparable() const {
-    for (const auto& [key, what] : {std::pair("scenario_hash", "scenario"), std::pair("contract", "contract"),
-                                    std::pair("clock", "clock")}) {
-      const Json &of_a = a_.at("provenance").at(key), &of_b = b_.at("provenance").at(key);
-      if (of_a != of_b) return fmt::format("the {} differs: {} and {}", what, of_a.dump(), of_b.dump());
+    for (const Named& key : same) {
+      const Json first = before_.reports[0].at(Json::json_pointer(key.path));
+      for (const Reports* side : {&before_.reports, &after_.reports}) {
+        for (const Json& report : *side) {
+          const Json& other = report.at(Json::json_pointer(key.path));
+          if (other != first)
+            return fmt::format("the {} differs: {} and {}", key.name, first.dump(), other.dump());
+        }
+      }
     }
     return std::nullopt;
   }
 
-  // What may be why, and does not keep two runs from being compared.
   void differences() {
     std::string text;
-    for (const auto& [key, what] :
-         {std::pair("seed", "seed"), std::pair("run", "run"), std::pair("dbc_hash", "DBC"),
-          std::pair("revision", "revision"), std::pair("cpu_model", "CPU"), std::pair("kernel", "kernel")}) {
-      const Json of_a = a_.at("provenance").value(key, Json()), of_b = b_.at("provenance").value(key, Json());
-      if (of_a == of_b) continue;
-      const auto plain = [](const Json& value) {
-        return value.is_string() ? value.get<std::string>() : value.dump();
-      };
-      text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", what, plain(of_a), plain(of_b));
+    for (const Named& key : reasons) {
+      const auto before = values_of(before_.reports, key.path), after = values_of(after_.reports, key.path);
+      if (before == after) continue;
+      text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", key.name, fmt::join(before, " and "),
+                          fmt::join(after, " and "));
     }
     if (!text.empty()) say("differs  {}", text);
   }
 
-  void checks() {
-    const std::vector<Side> before = checks_of(a_), after = checks_of(b_);
-    for (std::size_t i = 0; i < after.size(); ++i) {
-      // The implied check of the bus may be in one of them only; it is there when it fails.
-      const bool paired =
-          i < before.size() && before[i].name == after[i].name && before[i].kind == after[i].kind;
-      const std::string was = paired ? before[i].outcome : "pass";
-      if (was == after[i].outcome) continue;
-      const bool worse = badness(after[i].outcome) > badness(was) && after[i].outcome == "fail";
-      if (worse) result_.outcome = Comparison::worse;
-      say("{:<8} check '{}': {} -> {} ({})", worse ? "worse" : "changed", after[i].name, was,
-          after[i].outcome, after[i].measured);
-    }
-    if (a_.at("verdict") != "fail" && b_.at("verdict") == "fail" && result_.outcome != Comparison::worse) {
-      result_.outcome = Comparison::worse;
-      say("worse    the run: {}", b_.at("reason").get<std::string>());
-    }
-  }
-
   // False: one of the runs has nothing to compare.
-  bool latencies() {
-    if (a_.at("provenance").at("clock") == "lockstep") {
+  bool latencies(bool virtual_time) {
+    if (virtual_time) {
       say("latency  none in virtual time");
       return true;
     }
-    for (const auto& [report, name] : {std::pair(&a_, "first"), std::pair(&b_, "second")}) {
-      const Json& timing = report->at("timing");
-      if (timing.at("judged").get<bool>()) continue;
-      say("latency  not compared: in the {} run {}", name, timing.at("why_not").get<std::string>());
+    for (const Runs* side : {&before_, &after_}) {
+      for (std::size_t i = 0; i < side->reports.size(); ++i) {
+        const Json& timing = side->reports[i].at("timing");
+        if (timing.at("judged").get<bool>()) continue;
+        say("latency  not compared: in {} {}", side->name(i), timing.at("why_not").get<std::string>());
+        return false;
+      }
+    }
+    const std::vector<std::string> messages = answered_before();
+    if (messages.empty()) {
+      say("latency  not compared: the first {} no answers",
+          before_.reports.size() == 1 ? "run has" : "side has");
       return false;
     }
-    if (!a_.contains("latency_s")) {
-      say("latency  not compared: the first run has no answers");
-      return false;
-    }
-    const Json& before = a_.at("latency_s");
-    const Json none = Json::object();
-    const Json& after = b_.contains("latency_s") ? b_.at("latency_s") : none;
-    std::size_t tests = 0;
-    for (const auto& [message, latency] : before.items())
-      tests += latency.at("closes_group").get<bool>() ? 2 : 0;
-    for (const auto& [message, latency] : before.items()) {
-      if (!latency.at("closes_group").get<bool>()) continue;  // the others come just before it
-      if (after.contains(message)) {
-        latency_of(message, latency, after.at(message), bars_.p / static_cast<double>(tests));
-      } else {
+    if (one_a_side())
+      say("latency  one run a side: later counts from {:.0f} % of p50, or of p99, on, as runs differ",
+          bars_.least_share * 100);
+    const double p_bar = bars_.p / static_cast<double>(2 * messages.size());
+    for (const std::string& message : messages) {
+      if (!std::ranges::all_of(after_.reports,
+                               [&](const Json& report) { return answers(report, message); })) {
         result_.outcome = Comparison::worse;
         say("worse    latency of {}: no answers any more", message);
+      } else if (one_a_side()) {
+        latency_of(message, before_.reports[0].at("latency_s").at(message),
+                   after_.reports[0].at("latency_s").at(message), p_bar);
+      } else {
+        latency_of(message, p_bar);
       }
     }
     return true;
   }
 
+  [[nodiscard]] bool one_a_side() const { return before_.reports.size() == 1 && after_.reports.size() == 1; }
+
+  static bool answers(const Json& report, const std::string& message) {
+    return report.contains("latency_s") && report.at("latency_s").contains(message);
+  }
+
+  // The messages that close their group, as the others come just before, in all runs of the first side.
+  [[nodiscard]] std::vector<std::string> answered_before() const {
+    std::vector<std::string> messages;
+    if (!before_.reports[0].contains("latency_s")) return messages;
+    for (const auto& [message, latency] : before_.reports[0].at("latency_s").items()) {
+      if (!latency.at("closes_group").template get<bool>()) continue;
+      const std::string& name = message;
+      if (std::ranges::all_of(before_.reports, [&](const Json& report) { return answers(report, name); }))
+        messages.push_back(name);
+    }
+    return messages;
+  }
+
+  void conclude(bool worse, const std::string& message, const std::string& figures) {
+    if (worse) result_.outcome = Comparison::worse;
+    say("{:<8} latency of {}: {}", worse ? "worse" : "same", message, figures);
+  }
+
+  // One run a side.
   void latency_of(const std::string& message, const Json& before, const Json& after, double p_bar) {
     const Buckets a = buckets_of(before), b = buckets_of(after);
     const RankTest ranks = rank_test(a, b);
@@ -174,66 +214,57 @@ class Comparer {
     const auto us = [](const Json& distribution, const char* key) {
       return distribution.at(key).get<double>() * 1e6;
     };
-    const auto later = [&](const char* key) { return us(after, key) - us(before, key) > bars_.least_us; };
+    const auto later = [&](const char* key) {
+      const double was_us = us(before, key);
+      return us(after, key) - was_us > std::max(bars_.least_us, bars_.least_share * was_us);
+    };
     const bool slower = ranks.p < p_bar && ranks.effect >= bars_.effect && later("p50");
     const bool heavier =
         tail.p < p_bar && tail.share_b >= bars_.tail_times * std::max(tail.share_a, 0.01) && later("p99");
-    if (slower || heavier) result_.outcome = Comparison::worse;
-    say("{:<8} latency of {}: p50 {:.0f} -> {:.0f} us, p99 {:.0f} -> {:.0f} us; P(later) {:.3f} (p {:.2g}); "
-        "beyond "
-        "the first p99 {:.2f} % -> {:.2f} % (p {:.2g})",
-        slower || heavier ? "worse" : "same", message, us(before, "p50"), us(after, "p50"), us(before, "p99"),
-        us(after, "p99"), ranks.effect, ranks.p, tail.share_a * 100, tail.share_b * 100, tail.p);
+    conclude(
+        slower || heavier, message,
+        fmt::format("p50 {:.0f} -> {:.0f} us, p99 {:.0f} -> {:.0f} us; P(later) {:.3f} (p {:.2g}); beyond "
+                    "the first p99 {:.2f} % -> {:.2f} % (p {:.2g})",
+                    us(before, "p50"), us(after, "p50"), us(before, "p99"), us(after, "p99"), ranks.effect,
+                    ranks.p, tail.share_a * 100, tail.share_b * 100, tail.p));
   }
 
-  const Json& a_;
-  const Json& b_;
+  // Several runs: each quantile from run to run.
+  void latency_of(const std::string& message, double p_bar) {
+    bool worse = false;
+    std::string figures;
+    for (const char* key : {"p50", "p99"}) {
+      const auto of_runs = [&](const Reports& side) {
+        std::vector<double> values_us;
+        for (const Json& report : side)
+          values_us.push_back(report.at("latency_s").at(message).at(key).get<double>() * 1e6);
+        std::ranges::sort(values_us);
+        return values_us;
+      };
+      const std::vector<double> a_us = of_runs(before_.reports), b_us = of_runs(after_.reports);
+      const RunTest test = run_test(a_us, b_us);
+      worse = worse || (test.p < p_bar && test.later_us > bars_.least_us);
+      figures +=
+          fmt::format("{}{} {:.0f}..{:.0f} -> {:.0f}..{:.0f} us (p {:.2g})", figures.empty() ? "" : ", ", key,
+                      a_us.front(), a_us.back(), b_us.front(), b_us.back(), test.p);
+    }
+    conclude(worse, message, figures);
+  }
+
+  const Runs before_, after_;
   const Bars bars_;
   Compared result_;
 };
 
 }  // namespace
 
-// U counts the pairs with b > a, and half of those that are equal. With N = m + n and t_k values in bucket k:
-// var U = m n / 12 (N + 1 - sum (t_k^3 - t_k) / (N (N - 1))).
-RankTest rank_test(const Buckets& a, const Buckets& b) {
-  const double m = count_of(a), n = count_of(b);
-  if (m == 0 || n == 0) return {};
-  double u = 0, passed_a = 0, ties = 0;
-  auto in_a = a.begin();
-  auto in_b = b.begin();
-  while (in_a != a.end() || in_b != b.end()) {
-    const bool from_a = in_a != a.end() && (in_b == b.end() || in_a->from_us <= in_b->from_us);
-    const bool from_b = in_b != b.end() && (in_a == a.end() || in_b->from_us <= in_a->from_us);
-    const double of_a = from_a ? static_cast<double>(in_a++->count) : 0;
-    const double of_b = from_b ? static_cast<double>(in_b++->count) : 0;
-    u += of_b * (passed_a + of_a / 2);
-    passed_a += of_a;
-    const double t = of_a + of_b;
-    ties += t * t * t - t;
-  }
-  const double total = m + n;
-  const double variance = m * n / 12 * (total + 1 - ties / (total * (total - 1)));
-  if (!(variance > 0)) return {.effect = u / (m * n), .p = 1};
-  return {.effect = u / (m * n), .p = checks::normal_above((u - m * n / 2 - 0.5) / std::sqrt(variance))};
-}
-
-TailTest tail_test(const Buckets& a, const Buckets& b) {
-  const double m = count_of(a), n = count_of(b);
-  if (m == 0 || n == 0) return {};
-  const std::int64_t bar_us = p99_bucket(a);
-  TailTest test{.share_a = share_beyond(a, bar_us), .share_b = share_beyond(b, bar_us)};
-  const double pooled = (test.share_a * m + test.share_b * n) / (m + n);
-  const double variance = pooled * (1 - pooled) * (1 / m + 1 / n);
-  if (variance > 0) test.p = checks::normal_above((test.share_b - test.share_a) / std::sqrt(variance));
-  return test;
-}
-
-Result<Compared> compare(const Json& a, const Json& b, const Bars& bars) {
+Result<Compared> compare(const Reports& before, const Reports& after, const Bars& bars) {
   try {
-    return Comparer(a, b, bars)();
+    return Comparer(before, after, bars)();
   } catch (const Json::exception& error) {
     return failure(fmt::format("a report is not whole: {}", error.what()));
+  } catch (const UnknownOutcome& outcome) {
+    return failure(outcome.what);
   }
 }
 

@@ -176,6 +176,7 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
             {"period_overrides", period_overrides(scenario)},
             {"date", date_utc(run.started_s)},
             {"revision", revision()},
+            {"host", host_name()},
             {"kernel", kernel()},
             {"preemption", realtime::preemption()},
             {"cpu_model", cpu_model()}};

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "bench/report/json.hpp"
 #include "bench/report/markup.hpp"
 #include "bench/report/page_sections.hpp"
+#include "dbc/files/text_file.hpp"
 
 namespace canhil::report {
 namespace {
@@ -62,6 +61,21 @@ svg text{font-size:12px;fill:var(--soft)}
 }
 )";
 
+constexpr int most_depth = 32;  // a report has 6
+
+// A plot takes its values by the times that they are of. Empty: each has one.
+std::string length_differs(const Json& report) {
+  for (const Json& series : report.at("series")) {
+    const std::size_t times = series.at("t_s").size();
+    for (const char* key : {"low", "high", "sigma"}) {
+      if (!series.contains(key) || series.at(key).size() == times) continue;
+      return fmt::format("{} of '{}' has {} values, expected {}, as many as t_s", key,
+                         series.at("quantity").get<std::string>(), series.at(key).size(), times);
+    }
+  }
+  return {};
+}
+
 std::string page_of(const Json& report) {
   const std::string verdict = report.at("verdict").get<std::string>();
   const std::string title = escaped(report.at("title").get<std::string>());
@@ -91,6 +105,8 @@ std::string page_of(const Json& report) {
 
 Result<std::string> html(const Json& document) {
   try {
+    if (std::string why = length_differs(document); !why.empty())
+      return failure(fmt::format("the report is not whole: {}", why));
     return page_of(document);
   } catch (const Json::exception& error) {
     return failure(fmt::format("the report is not whole: {}", error.what()));
@@ -98,12 +114,19 @@ Result<std::string> html(const Json& document) {
 }
 
 Result<Json> read_document(const std::string& path) {
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path, ignored))
-    return failure(fmt::format("file '{}': cannot be read, expected a report as JSON", path));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  Json document = Json::parse(text, nullptr, false);
+  const auto text = read_text_file(path, "a report as JSON", 64 * mebibyte);
+  if (!text) return tl::unexpected(text.error());
+  // The page is made by calls as deep as the values lie within one another.
+  bool too_deep = false;
+  const auto shallow = [&too_deep](int depth, Json::parse_event_t /*event*/, const Json& /*value*/) {
+    too_deep = too_deep || depth > most_depth;
+    return depth <= most_depth;
+  };
+  Json document = Json::parse(*text, shallow, false);
+  if (too_deep) {
+    return failure(fmt::format("file '{}': values lie {} deep within one another, expected a report", path,
+                               most_depth + 1));
+  }
   if (document.is_discarded())
     return failure(fmt::format("file '{}': is no JSON, expected a report of hil-bench run --json", path));
   if (!document.is_object() || !document.contains("schema") || document.at("schema") != schema)

@@ -12,6 +12,12 @@ namespace canhil::report {
 
 std::string_view revision() { return CANHIL_REVISION; }
 
+std::string host_name() {
+  utsname name{};
+  if (uname(&name) != 0 || name.nodename[0] == '\0') return "unknown";
+  return name.nodename;
+}
+
 std::string kernel() {
   utsname name{};
   if (uname(&name) != 0) return "unknown";

@@ -135,7 +135,7 @@ std::string load_words(const run::Run& run) {
   std::string lines;
   for (const wire::BitRates& rates : load_rates(run)) {
     const checks::BusLoad load = checks::bus_load(run.seen, rates);
-    lines += fmt::format("  bus load at {:<18}mean {:.1f} %, busiest second {:.1f} %\n", rate_words(rates),
+    lines += fmt::format("  bus load at {:<17} mean {:.1f} %, busiest second {:.1f} %\n", rate_words(rates),
                          load.mean * 100, load.busiest * 100);
   }
   return lines;
@@ -182,13 +182,13 @@ std::string wire_words(const checks::Observations& seen) {
                           static_cast<double>(*bound.bound_ns) * 1e-6);
   }
   if (nearest == nullptr)
-    return fmt::format(
-        "  over the bus                  {} messages, none has a bound: a queue is overloaded\n",
-        bounds.size());
+    return fmt::format("  over the bus                  {} message{}, the analysis finds a bound for none\n",
+                       bounds.size(), bounds.size() == 1 ? "" : "s");
   return fmt::format(
-             "  over the bus                  {} of {} messages have a bound; nearest {}: {:.3f} of {:.3f} "
+             "  over the bus                  bounds for {} of {} message{}; nearest {}: {:.3f} of {:.3f} "
              "ms\n",
-             bounded, bounds.size(), nearest->message, static_cast<double>(nearest->longest_ns) * 1e-6,
+             bounded, bounds.size(), bounds.size() == 1 ? "" : "s", nearest->message,
+             static_cast<double>(nearest->longest_ns) * 1e-6,
              static_cast<double>(*nearest->bound_ns) * 1e-6) +
          beyond;
 }

@@ -100,6 +100,12 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
         case LinkState::up:
           break;
         case LinkState::congested:
+          if (link.now_ns() > excused_until_ns()) {  // a target that reads no more fills the bus
+            Ending ending = silent();
+            ending.detail +=
+                fmt::format(", the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6);
+            return ending;
+          }
           return {Ending::Kind::target_silent, due_us,
                   fmt::format("the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6)};
         case LinkState::down:

@@ -102,6 +102,19 @@ Result<std::unique_ptr<Port>> open_all(const Options& options, std::vector<std::
   });
 }
 
+// Why nobody is heard on a bus that has more to carry than it can; empty: it is another reason.
+std::string full_wire(const std::vector<wire::BitLength>& by_second, std::int64_t time_ns,
+                      const wire::BitRates& rates) {
+  constexpr double full = 0.9;
+  if (rates.nominal == 0 || time_ns <= 0) return {};
+  wire::BitLength all;
+  for (const wire::BitLength& length : by_second) all += length;
+  const double load = wire::bus_load(all, static_cast<double>(time_ns) * 1e-9, rates);
+  if (load < full) return {};
+  return fmt::format(" (the wire of {:g} kbit/s is full: load {:.0f} %)",
+                     static_cast<double>(rates.nominal) * 1e-3, load * 100);
+}
+
 }  // namespace
 
 ClockKind clock_of(std::string_view bus, bool lockstep) {
@@ -187,8 +200,13 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   link.detach(host);
   link.detach(meter);
   link.detach(monitor);
-  if (const auto why = ended(); why && ending.kind == Ending::Kind::target_silent) {
-    ending.detail += fmt::format(" (its process {})", *why);
+  if (ending.kind == Ending::Kind::target_silent) {
+    if (const auto why = ended())
+      ending.detail += fmt::format(" (its process {})", *why);
+    else if (target && target->stopped())
+      ending.detail += " (its process is stopped by a signal)";
+    else if (!lockstep)
+      ending.detail += full_wire(meter.lengths(), ending.t_us * 1000 + silence_limit_ns, options.wire.rates);
   }
   stop(link, schedule.outbox(), scenario.targets);
   std::optional<Error> log_error;

@@ -1,12 +1,14 @@
 #include "bench/run/target_process.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <csignal>
 #include <cstring>
-
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "dbc/realtime/process.hpp"
@@ -16,25 +18,48 @@ namespace canhil::run {
 Result<TargetProcess> TargetProcess::start(const std::string& program, const std::string& bus,
                                            const std::vector<std::string>& more,
                                            const std::vector<int>& cpus) {
-  if (access(program.c_str(), X_OK) != 0) {
+  const auto no_program = [&program](int reason) {
     return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", program,
-                               strerror(errno)));
-  }
+                               strerror(reason)));
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(program, ignored)) return no_program(EISDIR);  // or execv says EACCES
   std::vector<std::string> words{program, "--bus", bus};
   words.insert(words.end(), more.begin(), more.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
+  // Why the program did not start; it closes when it does.
+  int refusal[2];
+  if (pipe2(refusal, O_CLOEXEC) != 0)
+    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(errno)));
   const pid_t parent = getpid();
   const pid_t pid = fork();
-  if (pid < 0)
-    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(errno)));
+  const int fork_error = errno;
+  if (pid != 0) close(refusal[1]);
+  if (pid < 0) {
+    close(refusal[0]);
+    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(fork_error)));
+  }
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(127);
     if (!cpus.empty()) realtime::pin(cpus);
+    dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output is the bench's: a report may go there
     execv(program.c_str(), arguments.data());
+    const int reason = errno;
+    static_cast<void>(!write(refusal[1], &reason, sizeof reason));
     _exit(127);
+  }
+  int reason = 0;
+  ssize_t got = 0;
+  do {
+    got = read(refusal[0], &reason, sizeof reason);
+  } while (got < 0 && errno == EINTR);
+  close(refusal[0]);
+  if (got == static_cast<ssize_t>(sizeof reason)) {
+    waitpid(pid, nullptr, 0);
+    return no_program(reason);
   }
   return TargetProcess(pid);
 }
@@ -57,6 +82,13 @@ TargetProcess::~TargetProcess() {
   }
   kill(pid_, SIGKILL);
   waitpid(pid_, nullptr, 0);
+}
+
+bool TargetProcess::stopped() const {
+  siginfo_t info{};
+  return pid_ >= 0 && !ended_ &&
+         waitid(P_PID, static_cast<id_t>(pid_), &info, WSTOPPED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == pid_;
 }
 
 std::optional<std::string> TargetProcess::ended() {

@@ -27,6 +27,8 @@ class TargetProcess {
 
   /// How the process ended, if it has: one phrase for a person.
   std::optional<std::string> ended();
+  /// True while a signal holds it, as SIGSTOP does.
+  [[nodiscard]] bool stopped() const;
   [[nodiscard]] pid_t pid() const { return pid_; }
 
  private:

@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
-#include <sstream>
-#include <system_error>
 
 #include "bench/scenario/engagement.hpp"
 #include "bench/scenario/initial_error.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/scenario/truth.hpp"
 #include "bench/world/hash.hpp"
+#include "dbc/files/text_file.hpp"
 
 namespace canhil::scenario {
 namespace {
@@ -165,23 +162,8 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   return scenario;
 }
 
-Result<std::string> read_text(const std::filesystem::path& path, std::string_view kind) {
-  const auto unreadable = [&](int reason) {
-    return failure(fmt::format("{}: cannot be read ({}), expected {}", path.string(),
-                               std::generic_category().message(reason), kind));
-  };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return unreadable(EISDIR);
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return unreadable(errno);
-  std::ostringstream content;
-  content << file.rdbuf();
-  if (file.bad()) return unreadable(EIO);
-  return std::move(content).str();
-}
-
 Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract) {
-  const auto text = read_text(path, "a scenario file");
+  const auto text = read_text_file(path, "a scenario file", most_toml_bytes);
   if (!text) return tl::unexpected(text.error());
   return parse(*text, path.string(), contract);
 }

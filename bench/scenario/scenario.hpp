@@ -70,7 +70,7 @@ Result<Scenario> read_file(const std::filesystem::path& path, const Contract& co
 Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
                        std::span<const Setting> settings = {});
 
-/// A file's whole text. The error says that it cannot be read, why, and that `kind` was expected.
-Result<std::string> read_text(const std::filesystem::path& path, std::string_view kind);
+/// At most so much is read of a scenario or campaign file.
+inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
 
 }  // namespace canhil::scenario

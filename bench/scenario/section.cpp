@@ -9,13 +9,12 @@
 #include <sstream>
 #include <utility>
 
+#include "bench/scenario/key_depth.hpp"
 #include "bench/scenario/nearest.hpp"
 
 namespace canhil::scenario {
 
 namespace {
-
-constexpr double longest_us = 1e11;  // a day and more
 
 std::optional<double> as_number(const toml::node& node) {
   if (const auto* integer = node.as_integer()) return static_cast<double>(integer->get());
@@ -89,6 +88,7 @@ struct Section::File {
 
   /// Puts a value where its key says, with the tables on the way.
   void set(const Setting& setting) {
+    if (std::ranges::count(setting.key, '.') >= most_key_parts) return fail(0, deep_key);
     toml::table* table = &root;
     std::string_view rest = setting.key;
     for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
@@ -150,7 +150,8 @@ struct Section::State {
       if (value && holds(limits, *value)) {
         values[i] = *value;
       } else {
-        fail(key, line_of(*node), fmt::format("element {} is not", i + 1), expected);
+        const std::string what = value ? fmt::format("is {}", *value) : type_of((*array)[i]);
+        fail(key, line_of(*node), fmt::format("element {} {}", i + 1, what), expected);
       }
     }
     return values;
@@ -161,6 +162,10 @@ Section Section::parse(std::string_view text, std::string_view file_name, std::s
   auto state = std::make_shared<State>();
   state->file = std::make_shared<File>();
   state->file->name = file_name;
+  if (const auto line = line_of_deep_key(text)) {
+    state->file->fail(*line, deep_key);
+    return Section(std::move(state));
+  }
   try {
     state->file->root = toml::parse(text);
     state->table = &state->file->root;
@@ -238,18 +243,6 @@ std::optional<std::int64_t> Section::optional_integer(std::string_view key, std:
   }
   if (value->get() < least) reject(key, fmt::format("{} is out of range", value->get()), expected);
   return value->get();
-}
-
-std::int64_t Section::time_us(std::string_view key, Limits limits, std::optional<double> fallback) {
-  const double us = 1e6 * number(key, limits, fallback);
-  if (std::abs(us) > longest_us) {
-    reject(key, "is too long a time", fmt::format("at most {} s", 1e-6 * longest_us));
-    return 0;
-  }
-  const double whole = std::round(us);
-  // A decimal fraction is not exact in binary: it is off by 1e-16 of the time, 1e-5 us in a day.
-  if (std::abs(us - whole) > 1e-3) reject(key, "is not whole in microseconds", "a multiple of 1 us");
-  return static_cast<std::int64_t>(whole);
 }
 
 std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limits limits) {

@@ -52,7 +52,7 @@ struct ErrorModel {
 struct Response {
   std::int64_t transmission_ns = 0;           ///< C
   std::int64_t blocking_ns = 0;               ///< B, the longest frame of lower priority
-  std::optional<std::int64_t> response_ns{};  ///< R; none: no bound, the bus is overloaded at this priority
+  std::optional<std::int64_t> response_ns{};  ///< R; none: the analysis finds no bound
   std::int64_t instances = 0;                 ///< so many of the message lie in the longest busy period
   std::int64_t worst_instance = 0;            ///< which of them, from 0, takes longest
 };

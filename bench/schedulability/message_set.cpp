@@ -23,9 +23,23 @@ double number(const dbc::AttributeValue* value) {
 }
 
 /// A time attribute of a message, given in ms; 0: it has none.
+double time_ms(const dbc::Database& database, const dbc::Message& message, std::string_view attribute) {
+  return number(dbc::find_attribute(database, message.attributes, dbc::Owner::message, attribute));
+}
 std::int64_t time_ns(const dbc::Database& database, const dbc::Message& message, std::string_view attribute) {
-  return std::llround(
-      number(dbc::find_attribute(database, message.attributes, dbc::Owner::message, attribute)) * ns_per_ms);
+  return std::llround(time_ms(database, message, attribute) * ns_per_ms);
+}
+
+/// The cycle time is among what the parser has checked.
+Result<void> check_times(const dbc::Database& database, const dbc::Message& message) {
+  for (const std::string_view attribute : {"GenMsgDelayTime", "GenMsgDeadline", "GenMsgJitter"}) {
+    const double ms = time_ms(database, message, attribute);
+    if (!dbc::is_message_time_ms(ms)) {
+      return failure(fmt::format("message {} has {} {} ms, expected {}", message.name, attribute, ms,
+                                 dbc::message_time_range));
+    }
+  }
+  return {};
 }
 
 bool switches_bit_rate(const dbc::Database& database, const dbc::Message& message) {
@@ -74,6 +88,7 @@ Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assu
                                        const wire::BitRates& rates) {
   std::vector<Stream> streams;
   for (const dbc::Message& message : database.messages) {
+    if (auto checked = check_times(database, message); !checked) return tl::unexpected(checked.error());
     const Stream& stream = streams.emplace_back(stream_of(database, message, assumptions));
     if (stream.length.data > 0 && rates.data == 0) {
       return failure(

@@ -84,8 +84,9 @@ std::string missed(const Analysis& analysis) {
   constexpr std::size_t shown = 5;
   const std::size_t more = names.size() - std::min(names.size(), shown);
   names.resize(names.size() - more);
-  return fmt::format("{} of {} messages: {}{}", names.size() + more, analysis.streams.size(),
-                     fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  return fmt::format("{} of {} message{}: {}{}", names.size() + more, analysis.streams.size(),
+                     analysis.streams.size() == 1 ? "" : "s", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 Json message(const Stream& stream, const Response& response) {
@@ -134,7 +135,13 @@ std::string table(const Analysis& analysis) {
       fmt::format("utilisation {:.2f} % of {} bit/s{}\n", 100 * utilisation(analysis.streams, rates),
                   rates.nominal, rates.data > 0 ? fmt::format(" (FD data phase {} bit/s)", rates.data) : "");
   text += assumptions(analysis);
-  text += schedulable(analysis) ? fmt::format("schedulable: {} messages\n", analysis.streams.size())
+  if (std::ranges::any_of(analysis.responses, [](const Response& r) { return !r.response_ns; })) {
+    text += utilisation(analysis.streams, rates) >= 1
+                ? "R none: no bound, the bus is overloaded\n"
+                : "R none: the analysis finds no bound; the bus itself is not overloaded\n";
+  }
+  const std::size_t count = analysis.streams.size();
+  text += schedulable(analysis) ? fmt::format("schedulable: {} message{}\n", count, count == 1 ? "" : "s")
                                 : fmt::format("NOT schedulable: {}\n", missed(analysis));
   return text;
 }

@@ -104,7 +104,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return canhil::command_line::finish("dbcgen", run(argc, argv));
   } catch (const std::exception& error) {
     std::fputs(error.what(), stderr);
     return 2;

@@ -1,7 +1,11 @@
 #include "dbc/command_line/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
 #include <utility>
 
 namespace canhil::command_line {
@@ -23,6 +27,12 @@ CLI::Option* number(CLI::App& command, const std::string& name, std::optional<Nu
   return command.add_option_function<std::string>(name, read, help)->type_name("UINT");
 }
 
+std::string text_of(double value) {
+  std::ostringstream text;
+  text << value;
+  return std::move(text).str();
+}
+
 void refuse_empty_in(CLI::App& command) {
   const auto not_empty = [](const std::string& text) {
     return text.empty() ? std::string("is empty, expected a value") : std::string();
@@ -38,9 +48,6 @@ Option Option::needs(Option other) const { return Option(option_->needs(other.op
 Option Option::excludes(Option other) const { return Option(option_->excludes(other.option_)); }
 Option Option::one_word_each() const { return Option(option_->allow_extra_args(false)); }
 Option Option::words(int count) const { return Option(option_->expected(count)); }
-Option Option::within(double least, double most) const {
-  return Option(option_->check(CLI::Range(least, most)));
-}
 Option Option::one_of(std::vector<std::string> words) const {
   return Option(option_->check(CLI::IsMember(std::move(words))));
 }
@@ -53,9 +60,6 @@ Option Command::add_option(const std::string& name, std::vector<std::string>& va
                            const std::string& help) const {
   return Option(command_->add_option(name, value, help));
 }
-Option Command::add_option(const std::string& name, double& value, const std::string& help) const {
-  return Option(command_->add_option(name, value, help));
-}
 Option Command::add_flag(const std::string& name, bool& value, const std::string& help) const {
   return Option(command_->add_flag(name, value, help));
 }
@@ -66,6 +70,21 @@ Option Command::add_number(const std::string& name, std::optional<int>& value, c
 Option Command::add_number(const std::string& name, std::optional<std::uint64_t>& value,
                            const std::string& help, std::uint64_t least, std::uint64_t most) const {
   return Option(number(*command_, name, value, help, least, most));
+}
+
+Option Command::add_number(const std::string& name, double& value, const std::string& help, double least,
+                           double most) const {
+  const auto read = [&value, name, least, most](const std::string& text) {
+    double result = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
+    const bool whole = error == std::errc{} && end == text.data() + text.size();
+    if (!whole || !(result >= least && result <= most)) {
+      throw CLI::ValidationError(
+          name, "'" + text + "' is not a number from " + text_of(least) + " to " + text_of(most));
+    }
+    value = result;
+  };
+  return Option(command_->add_option_function<std::string>(name, read, help)->type_name("FLOAT"));
 }
 
 Command Command::add_subcommand(const std::string& name, const std::string& help) const {
@@ -109,6 +128,16 @@ Result<std::optional<int>> Program::parse(int argc, const char* const* argv) {
     return failure(error.what());
   }
   return std::nullopt;
+}
+
+int finish(const char* program, int code) {
+  constexpr int usage = 2;
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  if ((flushed && std::ferror(stdout) == 0) || code == usage) return code;
+  std::fprintf(stderr, "%s: standard output: cannot be written%s%s\n", program, errno != 0 ? ": " : "",
+               errno != 0 ? std::strerror(errno) : "");
+  return usage;
 }
 
 void throw_required(const std::string& what) { throw CLI::RequiredError(what); }

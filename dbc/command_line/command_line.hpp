@@ -31,7 +31,6 @@ class Option {
   Option one_word_each() const;
   /// Takes exactly so many words.
   Option words(int count) const;
-  Option within(double least, double most) const;
   Option one_of(std::vector<std::string> words) const;
   /// After parsing.
   [[nodiscard]] bool given() const;
@@ -48,7 +47,6 @@ class Command {
   /// "--name", "-n,--name", or "NAME": an argument.
   Option add_option(const std::string& name, std::string& value, const std::string& help) const;
   Option add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) const;
-  Option add_option(const std::string& name, double& value, const std::string& help) const;
   Option add_flag(const std::string& name, bool& value, const std::string& help) const;
 
   /// A decimal whole number from `least` to `most`. Refused otherwise, in one line: CLI11 itself reads whole
@@ -59,6 +57,9 @@ class Command {
   Option add_number(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help,
                     std::uint64_t least = 0,
                     std::uint64_t most = std::numeric_limits<std::uint64_t>::max()) const;
+  /// A decimal number from `least` to `most`: "nan" is none.
+  Option add_number(const std::string& name, double& value, const std::string& help, double least,
+                    double most) const;
 
   Command add_subcommand(const std::string& name, const std::string& help) const;
   void require_subcommands(std::size_t least, std::size_t most) const;
@@ -96,6 +97,10 @@ class Program : public Command {
 
   std::unique_ptr<CLI::App> app_;
 };
+
+/// The exit code of a program that ends with `code`: 2, with a line on stderr, if standard output did not
+/// take all that was printed. Nothing is added to 2, which has its line.
+int finish(const char* program, int code);
 
 /// Ends parsing from a callback: "WHAT is required".
 [[noreturn]] void throw_required(const std::string& what);

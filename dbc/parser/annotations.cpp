@@ -1,7 +1,7 @@
 // The sections that say more about what is defined: named values, comments; and environment variables.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <set>
 
 #include "dbc/parser/reader.hpp"
 
@@ -10,10 +10,11 @@ namespace {
 
 std::vector<ValueName> read_value_names(Reader& in) {
   std::vector<ValueName> values;
+  std::set<std::int64_t> named;
   while (!in.take_mark_if(';')) {
     const Position at = in.peek().at;
     const std::int64_t value = in.integer("';' or a value");
-    if (std::ranges::find(values, value, &ValueName::value) != values.end()) {
+    if (!named.insert(value).second) {
       fail_at(at, fmt::format("value {} named a second time, expected every value once", value));
     }
     values.push_back({value, in.string("the name of the value")});
@@ -33,7 +34,7 @@ void read_values(Reader& in, Draft& draft) {
   }
   Message& message = message_of(draft, in.natural("a message id or an environment variable", UINT32_MAX), at);
   const Position signal_at = in.peek().at;
-  Signal& signal = signal_of(message, in.word("a signal"), signal_at);
+  Signal& signal = signal_of(draft, message, in.word("a signal"), signal_at);
   if (!signal.values.empty()) {
     fail_at(signal_at,
             fmt::format("values of {}.{} a second time, expected VAL_ once", message.name, signal.name));
@@ -46,7 +47,7 @@ void read_value_table(Reader& in, Draft& draft) {
   ValueTable table;
   table.name = in.word("the name of the value table");
   auto& tables = draft.database.value_tables;
-  if (std::ranges::find(tables, table.name, &ValueTable::name) != tables.end()) {
+  if (!draft.tables.emplace(table.name, tables.size()).second) {
     fail_at(at, fmt::format("value table {} a second time, expected a name of its own", table.name));
   }
   table.values = read_value_names(in);
@@ -58,7 +59,7 @@ void read_variable(Reader& in, Draft& draft) {
   EnvironmentVariable variable;
   variable.name = in.word("the name of the environment variable");
   auto& variables = draft.database.variables;
-  if (std::ranges::find(variables, variable.name, &EnvironmentVariable::name) != variables.end()) {
+  if (!draft.variables.emplace(variable.name, variables.size()).second) {
     fail_at(at,
             fmt::format("environment variable {} a second time, expected a name of its own", variable.name));
   }
@@ -105,7 +106,7 @@ void read_comment(Reader& in, Draft& draft) {
   } else if (kind == "SG_") {
     Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
     const Position signal_at = in.peek().at;
-    comment = &signal_of(message, in.word("a signal"), signal_at).comment;
+    comment = &signal_of(draft, message, in.word("a signal"), signal_at).comment;
   } else if (kind == "EV_") {
     comment = &variable_of(draft, in.word("an environment variable"), at).comment;
   }

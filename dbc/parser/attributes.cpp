@@ -46,15 +46,13 @@ Owner read_owner(Reader& in, bool relation) {
 }
 
 AttributeDefinition& definition_of(Draft& draft, std::string_view name, bool relation, Position at) {
-  auto& definitions = draft.database.definitions;
-  const auto found = std::ranges::find_if(definitions, [&](const AttributeDefinition& d) {
-    return d.name == name && is_relation(d.owner) == relation;
-  });
+  const Index& definitions = relation ? draft.relation_definitions : draft.definitions;
+  const auto found = definitions.find(name);
   if (found == definitions.end()) {
     fail_at(at, fmt::format("attribute \"{}\" is not defined, expected a {} above", name,
                             relation ? "BA_DEF_REL_" : "BA_DEF_"));
   }
-  return *found;
+  return draft.database.definitions[found->second];
 }
 
 std::string joined(const std::vector<std::string>& labels) {
@@ -147,11 +145,10 @@ void read_definition(Reader& in, Draft& draft, bool relation) {
   definition.owner = read_owner(in, relation);
   const Position at = in.peek().at;
   definition.name = in.string("the name of the attribute");
-  for (const AttributeDefinition& other : draft.database.definitions) {
-    if (other.name == definition.name && is_relation(other.owner) == relation) {
-      fail_at(at, fmt::format("attribute \"{}\" defined a second time, expected a name of its own",
-                              definition.name));
-    }
+  Index& definitions = relation ? draft.relation_definitions : draft.definitions;
+  if (!definitions.emplace(definition.name, draft.database.definitions.size()).second) {
+    fail_at(at, fmt::format("attribute \"{}\" defined a second time, expected a name of its own",
+                            definition.name));
   }
   read_type(in, definition);
   in.mark(';');
@@ -197,7 +194,7 @@ void read_attribute(Reader& in, Draft& draft) {
     attributes = &message.attributes;
     if (owner == Owner::signal) {
       const Position signal_at = in.peek().at;
-      attributes = &signal_of(message, in.word("a signal"), signal_at).attributes;
+      attributes = &signal_of(draft, message, in.word("a signal"), signal_at).attributes;
     }
   }
   AttributeValue value = read_value(in, definition);
@@ -233,7 +230,7 @@ void read_relation_attribute(Reader& in, Draft& draft) {
     if (relation.owner == Owner::node_signal) {
       const Position signal_at = in.peek().at;
       relation.target = in.word("a signal");
-      signal_of(message, relation.target, signal_at);
+      signal_of(draft, message, relation.target, signal_at);
     }
   }
   relation.value = read_value(in, definition);

@@ -7,6 +7,8 @@
 #include <bitset>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "dbc/parser/reader.hpp"
 #include "dbc/wire/bits.hpp"
@@ -18,18 +20,38 @@ std::string full_name(const Message& message, const Signal& signal) {
   return fmt::format("{}.{}", message.name, signal.name);
 }
 
+/// find_attribute() for every message and signal, of which there may be tens of thousands as of definitions.
+class Defaults {
+ public:
+  explicit Defaults(const Database& database) {
+    for (const AttributeDefinition& definition : database.definitions) {
+      if (definition.initial)
+        values_.emplace(std::pair(definition.owner, definition.name), *definition.initial);
+    }
+  }
+  [[nodiscard]] const AttributeValue* find(const Attributes& attributes, Owner owner,
+                                           std::string_view name) const {
+    if (const auto own = attributes.find(name); own != attributes.end()) return &own->second;
+    const auto found = values_.find(std::pair(owner, std::string(name)));
+    return found != values_.end() ? &found->second : nullptr;
+  }
+
+ private:
+  std::map<std::pair<Owner, std::string>, AttributeValue> values_;
+};
+
 template <class Value>
-Value attribute_or(const Database& database, const Attributes& attributes, Owner owner, std::string_view name,
+Value attribute_or(const Defaults& defaults, const Attributes& attributes, Owner owner, std::string_view name,
                    Value otherwise) {
-  const AttributeValue* value = find_attribute(database, attributes, owner, name);
+  const AttributeValue* value = defaults.find(attributes, owner, name);
   const Value* typed = value != nullptr ? std::get_if<Value>(value) : nullptr;
   return typed != nullptr ? *typed : otherwise;
 }
 
 /// A number of any type, as double.
-double number_or_zero(const Database& database, const Attributes& attributes, Owner owner,
+double number_or_zero(const Defaults& defaults, const Attributes& attributes, Owner owner,
                       std::string_view name) {
-  const AttributeValue* value = find_attribute(database, attributes, owner, name);
+  const AttributeValue* value = defaults.find(attributes, owner, name);
   if (value == nullptr) return 0;
   if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
   const auto* real = std::get_if<double>(value);
@@ -46,22 +68,27 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-void read_message_attributes(const Database& database, Message& message) {
+void read_message_attributes(const Defaults& defaults, Message& message) {
   const auto number = [&](std::string_view name) {
-    return number_or_zero(database, message.attributes, Owner::message, name);
+    return number_or_zero(defaults, message.attributes, Owner::message, name);
   };
-  message.cycle_time_us = std::llround(number("GenMsgCycleTime") * 1000);
+  const double cycle_ms = number("GenMsgCycleTime");
+  if (!is_message_time_ms(cycle_ms)) {
+    fail_at(message.at, fmt::format("message {} has GenMsgCycleTime {} ms, expected {}", message.name,
+                                    cycle_ms, message_time_range));
+  }
+  message.cycle_time_us = std::llround(cycle_ms * 1000);
   const double data_id = number("E2eDataId");
   if (data_id < 0 || data_id > 0xFFFF) {
     fail_at(message.at, fmt::format("message {} has E2eDataId {}, expected 0..65535", message.name, data_id));
   }
   message.e2e_data_id = static_cast<std::uint16_t>(data_id);
   message.sample_group =
-      attribute_or<std::string>(database, message.attributes, Owner::message, "SampleGroup", {});
+      attribute_or<std::string>(defaults, message.attributes, Owner::message, "SampleGroup", {});
   message.answers =
-      words_of(attribute_or<std::string>(database, message.attributes, Owner::message, "Answers", {}));
+      words_of(attribute_or<std::string>(defaults, message.attributes, Owner::message, "Answers", {}));
   const auto format =
-      attribute_or<std::string>(database, message.attributes, Owner::message, "VFrameFormat", {});
+      attribute_or<std::string>(defaults, message.attributes, Owner::message, "VFrameFormat", {});
   message.fd = format.ends_with("_FD");
   const bool says_extended = format.starts_with("Extended") || format.starts_with("J1939");
   if (message.attributes.contains("VFrameFormat") && says_extended != message.extended) {
@@ -70,9 +97,9 @@ void read_message_attributes(const Database& database, Message& message) {
   }
 }
 
-void read_signal_attributes(const Database& database, Signal& signal) {
-  signal.sensor_sigma = number_or_zero(database, signal.attributes, Owner::signal, "SensorSigma");
-  signal.carries_remainder = attribute_or<std::string>(database, signal.attributes, Owner::signal,
+void read_signal_attributes(const Defaults& defaults, Signal& signal) {
+  signal.sensor_sigma = number_or_zero(defaults, signal.attributes, Owner::signal, "SensorSigma");
+  signal.carries_remainder = attribute_or<std::string>(defaults, signal.attributes, Owner::signal,
                                                        "CarriesRemainder", "no") == "yes";
 }
 
@@ -219,11 +246,12 @@ void check_layout(const Message& message) {
 void finish(Draft& draft) {
   Database& database = draft.database;
   std::erase_if(database.messages, [](const Message& m) { return m.id == independent_signals_id; });
+  const Defaults defaults(database);
   for (Message& message : database.messages) {
-    read_message_attributes(database, message);
+    read_message_attributes(defaults, message);
     check_size(message);
     for (Signal& signal : message.signals) {
-      read_signal_attributes(database, signal);
+      read_signal_attributes(defaults, signal);
       check_numbers(message, signal);
       check_values(message, signal);
     }

@@ -68,6 +68,8 @@ const AttributeValue* find_attribute(const Database& database, const Attributes&
   return definition != database.definitions.end() && definition->initial ? &*definition->initial : nullptr;
 }
 
+bool is_message_time_ms(double ms) { return ms == 0 || (ms >= 0.001 && ms <= 1e9); }
+
 bool mutually_exclusive(const Message& message, const Signal& a, const Signal& b) {
   const auto conditions_b = conditions_of(message, b);
   return std::ranges::any_of(conditions_of(message, a), [&](const Condition& x) {

@@ -177,6 +177,11 @@ const Signal* find_signal(const Message& message, std::string_view name);
 const AttributeValue* find_attribute(const Database& database, const Attributes& attributes, Owner owner,
                                      std::string_view name);
 
+/// True for what an attribute of a message may give as a time: 0, it gives none, or 1 us to 1e9 ms. A
+/// negative or a vanishing one would pass for none, and a larger one overflow as nanoseconds.
+bool is_message_time_ms(double ms);
+inline constexpr std::string_view message_time_range = "0 (none) or 0.001..1e9";
+
 /// True if no frame can hold both: a multiplexor above both has different values for them.
 bool mutually_exclusive(const Message& message, const Signal& a, const Signal& b);
 

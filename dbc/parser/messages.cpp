@@ -90,15 +90,13 @@ void read_message(Reader& in, Draft& draft) {
   }
   const Position name_at = in.peek().at;
   message.name = in.word("the name of the message");
-  for (const Message& other : draft.database.messages) {
-    if (other.id == message.id && other.extended == message.extended) {
-      fail_at(message.at, fmt::format("message {} has the id {} of {}, expected an id of its own",
-                                      message.name, message.id, other.name));
-    }
-    if (other.name == message.name) {
-      fail_at(name_at, fmt::format("message {} a second time, expected a name of its own", message.name));
-    }
+  const std::size_t index = draft.database.messages.size();
+  if (const auto [other, is_new] = draft.messages_by_id.emplace(raw_id, index); !is_new) {
+    fail_at(message.at, fmt::format("message {} has the id {} of {}, expected an id of its own", message.name,
+                                    message.id, draft.database.messages[other->second].name));
   }
+  if (!draft.messages.emplace(message.name, index).second)
+    fail_at(name_at, fmt::format("message {} a second time, expected a name of its own", message.name));
   in.mark(':');
   message.size = static_cast<unsigned>(in.natural("the size in bytes", 64));
   const Position sender_at = in.peek().at;
@@ -108,10 +106,11 @@ void read_message(Reader& in, Draft& draft) {
   } else {
     node_of(draft, message.sender, sender_at);
   }
+  Index& signals = draft.signals.emplace_back();
   while (in.at_word("SG_")) {
     in.take();
     Signal signal = read_signal(in, draft);
-    if (std::ranges::find(message.signals, signal.name, &Signal::name) != message.signals.end()) {
+    if (!signals.emplace(signal.name, message.signals.size()).second) {
       fail_at(signal.at, fmt::format("signal {}.{} a second time, expected a name of its own", message.name,
                                      signal.name));
     }
@@ -145,7 +144,7 @@ void read_signal_group(Reader& in, Draft& draft) {
   while (!in.take_mark_if(';')) {
     const Position signal_at = in.peek().at;
     group.signals.push_back(in.word("';' or a signal"));
-    signal_of(message, group.signals.back(), signal_at);
+    signal_of(draft, message, group.signals.back(), signal_at);
     in.take_mark_if(',');
   }
   message.groups.push_back(std::move(group));
@@ -155,7 +154,7 @@ void read_signal_type(Reader& in, Draft& draft) {
   const Position at = in.peek().at;
   Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
   const Position signal_at = in.peek().at;
-  Signal& signal = signal_of(message, in.word("a signal"), signal_at);
+  Signal& signal = signal_of(draft, message, in.word("a signal"), signal_at);
   in.take_mark_if(':');
   const std::uint64_t type = in.natural("the type 0 (integer), 1 (float) or 2 (double)", 2);
   in.mark(';');
@@ -173,9 +172,9 @@ void read_extended_mux(Reader& in, Draft& draft) {
   const std::uint64_t id = in.natural("a message id", UINT32_MAX);
   Message& message = message_of(draft, id, at);
   const Position signal_at = in.peek().at;
-  Signal& signal = signal_of(message, in.word("a multiplexed signal"), signal_at);
+  Signal& signal = signal_of(draft, message, in.word("a multiplexed signal"), signal_at);
   const Position mux_at = in.peek().at;
-  const Signal& multiplexor = signal_of(message, in.word("its multiplexor"), mux_at);
+  const Signal& multiplexor = signal_of(draft, message, in.word("its multiplexor"), mux_at);
   if (!draft.mux_extended.emplace(fmt::format("{} {}", id, signal.name), signal_at).second) {
     fail_at(signal_at, fmt::format("multiplexing of {}.{} a second time, expected SG_MUL_VAL_ once",
                                    message.name, signal.name));
@@ -197,7 +196,7 @@ void read_extended_mux(Reader& in, Draft& draft) {
     range.first = in.natural("a range first-last", UINT64_MAX);
     // "3-5" is read as the numbers 3 and -5.
     if (in.peek().kind == TokenKind::number && in.peek().text.starts_with('-')) {
-      range.last = static_cast<std::uint64_t>(-in.integer("the last value"));
+      range.last = in.natural_after_minus("the last value");
     } else {
       in.mark('-');
       range.last = in.natural("the last value", UINT64_MAX);

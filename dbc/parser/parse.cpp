@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "dbc/files/text_file.hpp"
 #include "dbc/parser/reader.hpp"
 
 namespace canhil::dbc {
@@ -37,11 +35,13 @@ void read_nodes(Reader& in, Draft& draft) {
   auto& nodes = draft.database.nodes;
   while (in.peek().kind == TokenKind::word && !is_keyword(in.peek().text)) {
     const Token& name = in.take();
-    if (std::ranges::find(nodes, name.text, &Node::name) != nodes.end()) {
+    if (draft.nodes.contains(name.text)) {
       throw ParseFailure{name.at,
                          fmt::format("node '{}' a second time, expected every node once", name.text)};
     }
-    if (name.text != nobody) nodes.push_back({name.text, {}, {}});
+    if (name.text == nobody) continue;
+    draft.nodes.emplace(name.text, nodes.size());
+    nodes.push_back({name.text, {}, {}});
   }
 }
 
@@ -107,12 +107,10 @@ Result<Database> parse(std::string_view text, std::string_view file_name) {
 }
 
 Result<Database> read_file(const std::string& path) {
-  std::error_code ignored;
-  std::ifstream file(path, std::ios::binary);
-  const bool readable = file && !std::filesystem::is_directory(path, ignored);
-  const std::string text = readable ? std::string{std::istreambuf_iterator<char>(file), {}} : std::string();
-  if (!readable || !file) return failure(fmt::format("{}: cannot be read, expected a DBC file", path));
-  return parse(text, path);
+  // A token takes up to some twenty times the memory of its text.
+  const auto text = read_text_file(path, "a DBC file", 16 * mebibyte);
+  if (!text) return tl::unexpected(text.error());
+  return parse(*text, path);
 }
 
 std::uint64_t hash(std::string_view text) {

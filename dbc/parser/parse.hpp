@@ -14,7 +14,7 @@ namespace canhil::dbc {
 /// Error: one line `file_name:line:column: what, expected ...`.
 Result<Database> parse(std::string_view text, std::string_view file_name);
 
-/// parse() of a file's content. Error also if the file cannot be read.
+/// parse() of a file's content. Error also if the file cannot be read, or is larger than 16 MiB.
 Result<Database> read_file(const std::string& path);
 
 /// FNV-1a, 64 bits, of the text without carriage returns: one contract, whatever the checkout's line ends.

@@ -94,45 +94,49 @@ std::uint64_t Reader::natural(std::string_view what, std::uint64_t maximum) {
   return value;
 }
 
+std::uint64_t Reader::natural_after_minus(std::string_view what) {
+  std::uint64_t value = 0;
+  const std::string_view text = peek().text;
+  if (peek().kind != TokenKind::number || !text.starts_with('-') || !read_all(text.substr(1), value))
+    fail(fmt::format("'-' and {}, an integer in 0..{}", what, UINT64_MAX));
+  take();
+  return value;
+}
+
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at) {
-  const bool extended = (raw_id & extended_flag) != 0;
-  const auto id = raw_id == independent_signals_id
-                      ? independent_signals_id
-                      : static_cast<std::uint32_t>(raw_id & ~std::uint64_t{extended_flag});
-  auto& messages = draft.database.messages;
-  const auto found =
-      std::ranges::find_if(messages, [&](const Message& m) { return m.id == id && m.extended == extended; });
-  if (found == messages.end()) {
+  const auto found = draft.messages_by_id.find(raw_id);
+  if (found == draft.messages_by_id.end()) {
     throw ParseFailure{at,
                        fmt::format("no message has the id {}, expected one defined by BO_ above", raw_id)};
   }
-  return *found;
+  return draft.database.messages[found->second];
 }
 
-Signal& signal_of(Message& message, std::string_view name, Position at) {
-  const auto found = std::ranges::find(message.signals, name, &Signal::name);
-  if (found == message.signals.end()) {
+Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at) {
+  const Index& signals = draft.signals[static_cast<std::size_t>(&message - draft.database.messages.data())];
+  const auto found = signals.find(name);
+  if (found == signals.end()) {
     throw ParseFailure{
         at, fmt::format("message {} has no signal '{}', expected one of its SG_", message.name, name)};
   }
-  return *found;
+  return message.signals[found->second];
 }
 
 Node& node_of(Draft& draft, std::string_view name, Position at) {
-  const auto found = std::ranges::find(draft.database.nodes, name, &Node::name);
-  if (found == draft.database.nodes.end()) {
+  const auto found = draft.nodes.find(name);
+  if (found == draft.nodes.end()) {
     throw ParseFailure{at, fmt::format("no node '{}', expected one listed in BU_", name)};
   }
-  return *found;
+  return draft.database.nodes[found->second];
 }
 
 EnvironmentVariable& variable_of(Draft& draft, std::string_view name, Position at) {
-  const auto found = std::ranges::find(draft.database.variables, name, &EnvironmentVariable::name);
-  if (found == draft.database.variables.end()) {
+  const auto found = draft.variables.find(name);
+  if (found == draft.variables.end()) {
     throw ParseFailure{at,
                        fmt::format("no environment variable '{}', expected one defined by EV_ above", name)};
   }
-  return *found;
+  return draft.database.variables[found->second];
 }
 
 }  // namespace canhil::dbc

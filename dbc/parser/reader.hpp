@@ -35,6 +35,8 @@ class Reader {
   double real(std::string_view what);
   std::int64_t integer(std::string_view what);
   std::uint64_t natural(std::string_view what, std::uint64_t maximum);
+  /// A natural number with a '-' in front of it: the end of a range.
+  std::uint64_t natural_after_minus(std::string_view what);
 
   /// At the token to come.
   [[noreturn]] void fail(const std::string& expected) const;
@@ -49,9 +51,16 @@ inline constexpr std::string_view nobody = "Vector__XXX";
 
 bool is_keyword(std::string_view word);
 
+/// Where the object of each name stands in its list: a list may have tens of thousands.
+using Index = std::map<std::string, std::size_t, std::less<>>;
+
 /// A Database in the making: a pseudo message may be among the messages until finish() drops it.
 struct Draft {
   Database database;
+  Index nodes, messages, variables, tables;
+  std::map<std::uint64_t, std::size_t> messages_by_id;  ///< as in the text, with the flag of extended ids
+  std::vector<Index> signals;                           ///< of each message
+  Index definitions, relation_definitions;
   std::map<std::string, Position, std::less<>> mux_extended;  ///< "id signal" given by SG_MUL_VAL_
 };
 
@@ -60,7 +69,7 @@ inline constexpr std::uint32_t independent_signals_id = 0xC000'0000;
 inline constexpr std::uint32_t extended_flag = 0x8000'0000;
 
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
-Signal& signal_of(Message& message, std::string_view name, Position at);
+Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at);
 Node& node_of(Draft& draft, std::string_view name, Position at);
 EnvironmentVariable& variable_of(Draft& draft, std::string_view name, Position at);
 

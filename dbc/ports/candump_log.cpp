@@ -198,23 +198,33 @@ Result<LogReader> LogReader::open(const std::string& path) {
 }
 
 Result<std::optional<LogEntry>> LogReader::next() {
-  do {
-    if (!std::getline(file_, line_)) {
+  for (;;) {
+    const bool read =
+        static_cast<bool>(file_.getline(line_.data(), static_cast<std::streamsize>(line_.size())));
+    auto length = static_cast<std::size_t>(file_.gcount());
+    if (!read) {
       if (file_.bad()) return failure(fmt::format("cannot read log '{}' after line {}", path_, line_number_));
-      return std::optional<LogEntry>();
+      if (length == 0) return std::optional<LogEntry>();
     }
     ++line_number_;
-    if (line_.ends_with('\r')) line_.pop_back();  // of a log that went through Windows
-  } while (is_remote(line_));
-  const std::string where = fmt::format("{}:{}", path_, line_number_);
-  auto entry = parse_log_line(line_, where);
-  if (!entry) return tl::unexpected(entry.error());
-  // A recorder that was killed may have cut the line at the end of a byte: the rest would pass for a shorter
-  // frame.
-  if (file_.eof())
-    return failure(
-        fmt::format("{}:{}: expected the end of the line: the log is cut", where, line_.size() + 1));
-  return std::optional<LogEntry>(std::move(*entry));
+    const std::string where = fmt::format("{}:{}", path_, line_number_);
+    if (!file_.eof() && read) --length;  // the end of the line was read, too
+    if (length > longest_line) {
+      return failure(
+          fmt::format("{}: is longer than {} characters, expected a line of a log", where, longest_line));
+    }
+    std::string_view line(line_.data(), length);
+    if (line.ends_with('\r')) line.remove_suffix(1);  // of a log that went through Windows
+    if (is_remote(line)) continue;
+    auto entry = parse_log_line(line, where);
+    if (!entry) return tl::unexpected(entry.error());
+    // A recorder that was killed may have cut the line at the end of a byte: the rest would pass for a
+    // shorter frame.
+    if (file_.eof())
+      return failure(
+          fmt::format("{}:{}: expected the end of the line: the log is cut", where, line.size() + 1));
+    return std::optional<LogEntry>(std::move(*entry));
+  }
 }
 
 }  // namespace canhil

@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <vector>
 
 #include "dbc/ports/port.hpp"
 
@@ -57,9 +58,12 @@ class LogReader {
  private:
   LogReader(std::ifstream file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
 
+  /// A frame takes some 200 characters.
+  static constexpr std::size_t longest_line = 4096;
+
   std::ifstream file_;
   std::string path_;
-  std::string line_;
+  std::vector<char> line_ = std::vector<char>(longest_line + 2);
   std::size_t line_number_ = 0;
 };
 

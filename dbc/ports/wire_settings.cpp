@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "dbc/ports/bit_errors.hpp"
 
@@ -42,6 +43,7 @@ Result<WireSettings> wire_settings(std::string_view bus) {
   WireSettings result;
   std::string_view rest = bus;
   cut(rest, '?');
+  std::set<std::string_view> given;
   while (!rest.empty()) {
     const std::string_view setting = cut(rest, '&');
     if (!read_setting(setting, result)) {
@@ -51,6 +53,9 @@ Result<WireSettings> wire_settings(std::string_view bus) {
                       "seed=0..18446744073709551615",
                       bus, setting));
     }
+    const std::string_view key = setting.substr(0, setting.find('='));
+    if (!given.insert(key).second)
+      return failure(fmt::format("'{}': '{}' is given twice, expected it once", bus, key));
   }
   if (result.rates.nominal == 0 && bus.find('?') != std::string_view::npos)
     return failure(fmt::format("'{}': expected bitrate=1000..1000000 after '?'", bus));

@@ -30,12 +30,23 @@ TEST(BadInput, MissingScenario) { expect_one_line(hil_bench("run no_such.toml"),
 
 TEST(BadInput, ScheduleOfWhatIsNoDbc) {
   expect_one_line(hil_bench("schedulability no_such.dbc"),
-                  "no_such.dbc: cannot be read, expected a DBC file");
+                  "no_such.dbc: cannot be read (No such file or directory), expected a DBC file");
   const std::string fd = TEST_DATA_DIR "/dbc/fd.dbc";
   expect_one_line(hil_bench("schedulability " + fd), fd + ": no bit rate, expected --bitrate");
   expect_one_line(hil_bench("schedulability --bitrate 500000 " + fd), "message Long is CAN FD");
   expect_one_line(hil_bench("schedulability --bitrate 5e5 " + fd), "--bitrate: '5e5' is not a whole number");
   expect_one_line(hil_bench("schedulability --error-burst 2 " + fd), "--errors-per-second");
+  for (const std::string number : {"nan", "inf", "-1", "0", "1x"}) {
+    expect_one_line(hil_bench(fmt::format("schedulability --errors-per-second={} {}", number, fd)),
+                    fmt::format("--errors-per-second: '{}' is not a number from 1e-06 to 100000", number));
+    expect_one_line(hil_bench(fmt::format("schedulability --event-interval-ms={} {}", number, fd)),
+                    fmt::format("--event-interval-ms: '{}' is not a number from 0.001 to 1e+09", number));
+  }
+  expect_one_line(hil_bench("schedulability /dev/zero"), "/dev/zero: is larger than 16 MiB");
+  expect_one_line(hil_bench("run /dev/zero"), "/dev/zero: is larger than 1 MiB");
+  expect_one_line(hil_bench("report /dev/zero"), "/dev/zero: is larger than 64 MiB");
+  expect_one_line(hil_target("--bus local:nobody --dbc /dev/zero"), "/dev/zero: is larger than 16 MiB");
+  expect_one_line(hil_target("--replay /dev/zero"), "/dev/zero:1: is longer than 4096 characters");
 }
 
 TEST(BadInput, UnknownScenarioKey) {

@@ -6,6 +6,9 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <fstream>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
 #include "tests/processes/hil/program.hpp"
 
 namespace canhil::test {
@@ -185,6 +188,71 @@ TEST(Run, OfSeveralEstimatorsTheTextSaysWhoseLinesTheyAre) {
   EXPECT_THAT(text, ContainsRegex("\n  los_rate\n  miss .*\n  LOS rate error"));
   EXPECT_THAT(text, ContainsRegex("\n  wind\n  wind error from"));
   EXPECT_THAT(text, ContainsRegex("\n  inflight_alignment\n  heading error"));
+}
+
+TEST(Run, ATargetHeldByASignalIsNamed) {
+  const std::string held = scratch("held_target");
+  std::ofstream(held) << "#!/bin/sh\n(sleep 1.5; kill -STOP $$) &\nexec " HIL_TARGET " \"$@\"\n";
+  ASSERT_EQ(shell("chmod +x " + held).code, 0);
+  const Ended ended =
+      hil_bench(fmt::format("run {} --bus {} --target {}", scenario("transfer_alignment"), bus(), held));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("fail: target silent since t="));
+  EXPECT_THAT(ended.out, HasSubstr("(its process is stopped by a signal)"));
+}
+
+TEST(Run, AWireThatIsTooSlowIsNamed) {
+  if (bus() != "local:") GTEST_SKIP() << "the bit rate is that of the interface";
+  const Ended ended = hil_bench(fmt::format("run {} --bus 'local:?bitrate=125000'", scenario("all_four")));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("(the wire of 125 kbit/s is full: load "));
+}
+
+TEST(Run, WhatIsNoProgramIsRefusedAsTheTarget) {
+  const std::string text = scratch("text_target"), plain = scratch("plain_target");
+  for (const std::string& path : {text, plain}) std::ofstream(path) << "no program\n";
+  ASSERT_EQ(shell(fmt::format("chmod 755 {}; chmod 644 {}", text, plain)).code, 0);
+  for (const auto& [target, why] : {std::pair<std::string, std::string>{"/tmp", "Is a directory"},
+                                    {text, "Exec format error"},
+                                    {"/no/such", "No such file or directory"},
+                                    {plain, "Permission denied"}}) {
+    expect_one_line(
+        hil_bench(
+            fmt::format("run {} --bus {} --target {}", scenario("transfer_alignment_quick"), bus(), target)),
+        fmt::format("target '{}': {}; expected an executable file, or --target none", target, why));
+  }
+}
+
+TEST(Run, JsonToStdoutIsAloneThere) {
+  const std::string noisy = scratch("noisy_target");
+  std::ofstream(noisy) << "#!/bin/sh\necho a target says hello\nexec " HIL_TARGET " \"$@\"\n";
+  ASSERT_EQ(shell("chmod +x " + noisy).code, 0);
+  const Ended ended = hil_bench(fmt::format("run {} --bus {} --lockstep --json - --target {}",
+                                            scenario("transfer_alignment_quick"), bus(), noisy));
+  EXPECT_EQ(json_of(ended.out)["provenance"]["clock"], "lockstep");
+  EXPECT_THAT(ended.err, HasSubstr("a target says hello"));
+}
+
+// Every program looks at its standard output when it ends.
+TEST(Output, ThatIsLostIsSaid) {
+  const std::string log = scratch("lost.log");
+  ASSERT_THAT(
+      hil_bench(fmt::format("run {} --bus in-process --log {}", scenario("transfer_alignment_quick"), log))
+          .err,
+      testing::IsEmpty());
+  const std::vector<std::string> commands{HIL_TARGET " --replay " + log,
+                                          HIL_TARGET " --version",
+                                          HIL_BENCH " diverge " + log + " " + log,
+                                          HIL_BENCH " --help",
+                                          HIL_BENCH " schedulability --bitrate 500000 " SOURCE_DIR
+                                                    "/dbc/canhil.dbc",
+                                          DBCGEN " --load " SOURCE_DIR "/dbc/canhil.dbc"};
+  for (const std::string& command : commands) {
+    const Ended ended = shell(command + " > /dev/full");
+    EXPECT_EQ(ended.code, 2) << command;
+    EXPECT_THAT(ended.err, ContainsRegex("cannot (be written|write to file)")) << command;
+    EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
+  }
 }
 
 TEST(Run, JsonToStdoutReplacesTheText) {

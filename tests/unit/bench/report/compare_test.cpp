@@ -1,5 +1,7 @@
 #include "bench/report/compare.hpp"
 
+#include "bench/report/latency_tests.hpp"
+
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -108,7 +110,15 @@ Json report_of(const std::vector<int>& sample_us) {
           {"latency_s", {{"LosRateTarget", distribution(sample_us)}}}};
 }
 
-Compared compared(const Json& a, const Json& b) { return compare(a, b).value(); }
+Compared compared(const Json& a, const Json& b) { return compare({a}, {b}).value(); }
+Compared compared(const Reports& a, const Reports& b) { return compare(a, b).value(); }
+
+// Runs of one target on one host: the median of each is a little elsewhere.
+Reports runs_about(const std::vector<double>& medians_us, unsigned seed) {
+  Reports runs;
+  for (const double median_us : medians_us) runs.push_back(report_of(latencies_us(seed++, median_us)));
+  return runs;
+}
 
 TEST(Compare, TwoRunsOfTheSameAreNoWorse) {
   const Compared result = compared(report_of(latencies_us(1, 200)), report_of(latencies_us(2, 200)));
@@ -116,10 +126,46 @@ TEST(Compare, TwoRunsOfTheSameAreNoWorse) {
 }
 
 TEST(Compare, AMedianThatMovesIsWorseOneWayOnly) {
-  const Json fast = report_of(latencies_us(1, 200)), slow = report_of(latencies_us(2, 220));
+  const Json fast = report_of(latencies_us(1, 200)), slow = report_of(latencies_us(2, 420));
   EXPECT_EQ(compared(fast, slow).outcome, Comparison::worse);
   EXPECT_THAT(compared(fast, slow).text, HasSubstr("worse    latency of LosRateTarget: p50"));
   EXPECT_EQ(compared(slow, fast).outcome, Comparison::no_worse);
+}
+
+// Eight runs of the same target on one host: p50 from 58 to 64 us.
+TEST(Compare, RunsOfTheSameThatScatterAreNoWorse) {
+  const Reports runs = runs_about({58, 64, 60, 59, 63, 61, 62, 58.5}, 1);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (std::size_t j = 0; j < runs.size(); ++j)
+      EXPECT_EQ(compared(runs[i], runs[j]).outcome, Comparison::no_worse) << i << " " << j;
+  }
+  EXPECT_EQ(compared(Reports(runs.begin(), runs.begin() + 4), Reports(runs.begin() + 4, runs.end())).outcome,
+            Comparison::no_worse);
+}
+
+TEST(Compare, OneRunASideSaysWhatDifferenceCounts) {
+  const Json one = report_of(latencies_us(1, 60));
+  EXPECT_THAT(compared(one, one).text,
+              HasSubstr("one run a side: later counts from 100 % of p50, or of p99, on"));
+}
+
+TEST(Compare, SeveralRunsASideShowADifferenceBeyondTheirScatter) {
+  const Reports fast = runs_about({58, 64, 60, 61}, 1), slow = runs_about({78, 82, 79, 84}, 11);
+  EXPECT_EQ(compared(fast, slow).outcome, Comparison::worse) << compared(fast, slow).text;
+  EXPECT_THAT(compared(fast, slow).text, HasSubstr("worse    latency of LosRateTarget: p50 5"));
+  EXPECT_EQ(compared(slow, fast).outcome, Comparison::no_worse);
+}
+
+TEST(Compare, ACheckThatFailsInOneOfSeveralRunsIsWorseIfItDidInNone) {
+  const Reports good = runs_about({60, 60, 60}, 1);
+  Reports one_bad = good;
+  one_bad[1]["checks"][0]["outcome"] = "fail";
+  EXPECT_EQ(compared(good, one_bad).outcome, Comparison::worse);
+  EXPECT_THAT(compared(good, one_bad).text, HasSubstr("check 'x': pass -> 2 pass, 1 fail"));
+  EXPECT_EQ(compared(one_bad, one_bad).outcome, Comparison::no_worse);
+  Reports all_bad = one_bad;
+  for (Json& run : all_bad) run["checks"][0]["outcome"] = "fail";
+  EXPECT_EQ(compared(one_bad, all_bad).outcome, Comparison::worse);
 }
 
 TEST(Compare, ATailThatGrowsIsWorseThoughTheMedianStays) {
@@ -165,6 +211,36 @@ TEST(Compare, AnImpliedCheckThatAppearsIsWorse) {
   EXPECT_EQ(compared(good, bad).outcome, Comparison::worse);
 }
 
+TEST(Compare, ACheckThatIsGoneIsNotNoWorse) {
+  const Json whole = report_of(latencies_us(1, 200));
+  Json without = whole;
+  without["checks"] = Json::array();
+  EXPECT_EQ(compared(whole, without).outcome, Comparison::not_comparable);
+  EXPECT_THAT(compared(whole, without).text, HasSubstr("unknown  check 'x': pass -> not there"));
+  EXPECT_EQ(compared(without, whole).outcome, Comparison::not_comparable);
+}
+
+TEST(Compare, TheImpliedCheckMayBeGone) {
+  const Json good = report_of(latencies_us(1, 200));
+  Json bad = good;
+  bad["checks"].push_back(
+      {{"name", "bus_errors"}, {"kind", "bus_errors"}, {"outcome", "fail"}, {"measured", "bus off 1"}});
+  EXPECT_EQ(compared(bad, good).outcome, Comparison::no_worse);
+}
+
+TEST(Compare, AnOutcomeThatIsNoneIsAnError) {
+  const Json good = report_of(latencies_us(1, 200));
+  Json odd = good;
+  odd["checks"][0]["outcome"] = "perhaps";
+  const auto result = compare({good}, {odd});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().message,
+            "outcome 'perhaps' of check 'x', expected 'pass', 'fail' or 'not measured'");
+  odd = good;
+  odd["verdict"] = "perhaps";
+  EXPECT_FALSE(compare({good}, {odd}));
+}
+
 TEST(Compare, ARunThatEndedEarlyIsWorse) {
   const Json good = report_of(latencies_us(1, 200));
   Json bad = good;
@@ -198,6 +274,36 @@ TEST(Compare, SaysInWhatElseTheRunsDiffer) {
   EXPECT_THAT(result.text, HasSubstr("differs  seed 7 -> 8, DBC 1 -> 2, revision a -> b\n"));
 }
 
+TEST(Compare, NamesAnotherBusWireAndHost) {
+  Json one = report_of(latencies_us(1, 200));
+  one["provenance"].update({{"bus", "can0"}, {"host", "bench-1"}});
+  one["wire"]["bitrate_bitps"] = 500000;
+  Json other = one;
+  other["provenance"].update({{"bus", "can1"}, {"host", "bench-2"}});
+  other["wire"]["bitrate_bitps"] = 1000000;
+  EXPECT_THAT(compared(one, other).text,
+              HasSubstr("differs  bus can0 -> can1, bit rate of the wire 500000 -> 1000000, host bench-1 -> "
+                        "bench-2\n"));
+}
+
+TEST(Compare, TheBusThatABenchMadeForItselfIsNoOther) {
+  Json one = report_of(latencies_us(1, 200)), other = one;
+  one["provenance"]["bus"] = "local:canhil-123";
+  other["provenance"]["bus"] = "local:canhil-4567";
+  EXPECT_THAT(compared(one, other).text, Not(HasSubstr("differs")));
+}
+
+TEST(Compare, ACheckThatWasNotMeasuredIsNeverNoWorse) {
+  const Json good = report_of(latencies_us(1, 200));
+  Json unfit = good;
+  unfit["checks"][0]["outcome"] = "not measured";
+  EXPECT_EQ(compared(good, unfit).outcome, Comparison::not_comparable);
+  EXPECT_EQ(compared(unfit, good).outcome, Comparison::not_comparable);
+  EXPECT_EQ(compared(unfit, unfit).outcome, Comparison::not_comparable);
+  unfit["provenance"]["clock"] = "lockstep";
+  EXPECT_EQ(compared(unfit, unfit).outcome, Comparison::no_worse);
+}
+
 TEST(Compare, TimingThatWasNotMeasuredIsNeverNoWorse) {
   const Json good = report_of(latencies_us(1, 200));
   Json unfit = good;
@@ -212,7 +318,7 @@ TEST(Compare, TimingThatWasNotMeasuredIsNeverNoWorse) {
 TEST(Compare, AReportThatLacksSomethingIsAnError) {
   Json torn = report_of({1, 2});
   torn.erase("timing");
-  const auto result = compare(report_of({1, 2}), torn);
+  const auto result = compare({report_of({1, 2})}, {torn});
   ASSERT_FALSE(result);
   EXPECT_THAT(result.error().message, HasSubstr("timing"));
 }

@@ -190,7 +190,7 @@ TEST(Page, OfVirtualTimeHasNoLatency) {
 
 TEST(Page, FilesThatAreNoReportsAreRefusedInOneLine) {
   const std::string path = testing::TempDir() + "canhil_no_report.json";
-  EXPECT_THAT(read_document("/no/such").error().message, HasSubstr("'/no/such': cannot be read"));
+  EXPECT_THAT(read_document("/no/such").error().message, HasSubstr("/no/such: cannot be read"));
   std::ofstream(path) << "{";
   EXPECT_THAT(read_document(path).error().message, HasSubstr("is no JSON"));
   std::ofstream(path) << "[1]";
@@ -198,6 +198,33 @@ TEST(Page, FilesThatAreNoReportsAreRefusedInOneLine) {
   const auto torn = html(Json{{"schema", schema}, {"verdict", 5}});
   ASSERT_FALSE(torn);
   EXPECT_THAT(torn.error().message, Not(HasSubstr("\n")));
+}
+
+TEST(Page, ASeriesShorterThanItsTimesIsRefused) {
+  const Json whole = Json::parse(json(scenario_of(), run_of()));
+  for (const char* key : {"t_s", "low", "high", "sigma"}) {
+    Json torn = whole;
+    torn["series"][0][key].erase(torn["series"][0][key].size() - 1);
+    const auto page = html(torn);
+    ASSERT_FALSE(page) << key;
+    EXPECT_THAT(page.error().message, HasSubstr("as many as t_s"));
+  }
+}
+
+TEST(Page, ValuesTooDeepWithinOneAnotherAreRefused) {
+  const std::string path = testing::TempDir() + "canhil_deep_report.json";
+  std::string text = json(scenario_of(), run_of());
+  const std::size_t at = text.find("\"timing\": {") + 11;
+  std::string deep, end;
+  for (int i = 0; i < 100'000; ++i) {
+    deep += "{\"a\":";
+    end += "}";
+  }
+  text.insert(at, "\"deep\": " + deep + "1" + end + ",");
+  std::ofstream(path) << text;
+  const auto read = read_document(path);
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, HasSubstr("values lie 33 deep within one another"));
 }
 
 TEST(JsonReport, CarriesDistributionsWithTheirBuckets) {

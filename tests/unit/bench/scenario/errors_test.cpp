@@ -100,7 +100,12 @@ INSTANTIATE_TEST_SUITE_P(
               "three, each of at "
               "least 0"},
         Wrong{"[master_ins]", "[master_ins]\nvelocity_noise_mps = [1, 2, 'x']",
-              "15: key 'master_ins.velocity_noise_mps': element 3 is not, expected a number, or an array of "
+              "15: key 'master_ins.velocity_noise_mps': element 3 is a string, expected a number, or an "
+              "array of "
+              "three, each of at "
+              "least 0"},
+        Wrong{"[master_ins]", "[master_ins]\nvelocity_noise_mps = [1, -2.5, 3]",
+              "15: key 'master_ins.velocity_noise_mps': element 2 is -2.5, expected a number, or an array of "
               "three, each of at "
               "least 0"},
         Wrong{"[master_ins]", "[master_ins]\nvelocity_noise_mps = 'x'",

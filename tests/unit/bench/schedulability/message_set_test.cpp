@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <tuple>
 
 #include "dbc/parser/parse.hpp"
 
@@ -89,6 +90,19 @@ TEST(Streams, ADbcWithoutMessagesIsAnErrorOfOneLine) {
   const auto streams = streams_of({}, {}, rates);
   ASSERT_FALSE(streams);
   EXPECT_EQ(streams.error().message, "no messages in the DBC, expected one at least");
+}
+
+TEST(Streams, ATimeThatIsNoneIsAnError) {
+  for (const auto& [attribute, time_ms, shown] : {std::tuple("GenMsgDelayTime", -3.0, "-3"),
+                                                  {"GenMsgDeadline", 1e-7, "1e-07"},
+                                                  {"GenMsgJitter", 1e18, "1e+18"}}) {
+    dbc::Database odd = example();
+    odd.messages[0].attributes.insert_or_assign(attribute, time_ms);
+    const auto streams = streams_of(odd, {}, rates);
+    ASSERT_FALSE(streams) << attribute;
+    EXPECT_EQ(streams.error().message, "message " + odd.messages[0].name + " has " + attribute + " " + shown +
+                                           " ms, expected 0 (none) or 0.001..1e9");
+  }
 }
 
 TEST(BitRates, AreTheGivenOnesElseThoseOfTheDbc) {

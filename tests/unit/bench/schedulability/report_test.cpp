@@ -70,6 +70,16 @@ TEST(Table, OfManyThatMissTheirDeadlinesNamesAFew) {
                                "NOT schedulable: 7 of 7 messages: (Low[0-6], ){4}Low[0-6] and 2 more\n"));
 }
 
+TEST(Table, WithoutABoundSaysWhetherTheBusIsOverloaded) {
+  Analysis none = two(5 * ms);
+  EXPECT_THAT(table(none), Not(HasSubstr("R none")));
+  none.responses[0].response_ns.reset();
+  EXPECT_THAT(table(none),
+              HasSubstr("R none: the analysis finds no bound; the bus itself is not overloaded\n"));
+  none.streams[0].period_ns = 1;
+  EXPECT_THAT(table(none), HasSubstr("R none: no bound, the bus is overloaded\n"));
+}
+
 TEST(Table, SaysWhatIsTakenForGrantedOfEventMessages) {
   EXPECT_THAT(table(two(5 * ms)), Not(HasSubstr("\nrelease ")));
   EXPECT_THAT(table(two(5 * ms, Release::once)),

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -181,7 +183,8 @@ TEST(Parse, BitTimingAndAnEmptyFile) {
 TEST(Parse, FilesThatAreNotThere) {
   const auto database = read_file("/nowhere/x.dbc");
   ASSERT_FALSE(database);
-  EXPECT_EQ(database.error().message, "/nowhere/x.dbc: cannot be read, expected a DBC file");
+  EXPECT_EQ(database.error().message,
+            "/nowhere/x.dbc: cannot be read (No such file or directory), expected a DBC file");
 }
 
 // FNV-1a's published vectors: "" and "foobar".
@@ -229,6 +232,51 @@ TEST(RealRange, IsFiniteAndOfTheRightEndOnANegativeScale) {
   signal.maximum = 3;
   EXPECT_EQ(real_range(signal).lowest, -1);
   EXPECT_EQ(real_range(signal).highest, 5);
+}
+
+// The end of a range is as wide as a multiplexor: 2^63 has no negative in 64 bits with a sign.
+TEST(Parse, AMultiplexorsRangeMayEndWhereItsBitsDo) {
+  const auto database = parse(
+      "BS_:\nBU_: A\nBO_ 2 N: 12 A\n SG_ x M : 0|64@1+ (1,0) [0|0] \"\" A\n SG_ y m0 : 64|8@1+ (1,0) [0|0] "
+      "\"\" A\n"
+      "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\",\"StandardCAN_FD\";\nBA_ \"VFrameFormat\" BO_ 2 1;\n"
+      "SG_MUL_VAL_ 2 y x 3-9223372036854775808,9223372036854775809-18446744073709551615;",
+      "t.dbc");
+  ASSERT_TRUE(database) << database.error().message;
+  EXPECT_EQ(database->messages[0].signals[1].mux_ranges,
+            (std::vector<MuxRange>{{3, 9223372036854775808U}, {9223372036854775809U, UINT64_MAX}}));
+}
+
+std::string text_of_messages(int count) {
+  std::string text = "BS_:\nBU_: A";
+  for (int i = 0; i < count; ++i) text += " N" + std::to_string(i);
+  text += "\nBA_DEF_ BO_ \"GenMsgCycleTime\" INT 0 0;\n";
+  for (int i = 0; i < count; ++i) {
+    text += "BO_ " + std::to_string(2147483648U + static_cast<unsigned>(i)) + " M" + std::to_string(i) +
+            ": 8 N" + std::to_string(i) + "\n SG_ s : 0|8@1+ (1,0) [0|0] \"\" A\n";
+  }
+  for (int i = 0; i < count; ++i) {
+    const std::string id = std::to_string(2147483648U + static_cast<unsigned>(i));
+    text += "BA_ \"GenMsgCycleTime\" BO_ " + id + " 10;\nVAL_ " + id + " s 0 \"zero\" 1 \"one\" ;\n";
+  }
+  return text;
+}
+
+double seconds_to_parse(const std::string& text) {
+  double least = 1e9;
+  for (int i = 0; i < 3; ++i) {
+    const std::clock_t start = std::clock();
+    EXPECT_TRUE(parse(text, "t.dbc"));
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
+}
+
+// Sixteen times the messages take sixteen times as long, and a little more; loops within loops take 256
+// times.
+TEST(Parse, TakesAsLongAsTheTextIs) {
+  const double few_s = seconds_to_parse(text_of_messages(1'500));
+  EXPECT_LT(seconds_to_parse(text_of_messages(24'000)), 64 * few_s);
 }
 
 }  // namespace

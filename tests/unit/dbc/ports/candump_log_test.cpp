@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "tests/unit/dbc/ports/frames.hpp"
 
@@ -179,6 +180,27 @@ TEST_F(Log, IsCheckedOnOpening) {
   EXPECT_EQ(why_not({.fd = true}), "opened");
   std::filesystem::remove(path_);
   EXPECT_EQ(why_not(), "cannot read log '" + path_ + "': No such file or directory");
+}
+
+TEST(LogReading, ALineWithoutEndIsRefused) {
+  const std::string path = testing::TempDir() + "canhil_endless.log";
+  std::ofstream(path) << "(0.000000) vcan0 123#00 R\n(0.000000) " << std::string(1'000'000, 'x');
+  auto reader = LogReader::open(path);
+  ASSERT_TRUE(reader);
+  ASSERT_TRUE(reader->next());
+  EXPECT_EQ(reader->next().error().message,
+            path + ":2: is longer than 4096 characters, expected a line of a log");
+}
+
+TEST(LogReading, LinesUpToTheLimitAreRead) {
+  const std::string path = testing::TempDir() + "canhil_long_lines.log";
+  const std::string head = "(0.000000) ", tail = " 123#00 R";
+  for (const std::size_t length : {4096U, 4097U}) {
+    std::ofstream(path) << head + std::string(length - head.size() - tail.size(), 'x') + tail + "\n";
+    auto reader = LogReader::open(path);
+    ASSERT_TRUE(reader);
+    EXPECT_EQ(reader->next().has_value(), length == 4096);
+  }
 }
 
 TEST(LogWriting, TellsOfAFullDisk) {

@@ -257,6 +257,12 @@ TEST_F(TimedBus, WhatIsNotUnderstoodIsNamed) {
                                       "bit-error-rate=0..1 or seed=0..18446744073709551615",
                                       wrong.substr(wrong.find('&') + 1))));
   }
+  for (const std::string twice : {"bitrate=500000&bitrate=1000000", "seed=1&bitrate=500000&seed=1"}) {
+    const auto hub = host_local_bus(bus_ + "?" + twice, {});
+    ASSERT_FALSE(hub) << twice;
+    EXPECT_THAT(hub.error().message, HasSubstr(fmt::format("'{}' is given twice, expected it once",
+                                                           twice.substr(0, twice.find('=')))));
+  }
   for (const std::string nothing : {"?", "?queue=priority", "?bit-error-rate=1e-6"}) {
     const auto hub = host_local_bus(bus_ + nothing, {});
     ASSERT_FALSE(hub) << nothing;

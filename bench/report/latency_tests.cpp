@@ -1,0 +1,96 @@
+#include "bench/report/latency_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "bench/checks/probability.hpp"
+
+namespace canhil::report {
+namespace {
+
+double count_of(const Buckets& sample) {
+  double count = 0;
+  for (const auto& bucket : sample) count += static_cast<double>(bucket.count);
+  return count;
+}
+
+// Where the 99 % quantile is, by nearest rank.
+std::int64_t p99_bucket(const Buckets& sample) {
+  double left = std::ceil(0.99 * count_of(sample));
+  for (const auto& bucket : sample) {
+    left -= static_cast<double>(bucket.count);
+    if (left <= 0) return bucket.from_us;
+  }
+  return sample.empty() ? 0 : sample.back().from_us;
+}
+
+double share_beyond(const Buckets& sample, std::int64_t from_us) {
+  double beyond = 0;
+  for (const auto& bucket : sample)
+    if (bucket.from_us > from_us) beyond += static_cast<double>(bucket.count);
+  return beyond / count_of(sample);
+}
+
+double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double squares_about(std::span<const double> values, double mean) {
+  return std::accumulate(values.begin(), values.end(), 0.0,
+                         [mean](double sum, double v) { return sum + (v - mean) * (v - mean); });
+}
+
+}  // namespace
+
+// U counts the pairs with b > a, and half of those that are equal. With N = m + n and t_k values in bucket k:
+// var U = m n / 12 (N + 1 - sum (t_k^3 - t_k) / (N (N - 1))).
+RankTest rank_test(const Buckets& a, const Buckets& b) {
+  const double m = count_of(a), n = count_of(b);
+  if (m == 0 || n == 0) return {};
+  double u = 0, passed_a = 0, ties = 0;
+  auto in_a = a.begin();
+  auto in_b = b.begin();
+  while (in_a != a.end() || in_b != b.end()) {
+    const bool from_a = in_a != a.end() && (in_b == b.end() || in_a->from_us <= in_b->from_us);
+    const bool from_b = in_b != b.end() && (in_a == a.end() || in_b->from_us <= in_a->from_us);
+    const double of_a = from_a ? static_cast<double>(in_a++->count) : 0;
+    const double of_b = from_b ? static_cast<double>(in_b++->count) : 0;
+    u += of_b * (passed_a + of_a / 2);
+    passed_a += of_a;
+    const double t = of_a + of_b;
+    ties += t * t * t - t;
+  }
+  const double total = m + n;
+  const double variance = m * n / 12 * (total + 1 - ties / (total * (total - 1)));
+  if (!(variance > 0)) return {.effect = u / (m * n), .p = 1};
+  return {.effect = u / (m * n), .p = checks::normal_above((u - m * n / 2 - 0.5) / std::sqrt(variance))};
+}
+
+TailTest tail_test(const Buckets& a, const Buckets& b) {
+  const double m = count_of(a), n = count_of(b);
+  if (m == 0 || n == 0) return {};
+  const std::int64_t bar_us = p99_bucket(a);
+  TailTest test{.share_a = share_beyond(a, bar_us), .share_b = share_beyond(b, bar_us)};
+  const double pooled = (test.share_a * m + test.share_b * n) / (m + n);
+  const double variance = pooled * (1 - pooled) * (1 / m + 1 / n);
+  if (variance > 0) test.p = checks::normal_above((test.share_b - test.share_a) / std::sqrt(variance));
+  return test;
+}
+
+RunTest run_test(std::span<const double> a_us, std::span<const double> b_us) {
+  const auto m = static_cast<double>(a_us.size()), n = static_cast<double>(b_us.size());
+  if (m < 1 || n < 1) return {};
+  const double mean_a = mean_of(a_us), mean_b = mean_of(b_us);
+  RunTest test{.later_us = mean_b - mean_a, .p = 1};
+  const double freedom = m + n - 2;
+  if (freedom < 1) return test;
+  // Quantiles are known to 1 us: runs that agree by chance scatter by that much at least.
+  constexpr double rounding = 1.0 / 12;
+  const double variance = (squares_about(a_us, mean_a) + squares_about(b_us, mean_b)) / freedom + rounding;
+  test.p = checks::student_t_above(freedom, test.later_us / std::sqrt(variance * (1 / m + 1 / n)));
+  return test;
+}
+
+}  // namespace canhil::report

@@ -1,0 +1,27 @@
+// Times in a section: whole in microseconds.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::scenario {
+namespace {
+
+constexpr double longest_us = 1e11;  // a day and more
+
+}  // namespace
+
+std::int64_t Section::time_us(std::string_view key, Limits limits, std::optional<double> fallback) {
+  const double us = 1e6 * number(key, limits, fallback);
+  if (std::abs(us) > longest_us) {
+    reject(key, "is too long a time", fmt::format("at most {} s", 1e-6 * longest_us));
+    return 0;
+  }
+  const double whole = std::round(us);
+  // A decimal fraction is not exact in binary: it is off by 1e-16 of the time, 1e-5 us in a day.
+  if (std::abs(us - whole) > 1e-3) reject(key, "is not whole in microseconds", "a multiple of 1 us");
+  return static_cast<std::int64_t>(whole);
+}
+
+}  // namespace canhil::scenario
