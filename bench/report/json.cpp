@@ -177,10 +177,24 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
             {"revision", revision()},
             {"kernel", kernel()},
             {"preemption", realtime::preemption()},
-            {"cpu_model", cpu_model()}};
+            {"cpu_model", cpu_model()},
+            {"target", target(run)}};
   for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
   if (run.host) json["bench_process"] = object(*run.host, run.options.spin_ns);
   return json;
+// What was tested: the program and which of its versions, as far as the bench knows it.
+Json target(const run::Run& run) {
+  if (run::is_in_process(run.options.bus)) return {{"program", "in hil-bench itself"}};
+  if (!run.options.target) return {{"program", "runs elsewhere"}};
+  Json json{{"program", *run.options.target}};
+  if (run.target_file) {
+    json["file_hash"] = fmt::format("{:016x}", run.target_file->hash);
+    json["file_bytes"] = run.target_file->bytes;
+    json["file_date"] = date_utc(run.target_file->modified_s);
+  }
+  return json;
+}
+
 }
 
 void print(std::string& out, const Json& json, std::size_t indent) {
