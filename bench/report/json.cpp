@@ -64,10 +64,11 @@ Json object(const AlignmentSummary& summary) {
                            {"velocity_mps", summary.final_velocity_error_mps}};
   }
   if (summary.fixes) {
-    json["fixes"] = {
-        {"repairs", summary.fixes->repairs},
-        {"resolved_s", summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr)},
-        {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
+    json["fixes"] = {{"repairs", summary.fixes->repairs}};
+    if (summary.fixes->hands_over)
+      json["fixes"]["resolved_s"] =
+          summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr);
+    json["fixes"]["heading_sigma_rad"] = summary.fixes->heading_sigma_rad;
     for (const auto& [outcome, count] : summary.fixes->outcomes) json["fixes"]["outcomes"][outcome] = count;
   }
   return json;

@@ -31,8 +31,9 @@ struct MessageLatency {
 struct FixSummary {
   std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< those that occurred
   std::uint32_t repairs = 0;                                  ///< of the covariance
-  std::optional<double> resolved_s;                           ///< heading resolved; none: not by the end
-  double heading_sigma_rad = 0;                               ///< at the end
+  bool hands_over = false;  ///< the algorithm keeps the heading apart from the INS until it is resolved
+  std::optional<double> resolved_s;  ///< when it was resolved and fed back to the INS; none: not by the end
+  double heading_sigma_rad = 0;      ///< at the end
 };
 
 /// RMS of the error of the LOS rate, both planes, in a window of the time to go.

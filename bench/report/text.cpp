@@ -31,9 +31,12 @@ std::string words(const FixSummary& fixes) {
   std::string outcomes;
   for (const auto& [outcome, count] : fixes.outcomes)
     outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", outcome, count);
-  return fmt::format("{}; repairs {}; heading {}, sigma {:.3f} deg at the end", outcomes, fixes.repairs,
-                     fixes.resolved_s ? fmt::format("resolved at {:g} s", *fixes.resolved_s) : "not resolved",
-                     fixes.heading_sigma_rad / world::units::deg);
+  std::string handover;
+  if (fixes.hands_over)
+    handover = fixes.resolved_s ? fmt::format("fed back to the INS at {:g} s, ", *fixes.resolved_s)
+                                : "not fed back to the INS by the end, ";
+  return fmt::format("{}; repairs {}; heading {}sigma {:.3f} deg at the end", outcomes, fixes.repairs,
+                     handover, fixes.heading_sigma_rad / world::units::deg);
 }
 
 std::string words(const AlignmentSummary& summary) {

@@ -130,22 +130,35 @@ TEST(Reports, TellWhatBecameOfFixes) {
   run::Run run = run_of();
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
-      {.estimator = "inflight_alignment", .algorithm = "ekf", .initial_sigma = {}, .parameters = {}}};
+      {.estimator = "inflight_alignment", .algorithm = "sin_cos", .initial_sigma = {}, .parameters = {}}};
   EXPECT_THAT(text(scenario, run), Not(HasSubstr("fixes")));
   checks::FixAnswer fix{.cause_us = 100'000};
   fix.heading_sigma = 0.01;
   run.seen.fixes = {fix, fix, fix};
-  EXPECT_THAT(text(scenario, run),
-              HasSubstr("accepted 3; repairs 0; heading not resolved, sigma 0.573 deg at the end"));
+  EXPECT_THAT(
+      text(scenario, run),
+      HasSubstr(
+          "accepted 3; repairs 0; heading not fed back to the INS by the end, sigma 0.573 deg at the end"));
   run.seen.fixes[1].outcome = messages::FixOutcome::gated;
   run.seen.fixes[1].cause_us = 200'000;
   run.seen.fixes[1].handed_over = run.seen.fixes[2].handed_over = true;
   run.seen.fixes[2].repairs = 4;
-  EXPECT_THAT(text(scenario, run), HasSubstr("accepted 2, gated 1; repairs 4; heading resolved at 0.2 s"));
+  EXPECT_THAT(text(scenario, run),
+              HasSubstr("accepted 2, gated 1; repairs 4; heading fed back to the INS at 0.2 s, sigma"));
   const auto page = nlohmann::json::parse(json(scenario, run));
   EXPECT_EQ(page["alignments"][0]["fixes"]["outcomes"]["gated"], 1);
   EXPECT_EQ(page["alignments"][0]["fixes"]["resolved_s"], 0.2);
   EXPECT_EQ(page["alignments"][0]["fixes"]["repairs"], 4);
+}
+
+TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
+  run::Run run = run_of();
+  run.seen.fixes = {{.cause_us = 100'000, .heading_sigma = 0.01}};
+  scenario::Scenario scenario = scenario_of();
+  scenario.targets = {
+      {.estimator = "inflight_alignment", .algorithm = "ukf", .initial_sigma = {}, .parameters = {}}};
+  EXPECT_THAT(text(scenario, run), HasSubstr("accepted 1; repairs 0; heading sigma 0.573 deg at the end\n"));
+  EXPECT_FALSE(nlohmann::json::parse(json(scenario, run))["alignments"][0]["fixes"].contains("resolved_s"));
 }
 
 TEST(Reports, TellTheLoadAtTheRateOfTheWire) {
