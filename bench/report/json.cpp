@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/report/json_timing.hpp"
@@ -148,7 +149,8 @@ Json object(const Series& series) {
 // By second; of a long run the busiest of each stretch of several.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   constexpr std::size_t most = 400;
-  const std::size_t size = seen.length_by_second.size();
+  const std::span<const wire::BitLength> seconds = checks::whole_seconds(seen);
+  const std::size_t size = seconds.size();
   const std::size_t stretch_s = (size + most - 1) / most;
   Json json{{"bitrate_bitps", rates.nominal},
             {"data_bitrate_bitps", rates.data},
@@ -157,7 +159,7 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   for (std::size_t from = 0; from < size; from += stretch_s) {
     double busiest = 0;
     for (std::size_t i = from; i < std::min(size, from + stretch_s); ++i)
-      busiest = std::max(busiest, wire::bus_load(seen.length_by_second[i], 1.0, rates));
+      busiest = std::max(busiest, wire::bus_load(seconds[i], 1.0, rates));
     json["busiest"].push_back(rounded(busiest));
   }
   return json;
