@@ -153,11 +153,14 @@ class Comparer {
     const Json none = Json::object();
     const Json& after = b_.contains("latency_s") ? b_.at("latency_s") : none;
     std::size_t tests = 0;
-    for (const auto& [message, latency] : before.items())
-      tests += latency.at("closes_group").get<bool>() ? 2 : 0;
+    // The other messages of a group come just before the one that closes it.
+    const auto compared = [](const Json& latency) {
+      return latency.at("closes_group").get<bool>() && latency.at("count").get<std::uint64_t>() > 0;
+    };
+    for (const auto& [message, latency] : before.items()) tests += compared(latency) ? 2 : 0;
     for (const auto& [message, latency] : before.items()) {
-      if (!latency.at("closes_group").get<bool>()) continue;  // the others come just before it
-      if (after.contains(message)) {
+      if (!compared(latency)) continue;
+      if (after.contains(message) && compared(after.at(message))) {
         latency_of(message, latency, after.at(message), bars_.p / static_cast<double>(tests));
       } else {
         result_.outcome = Comparison::worse;

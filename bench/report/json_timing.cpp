@@ -76,10 +76,12 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& 
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
     const std::string name(messages::all_messages[i].name);
     const checks::AnswerTiming& answers = timing.answers[i];
-    if (answers.latency.count() > 0 || answers.unpaired > 0) {
+    const bool due = is_due(scenario, messages::all_messages[i]);
+    const std::size_t never_came = due ? checks::unanswered(run.seen, name) : 0;
+    if (answers.latency.count() > 0 || answers.unpaired > 0 || never_came > 0) {
       Json& latency = page["latency_s"][name] = object(answers.latency);
       latency["closes_group"] = std::ranges::find(closing, name) != closing.end();
-      latency["unanswered"] = checks::unanswered(run.seen, name);
+      latency["unanswered"] = never_came;
       latency["unpaired"] = answers.unpaired;
       latency["line"] = object(answers.latency_line);
     }

@@ -122,6 +122,14 @@ std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario
   return closing;
 }
 
+bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
+  const auto of_its_group = [&](std::string_view closing) {
+    const MessageInfo& last = *std::ranges::find(messages::all_messages, closing, &MessageInfo::name);
+    return last.sample_group.empty() ? last.name == message.name : last.sample_group == message.sample_group;
+  };
+  return std::ranges::any_of(closing_answers(scenario), of_its_group);
+}
+
 Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   Summary summary;
   for (const auto aligner : {scenario::Aligner::transfer_alignment, scenario::Aligner::inflight_alignment}) {

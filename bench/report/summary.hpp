@@ -90,6 +90,10 @@ std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario
 /// 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
 std::vector<wire::BitRates> load_rates(const run::Run& run);
 
+/// True of the messages that the estimators in use owe the bench: those of the groups that closing_answers()
+/// closes.
+bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
+
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario);
 

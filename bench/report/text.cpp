@@ -240,6 +240,11 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
   if (run.options.clock != run::ClockKind::lockstep) {
     for (const MessageLatency& row : summary.latencies) {
+      if (row.latency_s.count == 0) {
+        page += fmt::format("  latency {:<22}no answers{}\n", row.message,
+                            row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
+        continue;
+      }
       page += fmt::format("  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
                           row.latency_s.count,
                           row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
