@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <initializer_list>
-#include <limits>
 #include <utility>
 #include <vector>
 
-#include "bench/checks/histogram.hpp"
 #include "bench/report/markup.hpp"
-#include "bench/report/plot.hpp"
+#include "bench/report/page_parts.hpp"
+#include "bench/report/page_plots.hpp"
 #include "bench/report/split.hpp"
 
 namespace canhil::report {
@@ -18,39 +15,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
-
-std::string text_in(const Json& value) {
-  return escaped(value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-// Rows of cells that are HTML already; on a phone each cell says which column it is of.
-std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
-                  std::string_view style = "") {
-  std::string out = fmt::format("<table class=\"{}\"><thead><tr>", style);
-  for (const std::string& cell : head) out += fmt::format("<th>{}</th>", cell);
-  out += "</tr></thead><tbody>\n";
-  for (const auto& row : rows) {
-    out += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i)
-      out += fmt::format("<td data-label=\"{}\">{}</td>", head[i], row[i]);
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table>\n";
-}
-
-std::string figure(const std::string& title, const std::string& drawing, const std::string& note) {
-  return fmt::format("<figure><h3>{}</h3>{}<figcaption>{}</figcaption></figure>\n", escaped(title), drawing,
-                     escaped(note));
-}
-
-std::string ms(const Json& distribution, const char* key) {
-  return fmt::format("{:.3f}", distribution.at(key).get<double>() * 1e3);
-}
-
 std::vector<std::string> percentiles(const Json& distribution) {
   std::vector<std::string> cells{distribution.at("count").dump()};
-  for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"}) cells.push_back(ms(distribution, key));
+  const bool none = distribution.at("count").get<std::uint64_t>() == 0;
+  for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"})
+    cells.push_back(none ? "&ndash;" : ms(distribution, key));
   return cells;
 }
 
@@ -59,78 +28,6 @@ const std::vector<std::string> percentile_head{"count", "min ms", "p50", "p90", 
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-std::string histogram(const std::string& title, const Json& distribution) {
-  HistogramPlot plot{.title = title, .bars = {}, .marks = {}};
-  for (const Json& bucket : distribution.at("buckets_us")) {
-    const auto from_us = bucket.at(0).get<std::int64_t>();
-    const std::int64_t width_us = checks::bucket_width_us(from_us);
-    const double to_us =
-        width_us > 0 ? static_cast<double>(from_us + width_us) : distribution.at("max").get<double>() * 1e6;
-    plot.bars.push_back({static_cast<double>(from_us), to_us, bucket.at(1).get<double>()});
-  }
-  for (const auto& [label, key] : {std::pair("p50", "p50"), std::pair("p99", "p99"), std::pair("max", "max")})
-    plot.marks.push_back({label, distribution.at(key).get<double>() * 1e6});
-  return figure(title, svg(plot),
-                fmt::format("p50 {}, p99 {}, p99.9 {}, max {} ms of {}", ms(distribution, "p50"),
-                            ms(distribution, "p99"), ms(distribution, "p999"), ms(distribution, "max"),
-                            distribution.at("count").dump()));
-}
-
-// The largest value of each stretch of the run, from zero; `scale` makes the unit of the numbers.
-LinePlot from_zero(const std::string& title, const std::string& unit, double stretch_s, const Json& largest,
-                   double scale) {
-  LinePlot plot{.title = title,
-                .unit = unit,
-                .t_s = {},
-                .low = {},
-                .high = {},
-                .limit = {},
-                .levels = {},
-                .from_zero = true};
-  for (const Json& value : largest) {
-    plot.t_s.push_back((static_cast<double>(plot.t_s.size()) + 0.5) * stretch_s);
-    plot.low.push_back(value.is_null() ? not_there : 0.0);
-    plot.high.push_back(value.is_null() ? not_there : value.get<double>() * scale);
-  }
-  return plot;
-}
-
-std::string course(const std::string& title, const Json& line) {
-  const double stretch_s = line.at("stretch_s").get<double>();
-  const LinePlot plot = from_zero(title, "ms", stretch_s, line.at("largest_s"), 1e3);
-  return figure(title, svg(plot), fmt::format("the largest of each {:g} ms", stretch_s * 1e3));
-}
-
-std::vector<double> numbers(const Json& array) {
-  std::vector<double> values;
-  for (const Json& value : array) values.push_back(value.is_null() ? not_there : value.get<double>());
-  return values;
-}
-
-std::string estimate(const Json& series) {
-  const std::string kind = series.at("kind").get<std::string>();
-  const std::string title = series.at("quantity").get<std::string>();
-  LinePlot plot{.title = title,
-                .unit = series.at("unit").get<std::string>(),
-                .t_s = numbers(series.at("t_s")),
-                .low = numbers(series.at("low")),
-                .high = numbers(series.at("high")),
-                .limit = {},
-                .levels = {},
-                .from_zero = kind == "statistic"};
-  std::string note = "solid: its range in each stretch of time";
-  if (series.contains("sigma")) {
-    plot.limit = numbers(series.at("sigma"));
-    for (double& sigma : plot.limit) sigma *= 3;
-    note = "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target tells it";
-  }
-  if (series.contains("between_95_percent")) {
-    plot.levels = numbers(series.at("between_95_percent"));
-    note = "dashed: 95 % of the values of a consistent filter lie between";
-  }
-  return figure(title, svg(plot), note);
 }
 
 // What happened, as rows of a name and a number; those that are 0 are left out.
@@ -253,7 +150,13 @@ std::string timing_section(const Json& report) {
         .push_back(
             joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
     if (!closes) continue;
-    figures += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(message));
+    figures += fmt::format("<h3>{}</h3>\n", escaped(message));
+    if (latency.at("count").get<std::uint64_t>() == 0) {
+      figures += fmt::format("<p class=\"no\">&#10007; No answers: {} never came.</p>\n",
+                             latency.at("unanswered").dump());
+      continue;
+    }
+    figures += "<div class=\"grid\">\n";
     figures += histogram("Latency", latency);
     figures += course("Latency over time", latency.at("line"));
     if (jitters.contains(message)) figures += histogram("Deviation of its period", jitters.at(message));
@@ -286,33 +189,19 @@ std::string timing_section(const Json& report) {
          table(joined({"message"}, percentile_head), rows, "figures") + "</details></section>\n";
 }
 
-std::string estimates_section(const Json& report) {
-  if (report.at("series").empty()) return "";
-  std::string out = "<section id=\"estimates\"><h2>Estimates against the truth</h2>\n";
-  std::string estimator;
-  for (const Json& series : report.at("series")) {
-    const std::string own = series.at("estimator").get<std::string>();
-    if (own != estimator) {
-      if (!estimator.empty()) out += "</div>\n";
-      out += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(own));
-      estimator = own;
-    }
-    out += estimate(series);
-  }
-  return out + "</div></section>\n";
-}
-
 std::string bus_section(const Json& report) {
   const Json& load = report.at("bus_load_line");
   const double stretch_s = load.at("stretch_s").get<double>();
-  const LinePlot plot = from_zero("Bus load", "%", stretch_s, load.at("busiest"), 100);
   std::string out = "<section id=\"bus\"><h2>Bus</h2>\n<div class=\"grid\">\n";
   const double data_bitrate = load.at("data_bitrate_bitps").get<double>();
   out += figure(
       fmt::format("Load at {:g} kbit/s{}", load.at("bitrate_bitps").get<double>() / 1e3,
                   data_bitrate > 0 ? fmt::format(", data {:g} kbit/s", data_bitrate / 1e3) : ""),
-      svg(plot),
-      fmt::format("by {:g} s, from the exact length of every frame; the last is not a whole one", stretch_s));
+      from_zero("Bus load", "%", stretch_s, load.at("busiest"), 100),
+      fmt::format(
+          "by {:g} s, from the exact length of every frame; the last second is left out where it is not "
+          "the only one: the run ends within it",
+          stretch_s));
   out += "</div>\n" + wire_table(report) + "<h3>Lost and broken</h3>\n";
   std::vector<std::vector<std::string>> rows = incidents(report.at("bus"), "bus");
   Json from_target = report.at("from_target");

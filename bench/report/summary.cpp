@@ -14,7 +14,7 @@
 namespace canhil::report {
 namespace {
 
-// Of the heading, in the unit of the alignment: a fine one, or one that starts from anywhere and has fixes.
+// Of the heading, in the unit of the alignment.
 constexpr double bands_mrad[] = {10, 3, 2, 1};
 constexpr double bands_deg[] = {30, 10, 3, 1};
 

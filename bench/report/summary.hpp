@@ -83,16 +83,20 @@ struct Summary {
 
 Summary summarise(const scenario::Scenario& scenario, const run::Run& run);
 
+/// In which people read the angles of an alignment: a fine one, or one that starts from anywhere and has
+/// fixes.
+scenario::AngleUnit angle_unit(scenario::Aligner aligner);
+
 /// The message that closes each group of answers of the estimators in use.
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);
-
-/// The bit rates that reports tell the bus load at: that of the bus, or, where it has none, 500 kbit/s and
-/// 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
-std::vector<wire::BitRates> load_rates(const run::Run& run);
 
 /// True of the messages that the estimators in use owe the bench: those of the groups that closing_answers()
 /// closes.
 bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
+
+/// The bit rates that reports tell the bus load at: that of the bus, or, where it has none, 500 kbit/s and
+/// 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
+std::vector<wire::BitRates> load_rates(const run::Run& run);
 
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
@@ -24,6 +25,7 @@ using Json = nlohmann::ordered_json;
 using testing::AllOf;
 using testing::ContainsRegex;
 using testing::DoubleNear;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::Pointwise;
@@ -216,8 +218,10 @@ TEST(JsonReport, CarriesDistributionsWithTheirBuckets) {
 
 TEST(JsonReport, ErrorsCarryTheSigmaThatTheTargetTold) {
   const Json page = document(scenario_of(), run_of());
-  const Json& north = page["series"][0];
-  EXPECT_EQ(north["quantity"], "attitude error about north");
+  const auto found = std::ranges::find_if(
+      page["series"], [](const Json& s) { return s["quantity"] == "attitude error about north"; });
+  ASSERT_NE(found, page["series"].end());
+  const Json& north = *found;
   EXPECT_TRUE(north["sigma"].front().is_null()) << "before the first update it told none";
   EXPECT_NEAR(north["sigma"].back().get<double>(), 2, 1e-6);
   EXPECT_NEAR(std::abs(north["high"].back().get<double>()), 1, 1e-3);
@@ -230,15 +234,93 @@ TEST(RoundValues, AreRoundAndFew) {
 
 TEST(Plot, AValueThatIsNotThereIsAGap) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const std::string drawn = svg(LinePlot{.title = "x",
-                                         .unit = "m",
-                                         .t_s = {0, 1, 2, 3},
-                                         .low = {1, none, 2, 3},
-                                         .high = {1, none, 2, 3},
-                                         .limit = {},
-                                         .levels = {}});
+  const std::string drawn = svg(LinePlot{
+      .title = "x", .unit = "m", .t_s = {0, 1, 2, 3}, .low = {1, none, 2, 3}, .high = {1, none, 2, 3}});
   EXPECT_THAT(drawn, Not(HasSubstr("nan")));
   EXPECT_THAT(drawn, ContainsRegex("class=\"area\" d=\"M[^Z]*ZM[^Z]*Z\""));
+}
+
+TEST(Plot, MarksOfAnAxisCanBeToldApart) {
+  EXPECT_THAT(mark_labels({-89.9905, -89.99, -89.9895}), ElementsAre("-89.9905", "-89.9900", "-89.9895"));
+  EXPECT_THAT(mark_labels({0, 0.5, 1}), ElementsAre("0", "0.5", "1.0"));
+  EXPECT_THAT(mark_labels({0, 20, 40}), ElementsAre("0", "20", "40"));
+  EXPECT_THAT(mark_labels({2e6, 2.1e6}), ElementsAre("2.0e+06", "2.1e+06"));
+  EXPECT_THAT(mark_labels({0}), ElementsAre("0"));
+}
+
+TEST(Plot, ABarThatWouldHideTheCurveIsLeftOut) {
+  LinePlot plot{.title = "x", .unit = "m", .t_s = {0, 1}, .low = {1, 1}, .high = {1, 1}};
+  plot.bars = {{.below = 2, .from_s = 0, .to_s = 1}};
+  EXPECT_THAT(svg(plot), HasSubstr("class=\"bar\""));
+  plot.bars[0].below = 200;
+  EXPECT_THAT(svg(plot), Not(HasSubstr("class=\"bar\"")));
+}
+
+// What the text tells of the estimators stands on the page too, drawn from the JSON.
+TEST(Page, ShowsTheResultsOfAnAlignment) {
+  const std::string page = page_of(run_of());
+  EXPECT_THAT(page, AllOf(HasSubstr("<h2>Results</h2>"), HasSubstr("href=\"#results\""),
+                          HasSubstr("3 mrad</td><td data-label=\"from\">0.01 s"),
+                          HasSubstr("roll error at the end</td><td data-label=\"value\">+1.000 mrad"),
+                          HasSubstr("velocity error at the end")));
+}
+
+TEST(Page, ShowsTheResultsOfAnEngagementAndAWind) {
+  Json report = document(scenario_of(), run_of());
+  report.erase("alignments");
+  report["engagement"] = Json::parse(
+      R"({"miss_m": 0.25, "passage_s": 5.5, "late_commands": 3, "outcomes": {"updated": 7},
+          "los_rate_rms": [{"most_to_go_s": 3, "least_to_go_s": 2, "rms_radps": 0.00164},
+                           {"most_to_go_s": 2, "least_to_go_s": 1, "rms_radps": null}]})");
+  report["wind"] = Json::parse(
+      R"({"from_s": 10, "along_track_sigma_mps": 1.5, "outcomes": {"updated": 9},
+          "mean_error_mps": {"norm": 2.7, "along_track": 2.5, "cross_track": null, "down": 0.5}})");
+  EXPECT_THAT(
+      html(report).value(),
+      AllOf(HasSubstr("0.250 m at 5.500 s"), HasSubstr("3 to 2 s"), HasSubstr("1.64 mrad/s"),
+            HasSubstr("no answers</td>"), HasSubstr("answers too late to guide</td>"),
+            HasSubstr("of the vector</td><td data-label=\"value\">2.700 m/s"),
+            HasSubstr("across track</td><td data-label=\"value\">none judged"), HasSubstr("1.500 m/s")));
+}
+
+// 200 stimuli, and of the answers of a group of an estimator in use not one.
+TEST(Page, AMessageThatWasNeverAnsweredIsThere) {
+  run::Run run = run_of();
+  for (int i = 0; i < 200; ++i)
+    run.seen.stimuli[messages::MasterInsVelocityD::info.sample_group].add(100'000 * i);
+  const Json latencies = document(scenario_of(), run).at("latency_s");
+  ASSERT_TRUE(latencies.contains("AlignUpdate"));
+  EXPECT_EQ(latencies["AlignUpdate"]["count"], 0);
+  EXPECT_EQ(latencies["AlignUpdate"]["unanswered"], 200);
+  EXPECT_TRUE(latencies["AlignUpdate"]["closes_group"]);
+  EXPECT_FALSE(latencies.contains("FixUpdate")) << "nobody asked for it";
+  EXPECT_THAT(page_of(run), AllOf(HasSubstr("<h3>AlignUpdate</h3>"), HasSubstr("No answers: 200 never came."),
+                                  HasSubstr("answers that never came: AlignUpdate")));
+  EXPECT_THAT(text(scenario_of(), run),
+              HasSubstr("latency AlignUpdate           no answers, 200 never came\n"));
+}
+
+TEST(Page, TheLoadDoesNotFallInTheSecondInWhichTheRunEnded) {
+  run::Run run = run_of();
+  run.seen.length_by_second = {{.nominal = 100'000}, {.nominal = 120'000}, {.nominal = 400}};
+  const Json busiest = document(scenario_of(), run).at("bus_load_line").at("busiest");
+  ASSERT_EQ(busiest.size(), 2U);
+  EXPECT_NEAR(busiest[1].get<double>(), 0.24, 1e-6);
+  run.seen.length_by_second.resize(1);
+  EXPECT_EQ(document(scenario_of(), run).at("bus_load_line").at("busiest").size(), 1U) << "the only one";
+}
+
+TEST(Provenance, SaysWhatWasTested) {
+  run::Run run = run_of();
+  const auto target = [&] { return document(scenario_of(), run).at("provenance").at("target"); };
+  EXPECT_EQ(target().at("program"), "runs elsewhere");
+  run.options.target = "./hil-target";
+  run.target_file = {.hash = 0xAB, .bytes = 1234, .modified_s = 86'400};
+  EXPECT_EQ(target().dump(), R"({"program":"./hil-target","file_hash":"00000000000000ab","file_bytes":1234,)"
+                             R"("file_date":"1970-01-02T00:00:00Z"})");
+  EXPECT_THAT(page_of(run), HasSubstr("target: file_hash"));
+  run.options.bus = "in-process";
+  EXPECT_EQ(target().dump(), R"({"program":"in hil-bench itself"})");
 }
 
 TEST(Provenance, FindsTheCpuModel) {

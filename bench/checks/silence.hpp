@@ -1,0 +1,43 @@
+// Silence never passes: how long an answer may be waited for. One rule for the checks of a run and for the
+// metrics of a campaign.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+#include "bench/scenario/checks.hpp"
+
+namespace canhil::checks {
+
+/// So many fixes in a row may go unanswered.
+inline constexpr int tolerated_fixes = 2;
+/// Samples of a seeker may be lost on purpose, but this share of them must be answered.
+inline constexpr double least_answered = 0.5;
+
+/// The longest time from one answer to the next that is no silence [us]: a second, or so many of the
+/// answers' periods if that is longer.
+constexpr double longest_wait_us(double period_us, double periods = 2) {
+  constexpr double second_us = 1e6;
+  return std::max(second_us, periods * period_us);
+}
+
+/// The first stretch of a window without an answer that is longer than `longest_us`; none: nowhere. `times`:
+/// those of the answers in the window, ascending [us]; `end_us`: of the run, after which nobody answers.
+template <class Times>
+std::optional<scenario::Window> silent_stretch(const Times& times, const scenario::Window& window,
+                                               std::int64_t end_us, double longest_us) {
+  std::int64_t from_us = window.from_us;
+  const auto silent_until = [&](std::int64_t t_us) {
+    return t_us > from_us && static_cast<double>(t_us - from_us) > longest_us;
+  };
+  for (const std::int64_t t_us : times) {
+    if (silent_until(t_us)) return scenario::Window{.from_us = from_us, .to_us = t_us};
+    from_us = t_us;
+  }
+  const std::int64_t to_us = std::min(window.to_us, end_us);
+  if (silent_until(to_us)) return scenario::Window{.from_us = from_us, .to_us = to_us};
+  return std::nullopt;
+}
+
+}  // namespace canhil::checks
