@@ -27,7 +27,7 @@ void add_outcomes(Rows& rows, const char* what, const Json& object) {
 }
 
 std::string alignment(const Json& one) {
-  const std::string unit_name = one.at("angle_unit").get<std::string>();
+  const std::string unit_name = one.value("angle_unit", "mrad");  // older reports have none
   const double unit = unit_name == "deg" ? deg : mrad;
   Rows rows;
   for (const Json& entry : one.at("heading_convergence"))

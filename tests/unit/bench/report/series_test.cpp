@@ -130,6 +130,24 @@ TEST(Series, ASigmaThatIsStaleIsAGap) {
   }
 }
 
+// A fix each second but for 10 s in which the bench keeps them back: what was told before is stale after 3 s.
+TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
+  run::Run run = run_of();
+  scenario::Scenario scenario = scenario_of();
+  scenario.targets[0].estimator = "inflight_alignment";
+  run.seen.fix_navigation = run.seen.navigation;
+  for (std::int64_t t_us = 1'000'000; t_us <= duration_us; t_us += 1'000'000) {
+    if (t_us > 5'000'000 && t_us < 15'000'000) continue;
+    run.seen.sent_fixes.push_back({.valid_us = t_us});
+    run.seen.fixes.push_back({.cause_us = t_us, .heading_sigma = 0.01});
+  }
+  const auto all = series(scenario, run);
+  for (const Series::Point& point : find(all, "attitude error about down")->points) {
+    EXPECT_TRUE(point.t_s < 1.1 || point.t_s > 7.9 || point.sigma) << point.t_s;
+    EXPECT_TRUE(point.t_s < 8.1 || point.t_s > 14.9 || !point.sigma) << point.t_s;
+  }
+}
+
 TEST(Series, SilenceIsAGapUpToTheEndOfTheRun) {
   run::Run run = run_of();
   std::erase_if(run.seen.navigation,
