@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/checks/timing_record.hpp"
 #include "bench/report/markup.hpp"
 #include "bench/report/page_parts.hpp"
 #include "bench/report/page_plots.hpp"
@@ -58,6 +59,37 @@ std::string ms_or_none(const Json& seconds) {
   return seconds.is_null() ? "not known" : fmt::format("{:.3f}", seconds.get<double>() * 1e3);
 }
 
+// "&ge; " or "&le; " where a part is known so far only.
+const char* bound_of(const Json& split, const std::string& part) {
+  for (const auto& [key, sign] : {std::pair("at_least", "&ge; "), std::pair("at_most", "&le; ")}) {
+    if (!split.contains(key)) continue;
+    for (const Json& one : split.at(key)) {
+      if (one == part) return sign;
+    }
+  }
+  return "";
+}
+
+// The same way for each group of stimuli: one that is answered rarely is lost in the mean of all.
+std::string group_table(const Json& split) {
+  if (!split.contains("groups") || split.at("groups").size() < 2) return "";
+  std::vector<std::string> head{"part, by stimulus"};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [group, one] : split.at("groups").items()) {
+    head.push_back(fmt::format("{} ms ({})", escaped(group), one.at("stimuli").dump()));
+    std::size_t row = 0;
+    const auto add = [&](const std::string& what, const std::string& value) {
+      if (rows.size() == row) rows.push_back({what});
+      rows[row++].push_back(value);
+    };
+    for (const auto& [key, mean] : one.at("parts_s").items())
+      add(escaped(std::string(what_of(key))), ms_or_none(mean));
+    add("<b>in all</b>", fmt::format("<b>{:.3f}</b>", one.at("total_s").get<double>() * 1e3));
+  }
+  return table(head, rows, "figures") +
+         "<p class=\"note\">The target tells of its waits and its computing for all stimuli together.</p>\n";
+}
+
 // The parts of the way from stimulus to answer.
 std::string split_table(const Json& report) {
   if (!report.contains("split")) return "";
@@ -67,13 +99,17 @@ std::string split_table(const Json& report) {
   for (const auto& [key, mean] : split.at("parts_s").items()) {
     const std::string share =
         mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
-    rows.push_back({escaped(std::string(what_of(key))), ms_or_none(mean), share});
+    rows.push_back({escaped(std::string(what_of(key))), bound_of(split, key) + ms_or_none(mean), share});
   }
   rows.push_back({"<b>from the hand-over of the stimulus to the last frame of its answer</b>",
                   fmt::format("<b>{:.3f}</b>", total_s * 1e3), ""});
   std::string out =
       fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n", split.at("stimuli").dump());
   out += table({"part", "ms", "share"}, rows, "figures");
+  if (split.contains("at_least"))
+    out += fmt::format("<p class=\"unknown\">? The target tells no times beyond {} us: it took longer.</p>\n",
+                       checks::most_told_us);
+  out += group_table(split);
   if (!split.contains("slowest")) return out;
   const Json& slowest = split.at("slowest");
   return out +
