@@ -29,6 +29,7 @@ TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
   EXPECT_NEAR(split.at("parts_s").at("not_explained").get<double>(), 0.1e-3, 1e-12);
   const std::string page = page_of(run_on_a_wire());
   EXPECT_THAT(page, HasSubstr("mean of 100 answered stimuli"));
+  EXPECT_THAT(page, HasSubstr("a longest wait of 8191 us or more and a longest computing of 0 us"));
   EXPECT_THAT(
       page,
       HasSubstr("target: computing</td><td data-label=\"ms\">0.200</td><td data-label=\"share\">15.4 %"));
