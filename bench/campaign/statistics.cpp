@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "bench/campaign/updates.hpp"
@@ -26,21 +27,36 @@ double median(std::vector<double> values) {
   return (values[below] + values[above]) / 2;
 }
 
+// Of the root of the mean of some squares, by their own scatter: d(sqrt(m)) = dm / (2 sqrt(m)).
+double standard_error_of_rms(const std::vector<double>& squares, double mean) {
+  if (squares.size() < 2 || mean <= 0) return nan;
+  double sum = 0;
+  for (const double square : squares) sum += (square - mean) * (square - mean);
+  const auto count = static_cast<double>(squares.size());
+  return std::sqrt(sum / (count - 1) / count) / (2 * std::sqrt(mean));
+}
+
 }  // namespace
 
 std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity) {
   std::vector<CurvePoint> curve;
   for (const std::int64_t t_us : update_times(runs, quantity)) {
     CurvePoint point{.t_us = t_us};
-    double sum = 0;
+    std::vector<double> squares;
     for (const RunSeries& run : runs) {
       const double value = value_at(run, quantity, t_us);
-      if (std::isnan(value)) continue;
-      sum += value * value;
-      ++point.runs;
+      if (!std::isnan(value)) squares.push_back(value * value);
     }
+    point.runs = squares.size();
     point.missing = runs.size() - point.runs;
-    point.rms = point.runs == 0 ? nan : std::sqrt(sum / static_cast<double>(point.runs));
+    if (squares.empty()) {
+      point.rms = nan;
+    } else {
+      const auto count = static_cast<double>(squares.size());
+      const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / count;
+      point.rms = std::sqrt(mean);
+      point.rms_error = standard_error_of_rms(squares, mean);
+    }
     curve.push_back(point);
   }
   return curve;

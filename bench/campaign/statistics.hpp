@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -15,9 +16,10 @@ namespace canhil::campaign {
 /// Over all runs at one update.
 struct CurvePoint {
   std::int64_t t_us = 0;
-  double rms = 0;           ///< of the finite values [SI]; NaN if there is none
-  std::size_t runs = 0;     ///< finite values
-  std::size_t missing = 0;  ///< runs without one
+  double rms = 0;  ///< of the finite values [SI]; NaN if there is none
+  double rms_error = std::numeric_limits<double>::quiet_NaN();  ///< its standard error; NaN: too few runs
+  std::size_t runs = 0;                                         ///< finite values
+  std::size_t missing = 0;                                      ///< runs without one
 };
 
 /// Root mean square over the runs of a quantity, at every update time that any run has, ascending.

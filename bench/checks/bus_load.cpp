@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <vector>
 
 namespace canhil::checks {
 
+std::span<const wire::BitLength> whole_seconds(const Observations& seen) {
+  const std::span<const wire::BitLength> seconds = seen.length_by_second;
+  return seconds.size() > 1 ? seconds.first(seconds.size() - 1) : seconds;
+}
+
 BusLoad bus_load(const Observations& seen, wire::BitRates rates) {
-  std::span<const wire::BitLength> seconds = seen.length_by_second;
-  if (seconds.size() > 1) seconds = seconds.first(seconds.size() - 1);
+  const std::span<const wire::BitLength> seconds = whole_seconds(seen);
   BusLoad load;
   for (const wire::BitLength& second : seconds) {
     const double share = wire::bus_load(second, 1.0, rates);

@@ -1,6 +1,8 @@
 // How much of a bus the frames of a run take.
 #pragma once
 
+#include <span>
+
 #include "bench/checks/finding.hpp"
 #include "bench/checks/observations.hpp"
 
@@ -12,8 +14,11 @@ struct BusLoad {
   double busiest = 0;  ///< of a second
 };
 
-/// Of the whole run at a bit rate [bit/s]; the second in which it ended is not a whole one and left out,
-/// unless it is the only one.
+/// What the bus carried by second; the second in which the run ended is not a whole one and left out, unless
+/// it is the only one.
+std::span<const wire::BitLength> whole_seconds(const Observations& seen);
+
+/// Of the whole run at a bit rate [bit/s], in its whole_seconds().
 BusLoad bus_load(const Observations& seen, wire::BitRates rates);
 
 Finding judge(const scenario::BusLoad& rule, const Observations& seen);

@@ -155,7 +155,8 @@ class Judge {
 
   Finding operator()(const scenario::Latency& rule) const {
     const double bar_s = static_cast<double>(rule.below_us) * 1e-6;
-    const std::string expected = fmt::format("{} < {:g} ms", quantile_name(rule.quantile), bar_s * 1e3);
+    const std::string expected = fmt::format("{} {} < {:g} ms {}", rule.message, quantile_name(rule.quantile),
+                                             bar_s * 1e3, seconds(rule.window));
     if (auto why = unfit(rule.quantile, bar_s); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};
     }

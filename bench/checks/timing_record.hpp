@@ -78,6 +78,9 @@ struct TimedWindow {
   std::optional<std::int64_t> last_stimulus_ns{};  ///< of those valid up to the end of the window
 };
 
+/// TargetTiming saturates here: what it tells as so long took at least so long [us].
+inline constexpr std::uint16_t most_told_us = 8191;
+
 /// Where the time of the answered stimuli went. Sums over them, from the hand-over of the last frame of a
 /// stimulus to the last frame that answers it.
 struct LatencySplit {
@@ -90,6 +93,15 @@ struct LatencySplit {
   std::uint64_t told = 0;              ///< stimuli that the target accounted for (TargetTiming)
   std::int64_t target_queue_ns = 0;    ///< of those: from the target's stamp to its turn
   std::int64_t target_compute_ns = 0;  ///< and the work
+  bool queue_clipped = false;          ///< means that it was told of were at most_told_us: it is longer
+  bool compute_clipped = false;
+};
+
+/// The same of the stimuli of one sample group. The target accounts for all groups together: of one alone it
+/// tells nothing.
+struct GroupSplit {
+  std::string_view group{};
+  LatencySplit split{};
 };
 
 /// The slowest answer, and what the target said of the window it fell into.
@@ -118,7 +130,8 @@ struct TimingRecord {
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource
   std::vector<TimedWindow> windows{};     ///< that checks ask for
   LatencySplit split{};
-  SlowestAnswer slowest{};  ///< of those that the target accounted for
+  std::vector<GroupSplit> split_by_group{};  ///< in the order of their first answers
+  SlowestAnswer slowest{};                   ///< of those that the target accounted for
   std::uint64_t stimuli_with_hardware_stamp = 0;
   std::uint64_t without_hardware_stamp = 0;  ///< stimuli and frames of the target
 };

@@ -14,6 +14,7 @@ namespace canhil::papers {
 struct Curve {
   std::string label;  ///< short: it stands beside the curve's end
   std::vector<std::pair<double, double>> points;
+  std::vector<std::pair<double, double>> ranges{};  ///< error bars, low and high; as many as points, or none
 };
 
 /// Curves over time or something else, values on a logarithmic axis or a linear one.
@@ -28,6 +29,9 @@ struct Figure {
   std::vector<double> thresholds;  ///< horizontal lines, labelled by their value
   std::vector<Curve> curves;
 };
+
+/// Whether any of its curves has error bars.
+bool has_ranges(const Figure& figure);
 
 enum class Width { desktop, phone };
 

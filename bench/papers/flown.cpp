@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -77,6 +78,15 @@ std::size_t flights(const std::vector<Flown>& flown) {
   std::size_t sum = 0;
   for (const Flown& one : flown) sum += one.campaign.variants.size() * one.campaign.runs;
   return sum;
+}
+
+void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit) {
+  constexpr double of_95_percent = 1.96;  // standard deviations of a normal distribution
+  const double rms = point.rms / unit;
+  // On a logarithmic axis, on which RMS values are drawn, as far down as up: never below zero.
+  const double times = std::exp(of_95_percent * point.rms_error / point.rms);
+  curve.points.emplace_back(x, rms);
+  curve.ranges.push_back(std::isfinite(times) ? std::pair(rms / times, rms * times) : std::pair(rms, rms));
 }
 
 double figure(const campaign::Answer& answer, std::string_view name) {

@@ -14,6 +14,7 @@
 #include "bench/campaign/campaign.hpp"
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/store.hpp"
+#include "bench/papers/figure.hpp"
 
 namespace canhil::papers {
 
@@ -61,6 +62,10 @@ const Flown& of(const std::vector<Flown>& flown, std::string_view name);
 
 /// Flights of all variants of all campaigns.
 std::size_t flights(const std::vector<Flown>& flown);
+
+/// Adds a point of an RMS over runs to a curve at x, with the 95 % range that the scatter over the runs gives
+/// it; `unit` [SI] is that of the figure.
+void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit = 1);
 
 /// A figure of an answer, by its name in the report; NaN: it has none.
 double figure(const campaign::Answer& answer, std::string_view name);

@@ -92,7 +92,10 @@ Result<std::string> html(const Figure& figure) {
       "<figure id=\"{}\"><h3>{}</h3>\n<div class=\"wide\" role=\"img\" aria-label=\"{}\">{}</div>\n"
       "<div class=\"narrow\" role=\"img\" aria-label=\"{}\">{}</div>\n<figcaption>{}</figcaption></figure>\n",
       figure.id, escaped(figure.title), escaped(figure.title), *wide, escaped(figure.title), *narrow,
-      escaped(figure.caption));
+      escaped(figure.caption + (has_ranges(figure)
+                                    ? " Error bars: 95 % range of the RMS, by the scatter over "
+                                      "the runs."
+                                    : "")));
 }
 
 std::size_t width_of(std::string_view text) {  // in characters, not bytes, of UTF-8

@@ -185,7 +185,8 @@ class Comparer {
   [[nodiscard]] bool one_a_side() const { return before_.reports.size() == 1 && after_.reports.size() == 1; }
 
   static bool answers(const Json& report, const std::string& message) {
-    return report.contains("latency_s") && report.at("latency_s").contains(message);
+    return report.contains("latency_s") && report.at("latency_s").contains(message) &&
+           report.at("latency_s").at(message).at("count") > 0;
   }
 
   // The messages that close their group, as the others come just before, in all runs of the first side.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/report/json_timing.hpp"
@@ -16,9 +17,9 @@ namespace canhil::report {
 namespace {
 
 // As many digits as a picture shows.
-double rounded(double value) {
+double rounded(double value, int digits = 5) {
   if (value == 0 || !std::isfinite(value)) return value;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 4);
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - (digits - 1));
   return std::round(value / unit) * unit;
 }
 
@@ -52,7 +53,9 @@ Json object(const WindSummary& wind) {
 }
 
 Json object(const AlignmentSummary& summary) {
-  Json json{{"estimator", name(summary.estimator)}, {"heading_convergence", Json::array()}};
+  Json json{{"estimator", name(summary.estimator)},
+            {"angle_unit", angle_unit(summary.estimator).name},
+            {"heading_convergence", Json::array()}};
   for (const BandEntry& entry : summary.heading_entries) {
     json["heading_convergence"].push_back({{"within_mrad", entry.within_rad / world::units::mrad},
                                            {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
@@ -64,10 +67,11 @@ Json object(const AlignmentSummary& summary) {
                            {"velocity_mps", summary.final_velocity_error_mps}};
   }
   if (summary.fixes) {
-    json["fixes"] = {
-        {"repairs", summary.fixes->repairs},
-        {"resolved_s", summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr)},
-        {"heading_sigma_rad", summary.fixes->heading_sigma_rad}};
+    json["fixes"] = {{"repairs", summary.fixes->repairs}};
+    if (summary.fixes->hands_over)
+      json["fixes"]["resolved_s"] =
+          summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr);
+    json["fixes"]["heading_sigma_rad"] = summary.fixes->heading_sigma_rad;
     for (const auto& [outcome, count] : summary.fixes->outcomes) json["fixes"]["outcomes"][outcome] = count;
   }
   return json;
@@ -120,6 +124,8 @@ Json object(const realtime::Standing& host, std::int64_t spin_ns) {
 
 constexpr std::string_view kind_name(Series::Kind kind) {
   switch (kind) {
+    case Series::Kind::estimate:
+      return "estimate";
     case Series::Kind::error:
       return "error";
     case Series::Kind::innovation:
@@ -134,12 +140,24 @@ Json object(const Series& series) {
   Json json{{"estimator", series.estimator},  {"quantity", series.quantity}, {"unit", series.unit},
             {"kind", kind_name(series.kind)}, {"t_s", Json::array()},        {"low", Json::array()},
             {"high", Json::array()}};
+  // An estimate is looked at beside a truth that differs in its last digits.
+  const int digits = series.kind == Series::Kind::estimate ? 8 : 5;
+  const auto or_null = [&](const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? Json(rounded(*value, digits)) : Json(nullptr);
+  };
   for (const Series::Point& point : series.points) {
     json["t_s"].push_back(point.t_s);
-    json["low"].push_back(rounded(point.low));
-    json["high"].push_back(rounded(point.high));
-    if (series.kind == Series::Kind::error)
-      json["sigma"].push_back(point.sigma ? Json(rounded(*point.sigma)) : Json(nullptr));
+    json["low"].push_back(or_null(point.low));
+    json["high"].push_back(or_null(point.high));
+    if (series.kind == Series::Kind::error) json["sigma"].push_back(or_null(point.sigma));
+    if (series.kind == Series::Kind::estimate) json["truth"].push_back(or_null(point.truth));
+  }
+  for (const Series::Bar& bar : series.bars) {
+    json["bars"].push_back({{"check", bar.check},
+                            {"statistic", bar.statistic},
+                            {"below", rounded(bar.below)},
+                            {"from_s", bar.from_s},
+                            {"to_s", bar.to_s}});
   }
   if (!series.between.empty()) json["between_95_percent"] = series.between;
   return json;
@@ -148,7 +166,8 @@ Json object(const Series& series) {
 // By second; of a long run the busiest of each stretch of several.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   constexpr std::size_t most = 400;
-  const std::size_t size = seen.length_by_second.size();
+  const std::span<const wire::BitLength> seconds = checks::whole_seconds(seen);
+  const std::size_t size = seconds.size();
   const std::size_t stretch_s = (size + most - 1) / most;
   Json json{{"bitrate_bitps", rates.nominal},
             {"data_bitrate_bitps", rates.data},
@@ -157,8 +176,21 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   for (std::size_t from = 0; from < size; from += stretch_s) {
     double busiest = 0;
     for (std::size_t i = from; i < std::min(size, from + stretch_s); ++i)
-      busiest = std::max(busiest, wire::bus_load(seen.length_by_second[i], 1.0, rates));
+      busiest = std::max(busiest, wire::bus_load(seconds[i], 1.0, rates));
     json["busiest"].push_back(rounded(busiest));
+  }
+  return json;
+}
+
+// What was tested: the program and which of its versions, as far as the bench knows it.
+Json target(const run::Run& run) {
+  if (run::is_in_process(run.options.bus)) return {{"program", "in hil-bench itself"}};
+  if (!run.options.target) return {{"program", "runs elsewhere"}};
+  Json json{{"program", *run.options.target}};
+  if (run.target_file) {
+    json["file_hash"] = fmt::format("{:016x}", run.target_file->hash);
+    json["file_bytes"] = run.target_file->bytes;
+    json["file_date"] = date_utc(run.target_file->modified_s);
   }
   return json;
 }
@@ -179,7 +211,8 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
             {"host", host_name()},
             {"kernel", kernel()},
             {"preemption", realtime::preemption()},
-            {"cpu_model", cpu_model()}};
+            {"cpu_model", cpu_model()},
+            {"target", target(run)}};
   for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
   if (run.host) json["bench_process"] = object(*run.host, run.options.spin_ns);
   return json;

@@ -40,6 +40,16 @@ Json split_of(const checks::TimingRecord& timing) {
   Json json{{"stimuli", split.stimuli}, {"told_by_target", split.told}, {"total_s", total_s(split)}};
   for (const SplitPart& part : parts(timing))
     json["parts_s"][std::string(part.key)] = part.mean_s ? Json(*part.mean_s) : Json(nullptr);
+  for (const SplitPart& part : parts(timing)) {
+    if (part.bound == Bound::at_least) json["at_least"].push_back(part.key);
+    if (part.bound == Bound::at_most) json["at_most"].push_back(part.key);
+  }
+  for (const auto& [group, of_group] : timing.split_by_group) {
+    Json& one = json["groups"][std::string(group)];
+    one = {{"stimuli", of_group.stimuli}, {"total_s", total_s(of_group)}};
+    for (const SplitPart& part : group_parts(timing, of_group))
+      one["parts_s"][std::string(part.key)] = part.mean_s ? Json(*part.mean_s) : Json(nullptr);
+  }
   const checks::SlowestAnswer& slowest = timing.slowest;
   if (!slowest.message.empty()) {
     json["slowest"] = {{"message", slowest.message},
@@ -76,10 +86,12 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& 
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
     const std::string name(messages::all_messages[i].name);
     const checks::AnswerTiming& answers = timing.answers[i];
-    if (answers.latency.count() > 0 || answers.unpaired > 0) {
+    const bool due = is_due(scenario, messages::all_messages[i]);
+    const std::size_t never_came = due ? checks::unanswered(run.seen, name) : 0;
+    if (answers.latency.count() > 0 || answers.unpaired > 0 || never_came > 0) {
       Json& latency = page["latency_s"][name] = object(answers.latency);
       latency["closes_group"] = std::ranges::find(closing, name) != closing.end();
-      latency["unanswered"] = checks::unanswered(run.seen, name);
+      latency["unanswered"] = never_came;
       latency["unpaired"] = answers.unpaired;
       latency["line"] = object(answers.latency_line);
     }

@@ -5,12 +5,17 @@
 #include <iterator>
 
 #include "bench/report/markup.hpp"
+#include "bench/report/provenance.hpp"
 
 namespace canhil::report {
 namespace {
 
 using checks::CheckResult;
 using checks::Outcome;
+
+std::string property(std::string_view name, std::string_view value) {
+  return fmt::format("<property name=\"{}\" value=\"{}\"/>", name, escaped(value));
+}
 
 }  // namespace
 
@@ -33,15 +38,17 @@ std::string junit(const scenario::Scenario& scenario, const run::Run& run) {
   std::string page;
   page += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   page += fmt::format(
-      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\">\n",
-      escaped(scenario.title), cases.size(), count(Outcome::fail), count(Outcome::not_measured), run.wall_s);
+      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\"{}>\n",
+      escaped(scenario.title), cases.size(), count(Outcome::fail), count(Outcome::not_measured), run.wall_s,
+      run.started_s == 0 ? "" : fmt::format(" timestamp=\"{}\"", date_utc(run.started_s)));
   for (const CheckResult& check : cases) {
     page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
                         escaped(check.name));
-    if (!check.requirement.empty()) {
-      page += fmt::format("      <properties><property name=\"requirement\" value=\"{}\"/></properties>\n",
-                          escaped(check.requirement));
-    }
+    // A value that drifts towards its bar is seen before the check fails.
+    page += "      <properties>";
+    if (!check.requirement.empty()) page += property("requirement", check.requirement);
+    page += property("measured", check.measured) + property("expected", check.expected);
+    page += "</properties>\n";
     const std::string message = escaped(fmt::format("{}; expected {}", check.measured, check.expected));
     if (check.outcome == Outcome::fail) page += fmt::format("      <failure message=\"{}\"/>\n", message);
     if (check.outcome == Outcome::not_measured)

@@ -8,8 +8,8 @@
 
 namespace canhil::report {
 
-/// JUnit XML: one test case a check; not measured is 'skipped' with the reason; requirement ids are
-/// properties.
+/// JUnit XML: one test case a check; not measured is 'skipped' with the reason; what was measured, what was
+/// expected and requirement ids are properties. The suite's time stamp is the start of the run (UTC).
 std::string junit(const scenario::Scenario& scenario, const run::Run& run);
 
 }  // namespace canhil::report

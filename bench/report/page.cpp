@@ -7,6 +7,7 @@
 
 #include "bench/report/json.hpp"
 #include "bench/report/markup.hpp"
+#include "bench/report/page_results.hpp"
 #include "bench/report/page_sections.hpp"
 #include "dbc/files/text_file.hpp"
 
@@ -48,6 +49,8 @@ svg text{font-size:12px;fill:var(--soft)}
 .rule{stroke:var(--rule)}.zero{stroke:var(--soft)}
 .bars{fill:var(--line)}.mark{stroke:var(--warn);stroke-width:1.5;stroke-dasharray:2 3}
 .area{fill:var(--fill);stroke:var(--line);stroke-width:1.2;stroke-linejoin:round}
+.truth{fill:none;stroke:var(--ink);stroke-width:2;stroke-linecap:round;stroke-dasharray:.1 5}
+.bar{fill:none;stroke:var(--ink);stroke-width:2.6}
 .limit{fill:none;stroke:var(--warn);stroke-width:1.4;stroke-dasharray:6 4}
 @media (max-width:640px){
  thead{display:none}
@@ -67,7 +70,7 @@ constexpr int most_depth = 32;  // a report has 6
 std::string length_differs(const Json& report) {
   for (const Json& series : report.at("series")) {
     const std::size_t times = series.at("t_s").size();
-    for (const char* key : {"low", "high", "sigma"}) {
+    for (const char* key : {"low", "high", "sigma", "truth"}) {
       if (!series.contains(key) || series.at(key).size() == times) continue;
       return fmt::format("{} of '{}' has {} values, expected {}, as many as t_s", key,
                          series.at("quantity").get<std::string>(), series.at(key).size(), times);
@@ -94,11 +97,13 @@ std::string page_of(const Json& report) {
       escaped(provenance.at("date").get<std::string>()));
   out += fmt::format("<p class=\"verdict {}\"><b>{} {}</b>{}</p>\n", kind, sign, escaped(verdict),
                      escaped(report.at("reason").get<std::string>()));
-  out += "<nav><a href=\"#checks\">checks</a><a href=\"#timing\">latency and jitter</a>";
+  out += "<nav><a href=\"#checks\">checks</a>";
+  if (has_results(report)) out += "<a href=\"#results\">results</a>";
+  out += "<a href=\"#timing\">latency and jitter</a>";
   if (!report.at("series").empty()) out += "<a href=\"#estimates\">estimates</a>";
   out += "<a href=\"#bus\">bus</a><a href=\"#provenance\">provenance</a></nav>\n";
-  return out + checks_section(report) + timing_section(report) + estimates_section(report) +
-         bus_section(report) + provenance_section(report) + "</body></html>\n";
+  return out + checks_section(report) + results_section(report) + timing_section(report) +
+         estimates_section(report) + bus_section(report) + provenance_section(report) + "</body></html>\n";
 }
 
 }  // namespace

@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <initializer_list>
-#include <limits>
 #include <utility>
 #include <vector>
 
-#include "bench/checks/histogram.hpp"
+#include "bench/checks/timing_record.hpp"
 #include "bench/report/markup.hpp"
-#include "bench/report/plot.hpp"
+#include "bench/report/page_parts.hpp"
+#include "bench/report/page_plots.hpp"
 #include "bench/report/split.hpp"
 
 namespace canhil::report {
@@ -18,39 +16,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
-
-std::string text_in(const Json& value) {
-  return escaped(value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-// Rows of cells that are HTML already; on a phone each cell says which column it is of.
-std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
-                  std::string_view style = "") {
-  std::string out = fmt::format("<table class=\"{}\"><thead><tr>", style);
-  for (const std::string& cell : head) out += fmt::format("<th>{}</th>", cell);
-  out += "</tr></thead><tbody>\n";
-  for (const auto& row : rows) {
-    out += "<tr>";
-    for (std::size_t i = 0; i < row.size(); ++i)
-      out += fmt::format("<td data-label=\"{}\">{}</td>", head[i], row[i]);
-    out += "</tr>\n";
-  }
-  return out + "</tbody></table>\n";
-}
-
-std::string figure(const std::string& title, const std::string& drawing, const std::string& note) {
-  return fmt::format("<figure><h3>{}</h3>{}<figcaption>{}</figcaption></figure>\n", escaped(title), drawing,
-                     escaped(note));
-}
-
-std::string ms(const Json& distribution, const char* key) {
-  return fmt::format("{:.3f}", distribution.at(key).get<double>() * 1e3);
-}
-
 std::vector<std::string> percentiles(const Json& distribution) {
   std::vector<std::string> cells{distribution.at("count").dump()};
-  for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"}) cells.push_back(ms(distribution, key));
+  const bool none = distribution.at("count").get<std::uint64_t>() == 0;
+  for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"})
+    cells.push_back(none ? "&ndash;" : ms(distribution, key));
   return cells;
 }
 
@@ -59,78 +29,6 @@ const std::vector<std::string> percentile_head{"count", "min ms", "p50", "p90", 
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-std::string histogram(const std::string& title, const Json& distribution) {
-  HistogramPlot plot{.title = title, .bars = {}, .marks = {}};
-  for (const Json& bucket : distribution.at("buckets_us")) {
-    const auto from_us = bucket.at(0).get<std::int64_t>();
-    const std::int64_t width_us = checks::bucket_width_us(from_us);
-    const double to_us =
-        width_us > 0 ? static_cast<double>(from_us + width_us) : distribution.at("max").get<double>() * 1e6;
-    plot.bars.push_back({static_cast<double>(from_us), to_us, bucket.at(1).get<double>()});
-  }
-  for (const auto& [label, key] : {std::pair("p50", "p50"), std::pair("p99", "p99"), std::pair("max", "max")})
-    plot.marks.push_back({label, distribution.at(key).get<double>() * 1e6});
-  return figure(title, svg(plot),
-                fmt::format("p50 {}, p99 {}, p99.9 {}, max {} ms of {}", ms(distribution, "p50"),
-                            ms(distribution, "p99"), ms(distribution, "p999"), ms(distribution, "max"),
-                            distribution.at("count").dump()));
-}
-
-// The largest value of each stretch of the run, from zero; `scale` makes the unit of the numbers.
-LinePlot from_zero(const std::string& title, const std::string& unit, double stretch_s, const Json& largest,
-                   double scale) {
-  LinePlot plot{.title = title,
-                .unit = unit,
-                .t_s = {},
-                .low = {},
-                .high = {},
-                .limit = {},
-                .levels = {},
-                .from_zero = true};
-  for (const Json& value : largest) {
-    plot.t_s.push_back((static_cast<double>(plot.t_s.size()) + 0.5) * stretch_s);
-    plot.low.push_back(value.is_null() ? not_there : 0.0);
-    plot.high.push_back(value.is_null() ? not_there : value.get<double>() * scale);
-  }
-  return plot;
-}
-
-std::string course(const std::string& title, const Json& line) {
-  const double stretch_s = line.at("stretch_s").get<double>();
-  const LinePlot plot = from_zero(title, "ms", stretch_s, line.at("largest_s"), 1e3);
-  return figure(title, svg(plot), fmt::format("the largest of each {:g} ms", stretch_s * 1e3));
-}
-
-std::vector<double> numbers(const Json& array) {
-  std::vector<double> values;
-  for (const Json& value : array) values.push_back(value.is_null() ? not_there : value.get<double>());
-  return values;
-}
-
-std::string estimate(const Json& series) {
-  const std::string kind = series.at("kind").get<std::string>();
-  const std::string title = series.at("quantity").get<std::string>();
-  LinePlot plot{.title = title,
-                .unit = series.at("unit").get<std::string>(),
-                .t_s = numbers(series.at("t_s")),
-                .low = numbers(series.at("low")),
-                .high = numbers(series.at("high")),
-                .limit = {},
-                .levels = {},
-                .from_zero = kind == "statistic"};
-  std::string note = "solid: its range in each stretch of time";
-  if (series.contains("sigma")) {
-    plot.limit = numbers(series.at("sigma"));
-    for (double& sigma : plot.limit) sigma *= 3;
-    note = "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target tells it";
-  }
-  if (series.contains("between_95_percent")) {
-    plot.levels = numbers(series.at("between_95_percent"));
-    note = "dashed: 95 % of the values of a consistent filter lie between";
-  }
-  return figure(title, svg(plot), note);
 }
 
 // What happened, as rows of a name and a number; those that are 0 are left out.
@@ -161,6 +59,37 @@ std::string ms_or_none(const Json& seconds) {
   return seconds.is_null() ? "not known" : fmt::format("{:.3f}", seconds.get<double>() * 1e3);
 }
 
+// "&ge; " or "&le; " where a part is known so far only.
+const char* bound_of(const Json& split, const std::string& part) {
+  for (const auto& [key, sign] : {std::pair("at_least", "&ge; "), std::pair("at_most", "&le; ")}) {
+    if (!split.contains(key)) continue;
+    for (const Json& one : split.at(key)) {
+      if (one == part) return sign;
+    }
+  }
+  return "";
+}
+
+// The same way for each group of stimuli: one that is answered rarely is lost in the mean of all.
+std::string group_table(const Json& split) {
+  if (!split.contains("groups") || split.at("groups").size() < 2) return "";
+  std::vector<std::string> head{"part, by stimulus"};
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [group, one] : split.at("groups").items()) {
+    head.push_back(fmt::format("{} ms ({})", escaped(group), one.at("stimuli").dump()));
+    std::size_t row = 0;
+    const auto add = [&](const std::string& what, const std::string& value) {
+      if (rows.size() == row) rows.push_back({what});
+      rows[row++].push_back(value);
+    };
+    for (const auto& [key, mean] : one.at("parts_s").items())
+      add(escaped(std::string(what_of(key))), ms_or_none(mean));
+    add("<b>in all</b>", fmt::format("<b>{:.3f}</b>", one.at("total_s").get<double>() * 1e3));
+  }
+  return table(head, rows, "figures") +
+         "<p class=\"note\">The target tells of its waits and its computing for all stimuli together.</p>\n";
+}
+
 // The parts of the way from stimulus to answer.
 std::string split_table(const Json& report) {
   if (!report.contains("split")) return "";
@@ -170,22 +99,29 @@ std::string split_table(const Json& report) {
   for (const auto& [key, mean] : split.at("parts_s").items()) {
     const std::string share =
         mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
-    rows.push_back({escaped(std::string(what_of(key))), ms_or_none(mean), share});
+    rows.push_back({escaped(std::string(what_of(key))), bound_of(split, key) + ms_or_none(mean), share});
   }
   rows.push_back({"<b>from the hand-over of the stimulus to the last frame of its answer</b>",
                   fmt::format("<b>{:.3f}</b>", total_s * 1e3), ""});
   std::string out =
       fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n", split.at("stimuli").dump());
   out += table({"part", "ms", "share"}, rows, "figures");
+  if (split.contains("at_least"))
+    out += fmt::format("<p class=\"unknown\">? The target tells no times beyond {} us: it took longer.</p>\n",
+                       checks::most_told_us);
+  out += group_table(split);
   if (!split.contains("slowest")) return out;
   const Json& slowest = split.at("slowest");
+  const auto told = [&](const char* key) {
+    const auto us = slowest.at(key).get<std::int64_t>();
+    return fmt::format("{} us{}", us, us < checks::most_told_us ? "" : " or more");
+  };
   return out +
          fmt::format(
              "<p class=\"note\">The slowest answer, {} at {:.3f} s, took {:.3f} ms; in that 0.1 s the target "
-             "told of waits of at most {} us and of computing of at most {} us.</p>\n",
+             "told of a longest wait of {} and a longest computing of {}.</p>\n",
              text_in(slowest.at("message")), slowest.at("t_s").get<double>(),
-             slowest.at("latency_s").get<double>() * 1e3, slowest.at("queue_max_us").dump(),
-             slowest.at("compute_max_us").dump());
+             slowest.at("latency_s").get<double>() * 1e3, told("queue_max_us"), told("compute_max_us"));
 }
 
 // Each message's longest time over the bus beside its bound.
@@ -253,7 +189,13 @@ std::string timing_section(const Json& report) {
         .push_back(
             joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
     if (!closes) continue;
-    figures += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(message));
+    figures += fmt::format("<h3>{}</h3>\n", escaped(message));
+    if (latency.at("count").get<std::uint64_t>() == 0) {
+      figures += fmt::format("<p class=\"no\">&#10007; No answers: {} never came.</p>\n",
+                             latency.at("unanswered").dump());
+      continue;
+    }
+    figures += "<div class=\"grid\">\n";
     figures += histogram("Latency", latency);
     figures += course("Latency over time", latency.at("line"));
     if (jitters.contains(message)) figures += histogram("Deviation of its period", jitters.at(message));
@@ -286,33 +228,19 @@ std::string timing_section(const Json& report) {
          table(joined({"message"}, percentile_head), rows, "figures") + "</details></section>\n";
 }
 
-std::string estimates_section(const Json& report) {
-  if (report.at("series").empty()) return "";
-  std::string out = "<section id=\"estimates\"><h2>Estimates against the truth</h2>\n";
-  std::string estimator;
-  for (const Json& series : report.at("series")) {
-    const std::string own = series.at("estimator").get<std::string>();
-    if (own != estimator) {
-      if (!estimator.empty()) out += "</div>\n";
-      out += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(own));
-      estimator = own;
-    }
-    out += estimate(series);
-  }
-  return out + "</div></section>\n";
-}
-
 std::string bus_section(const Json& report) {
   const Json& load = report.at("bus_load_line");
   const double stretch_s = load.at("stretch_s").get<double>();
-  const LinePlot plot = from_zero("Bus load", "%", stretch_s, load.at("busiest"), 100);
   std::string out = "<section id=\"bus\"><h2>Bus</h2>\n<div class=\"grid\">\n";
   const double data_bitrate = load.at("data_bitrate_bitps").get<double>();
   out += figure(
       fmt::format("Load at {:g} kbit/s{}", load.at("bitrate_bitps").get<double>() / 1e3,
                   data_bitrate > 0 ? fmt::format(", data {:g} kbit/s", data_bitrate / 1e3) : ""),
-      svg(plot),
-      fmt::format("by {:g} s, from the exact length of every frame; the last is not a whole one", stretch_s));
+      from_zero("Bus load", "%", stretch_s, load.at("busiest"), 100),
+      fmt::format(
+          "by {:g} s, from the exact length of every frame; the last second is left out where it is not "
+          "the only one: the run ends within it",
+          stretch_s));
   out += "</div>\n" + wire_table(report) + "<h3>Lost and broken</h3>\n";
   std::vector<std::vector<std::string>> rows = incidents(report.at("bus"), "bus");
   Json from_target = report.at("from_target");

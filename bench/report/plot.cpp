@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 
 #include "bench/report/markup.hpp"
 
@@ -14,7 +12,7 @@ namespace {
 
 // Of the drawing, in its own units: a column of a phone.
 constexpr double width = 440, height = 230;
-constexpr double left = 58, right = 428, top = 24, bottom = 192;
+constexpr double left = 66, right = 428, top = 24, bottom = 192;
 
 struct Axis {
   double from = 0, to = 1;        // values at the ends
@@ -90,38 +88,8 @@ std::vector<Stretch> stretches(std::size_t size, There there) {
   return found;
 }
 
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-};
-
-// The limits count as far as they do not hide what lies within: the sigma of the first instants is large.
-Extent extent_of(const LinePlot& plot) {
-  Extent own;
-  for (const double value : plot.low) own.add(value);
-  for (const double value : plot.high) own.add(value);
-  if (plot.from_zero) own.add(0);
-  Extent all = own;
-  for (const double level : plot.levels) all.add(level);
-  std::vector<double> limits;
-  std::ranges::copy_if(plot.limit, std::back_inserter(limits), [](double v) { return std::isfinite(v); });
-  if (!limits.empty()) {
-    const double large = std::max(std::abs(own.low), std::abs(own.high));
-    const double shown = std::min(*std::ranges::max_element(limits), 2.5 * large);
-    all.add(shown);
-    all.add(-shown);
-  }
-  if (all.high - all.low < 1e-12 * std::max(1.0, std::abs(all.high))) {
-    all.add(all.high + 1);
-    all.add(all.low - 1);
-  }
-  return all;
-}
+constexpr double limit_room = 2.5;  // limits up to so many times the largest value are shown
+constexpr double bar_room = 6;      // a bar is what the picture is looked at for
 
 std::string path_along(const LinePlot& plot, const std::vector<double>& values, double sign, const Axis& x,
                        const Axis& y) {
@@ -135,6 +103,14 @@ std::string path_along(const LinePlot& plot, const std::vector<double>& values, 
           fmt::format("{}{:.1f} {:.1f}", i == stretch.from ? 'M' : 'L', x(plot.t_s[i]), y(sign * values[i]));
   }
   return path;
+}
+
+std::string bar_line(const LinePlot::Bar& bar, double value, const Axis& x, const Axis& y) {
+  constexpr double end = 4;  // of a mark across the line
+  const double from = x(bar.from_s), to = x(bar.to_s), at = y(value);
+  return fmt::format(
+      "<path class=\"bar\" d=\"M{0:.1f} {1:.1f}V{2:.1f}M{0:.1f} {3:.1f}H{4:.1f}M{4:.1f} {1:.1f}V{2:.1f}\"/>",
+      from, at - end, at + end, at, to);
 }
 
 // The area between low and high; its edge is drawn, so that a thin one is a line.
@@ -152,6 +128,50 @@ std::string area(const LinePlot& plot, const Axis& x, const Axis& y) {
 }
 
 }  // namespace
+
+Extent extent_of(const LinePlot& plot) {
+  Extent own;
+  for (const std::vector<double>* values : {&plot.low, &plot.high, &plot.truth})
+    for (const double value : *values) own.add(value);
+  if (plot.from_zero) own.add(0);
+  Extent all = own;
+  for (const double level : plot.levels) all.add(level);
+  const double large = std::max(std::abs(own.low), std::abs(own.high));
+  double most = -1;
+  for (const double limit : plot.limit) most = std::isfinite(limit) ? std::max(most, limit) : most;
+  most = std::min(most, limit_room * large);
+  for (const LinePlot::Bar& bar : plot.bars) {
+    if (bar.below <= bar_room * large) most = std::max(most, bar.below);
+  }
+  if (most >= 0) {
+    all.add(most);
+    if (!plot.from_zero) all.add(-most);
+  }
+  if (all.size() < 1e-12 * std::max(1.0, std::abs(all.high))) {
+    all.add(all.high + 1);
+    all.add(all.low - 1);
+  }
+  return all;
+}
+
+bool shows(const LinePlot& plot, const LinePlot::Bar& bar) { return bar.below <= extent_of(plot).high; }
+
+std::vector<std::string> mark_labels(const std::vector<double>& values) {
+  std::vector<std::string> labels;
+  const double step = values.size() > 1 ? values[1] - values[0] : values.empty() ? 1.0 : std::abs(values[0]);
+  const double largest = values.empty() ? 0 : std::max(std::abs(values.front()), std::abs(values.back()));
+  if (!(step > 0)) return std::vector<std::string>(values.size(), "0");
+  // Beyond this plain digits take more room than there is.
+  const bool plain = largest < 1e6 && largest >= 1e-4;
+  const double lowest = std::floor(std::log10(step) + 1e-9);
+  const double highest = std::floor(std::log10(std::max(largest, step)) + 1e-9);
+  const int digits = static_cast<int>(std::max(0.0, plain ? -lowest : highest - lowest));
+  for (const double value : values)
+    labels.push_back(value == 0 ? "0"
+                     : plain    ? fmt::format("{:.{}f}", value, digits)
+                                : fmt::format("{:.{}e}", value, digits));
+  return labels;
+}
 
 std::vector<double> round_values(double from, double to, int most) {
   if (!(to > from)) return {from};
@@ -223,25 +243,36 @@ std::string svg(const HistogramPlot& plot) {
 std::string svg(const LinePlot& plot) {
   const Extent extent = extent_of(plot);
   if (plot.t_s.empty() || !std::isfinite(extent.low)) return "<p class=\"note\">nothing to show</p>";
-  const Axis x{std::min(plot.t_s.front(), 0.0), std::max(plot.t_s.back(), plot.t_s.front() + 1e-3), left,
-               right};
-  const double margin = 0.05 * (extent.high - extent.low);
+  const double begins = plot.begins_at_first ? plot.t_s.front() : std::min(plot.t_s.front(), 0.0);
+  const Axis x{begins, std::max(plot.t_s.back(), plot.t_s.front() + 1e-3), left, right};
+  const double margin = 0.05 * extent.size();
   const Axis y{plot.from_zero ? 0.0 : extent.low - margin, extent.high + margin, bottom, top};
   std::string out = begin(plot.title);
-  for (const double value : round_values(y.from, y.to, 5)) {
-    out += line(value == 0 ? "zero" : "rule", left, y(value), right, y(value));
-    out += words(left - 6, y(value) + 4, "end", fmt::format("{:.4g}", value));
+  const std::vector<double> rows = round_values(y.from, y.to, 5);
+  const std::vector<std::string> row_labels = mark_labels(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    out += line(rows[i] == 0 ? "zero" : "rule", left, y(rows[i]), right, y(rows[i]));
+    out += words(left - 6, y(rows[i]) + 4, "end", row_labels[i]);
   }
-  for (const double value : round_values(x.from, x.to, 6)) {
-    out += line("tick", x(value), bottom, x(value), bottom + 5);
-    out += words(x(value), bottom + 19, "middle", fmt::format("{:g}", value));
+  const std::vector<double> columns = round_values(x.from, x.to, 6);
+  const std::vector<std::string> column_labels = mark_labels(columns);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    out += line("tick", x(columns[i]), bottom, x(columns[i]), bottom + 5);
+    out += words(x(columns[i]), bottom + 19, "middle", column_labels[i]);
   }
   out += area(plot, x, y);
   if (plot.limit.size() == plot.t_s.size()) {
     for (const double sign : {1.0, -1.0})
       out += fmt::format("<path class=\"limit\" d=\"{}\"/>", path_along(plot, plot.limit, sign, x, y));
   }
+  if (plot.truth.size() == plot.t_s.size())
+    out += fmt::format("<path class=\"truth\" d=\"{}\"/>", path_along(plot, plot.truth, 1, x, y));
   for (const double level : plot.levels) out += line("limit", left, y(level), right, y(level));
+  for (const LinePlot::Bar& bar : plot.bars) {
+    if (!shows(plot, bar)) continue;
+    out += bar_line(bar, bar.below, x, y);
+    if (y.from <= -bar.below) out += bar_line(bar, -bar.below, x, y);
+  }
   out += frame();
   out += words(left - 6, top - 9, "end", plot.unit);
   out += words((left + right) / 2, bottom + 35, "middle", "s");

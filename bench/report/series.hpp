@@ -12,18 +12,30 @@ namespace canhil::report {
 
 struct Series {
   static constexpr std::size_t max_points = 300;
-  enum class Kind : std::uint8_t { error, innovation, statistic };
+  enum class Kind : std::uint8_t { estimate, error, innovation, statistic };
   struct Point {
     double t_s = 0;
-    double low = 0, high = 0;     ///< the quantity covers this until the next point
-    std::optional<double> sigma;  ///< the largest that the target told
+    double low = 0,
+           high = 0;  ///< the quantity covers this until the next point; not finite: silence until then
+    std::optional<double> sigma{};  ///< the largest that the target told; none: it told none in time
+    std::optional<double> truth{};  ///< of an estimate: the true value at t_s
+  };
+  /// What a check asks of the absolute value.
+  struct Bar {
+    std::string check;           ///< its name
+    std::string_view statistic;  ///< of the values in its window: max, mean, rms
+    double below = 0;            ///< in the series' unit
+    double from_s = 0, to_s = 0;
   };
   std::string estimator;
   std::string quantity;
   std::string unit;
+  double unit_si = 1;  ///< one of the unit in SI
   Kind kind = Kind::error;
-  std::vector<Point> points;
-  std::vector<double> between;  ///< of a statistic: 95 % of the values of a consistent filter lie here
+  std::vector<Point> points{};
+  std::vector<double> between{};  ///< of a statistic: 95 % of the values of a consistent filter lie here
+  std::vector<Bar> bars{};
+  bool only_if_judged = false;  ///< of no interest without a bar
 };
 
 /// Of every estimator that the scenario runs.

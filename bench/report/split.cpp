@@ -1,5 +1,7 @@
 #include "bench/report/split.hpp"
 
+#include <algorithm>
+
 namespace canhil::report {
 namespace {
 
@@ -8,33 +10,67 @@ std::optional<double> mean_s(std::int64_t sum_ns, std::uint64_t count) {
   return static_cast<double>(sum_ns) / static_cast<double>(count) * 1e-9;
 }
 
-}  // namespace
-
-std::vector<SplitPart> parts(const checks::TimingRecord& timing) {
-  const checks::LatencySplit& split = timing.split;
+// What both kinds of a split begin with.
+struct OnTheBus {
+  std::optional<double> wait, stimulus_wire, reply_wire;
+};
+OnTheBus on_the_bus(const checks::TimingRecord& timing, const checks::LatencySplit& split) {
   const bool wire_known = timing.wire.rates.nominal > 0;
   const auto on_wire = [&](std::int64_t sum_ns, std::uint64_t count) {
     return wire_known ? mean_s(sum_ns, count) : std::nullopt;
   };
-  const auto stimulus_wire = on_wire(split.stimulus_wire_ns, split.echoed);
-  const auto to_echo = mean_s(split.to_echo_ns, split.echoed);
+  OnTheBus bus{.wait = mean_s(split.to_echo_ns, split.echoed),
+               .stimulus_wire = on_wire(split.stimulus_wire_ns, split.echoed),
+               .reply_wire = on_wire(split.reply_wire_ns, split.stimuli)};
+  if (bus.wait) *bus.wait -= bus.stimulus_wire.value_or(0);
+  return bus;
+}
+
+constexpr SplitPart wait_part{.key = "stimulus_wait",
+                              .what = "stimulus: driver of the bench, wait for the bus"};
+constexpr SplitPart stimulus_part{.key = "stimulus_wire", .what = "stimulus: its last frame on the wire"};
+constexpr SplitPart reply_part{.key = "reply_wire", .what = "answer: its frames on the wire"};
+
+SplitPart with(SplitPart part, const std::optional<double>& mean, Bound bound = Bound::exact) {
+  part.mean_s = mean;
+  part.bound = bound;
+  return part;
+}
+
+}  // namespace
+
+std::vector<SplitPart> parts(const checks::TimingRecord& timing) {
+  const checks::LatencySplit& split = timing.split;
+  const OnTheBus bus = on_the_bus(timing, split);
   const auto queue = mean_s(split.target_queue_ns, split.told);
   const auto compute = mean_s(split.target_compute_ns, split.told);
-  const auto reply_wire = on_wire(split.reply_wire_ns, split.stimuli);
-  std::optional<double> wait, rest = mean_s(split.latency_ns, split.stimuli);
-  if (to_echo) wait = *to_echo - stimulus_wire.value_or(0);
-  if (rest) rest = *rest - queue.value_or(0) - compute.value_or(0) - reply_wire.value_or(0);
-  return {{"stimulus_wait", "stimulus: driver of the bench, wait for the bus", wait},
-          {"stimulus_wire", "stimulus: its last frame on the wire", stimulus_wire},
-          {"target_queue", "target: from its stamp to its turn", queue},
-          {"target_compute", "target: computing", compute},
-          {"reply_wire", "answer: its frames on the wire", reply_wire},
-          {"not_explained", "not explained: drivers, sending, wait for the bus", rest}};
+  std::optional<double> rest = mean_s(split.latency_ns, split.stimuli);
+  if (rest) *rest -= queue.value_or(0) + compute.value_or(0) + bus.reply_wire.value_or(0);
+  const auto told = [](bool clipped) { return clipped ? Bound::at_least : Bound::exact; };
+  const bool clipped = split.queue_clipped || split.compute_clipped;
+  return {with(wait_part, bus.wait),
+          with(stimulus_part, bus.stimulus_wire),
+          {"target_queue", "target: from its stamp to its turn", queue, told(split.queue_clipped)},
+          {"target_compute", "target: computing", compute, told(split.compute_clipped)},
+          with(reply_part, bus.reply_wire),
+          {"not_explained", "not explained: drivers, sending, wait for the bus", rest,
+           clipped ? Bound::at_most : Bound::exact}};
+}
+
+std::vector<SplitPart> group_parts(const checks::TimingRecord& timing, const checks::LatencySplit& split) {
+  const OnTheBus bus = on_the_bus(timing, split);
+  std::optional<double> rest = mean_s(split.latency_ns, split.stimuli);
+  if (rest) *rest -= bus.reply_wire.value_or(0);
+  return {with(wait_part, bus.wait),
+          with(stimulus_part, bus.stimulus_wire),
+          with(reply_part, bus.reply_wire),
+          {"target_and_waits", "target, drivers, sending, wait for the bus", rest}};
 }
 
 std::string_view what_of(std::string_view key) {
-  for (const SplitPart& part : parts({})) {
-    if (part.key == key) return part.what;
+  for (const auto& known : {parts({}), group_parts({}, {})}) {
+    const auto part = std::ranges::find(known, key, &SplitPart::key);
+    if (part != known.end()) return part->what;
   }
   return key;
 }

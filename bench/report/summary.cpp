@@ -14,13 +14,14 @@
 namespace canhil::report {
 namespace {
 
-// Of the heading, in the unit of the alignment: a fine one, or one that starts from anywhere and has fixes.
+// Of the heading, in the unit of the alignment.
 constexpr double bands_mrad[] = {10, 3, 2, 1};
 constexpr double bands_deg[] = {30, 10, 3, 1};
 
-FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes) {
+FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes, std::string_view algorithm) {
   FixSummary summary{.outcomes = {},
                      .repairs = fixes.back().repairs,
+                     .hands_over = algorithm == name_of(messages::Algorithm::sin_cos),
                      .resolved_s = {},
                      .heading_sigma_rad = fixes.back().heading_sigma};
   for (const messages::FixOutcome outcome : messages::enumerators<messages::FixOutcome>) {
@@ -28,6 +29,7 @@ FixSummary fix_summary(const std::vector<checks::FixAnswer>& fixes) {
     if (count > 0) summary.outcomes.emplace_back(name_of(outcome), count);
   }
   const auto resolved = std::ranges::find(fixes, true, &checks::FixAnswer::handed_over);
+  summary.hands_over = summary.hands_over || resolved != fixes.end();
   if (resolved != fixes.end()) summary.resolved_s = static_cast<double>(resolved->cause_us) / 1e6;
   return summary;
 }
@@ -78,11 +80,12 @@ WindSummary wind_summary(const checks::Observations& seen, const world::GlideRec
   return summary;
 }
 
-AlignmentSummary alignment_summary(scenario::Aligner aligner, const run::Run& run) {
+AlignmentSummary alignment_summary(const scenario::Scenario& scenario, scenario::Aligner aligner,
+                                   const run::Run& run) {
   const bool by_fixes = aligner == scenario::Aligner::inflight_alignment;
   AlignmentSummary summary{.estimator = aligner, .heading_entries = {}, .final_error_rad = {}, .fixes = {}};
   const auto errors = checks::navigation_errors(checks::navigation_of(run.seen, aligner), run.truth);
-  const scenario::AngleUnit unit = by_fixes ? scenario::degrees : scenario::mrad;
+  const scenario::AngleUnit unit = angle_unit(aligner);
   for (const double band : by_fixes ? bands_deg : bands_mrad) {
     const auto t_us = checks::convergence_us(errors, &world::Euler::heading, band * unit.factor);
     summary.heading_entries.push_back(
@@ -94,11 +97,18 @@ AlignmentSummary alignment_summary(scenario::Aligner aligner, const run::Run& ru
     summary.final_error_rad = errors.back().angles;
     summary.final_velocity_error_mps = errors.back().v_eb_n.norm();
   }
-  if (by_fixes && !run.seen.fixes.empty()) summary.fixes = fix_summary(run.seen.fixes);
+  if (by_fixes && !run.seen.fixes.empty()) {
+    const auto target = std::ranges::find(scenario.targets, name(aligner), &scenario::TargetSetup::estimator);
+    summary.fixes = fix_summary(run.seen.fixes, target->algorithm);
+  }
   return summary;
 }
 
 }  // namespace
+
+scenario::AngleUnit angle_unit(scenario::Aligner aligner) {
+  return aligner == scenario::Aligner::inflight_alignment ? scenario::degrees : scenario::mrad;
+}
 
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
   std::vector<std::string_view> closing;
@@ -112,10 +122,18 @@ std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario
   return closing;
 }
 
+bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
+  const auto of_its_group = [&](std::string_view closing) {
+    const MessageInfo& last = *std::ranges::find(messages::all_messages, closing, &MessageInfo::name);
+    return last.sample_group.empty() ? last.name == message.name : last.sample_group == message.sample_group;
+  };
+  return std::ranges::any_of(closing_answers(scenario), of_its_group);
+}
+
 Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   Summary summary;
   for (const auto aligner : {scenario::Aligner::transfer_alignment, scenario::Aligner::inflight_alignment}) {
-    if (scenario.runs(name(aligner))) summary.alignments.push_back(alignment_summary(aligner, run));
+    if (scenario.runs(name(aligner))) summary.alignments.push_back(alignment_summary(scenario, aligner, run));
   }
   summary.navigation_answers = run.seen.navigation.size() + run.seen.fix_navigation.size();
   summary.filter_answers = run.seen.filter.size() + run.seen.fixes.size();

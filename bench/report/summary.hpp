@@ -31,8 +31,9 @@ struct MessageLatency {
 struct FixSummary {
   std::vector<std::pair<std::string, std::size_t>> outcomes;  ///< those that occurred
   std::uint32_t repairs = 0;                                  ///< of the covariance
-  std::optional<double> resolved_s;                           ///< heading resolved; none: not by the end
-  double heading_sigma_rad = 0;                               ///< at the end
+  bool hands_over = false;  ///< the algorithm keeps the heading apart from the INS until it is resolved
+  std::optional<double> resolved_s;  ///< when it was resolved and fed back to the INS; none: not by the end
+  double heading_sigma_rad = 0;      ///< at the end
 };
 
 /// RMS of the error of the LOS rate, both planes, in a window of the time to go.
@@ -82,8 +83,16 @@ struct Summary {
 
 Summary summarise(const scenario::Scenario& scenario, const run::Run& run);
 
+/// In which people read the angles of an alignment: a fine one, or one that starts from anywhere and has
+/// fixes.
+scenario::AngleUnit angle_unit(scenario::Aligner aligner);
+
 /// The message that closes each group of answers of the estimators in use.
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);
+
+/// True of the messages that the estimators in use owe the bench: those of the groups that closing_answers()
+/// closes.
+bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
 
 /// The bit rates that reports tell the bus load at: that of the bus, or, where it has none, 500 kbit/s and
 /// 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.

@@ -31,9 +31,12 @@ std::string words(const FixSummary& fixes) {
   std::string outcomes;
   for (const auto& [outcome, count] : fixes.outcomes)
     outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", outcome, count);
-  return fmt::format("{}; repairs {}; heading {}, sigma {:.3f} deg at the end", outcomes, fixes.repairs,
-                     fixes.resolved_s ? fmt::format("resolved at {:g} s", *fixes.resolved_s) : "not resolved",
-                     fixes.heading_sigma_rad / world::units::deg);
+  std::string handover;
+  if (fixes.hands_over)
+    handover = fixes.resolved_s ? fmt::format("fed back to the INS at {:g} s, ", *fixes.resolved_s)
+                                : "not fed back to the INS by the end, ";
+  return fmt::format("{}; repairs {}; heading {}sigma {:.3f} deg at the end", outcomes, fixes.repairs,
+                     handover, fixes.heading_sigma_rad / world::units::deg);
 }
 
 std::string words(const AlignmentSummary& summary) {
@@ -119,10 +122,8 @@ std::string milliseconds(const checks::Distribution& d) {
                      d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
 }
 
-// TargetTiming saturates.
 std::string told_us(std::uint16_t us) {
-  constexpr std::uint16_t most_us = 8191;
-  return us < most_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
+  return us < checks::most_told_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
 }
 
 std::string rate_words(const wire::BitRates& rates) {
@@ -147,7 +148,15 @@ std::string split_words(const checks::TimingRecord& timing) {
   std::string lines = fmt::format("  from stimulus to answer       mean {:.3f} ms of {} stimuli, of it\n",
                                   total_s(timing.split) * 1e3, timing.split.stimuli);
   for (const SplitPart& part : parts(timing)) {
-    if (part.mean_s) lines += fmt::format("    {:>8.3f} ms  {}\n", *part.mean_s * 1e3, part.what);
+    const char* bound = part.bound == Bound::at_least  ? " (at least: the target tells no more)"
+                        : part.bound == Bound::at_most ? " (at most)"
+                                                       : "";
+    if (part.mean_s) lines += fmt::format("    {:>8.3f} ms  {}{}\n", *part.mean_s * 1e3, part.what, bound);
+  }
+  if (timing.split_by_group.size() > 1) {
+    for (const auto& [group, split] : timing.split_by_group)
+      lines += fmt::format("    {:>8.3f} ms  in all, mean of the {} stimuli of {}\n", total_s(split) * 1e3,
+                           split.stimuli, group);
   }
   const checks::SlowestAnswer& slowest = timing.slowest;
   if (slowest.message.empty()) return lines;
@@ -238,6 +247,11 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
   if (run.options.clock != run::ClockKind::lockstep) {
     for (const MessageLatency& row : summary.latencies) {
+      if (row.latency_s.count == 0) {
+        page += fmt::format("  latency {:<22}no answers{}\n", row.message,
+                            row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
+        continue;
+      }
       page += fmt::format("  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
                           row.latency_s.count,
                           row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");

@@ -138,6 +138,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   const std::vector<int> target_cpus =
       options.target_cpu ? std::vector{*options.target_cpu} : realtime::cpus();
+  const bool starts_target = options.target && !is_in_process(options.bus);
+  const auto target_file = starts_target ? look_at_program(*options.target) : std::nullopt;
   if (options.realtime) {
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
   }
@@ -160,7 +162,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     link.attach(*recorder);
   }
   std::optional<TargetProcess> target;
-  if (options.target && !is_in_process(options.bus)) {
+  if (starts_target) {
     auto started = TargetProcess::start(*options.target, options.bus, options.target_arguments, target_cpus);
     if (!started) return tl::unexpected(started.error());
     target.emplace(std::move(*started));
@@ -252,6 +254,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
       .options = options,
       .timing_unfit = std::move(timing_unfit),
       .host = options.clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
+      .target_file = target_file,
       .wall_s = wall_s,
       .started_s = started_s,
       .log_error = std::move(log_error)};

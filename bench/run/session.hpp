@@ -12,6 +12,7 @@
 #include "bench/run/bus_name.hpp"
 #include "bench/run/ending.hpp"
 #include "bench/run/flight.hpp"
+#include "bench/run/program_file.hpp"
 #include "bench/run/real_time.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/ports/fd_groups.hpp"
@@ -63,6 +64,7 @@ struct Run {
   Options options;
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: it is
   std::optional<realtime::Standing> host{};  ///< of the bench, in real time
+  std::optional<ProgramFile> target_file{};  ///< of Options::target when it was started; none: it was not
   double wall_s = 0;                         ///< from the start of the estimator to the end
   std::int64_t started_s = 0;                ///< since 1970, UTC; 0: unknown
   std::optional<Error> log_error{};          ///< why Options::log_path does not hold every frame

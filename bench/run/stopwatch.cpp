@@ -119,12 +119,12 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
   }
   const Newest& first = newest_[indices.front()];
   for (const std::size_t index : indices) {
-    answered(index, *sent, cause_us);
+    answered(index, group, *sent, cause_us);
     add(record_.responses[index], newest_[index].arrival.t_ns - (first.arrival.t_ns - first.wire_ns));
   }
 }
 
-void Stopwatch::answered(std::size_t index, Sent& sent, std::int64_t cause_us) {
+void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t cause_us) {
   checks::AnswerTiming& timing = record_.answers[index];
   const checks::Arrival& arrival = newest_[index].arrival;
   const std::int64_t latency_ns = elapsed_ns(sent.stimulus, arrival);
@@ -140,28 +140,33 @@ void Stopwatch::answered(std::size_t index, Sent& sent, std::int64_t cause_us) {
     window.latency.add(latency_ns);
     add_arrival(window, arrival);
   }
-  split(index, sent, latency_ns);
+  split(index, group, sent, latency_ns);
+}
+
+checks::LatencySplit& Stopwatch::split_of(std::string_view group) {
+  auto& all = record_.split_by_group;
+  const auto found = std::ranges::find(all, group, &checks::GroupSplit::group);
+  return found != all.end() ? found->split : all.emplace_back(group).split;
 }
 
 // A stimulus may have several answers: it has been answered with the last of them.
-void Stopwatch::split(std::size_t index, Sent& sent, std::int64_t latency_ns) {
-  checks::LatencySplit& split = record_.split;
+void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std::int64_t latency_ns) {
   const std::int64_t wire_ns = newest_[index].wire_ns;
   sent.reply_wire_ns += wire_ns;
   record_.answers[index].reply_wire_ns += sent.reply_wire_ns;
-  split.reply_wire_ns += wire_ns;
-  split.latency_ns += latency_ns - sent.latency_ns;
-  sent.latency_ns = latency_ns;
-  if (!sent.answered) {
-    sent.answered = true;
-    ++split.stimuli;
-    ++untold_.stimuli;
-    if (sent.to_echo_ns) {
-      ++split.echoed;
-      split.to_echo_ns += *sent.to_echo_ns;
-      split.stimulus_wire_ns += sent.wire_ns;
-    }
+  for (checks::LatencySplit* split : {&record_.split, &split_of(group)}) {
+    split->reply_wire_ns += wire_ns;
+    split->latency_ns += latency_ns - sent.latency_ns;
+    if (sent.answered) continue;
+    ++split->stimuli;
+    if (!sent.to_echo_ns) continue;
+    ++split->echoed;
+    split->to_echo_ns += *sent.to_echo_ns;
+    split->stimulus_wire_ns += sent.wire_ns;
   }
+  sent.latency_ns = latency_ns;
+  if (!sent.answered) ++untold_.stimuli;
+  sent.answered = true;
   if (latency_ns <= untold_.slowest.latency_ns) return;
   untold_.slowest = {.message = messages::all_messages[index].name,
                      .t_ns = newest_[index].arrival.t_ns - first_ns_.value_or(0),
@@ -172,6 +177,10 @@ void Stopwatch::split(std::size_t index, Sent& sent, std::int64_t latency_ns) {
 void Stopwatch::told(const messages::TargetTiming& timing) {
   const auto stimuli = static_cast<std::int64_t>(untold_.stimuli);
   record_.split.told += untold_.stimuli;
+  if (stimuli > 0) {
+    record_.split.queue_clipped |= timing.queue_mean_us >= checks::most_told_us;
+    record_.split.compute_clipped |= timing.compute_mean_us >= checks::most_told_us;
+  }
   record_.split.target_queue_ns += stimuli * timing.queue_mean_us * 1000;
   record_.split.target_compute_ns += stimuli * timing.compute_mean_us * 1000;
   if (untold_.slowest.latency_ns > record_.slowest.latency_ns) {

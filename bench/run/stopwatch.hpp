@@ -73,8 +73,9 @@ class Stopwatch {
 
   Sent* find(std::string_view group, std::int64_t valid_us);
   void forget_oldest(std::string_view name, Group& group);
-  void answered(std::size_t index, Sent& sent, std::int64_t cause_us);
-  void split(std::size_t index, Sent& sent, std::int64_t latency_ns);
+  void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t cause_us);
+  checks::LatencySplit& split_of(std::string_view group);
+  void split(std::size_t index, std::string_view group, Sent& sent, std::int64_t latency_ns);
   [[nodiscard]] std::int64_t on_wire_ns(const Frame& frame) const;
 
   checks::TimingRecord& record_;

@@ -60,7 +60,7 @@ Figure figure(const Results& results, int number, const char* campaign, const ch
     Curve curve{.label = filter.label, .points = {}};
     for (const campaign::CurvePoint& point :
          results.curves.find(fmt::format("{} {}_{}", campaign, filter.stem, start.stem))->second)
-      curve.points.emplace_back(static_cast<double>(point.t_us) * 1e-6, point.rms / deg);
+      add_rms(curve, static_cast<double>(point.t_us) * 1e-6, point, deg);
     drawn.curves.push_back(std::move(curve));
   }
   return drawn;

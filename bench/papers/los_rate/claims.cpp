@@ -25,10 +25,24 @@ double largest_departure(const Results& results, std::string_view variant) {
   return largest;
 }
 
-Row equals_kalman(const Results& results, const char* claim, const char* variant) {
-  const double departure = largest_departure(results, variant);
-  return reproduces(claim, "yes", fmt::format("RMS within {:.1f} % from 3 s to go on", 100 * departure),
-                    departure <= 0.1);
+constexpr double as_good = 0.1;  // departure of a ratio of RMS from 1
+
+std::string departure_words(double departure) {
+  return fmt::format("RMS within {:.1f} % from 3 s to go on", 100 * departure);
+}
+
+Row switched_equals_kalman(const Results& results) {
+  const double departure = largest_departure(results, "switched");
+  return reproduces("switched table: as good as the Kalman filter", "yes", departure_words(departure),
+                    departure <= as_good);
+}
+
+// The paper has a table for each kind of noise; one gain for their sum is ours, and reproduces nothing.
+Row combined_equals_kalman(const Results& results) {
+  const double departure = largest_departure(results, "combined");
+  const bool holds = departure <= as_good;
+  return verdict("one gain for all noises: the same", "not in it: our extension", departure_words(departure),
+                 holds ? Mark::yes : Mark::no, holds ? "holds" : "does not hold");
 }
 
 Row start_up(const Results& results) {
@@ -75,9 +89,8 @@ Row miss_against_fixed(const Results& results) {
 
 Table claim_table(const Results& results) {
   return {.head = {"claim", "paper", "over the bus", "verdict"},
-          .rows = {equals_kalman(results, "switched table: as good as the Kalman filter", "switched"),
-                   equals_kalman(results, "one gain for all noises (our extension): the same", "combined"),
-                   start_up(results), against_fixed(results), miss_against_fixed(results)},
+          .rows = {switched_equals_kalman(results), combined_equals_kalman(results), start_up(results),
+                   against_fixed(results), miss_against_fixed(results)},
           .note = "Verdicts are worked out from the figures of this run."};
 }
 

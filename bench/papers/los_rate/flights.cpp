@@ -93,13 +93,13 @@ Figure rms_figure(const Results& results) {
   for (const auto& [variant, label] :
        {std::pair{"kalman", "Kalman"}, std::pair{"switched_at_once", "switched"},
         std::pair{"combined", "combined"}, std::pair{"low_pass_4", "4 rad/s"},
-        std::pair{"low_pass_8", "8 rad/s"}}) {
+        std::pair{"low_pass_8", "8 rad/s"}, std::pair{"low_pass_12", "12 rad/s"}}) {
     Curve curve{.label = label, .points = {}};
     for (const campaign::CurvePoint& point :
          results.of("open_loop").curve(variant, {}, campaign::Quantity::los_rate)) {
       const double middle_s = 1e-6 * (static_cast<double>(point.t_us) + campaign::los_sample_us / 2.0);
       constexpr double blind_s = 0.06;  // from 50 m on guidance is to hold
-      if (middle_s < -blind_s) curve.points.emplace_back(middle_s, point.rms / world::units::mrad);
+      if (middle_s < -blind_s) add_rms(curve, middle_s, point, world::units::mrad);
     }
     figure.curves.push_back(std::move(curve));
   }

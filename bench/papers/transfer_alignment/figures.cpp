@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bench/campaign/statistics.hpp"
+#include "bench/papers/transfer_alignment/comparison.hpp"
 #include "bench/papers/transfer_alignment/sections.hpp"
 
 namespace canhil::papers::transfer_alignment {
@@ -15,8 +16,18 @@ constexpr const char* at_10_hz = "master_ins.period_ms=100";
 
 Curve curve(std::string label, std::span<const CurvePoint> points, double unit = mrad) {
   Curve drawn{.label = std::move(label), .points = {}};
-  for (const CurvePoint& point : points)
-    drawn.points.emplace_back(static_cast<double>(point.t_us) * 1e-6, point.rms / unit);
+  for (const CurvePoint& point : points) add_rms(drawn, static_cast<double>(point.t_us) * 1e-6, point, unit);
+  return drawn;
+}
+
+// The points of a curve that the times into 3, 2 and 1 mrad tell.
+Curve curve_through(std::string label, const Times& times) {
+  Curve drawn{.label = std::move(label), .points = {}};
+  for (const auto& [t_s, level_mrad] :
+       {std::pair(times.within_3_mrad, 3.0), std::pair(times.within_2_mrad, 2.0),
+        std::pair(times.within_1_mrad, 1.0)}) {
+    if (std::isfinite(t_s)) drawn.points.emplace_back(t_s, level_mrad);
+  }
   return drawn;
 }
 
@@ -110,6 +121,9 @@ std::vector<Figure> axis_figures(const Results& results) {
                     curve("H2 told 1°", table.curve("h2_case2_p1", {}, quantity)),
                     curve("KF told 5°", table.curve("kf_p5", {}, quantity))}});
   }
+  figures.front().curves.push_back(curve_through("paper KF", paper_kalman));
+  figures.front().curves.push_back(curve_through("paper H2", paper_h2));
+  figures.front().caption += " 'Paper': the times of its table 2 into 3, 2 and 1 mrad, both told 1 deg.";
   Figure velocity{
       .id = "velocity",
       .title = "Velocity errors",

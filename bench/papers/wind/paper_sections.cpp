@@ -50,7 +50,7 @@ Figure error_figure(const Results& results, int number, int level) {
     const auto points = results.of("table1").curve(variant(filter, level), {}, campaign::Quantity::wind_norm);
     constexpr std::size_t step = 10;  // answers come every 100 ms: a point a second
     for (std::size_t i = 0; i < points.size(); i += step)
-      curve.points.emplace_back(static_cast<double>(points[i].t_us) * 1e-6, points[i].rms);
+      add_rms(curve, static_cast<double>(points[i].t_us) * 1e-6, points[i]);
     figure.curves.push_back(std::move(curve));
   }
   return figure;

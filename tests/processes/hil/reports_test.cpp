@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -39,6 +40,18 @@ TEST_F(Reports, ThePageIsMadeAgainFromTheJson) {
   EXPECT_EQ(ended.code, 0) << ended.err;
   EXPECT_EQ(ended.out, scratch("one.html") + "\n");
   EXPECT_EQ(read(scratch("one.html")), first);
+}
+
+TEST_F(Reports, TellWhichTargetWasTested) {
+  EXPECT_EQ(read_json(scratch("one.json"))["provenance"]["target"]["program"], "in hil-bench itself");
+  const Ended run = hil_bench("run " + scenario("transfer_alignment_quick") + " --bus " + bus() +
+                              " --lockstep --json " + scratch("target.json"));
+  ASSERT_THAT(run.err, testing::IsEmpty());
+  const auto target = read_json(scratch("target.json"))["provenance"]["target"];
+  EXPECT_THAT(target["program"].get<std::string>(), EndsWith("/hil-target"));
+  EXPECT_EQ(target["file_bytes"].get<std::uintmax_t>(),
+            std::filesystem::file_size(target["program"].get<std::string>()));
+  EXPECT_THAT(target["file_hash"].get<std::string>(), testing::MatchesRegex("[0-9a-f]+"));
 }
 
 TEST_F(Reports, TheSameIsNoWorse) {

@@ -26,6 +26,15 @@ TEST(RmsCurve, IsTheRootOfTheMeanSquareOverRuns) {
   EXPECT_EQ(curve[1].missing, 0U);
 }
 
+TEST(RmsCurve, HasTheStandardErrorThatTheScatterOverTheRunsGivesIt) {
+  const std::vector runs{run_with(0, {3, 2}), run_with(1, {-4, -2})};
+  const auto curve = rms_curve(runs, heading);
+  // Squares 9 and 16: their mean is off by sqrt(24.5 / 2), its root by that over twice the root.
+  EXPECT_DOUBLE_EQ(curve[0].rms_error, 3.5 / (2 * std::sqrt(12.5)));
+  EXPECT_EQ(curve[1].rms_error, 0) << "all alike";
+  EXPECT_TRUE(std::isnan(rms_curve(std::vector{run_with(0, {3})}, heading)[0].rms_error)) << "one run";
+}
+
 TEST(RmsCurve, CountsRunsThatEndedOrAreNotFinite) {
   const std::vector runs{run_with(0, {3, 1}), run_with(1, {4}), run_with(2, {nan, 1})};
   const auto curve = rms_curve(runs, heading);

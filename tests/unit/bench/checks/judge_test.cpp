@@ -178,6 +178,7 @@ TEST_F(Judged, NeesFailsAnOverconfidentFilter) {
 TEST_F(Judged, LatencyAtItsQuantile) {
   scenario::Latency rule{.message = "AlignAttitude", .window = whole, .below_us = 1000, .quantile = 0.99};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  EXPECT_THAT(judge(rule).expected, testing::StartsWith("AlignAttitude 99 % quantile < 1 ms from 0 to "));
   for (std::size_t k = 0; k < 4; ++k) came<messages::AlignAttitude>()[k * 50].t_ns += 5'000'000;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "4 of 400 are 1 %";
   came<messages::AlignAttitude>()[222].t_ns += 5'000'000;

@@ -88,6 +88,7 @@ Json distribution(const std::vector<int>& sample_us) {
   std::vector<int> sorted = sample_us;
   std::ranges::sort(sorted);
   const auto at = [&](double q) {
+    if (sorted.empty()) return 0.0;
     return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))] * 1e-6;
   };
   Json json{{"count", sorted.size()},
@@ -190,6 +191,9 @@ TEST(Compare, AMessageThatIsAnsweredNoMoreIsWorse) {
   Json silent = report_of(latencies_us(2, 200));
   silent.erase("latency_s");
   EXPECT_EQ(compared(report_of(latencies_us(1, 200)), silent).outcome, Comparison::worse);
+  const Json never = report_of({});
+  EXPECT_THAT(compared(report_of(latencies_us(1, 200)), never).text, HasSubstr("no answers any more"));
+  EXPECT_NE(compared(never, never).outcome, Comparison::worse) << "nothing got worse";
 }
 
 TEST(Compare, ACheckThatFailsNowIsWorse) {

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
@@ -14,8 +15,7 @@
 #include "bench/report/json.hpp"
 #include "bench/report/plot.hpp"
 #include "bench/report/provenance.hpp"
-#include "bench/report/text.hpp"
-#include "bench/world/motion/rest.hpp"
+#include "tests/unit/bench/report/finished_run.hpp"
 
 namespace canhil::report {
 namespace {
@@ -24,47 +24,10 @@ using Json = nlohmann::ordered_json;
 using testing::AllOf;
 using testing::ContainsRegex;
 using testing::DoubleNear;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::Pointwise;
-
-scenario::Scenario scenario_of() {
-  scenario::Scenario scenario;
-  scenario.title = "<script>alert(1)</script>";
-  scenario.duration_us = 2'000'000;
-  scenario.targets.emplace_back().estimator = "transfer_alignment";
-  return scenario;
-}
-
-run::Run run_of() {
-  run::Run run{
-      .verdict = {.outcome = checks::Outcome::fail,
-                  .reason = "1 of 2 checks failed",
-                  .checks = {{"latency", "latency", "REQ-7", checks::Outcome::fail, "9 ms", "< 5 ms"},
-                             {"two", "kind", "", checks::Outcome::not_measured, "late & slow", "x"}}},
-      .ending = {},
-      .seen = {},
-      .truth = {{.start = {}, .motion = world::Rest{}}, 2'000'000, 10'000},
-      .options = {},
-      .host = realtime::standing(),
-      .wall_s = 2};
-  run.options.bus = "local:x";
-  checks::Observations& seen = run.seen;
-  for (std::int64_t t_us = 10'000; t_us <= 2'000'000; t_us += 10'000) {
-    seen.navigation.push_back({.cause_us = t_us, .angles = {.roll = 0.001, .pitch = 0, .heading = 0}});
-    auto& timing = seen.timing.answers[message_index<messages::AlignVelocityD>()];
-    timing.latency.add(200'000 + t_us / 10);
-    timing.latency_line.add(t_us * 1000, 200'000);
-    timing.jitter.add(5'000);
-    seen.timing.lateness.add(30'000);
-    seen.timing.lateness_line.add(t_us * 1000, 30'000);
-    seen.timing.transmit[message_index<messages::Sync>()].handed_over.add(30'000);
-    if (t_us % 100'000 == 0)
-      seen.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Constant(0.002)});
-  }
-  seen.length_by_second.resize(2);
-  return run;
-}
 
 std::string page_of(const run::Run& run) { return html(document(scenario_of(), run)).value(); }
 
@@ -72,76 +35,6 @@ TEST(Page, NeedsNothingOutsideItself) {
   EXPECT_THAT(page_of(run_of()),
               AllOf(Not(HasSubstr("<script")), Not(HasSubstr("src=")), Not(HasSubstr("url(")),
                     Not(HasSubstr("<link")), Not(HasSubstr("@import"))));
-}
-
-// A run at 500 kbit/s: 100 stimuli of 0.3 ms to their echo, 0.2 of it the frame, and 1 ms from there on.
-run::Run run_on_a_wire() {
-  run::Run run = run_of();
-  run.seen.bit_rates = {.nominal = 500'000};
-  run.seen.transmit_stamps_echoed = true;
-  run.seen.last_ns = 2'000'000'000;
-  checks::TimingRecord& timing = run.seen.timing;
-  timing.wire.rates = run.seen.bit_rates;
-  timing.split = {.stimuli = 100,
-                  .echoed = 100,
-                  .to_echo_ns = 30'000'000,
-                  .stimulus_wire_ns = 20'000'000,
-                  .latency_ns = 100'000'000,
-                  .reply_wire_ns = 60'000'000,
-                  .told = 50,
-                  .target_queue_ns = 5'000'000,
-                  .target_compute_ns = 10'000'000};
-  timing.slowest = {.message = "AlignVelocityD", .t_ns = 1'500'000'000, .latency_ns = 9'000'000};
-  timing.slowest.queue_max_us = 8191;
-  timing.responses[message_index<messages::Sync>()] = {.count = 200, .max_ns = 250'000};
-  timing.responses[message_index<messages::AlignVelocityD>()] = {.count = 100, .max_ns = 9'000'000};
-  timing.answers[message_index<messages::AlignVelocityD>()].last_ns = 1;
-  return run;
-}
-
-TEST(Page, TheLatencyIsSplitAndThePartsAddUp) {
-  const auto split = document(scenario_of(), run_on_a_wire()).at("split");
-  EXPECT_DOUBLE_EQ(split.at("total_s").get<double>(), 1.3e-3);
-  double sum_s = 0;
-  for (const auto& [key, mean] : split.at("parts_s").items()) sum_s += mean.get<double>();
-  EXPECT_NEAR(sum_s, 1.3e-3, 1e-12);
-  EXPECT_NEAR(split.at("parts_s").at("stimulus_wait").get<double>(), 0.1e-3, 1e-12);
-  EXPECT_NEAR(split.at("parts_s").at("target_compute").get<double>(), 0.2e-3, 1e-12);
-  EXPECT_NEAR(split.at("parts_s").at("not_explained").get<double>(), 0.1e-3, 1e-12);
-  const std::string page = page_of(run_on_a_wire());
-  EXPECT_THAT(page, HasSubstr("mean of 100 answered stimuli"));
-  EXPECT_THAT(
-      page,
-      HasSubstr("target: computing</td><td data-label=\"ms\">0.200</td><td data-label=\"share\">15.4 %"));
-  EXPECT_THAT(
-      text(scenario_of(), run_on_a_wire()),
-      AllOf(HasSubstr("mean 1.300 ms of 100 stimuli"), HasSubstr("0.600 ms  answer: its frames on the wire"),
-            HasSubstr("longest wait was 8191 us or more")));
-}
-
-TEST(Page, WhatIsNotKnownOfTheSplitIsNotAZero) {
-  run::Run run = run_on_a_wire();
-  run.seen.timing.wire.rates = {};
-  run.seen.timing.split.told = 0;
-  const auto parts = document(scenario_of(), run).at("split").at("parts_s");
-  EXPECT_TRUE(parts.at("reply_wire").is_null());
-  EXPECT_TRUE(parts.at("target_queue").is_null());
-  EXPECT_NEAR(parts.at("not_explained").get<double>(), 1e-3, 1e-12);
-  EXPECT_THAT(page_of(run), HasSubstr("<td data-label=\"ms\">not known</td>"));
-  EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("target: computing")));
-}
-
-TEST(Page, ShowsEachMessageBesideItsBound) {
-  const auto wire = document(scenario_of(), run_on_a_wire()).at("wire");
-  ASSERT_EQ(wire.at("messages").size(), 2U);
-  EXPECT_EQ(wire.at("messages")[0].at("name"), "Sync");
-  EXPECT_DOUBLE_EQ(wire.at("messages")[0].at("longest_s").get<double>(), 250e-6);
-  EXPECT_FALSE(wire.at("messages")[0].at("at_least").get<bool>());
-  EXPECT_TRUE(wire.at("messages")[1].at("at_least").get<bool>());
-  EXPECT_THAT(page_of(run_on_a_wire()), AllOf(HasSubstr("&#10007; beyond"), HasSubstr("&ge; 9.000")));
-  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), HasSubstr("beyond: AlignVelocityD 9.000 ms, bound "));
-  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), HasSubstr("bus load at 500 kbit/s"));
-  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), Not(HasSubstr("bus load at 1000 kbit/s")));
 }
 
 TEST(Page, SaysVerdictReasonChecksAndRequirement) {
@@ -243,8 +136,10 @@ TEST(JsonReport, CarriesDistributionsWithTheirBuckets) {
 
 TEST(JsonReport, ErrorsCarryTheSigmaThatTheTargetTold) {
   const Json page = document(scenario_of(), run_of());
-  const Json& north = page["series"][0];
-  EXPECT_EQ(north["quantity"], "attitude error about north");
+  const auto found = std::ranges::find_if(
+      page["series"], [](const Json& s) { return s["quantity"] == "attitude error about north"; });
+  ASSERT_NE(found, page["series"].end());
+  const Json& north = *found;
   EXPECT_TRUE(north["sigma"].front().is_null()) << "before the first update it told none";
   EXPECT_NEAR(north["sigma"].back().get<double>(), 2, 1e-6);
   EXPECT_NEAR(std::abs(north["high"].back().get<double>()), 1, 1e-3);
@@ -257,15 +152,39 @@ TEST(RoundValues, AreRoundAndFew) {
 
 TEST(Plot, AValueThatIsNotThereIsAGap) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const std::string drawn = svg(LinePlot{.title = "x",
-                                         .unit = "m",
-                                         .t_s = {0, 1, 2, 3},
-                                         .low = {1, none, 2, 3},
-                                         .high = {1, none, 2, 3},
-                                         .limit = {},
-                                         .levels = {}});
+  const std::string drawn = svg(LinePlot{
+      .title = "x", .unit = "m", .t_s = {0, 1, 2, 3}, .low = {1, none, 2, 3}, .high = {1, none, 2, 3}});
   EXPECT_THAT(drawn, Not(HasSubstr("nan")));
   EXPECT_THAT(drawn, ContainsRegex("class=\"area\" d=\"M[^Z]*ZM[^Z]*Z\""));
+}
+
+TEST(Plot, MarksOfAnAxisCanBeToldApart) {
+  EXPECT_THAT(mark_labels({-89.9905, -89.99, -89.9895}), ElementsAre("-89.9905", "-89.9900", "-89.9895"));
+  EXPECT_THAT(mark_labels({0, 0.5, 1}), ElementsAre("0", "0.5", "1.0"));
+  EXPECT_THAT(mark_labels({0, 20, 40}), ElementsAre("0", "20", "40"));
+  EXPECT_THAT(mark_labels({2e6, 2.1e6}), ElementsAre("2.0e+06", "2.1e+06"));
+  EXPECT_THAT(mark_labels({0}), ElementsAre("0"));
+}
+
+TEST(Plot, ABarThatWouldHideTheCurveIsLeftOut) {
+  LinePlot plot{.title = "x", .unit = "m", .t_s = {0, 1}, .low = {1, 1}, .high = {1, 1}};
+  plot.bars = {{.below = 2, .from_s = 0, .to_s = 1}};
+  EXPECT_THAT(svg(plot), HasSubstr("class=\"bar\""));
+  plot.bars[0].below = 200;
+  EXPECT_THAT(svg(plot), Not(HasSubstr("class=\"bar\"")));
+}
+
+TEST(Provenance, SaysWhatWasTested) {
+  run::Run run = run_of();
+  const auto target = [&] { return document(scenario_of(), run).at("provenance").at("target"); };
+  EXPECT_EQ(target().at("program"), "runs elsewhere");
+  run.options.target = "./hil-target";
+  run.target_file = {.hash = 0xAB, .bytes = 1234, .modified_s = 86'400};
+  EXPECT_EQ(target().dump(), R"({"program":"./hil-target","file_hash":"00000000000000ab","file_bytes":1234,)"
+                             R"("file_date":"1970-01-02T00:00:00Z"})");
+  EXPECT_THAT(page_of(run), HasSubstr("target: file_hash"));
+  run.options.bus = "in-process";
+  EXPECT_EQ(target().dump(), R"({"program":"in hil-bench itself"})");
 }
 
 TEST(Provenance, FindsTheCpuModel) {

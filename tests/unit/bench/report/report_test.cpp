@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bench/report/file.hpp"
@@ -55,13 +56,30 @@ boost::property_tree::ptree suite_of(const run::Run& run) {
   return xml.get_child("testsuites.testsuite");
 }
 
+std::map<std::string, std::string> properties_of(const boost::property_tree::ptree& test_case) {
+  std::map<std::string, std::string> properties;
+  for (const auto& [tag, property] : test_case.get_child("properties"))
+    properties[property.get<std::string>("<xmlattr>.name")] = property.get<std::string>("<xmlattr>.value");
+  return properties;
+}
+
+TEST(Junit, CarriesWhatAPassedCheckMeasuredAndWhenTheRunBegan) {
+  run::Run run = run_of();
+  EXPECT_FALSE(suite_of(run).get_optional<std::string>("<xmlattr>.timestamp")) << "not known";
+  run.started_s = 86'400;
+  const auto suite = suite_of(run);
+  EXPECT_EQ(suite.get<std::string>("<xmlattr>.timestamp"), "1970-01-02T00:00:00Z");
+  const auto properties = properties_of(suite.rbegin()->second);
+  EXPECT_EQ(properties, (std::map<std::string, std::string>{{"measured", "1"}, {"expected", "1"}}));
+}
+
 TEST(Junit, EscapesWhatXmlForbids) {
   const auto suite = suite_of(run_of());
   const std::string readable = "a<b> & \"c\" 'd'   \xC2\xB5";
   EXPECT_EQ(suite.get<std::string>("<xmlattr>.name"), readable);
   auto second = std::next(suite.begin(), 2)->second;  // after the attributes and the run's own case
   EXPECT_EQ(second.get<std::string>("<xmlattr>.name"), readable);
-  EXPECT_EQ(second.get<std::string>("properties.property.<xmlattr>.value"), readable);
+  EXPECT_EQ(properties_of(second).at("requirement"), readable);
   EXPECT_EQ(second.get<std::string>("failure.<xmlattr>.message"), "5 < 6; expected > 7");
 }
 
@@ -112,22 +130,35 @@ TEST(Reports, TellWhatBecameOfFixes) {
   run::Run run = run_of();
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
-      {.estimator = "inflight_alignment", .algorithm = "ekf", .initial_sigma = {}, .parameters = {}}};
+      {.estimator = "inflight_alignment", .algorithm = "sin_cos", .initial_sigma = {}, .parameters = {}}};
   EXPECT_THAT(text(scenario, run), Not(HasSubstr("fixes")));
   checks::FixAnswer fix{.cause_us = 100'000};
   fix.heading_sigma = 0.01;
   run.seen.fixes = {fix, fix, fix};
-  EXPECT_THAT(text(scenario, run),
-              HasSubstr("accepted 3; repairs 0; heading not resolved, sigma 0.573 deg at the end"));
+  EXPECT_THAT(
+      text(scenario, run),
+      HasSubstr(
+          "accepted 3; repairs 0; heading not fed back to the INS by the end, sigma 0.573 deg at the end"));
   run.seen.fixes[1].outcome = messages::FixOutcome::gated;
   run.seen.fixes[1].cause_us = 200'000;
   run.seen.fixes[1].handed_over = run.seen.fixes[2].handed_over = true;
   run.seen.fixes[2].repairs = 4;
-  EXPECT_THAT(text(scenario, run), HasSubstr("accepted 2, gated 1; repairs 4; heading resolved at 0.2 s"));
+  EXPECT_THAT(text(scenario, run),
+              HasSubstr("accepted 2, gated 1; repairs 4; heading fed back to the INS at 0.2 s, sigma"));
   const auto page = nlohmann::json::parse(json(scenario, run));
   EXPECT_EQ(page["alignments"][0]["fixes"]["outcomes"]["gated"], 1);
   EXPECT_EQ(page["alignments"][0]["fixes"]["resolved_s"], 0.2);
   EXPECT_EQ(page["alignments"][0]["fixes"]["repairs"], 4);
+}
+
+TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
+  run::Run run = run_of();
+  run.seen.fixes = {{.cause_us = 100'000, .heading_sigma = 0.01}};
+  scenario::Scenario scenario = scenario_of();
+  scenario.targets = {
+      {.estimator = "inflight_alignment", .algorithm = "ukf", .initial_sigma = {}, .parameters = {}}};
+  EXPECT_THAT(text(scenario, run), HasSubstr("accepted 1; repairs 0; heading sigma 0.573 deg at the end\n"));
+  EXPECT_FALSE(nlohmann::json::parse(json(scenario, run))["alignments"][0]["fixes"].contains("resolved_s"));
 }
 
 TEST(Reports, TellTheLoadAtTheRateOfTheWire) {

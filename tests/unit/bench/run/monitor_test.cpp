@@ -48,16 +48,16 @@ class Watched : public testing::Test {
     receive(FixVelocityNE{.velocity_north_mps = 4, .velocity_east_mps = 5}, t_ns);
     receive(FixVelocityD{.velocity_down_mps = 6, .cause_time_us = wrap_us(cause_us)}, t_ns);
   }
-  void answer_filter(std::int64_t cause_us) {
-    receive(AlignInnovation{.innovation_down_mps = 0.5});
-    receive(AlignAttitudeSigma{.attitude_sigma_east_rad = 0.01});
-    receive(AlignAttitudeCorrelation{.attitude_correlation_nd = 0.25});
-    receive(AlignVelocitySigma{});
-    receive(AlignGyroBias{.gyro_bias_x_degph = 3.6});
-    receive(AlignGyroBiasSigma{});
-    receive(AlignAccelBias{});
-    receive(AlignAccelBiasSigma{});
-    receive(AlignUpdate{.cause_time_us = wrap_us(cause_us), .nis = 2.5});
+  void answer_filter(std::int64_t cause_us, std::int64_t t_ns = 0) {
+    receive(AlignInnovation{.innovation_down_mps = 0.5}, t_ns);
+    receive(AlignAttitudeSigma{.attitude_sigma_east_rad = 0.01}, t_ns);
+    receive(AlignAttitudeCorrelation{.attitude_correlation_nd = 0.25}, t_ns);
+    receive(AlignVelocitySigma{}, t_ns);
+    receive(AlignGyroBias{.gyro_bias_x_degph = 3.6}, t_ns);
+    receive(AlignGyroBiasSigma{}, t_ns);
+    receive(AlignAccelBias{}, t_ns);
+    receive(AlignAccelBiasSigma{}, t_ns);
+    receive(AlignUpdate{.cause_time_us = wrap_us(cause_us), .nis = 2.5}, t_ns);
   }
   void answer_fix(std::int64_t cause_us, FixSource source, std::int64_t t_ns = 0) {
     receive(FixInnovation{.innovation_north_m = 1.5, .innovation_east_m = -2, .innovation_down_m = 3}, t_ns);
@@ -438,6 +438,34 @@ TEST_F(OnAWire, TheLatencyIsSplitAndItsPartsAddUp) {
   EXPECT_EQ(timing.responses[message_index<SlaveImuStatus>()].max_ns, 200'000);
   EXPECT_EQ(timing.responses[message_index<AlignAttitude>()].max_ns, ns(reply[0]));
   EXPECT_EQ(timing.responses[message_index<AlignVelocityD>()].max_ns, wire_ns);
+}
+
+// IMU samples are answered at once, a sample of the master INS after 3 ms.
+TEST_F(OnAWire, EachGroupOfStimuliHasASplitOfItsOwn) {
+  for (const std::int64_t t_us : {10'000, 20'000}) {
+    imu(t_us, 1000 * t_us);
+    answer(t_us, 1000 * t_us + 500'000);
+  }
+  transmit(MasterInsVelocityD{.time_of_validity_us = 20'000}, 20'000'000);
+  answer_filter(20'000, 23'000'000);
+  const auto& all = seen().timing.split_by_group;
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].group, SlaveImuStatus::info.sample_group);
+  EXPECT_EQ(all[0].split.stimuli, 2U);
+  EXPECT_EQ(all[0].split.latency_ns, 1'000'000);
+  EXPECT_EQ(all[1].group, MasterInsVelocityD::info.sample_group);
+  EXPECT_EQ(all[1].split.stimuli, 1U);
+  EXPECT_EQ(all[1].split.latency_ns, 3'000'000);
+  EXPECT_EQ(seen().timing.split.stimuli, 3U);
+}
+
+TEST_F(OnAWire, AMeanAtTheEndOfItsRangeIsKnownToBeOne) {
+  imu(10'000, 0);
+  answer(10'000, 9'000'000);
+  receive(
+      TargetTiming{.queue_max_us = 8191, .queue_mean_us = 8191, .compute_max_us = 40, .compute_mean_us = 30});
+  EXPECT_TRUE(seen().timing.split.queue_clipped);
+  EXPECT_FALSE(seen().timing.split.compute_clipped);
 }
 
 // One stimulus, the answers of two estimators: it took until the second was there.

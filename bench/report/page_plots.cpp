@@ -1,0 +1,231 @@
+#include "bench/report/page_plots.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/checks/histogram.hpp"
+#include "bench/report/page_parts.hpp"
+#include "bench/report/plot.hpp"
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As many as there are times.
+std::vector<double> numbers(const Json& array, std::size_t size) {
+  std::vector<double> values;
+  for (const Json& value : array) values.push_back(value.is_null() ? not_there : value.get<double>());
+  values.resize(size, not_there);
+  return values;
+}
+
+// Places of a part of a course, the last one excluded.
+struct Part {
+  std::size_t first = 0, last = 0;
+};
+
+LinePlot cut(LinePlot plot, const Part& part) {
+  for (std::vector<double>* values : {&plot.t_s, &plot.low, &plot.high, &plot.limit, &plot.truth}) {
+    if (values->empty()) continue;
+    values->resize(part.last);
+    values->erase(values->begin(), values->begin() + static_cast<std::ptrdiff_t>(part.first));
+  }
+  plot.begins_at_first = true;
+  std::erase_if(plot.bars, [&](const LinePlot::Bar& bar) { return bar.to_s < plot.t_s.front(); });
+  return plot;
+}
+
+// Of an error around zero, the range counts from there.
+struct Course {
+  LinePlot plot;
+  bool around_zero = false;
+
+  void include(Extent& extent, std::size_t i) const {
+    if (around_zero) extent.add(0);
+    extent.add(plot.low[i]);
+    extent.add(plot.high[i]);
+    if (!plot.truth.empty()) extent.add(plot.truth[i]);
+  }
+};
+
+constexpr double hidden = 0.1;  // of the height of the picture
+
+// From where on a course stays so near to its late values that a picture of all of it hides them; none: it
+// does not. A bar that would be hidden counts as a late value.
+std::optional<Part> late_course(const Course& course) {
+  constexpr double shown_times = 2.5;  // the late values, in the second picture
+  const std::vector<double>& t_s = course.plot.t_s;
+  if (t_s.size() < 4) return std::nullopt;
+  const double late_s = t_s.back() - (t_s.back() - t_s.front()) / 4;
+  Extent all, late;
+  for (std::size_t i = 0; i < t_s.size(); ++i) {
+    course.include(all, i);
+    if (t_s[i] >= late_s) course.include(late, i);
+  }
+  if (!(late.high >= late.low)) return std::nullopt;  // silent by then
+  for (const LinePlot::Bar& bar : course.plot.bars) {
+    if (2 * bar.below > hidden * all.size()) continue;
+    late.add(bar.below);
+    if (!course.plot.from_zero) late.add(-bar.below);
+  }
+  if (late.size() > hidden * all.size()) return std::nullopt;
+  const double least = 1e-6 * std::max(std::abs(late.high), std::abs(late.low));
+  Extent shown = late;
+  std::size_t first = t_s.size();
+  while (first > 0) {
+    course.include(shown, first - 1);
+    if (shown.size() > shown_times * std::max(late.size(), least)) break;
+    --first;
+  }
+  if (first == 0 || first == t_s.size()) return std::nullopt;
+  return Part{.first = first, .last = t_s.size()};
+}
+
+// The part of a course over which bars stand that a picture of all of it hides; none: there it would be
+// hidden too.
+std::optional<Part> judged_course(const Course& course) {
+  constexpr double finer = 0.5;
+  const LinePlot& plot = course.plot;
+  if (plot.bars.empty()) return std::nullopt;
+  const double from_s = std::ranges::min(plot.bars, {}, &LinePlot::Bar::from_s).from_s;
+  const double to_s = std::ranges::max(plot.bars, {}, &LinePlot::Bar::to_s).to_s;
+  const double lowest = std::ranges::min(plot.bars, {}, &LinePlot::Bar::below).below;
+  const Part part{
+      .first = static_cast<std::size_t>(std::ranges::lower_bound(plot.t_s, from_s) - plot.t_s.begin()),
+      .last = static_cast<std::size_t>(std::ranges::upper_bound(plot.t_s, to_s) - plot.t_s.begin())};
+  if (part.last < part.first + 2) return std::nullopt;
+  const double all = extent_of(plot).size();
+  if (2 * lowest > hidden * all || extent_of(cut(plot, part)).size() > finer * all) return std::nullopt;
+  return part;
+}
+
+// What the bars ask, in words.
+std::string asked(const Json& series) {
+  if (!series.contains("bars")) return "";
+  std::string words;
+  for (const Json& bar : series.at("bars")) {
+    const std::string statistic = bar.at("statistic").get<std::string>();
+    words += fmt::format("; bar of '{}': {}{:g} {} from {:g} to {:g} s", bar.at("check").get<std::string>(),
+                         statistic == "max" ? "" : statistic + " below ", bar.at("below").get<double>(),
+                         series.at("unit").get<std::string>(), bar.at("from_s").get<double>(),
+                         bar.at("to_s").get<double>());
+  }
+  return words;
+}
+
+std::string beyond_words(const LinePlot& plot) {
+  std::size_t beyond = 0;
+  for (const LinePlot::Bar& bar : plot.bars) beyond += shows(plot, bar) ? 0 : 1;
+  if (beyond == 0) return "";
+  return beyond == plot.bars.size() ? " (beyond this picture)" : " (some beyond this picture)";
+}
+
+// What the lines are, for all kinds of series.
+std::string lines(const Json& series, LinePlot& plot) {
+  const std::size_t size = plot.t_s.size();
+  if (series.contains("truth")) {
+    plot.truth = numbers(series.at("truth"), size);
+    return "solid: the estimate; dotted: the truth";
+  }
+  if (series.contains("sigma")) {
+    plot.limit = numbers(series.at("sigma"), size);
+    for (double& sigma : plot.limit) sigma *= 3;
+    const bool told = std::ranges::any_of(plot.limit, [](double v) { return std::isfinite(v); });
+    if (!told) {
+      plot.limit.clear();
+      plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // as a norm is
+    }
+    return told ? "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target tells it, with "
+                  "gaps "
+                  "where it told none in time or they lie beyond the picture"
+                : "solid: estimate less truth; the target tells no sigma of it";
+  }
+  if (series.contains("between_95_percent")) {
+    plot.levels = numbers(series.at("between_95_percent"), series.at("between_95_percent").size());
+    return "dashed: 95 % of the values of a consistent filter lie between";
+  }
+  return "solid: its range in each stretch of time";
+}
+
+}  // namespace
+
+std::string histogram(const std::string& title, const Json& distribution) {
+  HistogramPlot plot{.title = title, .bars = {}, .marks = {}};
+  for (const Json& bucket : distribution.at("buckets_us")) {
+    const auto from_us = bucket.at(0).get<std::int64_t>();
+    const std::int64_t width_us = checks::bucket_width_us(from_us);
+    const double to_us =
+        width_us > 0 ? static_cast<double>(from_us + width_us) : distribution.at("max").get<double>() * 1e6;
+    plot.bars.push_back({static_cast<double>(from_us), to_us, bucket.at(1).get<double>()});
+  }
+  for (const auto& [label, key] : {std::pair("p50", "p50"), std::pair("p99", "p99"), std::pair("max", "max")})
+    plot.marks.push_back({label, distribution.at(key).get<double>() * 1e6});
+  return figure(title, svg(plot),
+                fmt::format("p50 {}, p99 {}, p99.9 {}, max {} ms of {}", ms(distribution, "p50"),
+                            ms(distribution, "p99"), ms(distribution, "p999"), ms(distribution, "max"),
+                            distribution.at("count").dump()));
+}
+
+std::string from_zero(const std::string& title, const std::string& unit, double stretch_s,
+                      const Json& largest, double scale) {
+  LinePlot plot{.title = title, .unit = unit, .t_s = {}, .low = {}, .high = {}, .from_zero = true};
+  for (const Json& value : largest) {
+    plot.t_s.push_back((static_cast<double>(plot.t_s.size()) + 0.5) * stretch_s);
+    plot.low.push_back(value.is_null() ? not_there : 0.0);
+    plot.high.push_back(value.is_null() ? not_there : value.get<double>() * scale);
+  }
+  return svg(plot);
+}
+
+std::string course(const std::string& title, const Json& line) {
+  const double stretch_s = line.at("stretch_s").get<double>();
+  return figure(title, from_zero(title, "ms", stretch_s, line.at("largest_s"), 1e3),
+                fmt::format("the largest of each {:g} ms", stretch_s * 1e3));
+}
+
+std::string estimate(const Json& series) {
+  const std::string kind = series.at("kind").get<std::string>();
+  const std::string title = series.at("quantity").get<std::string>();
+  const std::size_t size = series.at("t_s").size();
+  Course course{.plot = {.title = title,
+                         .unit = series.at("unit").get<std::string>(),
+                         .t_s = numbers(series.at("t_s"), size),
+                         .low = numbers(series.at("low"), size),
+                         .high = numbers(series.at("high"), size),
+                         .from_zero = kind == "statistic"},
+                .around_zero = kind == "error" || kind == "innovation"};
+  LinePlot& plot = course.plot;
+  const std::string note = lines(series, plot);
+  if (series.contains("bars")) {
+    for (const Json& bar : series.at("bars"))
+      plot.bars.push_back({.below = bar.at("below").get<double>(),
+                           .from_s = bar.at("from_s").get<double>(),
+                           .to_s = bar.at("to_s").get<double>()});
+  }
+  const std::string bars = asked(series);
+  std::string out = figure(title, svg(plot), note + bars + beyond_words(plot));
+  if (kind == "statistic") return out;
+  auto part = late_course(course);
+  if (!part) part = judged_course(course);
+  if (!part) return out;
+  const LinePlot second = cut(plot, *part);
+  const bool to_the_end = part->last == size;
+  const std::string when = to_the_end
+                               ? fmt::format("from {:g} s on", second.t_s.front())
+                               : fmt::format("from {:g} to {:g} s", second.t_s.front(), second.t_s.back());
+  const Extent shown = extent_of(second);
+  const bool band_beyond = !second.limit.empty() && std::ranges::none_of(second.limit, [&](double limit) {
+    return limit <= std::max(shown.high, -shown.low);
+  });
+  return out + figure(fmt::format("{}, {}", title, when), svg(second),
+                      fmt::format("the same {}, where the axis is {:.0f} times as fine{}{}{}", when,
+                                  extent_of(plot).size() / shown.size(),
+                                  band_beyond ? "; 3 sigma lies beyond this picture" : "",
+                                  second.bars.empty() ? "" : bars, beyond_words(second)));
+}
+
+}  // namespace canhil::report

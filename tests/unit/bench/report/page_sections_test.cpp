@@ -1,0 +1,150 @@
+// What the sections of a page show: the timing, the results, the bus.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/report/json.hpp"
+#include "bench/report/page.hpp"
+#include "bench/report/text.hpp"
+#include "tests/unit/bench/report/finished_run.hpp"
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string page_of(const run::Run& run) { return html(document(scenario_of(), run)).value(); }
+
+TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
+  const auto split = document(scenario_of(), run_on_a_wire()).at("split");
+  EXPECT_DOUBLE_EQ(split.at("total_s").get<double>(), 1.3e-3);
+  double sum_s = 0;
+  for (const auto& [key, mean] : split.at("parts_s").items()) sum_s += mean.get<double>();
+  EXPECT_NEAR(sum_s, 1.3e-3, 1e-12);
+  EXPECT_NEAR(split.at("parts_s").at("stimulus_wait").get<double>(), 0.1e-3, 1e-12);
+  EXPECT_NEAR(split.at("parts_s").at("target_compute").get<double>(), 0.2e-3, 1e-12);
+  EXPECT_NEAR(split.at("parts_s").at("not_explained").get<double>(), 0.1e-3, 1e-12);
+  const std::string page = page_of(run_on_a_wire());
+  EXPECT_THAT(page, HasSubstr("mean of 100 answered stimuli"));
+  EXPECT_THAT(page, HasSubstr("a longest wait of 8191 us or more and a longest computing of 0 us"));
+  EXPECT_THAT(
+      page,
+      HasSubstr("target: computing</td><td data-label=\"ms\">0.200</td><td data-label=\"share\">15.4 %"));
+  EXPECT_THAT(
+      text(scenario_of(), run_on_a_wire()),
+      AllOf(HasSubstr("mean 1.300 ms of 100 stimuli"), HasSubstr("0.600 ms  answer: its frames on the wire"),
+            HasSubstr("longest wait was 8191 us or more")));
+}
+
+TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
+  run::Run run = run_on_a_wire();
+  run.seen.timing.wire.rates = {};
+  run.seen.timing.split.told = 0;
+  const auto parts = document(scenario_of(), run).at("split").at("parts_s");
+  EXPECT_TRUE(parts.at("reply_wire").is_null());
+  EXPECT_TRUE(parts.at("target_queue").is_null());
+  EXPECT_NEAR(parts.at("not_explained").get<double>(), 1e-3, 1e-12);
+  EXPECT_THAT(page_of(run), HasSubstr("<td data-label=\"ms\">not known</td>"));
+  EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("target: computing")));
+}
+
+TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
+  run::Run run = run_on_a_wire();
+  EXPECT_FALSE(document(scenario_of(), run).at("split").contains("at_least"));
+  run.seen.timing.split.queue_clipped = true;
+  const auto split = document(scenario_of(), run).at("split");
+  EXPECT_EQ(split.at("at_least"), Json::array({"target_queue"}));
+  EXPECT_EQ(split.at("at_most"), Json::array({"not_explained"}));
+  EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td data-label=\"ms\">&ge; 0.100</td>"),
+                                  HasSubstr("tells no times beyond 8191 us")));
+  EXPECT_THAT(
+      text(scenario_of(), run),
+      AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target tells no more)"),
+            HasSubstr("wait for the bus (at most)")));
+}
+
+TEST(PageSections, TheSplitOfEachGroupStandsBesideThatOfAll) {
+  run::Run run = run_on_a_wire();
+  checks::TimingRecord& timing = run.seen.timing;
+  timing.split_by_group = {
+      {"SlaveImu", {.stimuli = 90, .latency_ns = 45'000'000, .reply_wire_ns = 9'000'000}},
+      {"MasterIns", {.stimuli = 10, .latency_ns = 55'000'000, .reply_wire_ns = 1'000'000}}};
+  const auto groups = document(scenario_of(), run).at("split").at("groups");
+  EXPECT_DOUBLE_EQ(groups.at("SlaveImu").at("total_s").get<double>(), 0.5e-3);
+  EXPECT_NEAR(groups.at("MasterIns").at("parts_s").at("target_and_waits").get<double>(), 5.4e-3, 1e-12);
+  EXPECT_THAT(page_of(run), AllOf(HasSubstr("MasterIns ms (10)"), HasSubstr("<b>5.500</b>")));
+  EXPECT_THAT(text(scenario_of(), run), HasSubstr("5.500 ms  in all, mean of the 10 stimuli of MasterIns"));
+}
+
+TEST(PageSections, ShowsEachMessageBesideItsBound) {
+  const auto wire = document(scenario_of(), run_on_a_wire()).at("wire");
+  ASSERT_EQ(wire.at("messages").size(), 2U);
+  EXPECT_EQ(wire.at("messages")[0].at("name"), "Sync");
+  EXPECT_DOUBLE_EQ(wire.at("messages")[0].at("longest_s").get<double>(), 250e-6);
+  EXPECT_FALSE(wire.at("messages")[0].at("at_least").get<bool>());
+  EXPECT_TRUE(wire.at("messages")[1].at("at_least").get<bool>());
+  EXPECT_THAT(page_of(run_on_a_wire()), AllOf(HasSubstr("&#10007; beyond"), HasSubstr("&ge; 9.000")));
+  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), HasSubstr("beyond: AlignVelocityD 9.000 ms, bound "));
+  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), HasSubstr("bus load at 500 kbit/s"));
+  EXPECT_THAT(text(scenario_of(), run_on_a_wire()), Not(HasSubstr("bus load at 1000 kbit/s")));
+}
+
+// What the text tells of the estimators stands on the page too, drawn from the JSON.
+TEST(PageSections, ShowsTheResultsOfAnAlignment) {
+  const std::string page = page_of(run_of());
+  EXPECT_THAT(page, AllOf(HasSubstr("<h2>Results</h2>"), HasSubstr("href=\"#results\""),
+                          HasSubstr("3 mrad</td><td data-label=\"from\">0.01 s"),
+                          HasSubstr("roll error at the end</td><td data-label=\"value\">+1.000 mrad"),
+                          HasSubstr("velocity error at the end")));
+}
+
+TEST(PageSections, ShowsTheResultsOfAnEngagementAndAWind) {
+  Json report = document(scenario_of(), run_of());
+  report.erase("alignments");
+  report["engagement"] = Json::parse(
+      R"({"miss_m": 0.25, "passage_s": 5.5, "late_commands": 3, "outcomes": {"updated": 7},
+          "los_rate_rms": [{"most_to_go_s": 3, "least_to_go_s": 2, "rms_radps": 0.00164},
+                           {"most_to_go_s": 2, "least_to_go_s": 1, "rms_radps": null}]})");
+  report["wind"] = Json::parse(
+      R"({"from_s": 10, "along_track_sigma_mps": 1.5, "outcomes": {"updated": 9},
+          "mean_error_mps": {"norm": 2.7, "along_track": 2.5, "cross_track": null, "down": 0.5}})");
+  EXPECT_THAT(
+      html(report).value(),
+      AllOf(HasSubstr("0.250 m at 5.500 s"), HasSubstr("3 to 2 s"), HasSubstr("1.64 mrad/s"),
+            HasSubstr("no answers</td>"), HasSubstr("answers too late to guide</td>"),
+            HasSubstr("of the vector</td><td data-label=\"value\">2.700 m/s"),
+            HasSubstr("across track</td><td data-label=\"value\">none judged"), HasSubstr("1.500 m/s")));
+}
+
+// 200 stimuli, and of the answers of a group of an estimator in use not one.
+TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
+  run::Run run = run_of();
+  for (int i = 0; i < 200; ++i)
+    run.seen.stimuli[messages::MasterInsVelocityD::info.sample_group].add(100'000 * i);
+  const Json latencies = document(scenario_of(), run).at("latency_s");
+  ASSERT_TRUE(latencies.contains("AlignUpdate"));
+  EXPECT_EQ(latencies["AlignUpdate"]["count"], 0);
+  EXPECT_EQ(latencies["AlignUpdate"]["unanswered"], 200);
+  EXPECT_TRUE(latencies["AlignUpdate"]["closes_group"]);
+  EXPECT_FALSE(latencies.contains("FixUpdate")) << "nobody asked for it";
+  EXPECT_THAT(page_of(run), AllOf(HasSubstr("<h3>AlignUpdate</h3>"), HasSubstr("No answers: 200 never came."),
+                                  HasSubstr("answers that never came: AlignUpdate")));
+  EXPECT_THAT(text(scenario_of(), run),
+              HasSubstr("latency AlignUpdate           no answers, 200 never came\n"));
+}
+
+TEST(PageSections, TheLoadDoesNotFallInTheSecondInWhichTheRunEnded) {
+  run::Run run = run_of();
+  run.seen.length_by_second = {{.nominal = 100'000}, {.nominal = 120'000}, {.nominal = 400}};
+  const Json busiest = document(scenario_of(), run).at("bus_load_line").at("busiest");
+  ASSERT_EQ(busiest.size(), 2U);
+  EXPECT_NEAR(busiest[1].get<double>(), 0.24, 1e-6);
+  run.seen.length_by_second.resize(1);
+  EXPECT_EQ(document(scenario_of(), run).at("bus_load_line").at("busiest").size(), 1U) << "the only one";
+}
+
+}  // namespace
+}  // namespace canhil::report
