@@ -95,9 +95,12 @@ TEST(Page, FilesThatAreNoReportsAreRefusedInOneLine) {
 
 TEST(Page, ASeriesShorterThanItsTimesIsRefused) {
   const Json whole = Json::parse(json(scenario_of(), run_of()));
-  for (const char* key : {"t_s", "low", "high", "sigma"}) {
+  for (const char* key : {"t_s", "low", "high", "sigma", "truth"}) {
     Json torn = whole;
-    torn["series"][0][key].erase(torn["series"][0][key].size() - 1);
+    const auto has_it =
+        std::ranges::find_if(torn["series"], [&](const Json& series) { return series.contains(key); });
+    ASSERT_NE(has_it, torn["series"].end()) << key;
+    (*has_it)[key].erase((*has_it)[key].size() - 1);
     const auto page = html(torn);
     ASSERT_FALSE(page) << key;
     EXPECT_THAT(page.error().message, HasSubstr("as many as t_s"));
