@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <ranges>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/finding.hpp"
@@ -261,7 +261,8 @@ class Judge {
   [[nodiscard]] std::string unanswered(const Series& part, const scenario::Window& window,
                                        std::string_view message) const {
     if (part.empty()) return "no answers";
-    const auto times = part | std::views::transform([](const auto& item) { return item.t_us; });
+    std::vector<std::int64_t> times;
+    for (const auto& item : part) times.push_back(item.t_us);
     const auto silent = silent_stretch(times, window, evidence_.duration_us,
                                        longest_wait_us(1e6 * nominal_period_s(evidence_.seen, message)));
     return silent ? "no answers " + seconds(*silent) : std::string();

@@ -93,7 +93,10 @@ std::vector<WireBound> wire_bounds(const Observations& seen) {
 }
 
 std::string no_bounds(const Observations& seen) {
-  if (seen.timing.wire.rates.nominal == 0) return "the time of a frame on this bus is not known";
+  // On CAN FD times are taken of what containers hold, not of the containers.
+  if (seen.timing.wire.rates.nominal == 0)
+    return seen.bit_rates.nominal > 0 ? "on CAN FD frames travel in containers, whose times are not taken"
+                                      : "the bit rate of this bus is not known";
   if (seen.bus.errors.frames > 0) return fmt::format("{} errors on the bus", seen.bus.errors.frames);
   if (seen.bus.downs > 0) return "the interface was down";
   if (!seen.transmit_stamps_echoed) return "the bus does not echo the bench's own frames";

@@ -171,7 +171,7 @@ std::string split_words(const checks::TimingRecord& timing) {
 
 // How near to its bound each message came over the bus: those that went beyond, else the nearest.
 std::string wire_words(const checks::Observations& seen) {
-  if (seen.timing.wire.rates.nominal == 0) return "";
+  if (seen.bit_rates.nominal == 0) return "";
   if (const std::string why = checks::no_bounds(seen); !why.empty())
     return fmt::format("  over the bus                  not compared with bounds: {}\n", why);
   std::string beyond;

@@ -146,7 +146,7 @@ TEST(SimulatedWire, EveryMessageKeepsItsBoundAndTheWholeLatencyIsExplained) {
 
   const Ended without = hil_bench(fmt::format("run {} --bus in-process", scratch("bounds.toml")));
   EXPECT_EQ(without.code, 3) << without.out;
-  EXPECT_THAT(without.out, HasSubstr("the time of a frame on this bus is not known"));
+  EXPECT_THAT(without.out, HasSubstr("the bit rate of this bus is not known"));
 }
 
 TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {

@@ -85,7 +85,10 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   EXPECT_THAT(judged().measured, HasSubstr("has no bound"));
   seen_.timing.wire.rates.nominal = 0;
   EXPECT_EQ(judged().outcome, Outcome::not_measured);
+  EXPECT_EQ(judged().measured, "the bit rate of this bus is not known");
   EXPECT_TRUE(wire_bounds(seen_).empty());
+  seen_.bit_rates = {.nominal = 500'000, .data = 2'000'000};  // known, but frames travel in containers
+  EXPECT_THAT(judged().measured, HasSubstr("CAN FD"));
 }
 
 TEST_F(OnTheWire, WhatIsSentFasterThanTheContractSaysCountsAsOften) {
