@@ -63,7 +63,8 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
   Program program{
       "A hardware-in-the-loop bench over CAN for navigation and guidance estimators.\n"
       "Exit codes: 0 pass, 1 fail, 2 usage or configuration, 3 not measured.",
-      fmt::format("hil-bench {} · DBC {:016x}", CANHIL_VERSION, messages::dbc_hash)};
+      fmt::format("hil-bench {} · DBC {:016x}, on the bus {:06x}", CANHIL_VERSION, messages::dbc_hash,
+                  messages::dbc_hash24)};
   program.require_subcommands(1, 1);
   int code = 0;
   for (const AddCommand add : add_commands) add(program, code);

@@ -216,7 +216,7 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   }
   if (box.heartbeat->dbc_hash != dbc_hash24) {
     return failure(
-        fmt::format("target on '{}': DBC hash ...{:06x}, expected ...{:06x}: target and bench are built from "
+        fmt::format("target on '{}': DBC hash {:06x}, expected {:06x}: target and bench are built from "
                     "different DBC files",
                     bus, box.heartbeat->dbc_hash, dbc_hash24));
   }

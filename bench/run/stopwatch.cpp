@@ -146,7 +146,8 @@ void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, 
 checks::LatencySplit& Stopwatch::split_of(std::string_view group) {
   auto& all = record_.split_by_group;
   const auto found = std::ranges::find(all, group, &checks::GroupSplit::group);
-  return found != all.end() ? found->split : all.emplace_back(group).split;
+  return found != all.end() ? found->split
+                            : all.emplace_back(checks::GroupSplit{.group = group, .split = {}}).split;
 }
 
 // A stimulus may have several answers: it has been answered with the last of them.

@@ -68,10 +68,7 @@ TEST(Doctor, FindsATargetOnTheBus) {
                   host, HIL_TARGET, some_bus(), HIL_BENCH, some_bus()));
   const nlohmann::json page = json_of(ended.out);
   EXPECT_EQ(line_of(page, "target")["grade"], "good") << page;
-  const std::string version = hil_bench("--version").out;  // "hil-bench 0.1 · DBC 0123456789abcdef"
-  const std::string last_digits = version.substr(version.find_last_not_of('\n') - 5, 6);
-  EXPECT_THAT(line_of(page, "target")["found"].get<std::string>(),
-              HasSubstr("idle, DBC hash ..." + last_digits));
+  EXPECT_THAT(line_of(page, "target")["found"].get<std::string>(), HasSubstr("idle, DBC hash"));
 }
 
 TEST(Doctor, AnInterfaceThatIsNotThereIsBadAndTheRestIsStillTold) {

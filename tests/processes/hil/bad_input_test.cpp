@@ -230,7 +230,8 @@ std::string version_of(const Ended& ended) {
 
 TEST(Version, NamesTheProjectAndTheContract) {
   const std::string bench = version_of(hil_bench("--version"));
-  EXPECT_EQ(bench, fmt::format(" {} · DBC {:016x}\n", PROJECT_VERSION, messages::dbc_hash));
+  EXPECT_EQ(bench, fmt::format(" {} · DBC {:016x}, on the bus {:06x}\n", PROJECT_VERSION, messages::dbc_hash,
+                               messages::dbc_hash24));
   EXPECT_EQ(version_of(hil_target("--version")), bench) << "the version that heartbeats carry";
 }
 
