@@ -56,7 +56,7 @@ struct Tally {
   std::string measured;  // by the first run that failed it, else by the last
   [[nodiscard]] std::size_t runs() const { return passed + failed + not_measured + missing; }
   [[nodiscard]] bool all_the_same() const {
-    return std::ranges::max({passed, failed, not_measured, missing}) == runs();
+    return std::max({passed, failed, not_measured, missing}) == runs();
   }
   [[nodiscard]] std::string text() const {
     if (all_the_same())
