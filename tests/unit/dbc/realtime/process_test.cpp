@@ -61,7 +61,7 @@ long page_faults() {
 }
 
 // The sanitizers' own mlockall does nothing: they cannot have the terabytes of their shadow locked.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef CANHIL_SANITIZED
 constexpr bool memory_is_locked = false;
 #else
 constexpr bool memory_is_locked = true;
