@@ -4,8 +4,7 @@
 
 #include <charconv>
 
-#include "bench/world/hash.hpp"
-#include "dbc/files/text_file.hpp"
+#include "bench/run/program_file.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::campaign {
@@ -26,8 +25,8 @@ std::string schema() {
 }
 
 std::string hash_of_this_program() {
-  const auto text = read_text_file("/proc/self/exe", "this program", 1024 * mebibyte);
-  return fmt::format("{}+{:016x}", CANHIL_VERSION, text ? world::fnv1a_64(*text) : 0);
+  const auto own = run::look_at_program("/proc/self/exe");
+  return fmt::format("{}+{:016x}", CANHIL_VERSION, own ? own->hash : 0);
 }
 
 std::int64_t hash_of(const Identity& identity, const Sources& sources) {
