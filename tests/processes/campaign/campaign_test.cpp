@@ -37,11 +37,11 @@ set = {{ "target.algorithm" = "robust_h2" }}
 "master_ins.latency_ms" = [0, 100]
 [[metric]]
 kind = "rms_curve"
-quantity = "heading"
+quantity = "attitude.heading"
 [[metric]]
 name = "heading at 2 s"
 kind = "value_at"
-quantity = "heading"
+quantity = "attitude.heading"
 at_s = 2.0
 variants = ["KF"]
 at_most_mrad = 200

@@ -1,0 +1,27 @@
+// What in-flight alignment alone tells.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+/// At the time of validity of a fix, NED.
+inline constexpr Quantity position_north{.name = "position.north",
+                                         .meaning = "error of the position north, at the time of a fix",
+                                         .unit = metres,
+                                         .once = "p_north"};
+inline constexpr Quantity position_east{.name = "position.east",
+                                        .meaning = "error of the position east, at the time of a fix",
+                                        .unit = metres,
+                                        .once = "p_east"};
+inline constexpr Quantity position_down{.name = "position.down",
+                                        .meaning = "error of the position down, at the time of a fix",
+                                        .unit = metres,
+                                        .once = "p_down"};
+/// Of the covariance, since the start.
+inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
+                                             .meaning = "repairs of the covariance since the start",
+                                             .unit = plain,
+                                             .once = "repairs"};
+
+}  // namespace canhil::quantities

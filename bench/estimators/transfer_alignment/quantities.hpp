@@ -1,0 +1,17 @@
+// What transfer alignment alone tells.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+/// NEES of the misalignment, with the covariance of AlignAttitudeSigma and AlignAttitudeCorrelation.
+inline constexpr Quantity attitude_nees{
+    .name = "attitude.nees",
+    .meaning = "normalised error squared of the misalignment, with sigmas and correlations as told",
+    .unit = plain,
+    .degrees_of_freedom = 3,
+    .may_be_untold = true,
+    .once = "attitude_nees"};
+
+}  // namespace canhil::quantities
