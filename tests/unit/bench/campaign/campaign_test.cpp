@@ -124,8 +124,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "is set by variant 'B' too"},
         Mistake{"unknown kind", metric("kind = 'pared'\n"),
                 "key 'metric[1].kind': 'pared' is unknown, expected 'paired'"},
-        Mistake{"unknown quantity", metric("kind = 'rms_curve'\nquantity = 'heding'\n"),
-                "'heding' is unknown, expected 'heading'"},
+        Mistake{"unknown quantity", metric("kind = 'rms_curve'\nquantity = 'attitude.heding'\n"),
+                "'attitude.heding' is unknown, expected 'attitude.heading'"},
         Mistake{"unknown variant",
                 metric("kind = 'rms_curve'\nquantity = 'attitude.roll'\nvariants = ['C']\n"),
                 "key 'metric[1].variants': 'C' is unknown"},
@@ -143,13 +143,14 @@ INSTANTIATE_TEST_SUITE_P(
                     "[[metric]]\nkind = 'lead'\nquantity = 'attitude.roll'\nwithin_mrad = 1\nother = 'A'\n",
                 "key 'metric[1].other': 'A' would be compared with itself"},
         Mistake{"of another family", metric("kind = 'rms_curve'\nquantity = 'miss.distance'\n"),
-                "'rms_curve miss' asks for miss, which variant 'A' does not tell, expected a quantity of its "
+                "'rms_curve miss.distance' asks for miss.distance, which variant 'A' does not tell, expected "
+                "a quantity of its "
                 "estimator"},
         Mistake{"of another estimator", metric("kind = 'rms_curve'\nquantity = 'position.north'\n"),
-                "'rms_curve p_north' asks for p_north, which variant 'A' does not tell"},
+                "'rms_curve position.north' asks for position.north, which variant 'A' does not tell"},
         Mistake{"repairs of transfer alignment",
                 metric("kind = 'rms_curve'\nquantity = 'covariance.repairs'\n"),
-                "asks for repairs, which variant 'A' does not tell"},
+                "asks for covariance.repairs, which variant 'A' does not tell"},
         Mistake{"bars that exclude each other",
                 metric("kind = 'value_at'\nquantity = 'attitude.roll'\nat_s = 1\nat_least_mrad = "
                        "2\nat_most_mrad = 1\n"),
@@ -172,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"metric twice",
                 metric("kind = 'rms_curve'\nquantity = 'attitude.roll'\n[[metric]]\nkind = "
                        "'rms_curve'\nquantity = 'attitude.roll'\n"),
-                "'rms_curve roll' is the name of another metric"}));
+                "'rms_curve attitude.roll' is the name of another metric"}));
 
 }  // namespace
 }  // namespace canhil::campaign
