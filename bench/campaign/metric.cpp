@@ -29,7 +29,9 @@ const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   const auto known = estimators::every_quantity();
   std::vector<std::string> words;
   for (const Quantity* one : known) {
-    if (wanted(*one)) words.emplace_back(one->name);
+    const bool sampled = std::ranges::any_of(
+        estimators::all(), [&](const auto* estimator) { return quantities::tells(estimator->layout, *one); });
+    if (sampled && wanted(*one)) words.emplace_back(one->name);
   }
   if (section.has(key)) {
     const std::string word = section.text(key);

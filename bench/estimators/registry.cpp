@@ -14,10 +14,10 @@ namespace canhil::estimators {
 namespace {
 
 constexpr std::array<const Estimator*, 4> registered{
-    &los_rate,
-    &wind,
-    &inflight_alignment,
     &transfer_alignment,
+    &inflight_alignment,
+    &wind,
+    &los_rate,
 };
 
 }  // namespace
@@ -36,9 +36,11 @@ const Estimator* telling(std::string_view columns) {
 }
 
 const Estimator& of(const scenario::Scenario& scenario) {
-  const auto found =
-      std::ranges::find_if(registered, [&](const Estimator* one) { return scenario.runs(one->name); });
-  return found == registered.end() ? *registered.back() : **found;
+  const Estimator* last = registered.front();
+  for (const Estimator* one : registered) {
+    if (scenario.runs(one->name)) last = one;
+  }
+  return *last;
 }
 
 std::span<const quantities::Quantity* const> every_quantity() {
@@ -50,6 +52,7 @@ std::span<const quantities::Quantity* const> every_quantity() {
     for (const Estimator* one : registered) {
       for (const quantities::Quantity* kept : one->layout.kept) add(kept);
       for (const quantities::Derived& derived : one->layout.derived) add(derived.quantity);
+      for (const quantities::Quantity* quantity : one->of_runs_alone) add(quantity);
     }
     return found;
   }();

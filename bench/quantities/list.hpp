@@ -58,4 +58,8 @@ inline constexpr Quantity innovation_nis{
     .may_be_untold = true,
     .once = "nis"};
 
+/// Of the errors of a velocity update, NED.
+inline constexpr Quantity velocity_norm{
+    .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
+
 }  // namespace canhil::quantities

@@ -13,6 +13,12 @@ struct Unit {
   double factor = 1;          ///< to SI
 };
 
+/// The name of the SI unit, in which files are: "rad", "rad/s", "m/s", "m", or empty.
+constexpr std::string_view si_name(const Unit& unit) {
+  if (unit.factor == 1) return unit.name;
+  return unit.name.ends_with("/s") ? "rad/s" : "rad";
+}
+
 /// One quantity; each is one object, and known by its address. Values are in SI.
 struct Quantity {
   std::string_view name;       ///< "attitude.heading"

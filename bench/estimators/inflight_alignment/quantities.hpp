@@ -24,4 +24,17 @@ inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
                                              .unit = plain,
                                              .once = "repairs"};
 
+inline constexpr Quantity position_horizontal{.name = "position.horizontal",
+                                              .meaning = "magnitude of the horizontal error of the position",
+                                              .unit = metres};
+inline constexpr Quantity position_norm{
+    .name = "position.norm", .meaning = "magnitude of the error of the position", .unit = metres};
+/// Of a fix, NED.
+inline constexpr Quantity position_innovation_north{
+    .name = "innovation.position.north", .meaning = "innovation of a fix north", .unit = metres};
+inline constexpr Quantity position_innovation_east{
+    .name = "innovation.position.east", .meaning = "innovation of a fix east", .unit = metres};
+inline constexpr Quantity position_innovation_down{
+    .name = "innovation.position.down", .meaning = "innovation of a fix down", .unit = metres};
+
 }  // namespace canhil::quantities

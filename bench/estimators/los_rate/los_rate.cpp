@@ -5,8 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "bench/checks/los.hpp"
+#include "bench/checks/silence.hpp"
+#include "bench/checks/timing.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -31,6 +35,8 @@ constexpr std::array derived{Derived{.quantity = &los_rate_both, .of = both_plan
                              Derived{.quantity = &miss_distance, .of = miss_of}};
 
 constexpr std::int64_t stretch_us = 20'000;
+constexpr std::array<const Quantity*, 1> of_runs_alone{&los_nis};
+
 constexpr Layout layout{
     .kept = kept, .derived = derived, .to_go_stretch_us = stretch_us, .end_known_by = &miss_distance};
 
@@ -74,6 +80,49 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   return samples;
 }
 
+void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
+  if (truth.engagement == nullptr) return;
+  const world::EngagementRecord& engagement = *truth.engagement;
+  const auto errors = checks::los_errors(seen, engagement);
+  // In the last moments before the passage the rate itself grows beyond any picture.
+  constexpr double least_to_go_s = 0.08;
+  const auto last = std::find_if(errors.rbegin(), errors.rend(),
+                                 [](const checks::LosError& e) { return e.time_to_go >= least_to_go_s; });
+  const auto empty = [&](const Quantity& quantity) {
+    return Track{.quantity = &quantity,
+                 .unit = quantity.unit,
+                 .longest_wait_us = checks::longest_wait_us(
+                     1e6 * checks::nominal_period_s(seen, messages::LosRateTarget::info.name)),
+                 .answers_end_us = engagement.miss_n ? std::min(truth.duration_us, engagement.passage_us)
+                                                     : truth.duration_us};
+  };
+  const auto plane = [&](const Quantity& quantity, const std::string& name,
+                         double world::Planes<double>::*member) {
+    Track track = empty(quantity);
+    track.drawn_until_us = last == errors.rend() ? 0 : last->t_us;
+    track.title = "LOS rate error, " + name;
+    track.estimate_title = "LOS rate, " + name;
+    track.estimate_unit = mradps;
+    for (const checks::LosError& e : errors) {
+      const auto& answer = *std::ranges::lower_bound(seen.los, e.t_us, {}, &checks::LosAnswer::cause_us);
+      track.told.push_back({.t_us = e.t_us,
+                            .value = e.rate.*member,
+                            .sigma = answer.rate_sigma.*member,
+                            .estimate = answer.rate.*member,
+                            .truth = answer.rate.*member - e.rate.*member});
+    }
+    give(std::move(track));
+  };
+  plane(los_rate_pitch, "pitch", &world::Planes<double>::pitch);
+  plane(los_rate_yaw, "yaw", &world::Planes<double>::yaw);
+  Track statistic = empty(los_nis);
+  statistic.kind = Track::Kind::statistic;
+  statistic.title = "normalised innovation squared";
+  for (const checks::Normalised& n : checks::los_nis(seen))
+    statistic.told.push_back({.t_us = n.t_us, .value = n.value});
+  give(std::move(statistic));
+}
+
 Freshness freshness_of(const scenario::Scenario& scenario) {
   if (!scenario.engagement || !scenario.seeker) return {};
   const world::EngagementPlan& plan = *scenario.engagement;
@@ -88,7 +137,11 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 
 }  // namespace
 
-constinit const Estimator los_rate{
-    .name = "los_rate", .layout = layout, .samples = samples_of, .freshness = freshness_of};
+constinit const Estimator los_rate{.name = "los_rate",
+                                   .layout = layout,
+                                   .of_runs_alone = of_runs_alone,
+                                   .samples = samples_of,
+                                   .tracks = tracks_of,
+                                   .freshness = freshness_of};
 
 }  // namespace canhil::estimators

@@ -8,12 +8,12 @@ namespace canhil::quantities {
 /// In the antenna's axes; both: RMS of the two planes.
 inline constexpr Quantity los_rate_pitch{
     .name = "los.rate.pitch",
-    .meaning = "error of the LOS rate in pitch, antenna axes: RMS of 20 ms of the time to go",
+    .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS of 20 ms of the time to go",
     .unit = mradps,
     .once = "los_pitch"};
 inline constexpr Quantity los_rate_yaw{
     .name = "los.rate.yaw",
-    .meaning = "error of the LOS rate in yaw, antenna axes: RMS of 20 ms of the time to go",
+    .meaning = "error of the LOS rate in yaw, antenna axes; in campaigns RMS of 20 ms of the time to go",
     .unit = mradps,
     .once = "los_yaw"};
 inline constexpr Quantity los_rate_both{
@@ -44,5 +44,12 @@ inline constexpr Quantity miss_distance{.name = "miss.distance",
                                         .unit = metres,
                                         .of_whole_run = true,
                                         .once = "miss"};
+
+/// Of one update.
+inline constexpr Quantity los_nis{.name = "los.nis",
+                                  .meaning = "normalised innovation squared of an update",
+                                  .unit = plain,
+                                  .degrees_of_freedom = 2,
+                                  .may_be_untold = true};
 
 }  // namespace canhil::quantities

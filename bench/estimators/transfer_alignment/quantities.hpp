@@ -14,4 +14,12 @@ inline constexpr Quantity attitude_nees{
     .may_be_untold = true,
     .once = "attitude_nees"};
 
+/// Of a velocity update, NED.
+inline constexpr Quantity velocity_innovation_north{
+    .name = "innovation.velocity.north", .meaning = "innovation of a velocity north", .unit = mps};
+inline constexpr Quantity velocity_innovation_east{
+    .name = "innovation.velocity.east", .meaning = "innovation of a velocity east", .unit = mps};
+inline constexpr Quantity velocity_innovation_down{
+    .name = "innovation.velocity.down", .meaning = "innovation of a velocity down", .unit = mps};
+
 }  // namespace canhil::quantities

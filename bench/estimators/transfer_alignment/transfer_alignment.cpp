@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/checks/errors.hpp"
+#include "bench/estimators/alignment_tracks.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/transfer_alignment/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -23,6 +24,9 @@ double over_sigma(const Samples& samples, std::size_t place) {
   return samples.value(place, attitude_heading) / samples.value(place, heading_sigma);
 }
 constexpr std::array derived{Derived{.quantity = &heading_over_sigma, .of = over_sigma}};
+
+constexpr std::array<const Quantity*, 4> of_runs_alone{&velocity_norm, &velocity_innovation_north,
+                                                       &velocity_innovation_east, &velocity_innovation_down};
 
 constexpr Layout layout{.kept = kept, .derived = derived, .answers_untold = true};
 
@@ -44,6 +48,19 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   return samples;
 }
 
+constexpr AlignmentWords words{
+    .angle = mrad,
+    .navigation_closes = messages::AlignVelocityD::info.name,
+    .innovation = {&velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down}};
+
+void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
+  const double wait_us =
+      checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::AlignUpdate::info.name));
+  AlignmentTracks(words, seen, seen.navigation, truth.flight, truth.duration_us, seen.filter, wait_us,
+                  [](const checks::FilterAnswer& a, int axis) { return a.attitude_sigma(axis); })
+      .give(give, checks::nis(seen, scenario::Aligner::transfer_alignment));
+}
+
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
   if (scenario.master_ins) {
@@ -57,7 +74,11 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 
 }  // namespace
 
-constinit const Estimator transfer_alignment{
-    .name = "transfer_alignment", .layout = layout, .samples = samples_of, .freshness = freshness_of};
+constinit const Estimator transfer_alignment{.name = "transfer_alignment",
+                                             .layout = layout,
+                                             .of_runs_alone = of_runs_alone,
+                                             .samples = samples_of,
+                                             .tracks = tracks_of,
+                                             .freshness = freshness_of};
 
 }  // namespace canhil::estimators

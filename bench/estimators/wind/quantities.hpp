@@ -19,6 +19,8 @@ inline constexpr Quantity wind_down{
     .name = "wind.down", .meaning = "error of the wind downwards", .unit = mps, .once = "wind_down"};
 inline constexpr Quantity wind_norm{
     .name = "wind.norm", .meaning = "magnitude of the error of the wind", .unit = mps, .once = "wind_norm"};
+inline constexpr Quantity wind_north{.name = "wind.north", .meaning = "error of the wind north", .unit = mps};
+inline constexpr Quantity wind_east{.name = "wind.east", .meaning = "error of the wind east", .unit = mps};
 /// NaN without an update.
 inline constexpr Quantity wind_nis{.name = "wind.nis",
                                    .meaning = "normalised innovation squared of an update",

@@ -4,7 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
+#include "bench/checks/silence.hpp"
+#include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/wind/quantities.hpp"
@@ -24,6 +28,8 @@ double of_all_three(const Samples& samples, std::size_t place) {
                     samples.value(place, wind_down));
 }
 constexpr std::array derived{Derived{.quantity = &wind_norm, .of = of_all_three}};
+
+constexpr std::array<const Quantity*, 2> of_runs_alone{&wind_north, &wind_east};
 
 constexpr Layout layout{.kept = kept, .derived = derived};
 
@@ -46,6 +52,62 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   return samples;
 }
 
+void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
+  if (truth.glide == nullptr) return;
+  const auto errors = checks::wind_errors(seen, *truth.glide);
+  const double wait_us =
+      checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::WindUpdate::info.name));
+  const auto empty = [&](const Quantity& quantity, std::string title) {
+    return Track{.quantity = &quantity,
+                 .unit = mps,
+                 .title = std::move(title),
+                 .longest_wait_us = wait_us,
+                 .answers_end_us = truth.glide->end_us()};
+  };
+  const auto fill = [&](Track track, auto told) {
+    for (const checks::WindError& e : errors) {
+      track.told.push_back(
+          told(*std::ranges::lower_bound(seen.wind, e.t_us, {}, &checks::WindAnswer::cause_us), e));
+      track.told.back().t_us = e.t_us;
+    }
+    give(std::move(track));
+  };
+  const std::array ned{std::pair{&wind_north, "north"}, std::pair{&wind_east, "east"},
+                       std::pair{&wind_down, "down"}};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& [quantity, name] = ned[static_cast<std::size_t>(axis)];
+    Track track = empty(*quantity, std::string("wind error ") + name);
+    track.estimate_title = std::string("wind ") + name;
+    track.estimate_unit = mps;
+    fill(std::move(track), [=](const checks::WindAnswer& answer, const checks::WindError& e) {
+      const double estimate = answer.wind_n(axis);
+      return Told{.value = e.error_n(axis),
+                  .sigma = answer.sigma(axis),
+                  .estimate = estimate,
+                  .truth = estimate - e.error_n(axis)};
+    });
+  }
+  const auto judged = [&](const Quantity& quantity, std::string title) {
+    Track track = empty(quantity, std::move(title));
+    track.only_if_judged = true;
+    return track;
+  };
+  fill(judged(wind_along, "wind error along track"), [](const auto& answer, const checks::WindError& e) {
+    return Told{.value = e.along_track, .sigma = answer.along_track_sigma};
+  });
+  fill(judged(wind_cross, "wind error cross track"), [](const auto& answer, const checks::WindError& e) {
+    return Told{.value = e.cross_track, .sigma = answer.cross_track_sigma};
+  });
+  fill(judged(wind_norm, "wind error norm"),
+       [](const auto&, const checks::WindError& e) { return Told{.value = e.error_n.norm()}; });
+  Track statistic = empty(wind_nis, "normalised innovation squared");
+  statistic.kind = Track::Kind::statistic;
+  statistic.unit = plain;
+  for (const checks::Normalised& n : checks::wind_nis(seen))
+    statistic.told.push_back({.t_us = n.t_us, .value = n.value});
+  give(std::move(statistic));
+}
+
 // The filter may answer less often than it is told of the navigation.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   if (!scenario.glider_nav) return {};
@@ -60,7 +122,11 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 
 }  // namespace
 
-constinit const Estimator wind{
-    .name = "wind", .layout = layout, .samples = samples_of, .freshness = freshness_of};
+constinit const Estimator wind{.name = "wind",
+                               .layout = layout,
+                               .of_runs_alone = of_runs_alone,
+                               .samples = samples_of,
+                               .tracks = tracks_of,
+                               .freshness = freshness_of};
 
 }  // namespace canhil::estimators

@@ -44,7 +44,8 @@ std::string table() {
   for (const Quantity* quantity : by_name) {
     std::vector<std::string_view> tellers;
     for (const Estimator* one : all()) {
-      if (quantities::tells(one->layout, *quantity)) tellers.push_back(one->name);
+      const bool of_runs = std::ranges::find(one->of_runs_alone, quantity) != one->of_runs_alone.end();
+      if (of_runs || quantities::tells(one->layout, *quantity)) tellers.push_back(one->name);
     }
     std::ranges::sort(tellers);
     rows +=
