@@ -168,6 +168,26 @@ TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplai
   EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
 }
 
+// In real time, with the target's own account; how long a host takes is not judged.
+TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
+  const std::string report = scratch("fd.json");
+  const Ended ended = hil_bench(
+      fmt::format("run {} --dbc canhil-fd --bus 'local:?bitrate=500000&data-bitrate=2000000' --json {}",
+                  scenario("transfer_alignment_quick"), report));
+  EXPECT_NE(ended.code, 2) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("bounds for 6 of 6 messages"));
+  const nlohmann::json page = read_json(report);
+  EXPECT_EQ(page["wire"]["no_bounds"], "");
+  double sum_s = 0;
+  for (const auto& [part, mean] : page["split"]["parts_s"].items()) {
+    ASSERT_TRUE(mean.is_number()) << part;
+    const bool is_rest = part == "not_explained";  // of means over other stimuli than those of the target
+    EXPECT_TRUE(is_rest || mean.get<double>() >= 0) << part;
+    sum_s += mean.get<double>();
+  }
+  EXPECT_NEAR(sum_s, page["split"]["total_s"].get<double>(), 1e-9);
+}
+
 TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {
   const std::string contract = SOURCE_DIR "/dbc/canhil.dbc";
   const Ended enough = hil_bench("schedulability --bitrate 1000000 --json " + contract);

@@ -1,6 +1,8 @@
 // Times on CAN FD: of the containers that messages travel in.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "bench/run/monitor.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/carriers.hpp"
