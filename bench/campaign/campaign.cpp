@@ -159,22 +159,15 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
   return metrics;
 }
 
-/// Whether the answers of a variant's estimator tell a quantity: it is of one family, or of one estimator.
-bool tells(const Variant& variant, Quantity quantity) {
-  const QuantityInfo& asked = info(quantity);
-  return family_of(variant.scenario) == asked.family &&
-         (asked.only_of.empty() || variant.scenario.runs(asked.only_of));
-}
-
 void refuse_untold(Section& root, const Campaign& campaign) {
   for (const Metric& metric : campaign.metrics) {
-    const Quantity quantity = quantity_of(metric);
+    const Quantity& quantity = quantity_of(metric);
     for (const std::size_t place : variants_of(campaign, metric)) {
       const Variant& variant = campaign.variants[place];
-      if (tells(variant, quantity)) continue;
+      if (quantities::tells(estimators::of(variant.scenario).layout, quantity)) continue;
       root.reject("metric",
                   fmt::format("'{}' asks for {}, which variant '{}' does not tell", metric.name,
-                              name(quantity), variant.name),
+                              quantity.name, variant.name),
                   "a quantity of its estimator");
     }
   }

@@ -14,15 +14,15 @@ using Runs = std::vector<RunSeries>;
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
-double in_unit(double value, Quantity quantity) { return value / unit_of(quantity).factor; }
+double in_unit(double value, const Quantity& quantity) { return value / quantity.unit.factor; }
 
-std::string with_unit(double value, Quantity quantity) {
-  const std::string_view unit = unit_of(quantity).name;
+std::string with_unit(double value, const Quantity& quantity) {
+  const std::string_view unit = quantity.unit.name;
   return fmt::format("{:.4g}{}{}", in_unit(value, quantity), unit.empty() ? "" : " ", unit);
 }
 
-std::string figure(std::string_view stem, Quantity quantity) {
-  return fmt::format("{}{}", stem, unit_of(quantity).ending);
+std::string figure(std::string_view stem, const Quantity& quantity) {
+  return fmt::format("{}{}", stem, quantity.unit.ending);
 }
 
 std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
@@ -53,18 +53,18 @@ std::size_t missing_in(std::span<const CurvePoint> curve) {
 }
 
 void answer(const RmsCurve& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
-  out.curve = rms_curve(runs, rule.quantity);
+  out.curve = rms_curve(runs, *rule.quantity);
   if (out.curve.empty()) {
     out.measured = "no updates";
     return;
   }
   const CurvePoint& last = out.curve.back();
   out.measured = fmt::format("{} updates, {} at the last{}", out.curve.size(),
-                             with_unit(last.rms, rule.quantity), missing_note(last.missing));
+                             with_unit(last.rms, *rule.quantity), missing_note(last.missing));
 }
 
 void answer(const TimeWithin& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
-  const auto curve = rms_curve(runs, rule.quantity);
+  const auto curve = rms_curve(runs, *rule.quantity);
   const auto t_s = time_within(curve, rule.within);
   const std::size_t missing = missing_in(curve);
   out.measured = time_or_never(t_s) + missing_note(missing);
@@ -81,7 +81,7 @@ void answer(const TimeWithin& rule, const Runs& runs, const Runs& /*other*/, Ans
 }
 
 void answer(const Lead& rule, const Runs& runs, const Runs& other, Answer& out) {
-  const auto own_curve = rms_curve(runs, rule.quantity), other_curve = rms_curve(other, rule.quantity);
+  const auto own_curve = rms_curve(runs, *rule.quantity), other_curve = rms_curve(other, *rule.quantity);
   const auto own_s = time_within(own_curve, rule.within), other_s = time_within(other_curve, rule.within);
   const std::size_t missing = missing_in(own_curve) + missing_in(other_curve);
   out.figures = {{"time_s", own_s}, {"other_time_s", other_s}};
@@ -96,20 +96,20 @@ void answer(const Lead& rule, const Runs& runs, const Runs& other, Answer& out) 
 }
 
 void answer(const ValueAt& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
-  const auto point = value_at(rms_curve(runs, rule.quantity), rule.at_us);
+  const auto point = value_at(rms_curve(runs, *rule.quantity), rule.at_us);
   const double rms = point ? point->rms : std::nan("");
   const std::size_t missing = point ? point->missing : runs.size();
-  out.measured = with_unit(rms, rule.quantity) + missing_note(missing);
-  out.figures = {{figure("rms", rule.quantity), in_unit(rms, rule.quantity)}};
+  out.measured = with_unit(rms, *rule.quantity) + missing_note(missing);
+  out.figures = {{figure("rms", *rule.quantity), in_unit(rms, *rule.quantity)}};
   Bars bars(out, missing == 0);
-  if (rule.at_most) bars.expect(rms <= *rule.at_most, "at most " + with_unit(*rule.at_most, rule.quantity));
+  if (rule.at_most) bars.expect(rms <= *rule.at_most, "at most " + with_unit(*rule.at_most, *rule.quantity));
   if (rule.at_least)
-    bars.expect(rms >= *rule.at_least, "at least " + with_unit(*rule.at_least, rule.quantity));
+    bars.expect(rms >= *rule.at_least, "at least " + with_unit(*rule.at_least, *rule.quantity));
 }
 
 void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
-  const Unit& unit = rule.unit;
-  const RunDistribution found = run_distribution(runs, rule.quantity, rule.at_us, rule.below.value_or(0),
+  const quantities::Unit& unit = rule.unit;
+  const RunDistribution found = run_distribution(runs, *rule.quantity, rule.at_us, rule.below.value_or(0),
                                                  static_cast<std::size_t>(rule.batch));
   const auto words = [&](double value) {
     return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
@@ -152,41 +152,41 @@ void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, A
 
 void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
   const auto [mean, deviation, count, missing] =
-      window_statistics(runs, rule.quantity, rule.from_us, rule.to_us);
-  out.measured = fmt::format("mean {}, standard deviation {}{}", with_unit(mean, rule.quantity),
-                             with_unit(deviation, rule.quantity), missing_note(missing));
-  out.figures = {{figure("mean", rule.quantity), in_unit(mean, rule.quantity)},
-                 {figure("standard_deviation", rule.quantity), in_unit(deviation, rule.quantity)},
+      window_statistics(runs, *rule.quantity, rule.from_us, rule.to_us);
+  out.measured = fmt::format("mean {}, standard deviation {}{}", with_unit(mean, *rule.quantity),
+                             with_unit(deviation, *rule.quantity), missing_note(missing));
+  out.figures = {{figure("mean", *rule.quantity), in_unit(mean, *rule.quantity)},
+                 {figure("standard_deviation", *rule.quantity), in_unit(deviation, *rule.quantity)},
                  {"values", static_cast<double>(count)}};
   Bars bars(out, missing == 0);
   if (rule.mean_at_most) {
     bars.expect(std::abs(mean) <= *rule.mean_at_most,
-                "|mean| at most " + with_unit(*rule.mean_at_most, rule.quantity));
+                "|mean| at most " + with_unit(*rule.mean_at_most, *rule.quantity));
   }
   if (rule.standard_deviation_at_most) {
     bars.expect(deviation <= *rule.standard_deviation_at_most,
-                "standard deviation at most " + with_unit(*rule.standard_deviation_at_most, rule.quantity));
+                "standard deviation at most " + with_unit(*rule.standard_deviation_at_most, *rule.quantity));
   }
 }
 
 void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& out) {
-  const RunMeans found = run_means(runs, rule.quantity, rule.from_us, rule.to_us);
+  const RunMeans found = run_means(runs, *rule.quantity, rule.from_us, rule.to_us);
   out.measured =
       fmt::format("mean {}, standard deviation {} over runs, largest {}{}",
-                  with_unit(found.mean, rule.quantity), with_unit(found.standard_deviation, rule.quantity),
-                  with_unit(found.largest, rule.quantity), missing_note(found.missing));
+                  with_unit(found.mean, *rule.quantity), with_unit(found.standard_deviation, *rule.quantity),
+                  with_unit(found.largest, *rule.quantity), missing_note(found.missing));
   out.figures = {
-      {figure("mean", rule.quantity), in_unit(found.mean, rule.quantity)},
-      {figure("standard_deviation", rule.quantity), in_unit(found.standard_deviation, rule.quantity)},
-      {figure("largest", rule.quantity), in_unit(found.largest, rule.quantity)},
+      {figure("mean", *rule.quantity), in_unit(found.mean, *rule.quantity)},
+      {figure("standard_deviation", *rule.quantity), in_unit(found.standard_deviation, *rule.quantity)},
+      {figure("largest", *rule.quantity), in_unit(found.largest, *rule.quantity)},
       {"missing", static_cast<double>(found.missing)}};
   Bars bars(out, found.missing == 0);
   if (rule.at_most)
-    bars.expect(found.mean <= *rule.at_most, "at most " + with_unit(*rule.at_most, rule.quantity));
+    bars.expect(found.mean <= *rule.at_most, "at most " + with_unit(*rule.at_most, *rule.quantity));
   if (rule.at_least)
-    bars.expect(found.mean >= *rule.at_least, "at least " + with_unit(*rule.at_least, rule.quantity));
+    bars.expect(found.mean >= *rule.at_least, "at least " + with_unit(*rule.at_least, *rule.quantity));
   if (rule.other.empty()) return;
-  const RunMeans others = run_means(other, rule.quantity, rule.from_us, rule.to_us);
+  const RunMeans others = run_means(other, *rule.quantity, rule.from_us, rule.to_us);
   const double ratio = found.mean / others.mean;
   out.measured += fmt::format(", {:.3g} times that of {}", ratio, rule.other);
   out.figures.emplace_back("ratio", ratio);
@@ -200,15 +200,15 @@ void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& ou
 }
 
 void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) {
-  const ToGoStatistics found = to_go_statistics(runs, rule.quantity, rule.least, rule.most);
-  out.measured = fmt::format("RMS {}, mean {}", with_unit(found.rms, rule.quantity),
-                             with_unit(found.mean, rule.quantity));
-  out.figures = {{figure("rms", rule.quantity), in_unit(found.rms, rule.quantity)},
-                 {figure("mean", rule.quantity), in_unit(found.mean, rule.quantity)}};
+  const ToGoStatistics found = to_go_statistics(runs, *rule.quantity, rule.least, rule.most);
+  out.measured = fmt::format("RMS {}, mean {}", with_unit(found.rms, *rule.quantity),
+                             with_unit(found.mean, *rule.quantity));
+  out.figures = {{figure("rms", *rule.quantity), in_unit(found.rms, *rule.quantity)},
+                 {figure("mean", *rule.quantity), in_unit(found.mean, *rule.quantity)}};
   std::size_t missing = found.missing;
   double ratio = std::nan("");
   if (!rule.other.empty()) {
-    const ToGoStatistics against = to_go_statistics(other, rule.quantity, rule.least, rule.most);
+    const ToGoStatistics against = to_go_statistics(other, *rule.quantity, rule.least, rule.most);
     ratio = found.rms / against.rms;
     missing += against.missing;
     out.measured += fmt::format(", {:.4g} times that of {}", ratio, rule.other);
@@ -217,7 +217,8 @@ void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) 
   out.measured += missing_note(missing);
   Bars bars(out, missing == 0);
   if (rule.rms_at_most)
-    bars.expect(found.rms <= *rule.rms_at_most, "RMS at most " + with_unit(*rule.rms_at_most, rule.quantity));
+    bars.expect(found.rms <= *rule.rms_at_most,
+                "RMS at most " + with_unit(*rule.rms_at_most, *rule.quantity));
   if (rule.mean_between) {
     const auto [low, high] = *rule.mean_between;
     bars.expect(found.mean >= low && found.mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
@@ -230,13 +231,13 @@ void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) 
 
 void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& out) {
   const auto rms_of = [&](const Runs& some) {
-    return run_distribution(some, rule.quantity, std::numeric_limits<std::int64_t>::max(), 0, 1);
+    return run_distribution(some, *rule.quantity, std::numeric_limits<std::int64_t>::max(), 0, 1);
   };
   const RunDistribution own = rms_of(runs), against = rms_of(other);
   const double ratio = own.rms / against.rms;
   const std::size_t missing = own.missing + against.missing;
-  out.measured = fmt::format("{} against {}: {:.4g} times{}", with_unit(own.rms, rule.quantity),
-                             with_unit(against.rms, rule.quantity), ratio, missing_note(missing));
+  out.measured = fmt::format("{} against {}: {:.4g} times{}", with_unit(own.rms, *rule.quantity),
+                             with_unit(against.rms, *rule.quantity), ratio, missing_note(missing));
   out.figures = {{"ratio", ratio}};
   if (rule.at_most)
     Bars(out, missing == 0).expect(ratio <= *rule.at_most, fmt::format("at most {:g} times", *rule.at_most));
@@ -244,7 +245,7 @@ void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& o
 
 // A run without a value counts as worse than any, so nothing is missing here.
 void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
-  const PairedFraction paired = paired_fraction(runs, other, rule.quantity, rule.at_us, rule.confidence);
+  const PairedFraction paired = paired_fraction(runs, other, *rule.quantity, rule.at_us, rule.confidence);
   out.measured =
       fmt::format("better in {} of {}: {:.1f} % ({:g} %: {:.1f} to {:.1f} %)", paired.better, paired.pairs,
                   100 * paired.fraction, 100 * rule.confidence, 100 * paired.low, 100 * paired.high);
@@ -261,7 +262,7 @@ void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out
 
 void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
   const ConsistencyStatistics found =
-      consistency(runs, rule.quantity, rule.from_us, rule.to_us, rule.probability);
+      consistency(runs, *rule.quantity, rule.from_us, rule.to_us, rule.probability);
   out.measured =
       fmt::format("mean {:.4g}, inside [{:.4g}, {:.4g}] in {:.1f} % of {} updates{}", found.mean, found.low,
                   found.high, 100 * found.inside, found.updates, missing_note(found.missing));
@@ -278,7 +279,7 @@ void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, An
 }
 
 void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
-  const Divergence found = divergence(runs, rule.quantity, rule.beyond);
+  const Divergence found = divergence(runs, *rule.quantity, rule.beyond);
   const std::size_t astray = found.faulted + found.beyond;
   out.measured = fmt::format("{} of {} runs ({} ended early)", astray, found.runs, found.faulted);
   out.figures = {{"diverged", static_cast<double>(astray)}, {"faulted", static_cast<double>(found.faulted)}};
@@ -289,12 +290,12 @@ void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answe
 }
 
 // Of all that its estimator tells: what it does not tell is NaN.
-bool finite(const Samples& samples) {
-  const auto columns = kept(samples.family());
+bool finite(const quantities::Samples& samples) {
+  const auto columns = samples.layout().kept;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t column = 0; column < columns.size(); ++column) {
       const double value = samples.values(i)[column];
-      if (!std::isfinite(value) && !(info(columns[column]).may_be_untold && std::isnan(value))) return false;
+      if (!std::isfinite(value) && !(columns[column]->may_be_untold && std::isnan(value))) return false;
     }
   }
   return true;
@@ -349,12 +350,13 @@ Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
       return failure(fmt::format("variant '{}' has {} of {} runs, expected all: resume, or merge the shards",
                                  campaign.variants[variant].name, loaded->size(), campaign.runs));
     }
-    const Family family = family_of(campaign.variants[variant].scenario);
-    const Freshness freshness = freshness_of(campaign.variants[variant].scenario);
+    const estimators::Estimator& estimator = estimators::of(campaign.variants[variant].scenario);
+    const quantities::Freshness freshness = estimator.freshness(campaign.variants[variant].scenario);
     for (RunSeries& run : *loaded) {
-      if (run.samples.family() != family)
-        return failure(fmt::format("run {} of variant '{}' has samples of another family than its estimator",
-                                   run.run, campaign.variants[variant].name));
+      if (&run.samples.layout() != &estimator.layout)
+        return failure(
+            fmt::format("run {} of variant '{}' has samples of another estimator than its scenario", run.run,
+                        campaign.variants[variant].name));
       run.freshness = freshness;
     }
     evaluation.endings.push_back(endings_of(campaign.variants[variant], *loaded));

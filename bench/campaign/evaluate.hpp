@@ -25,7 +25,7 @@ struct Answer {
   std::optional<bool> passed;                                          ///< none: without a bar
   std::vector<std::pair<std::string, std::optional<double>>> figures;  ///< by name with unit; none: never
   std::vector<CurvePoint> curve;                                       ///< of rms_curve, else empty
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = nullptr;
 };
 
 /// How the runs of a variant ended.

@@ -83,7 +83,7 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
       work.halt = true;
       break;
     }
-    finishing.add({.variant = variant, .series = series_of(run, *flown, truth, family_of(scenario))});
+    finishing.add({.variant = variant, .series = series_of(run, *flown, truth, estimators::of(scenario))});
   }
   finishing.worker_ends();
 }

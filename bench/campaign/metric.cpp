@@ -22,25 +22,34 @@ struct Context {
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
+/// The quantity that `quantity` names, of those that are wanted; none of them: one that is harmless.
 template <class Wanted>
-Quantity read_quantity(Section& section, std::string_view key, Wanted&& wanted) {
+const Quantity* read_quantity(Section& section, Wanted&& wanted) {
+  constexpr std::string_view key = "quantity";
+  const auto known = estimators::every_quantity();
   std::vector<std::string> words;
-  for (const QuantityInfo& one : quantities()) {
-    if (wanted(one)) words.emplace_back(one.name);
+  for (const Quantity* one : known) {
+    const bool sampled = std::ranges::any_of(
+        estimators::all(), [&](const auto* estimator) { return quantities::tells(estimator->layout, *one); });
+    if (sampled && wanted(*one)) words.emplace_back(one->name);
+  }
+  if (section.has(key)) {
+    const std::string word = section.text(key);
+    const auto once = std::ranges::find(known, std::string_view(word), &Quantity::once);
+    if (!word.empty() && once != known.end())
+      section.reject(key, fmt::format("'{}' is a name of before", word), fmt::format("'{}'", (*once)->name));
   }
   const std::string word = section.one_of(key, words);
-  const auto found = std::ranges::find(quantities(), word, &QuantityInfo::name);
-  return found == quantities().end() ? Quantity::heading
-                                     : static_cast<Quantity>(found - quantities().begin());
+  const auto found = std::ranges::find(known, std::string_view(word), &Quantity::name);
+  return found == known.end() ? known.front() : *found;
 }
 
-Quantity read_error(Section& section) {
-  return read_quantity(section, "quantity",
-                       [](const QuantityInfo& one) { return one.degrees_of_freedom == 0; });
+const Quantity* read_error(Section& section) {
+  return read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom == 0; });
 }
 
-std::string key_of(std::string_view stem, Quantity quantity) {
-  return fmt::format("{}{}", stem, unit_of(quantity).ending);
+std::string key_of(std::string_view stem, const Quantity& quantity) {
+  return fmt::format("{}{}", stem, quantity.unit.ending);
 }
 
 std::optional<double> optional_number(Section& section, std::string_view key, Limits limits) {
@@ -65,7 +74,7 @@ RmsCurve read(Section& section, const Context& /*context*/, RmsCurve rule) {
 
 TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   rule.quantity = read_error(section);
-  rule.within = section.number(key_of("within", rule.quantity), Limits::above(0));
+  rule.within = section.number(key_of("within", *rule.quantity), Limits::above(0));
   rule.at_most_us = section.optional_time_us("at_most_s", Limits::at_least(0));
   rule.never_before_us = section.optional_time_us("never_before_s", Limits::at_least(0));
   scenario::expect_ordered(section, "never_before_s", rule.never_before_us, "at_most_s", rule.at_most_us);
@@ -74,7 +83,7 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
 
 Lead read(Section& section, const Context& context, Lead rule) {
   rule.quantity = read_error(section);
-  rule.within = section.number(key_of("within", rule.quantity), Limits::above(0));
+  rule.within = section.number(key_of("within", *rule.quantity), Limits::above(0));
   rule.other = section.one_of("other", context.variants);
   rule.at_least_us = section.optional_time_us("at_least_s", Limits{});
   return rule;
@@ -83,22 +92,23 @@ Lead read(Section& section, const Context& context, Lead rule) {
 ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
   rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
-  rule.at_most = optional_number(section, key_of("at_most", rule.quantity), Limits::at_least(0));
-  rule.at_least = optional_number(section, key_of("at_least", rule.quantity), Limits::at_least(0));
-  expect_bars_ordered(section, "", unit_of(rule.quantity).ending, rule.at_least, rule.at_most);
+  rule.at_most = optional_number(section, key_of("at_most", *rule.quantity), Limits::at_least(0));
+  rule.at_least = optional_number(section, key_of("at_least", *rule.quantity), Limits::at_least(0));
+  expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   return rule;
 }
 
-Unit read_unit(Section& section, Quantity quantity) {
-  const Unit usual = unit_of(quantity);
+quantities::Unit read_unit(Section& section, const Quantity& quantity) {
+  const quantities::Unit usual = quantity.unit;
   if (usual.name != "mrad") return usual;
   const std::vector<std::string> units{"mrad", "deg"};
-  return section.one_of("unit", units, "mrad") == "deg" ? Unit{"deg", "_deg", world::units::deg} : usual;
+  return section.one_of("unit", units, "mrad") == "deg" ? quantities::Unit{"deg", "_deg", world::units::deg}
+                                                        : usual;
 }
 
 Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.quantity = read_error(section);
-  rule.unit = read_unit(section, rule.quantity);
+  rule.unit = read_unit(section, *rule.quantity);
   rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
   const auto bar = [&](std::string_view stem) {
     return optional_number(section, fmt::format("{}{}", stem, rule.unit.ending), Limits::at_least(0));
@@ -127,9 +137,9 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.mean_at_most = optional_number(section, key_of("mean_at_most", rule.quantity), Limits::at_least(0));
+  rule.mean_at_most = optional_number(section, key_of("mean_at_most", *rule.quantity), Limits::at_least(0));
   rule.standard_deviation_at_most =
-      optional_number(section, key_of("standard_deviation_at_most", rule.quantity), Limits::at_least(0));
+      optional_number(section, key_of("standard_deviation_at_most", *rule.quantity), Limits::at_least(0));
   return rule;
 }
 
@@ -145,8 +155,9 @@ Paired read(Section& section, const Context& context, Paired rule) {
 }
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
-  rule.quantity =
-      read_quantity(section, "statistic", [](const QuantityInfo& one) { return one.degrees_of_freedom > 0; });
+  if (section.has("statistic"))
+    section.reject("statistic", "is a key of before", "quantity = the name of a normalised error squared");
+  rule.quantity = read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom > 0; });
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
@@ -159,7 +170,7 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
 
 Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.quantity = read_error(section);
-  rule.beyond = section.number(key_of("beyond", rule.quantity), Limits::above(0));
+  rule.beyond = section.number(key_of("beyond", *rule.quantity), Limits::above(0));
   rule.at_most = section.optional_integer("at_most", 0);
   rule.at_least = section.optional_integer("at_least", 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
@@ -171,13 +182,13 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.at_most = optional_number(section, key_of("at_most", rule.quantity), Limits::at_least(0));
-  rule.at_least = optional_number(section, key_of("at_least", rule.quantity), Limits::at_least(0));
+  rule.at_most = optional_number(section, key_of("at_most", *rule.quantity), Limits::at_least(0));
+  rule.at_least = optional_number(section, key_of("at_least", *rule.quantity), Limits::at_least(0));
   if (section.has("other")) rule.other = section.one_of("other", context.variants);
   section.optional("other");
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::above(0));
   rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::above(0));
-  expect_bars_ordered(section, "", unit_of(rule.quantity).ending, rule.at_least, rule.at_most);
+  expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
     section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "is of no use alone",
@@ -187,13 +198,16 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
 }
 
 ToGo read(Section& section, const Context& context, ToGo rule) {
-  rule.quantity = read_quantity(section, "quantity", [](const QuantityInfo& one) {
-    return one.family == Family::los_rate && one.unit.name != "m";  // a miss has no time to go
+  // Of a whole run there is no time to go.
+  rule.quantity = read_quantity(section, [](const Quantity& one) {
+    return !one.of_whole_run && std::ranges::any_of(estimators::all(), [&](const auto* estimator) {
+      return estimator->layout.to_go_stretch_us > 0 && quantities::tells(estimator->layout, one);
+    });
   });
   std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));
   if (section.has("other")) rule.other = section.one_of("other", context.variants);
   section.optional("other");
-  rule.rms_at_most = optional_number(section, key_of("rms_at_most", rule.quantity), Limits::at_least(0));
+  rule.rms_at_most = optional_number(section, key_of("rms_at_most", *rule.quantity), Limits::at_least(0));
   if (section.has("mean_between")) rule.mean_between = section.interval("mean_between", Limits::at_least(0));
   section.optional("mean_between");
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::at_least(0));
@@ -215,15 +229,15 @@ RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
 
 using Rule = decltype(Metric::rule);
 
-std::string in_unit(double value, Quantity quantity) {
-  return fmt::format("{:g} {}", value / unit_of(quantity).factor, unit_of(quantity).name);
+std::string in_unit(double value, const Quantity& quantity) {
+  return fmt::format("{:g} {}", value / quantity.unit.factor, quantity.unit.name);
 }
 
 /// What tells a metric from others of its kind and quantity.
 std::string subject(const RmsCurve& /*rule*/) { return {}; }
-std::string subject(const TimeWithin& rule) { return " " + in_unit(rule.within, rule.quantity); }
+std::string subject(const TimeWithin& rule) { return " " + in_unit(rule.within, *rule.quantity); }
 std::string subject(const Lead& rule) {
-  return fmt::format(" {} before {}", in_unit(rule.within, rule.quantity), rule.other);
+  return fmt::format(" {} before {}", in_unit(rule.within, *rule.quantity), rule.other);
 }
 std::string subject(const ValueAt& rule) { return fmt::format(" at {:g} s", seconds(rule.at_us)); }
 std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s", seconds(rule.at_us)); }
@@ -239,7 +253,7 @@ std::string subject(const Paired& rule) {
 std::string subject(const Consistency& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
 }
-std::string subject(const Diverged& rule) { return " beyond " + in_unit(rule.beyond, rule.quantity); }
+std::string subject(const Diverged& rule) { return " beyond " + in_unit(rule.beyond, *rule.quantity); }
 std::string subject(const ToGo& rule) {
   const std::string window = fmt::format(" {:g} to {:g} s to go", rule.most, rule.least);
   return rule.other.empty() ? window : fmt::format("{} against {}", window, rule.other);
@@ -250,8 +264,8 @@ std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
 
 std::string_view kind(const Metric& metric) { return scenario::kind_of(metric.rule); }
 
-Quantity quantity_of(const Metric& metric) {
-  return std::visit([](const auto& rule) { return rule.quantity; }, metric.rule);
+const Quantity& quantity_of(const Metric& metric) {
+  return *std::visit([](const auto& rule) { return rule.quantity; }, metric.rule);
 }
 
 std::string other_of(const Metric& metric) {
@@ -287,7 +301,7 @@ Metric read_metric(Section& section, const std::vector<std::string>& variants, s
       scenario::read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
   expect_another(section, metric, variants);
   const std::string by_default = std::visit(
-      [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, name(rule.quantity), subject(rule)); },
+      [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, rule.quantity->name, subject(rule)); },
       metric.rule);
   metric.name = section.text(
       "name", metric.variants.empty() ? by_default

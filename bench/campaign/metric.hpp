@@ -21,13 +21,13 @@ namespace canhil::campaign {
 /// RMS over runs against time: for reports, without a bar.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
 };
 
 /// When the RMS over runs is within for good.
 struct TimeWithin {
   static constexpr std::string_view kind = "time_within";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;                            ///< [SI]
   std::optional<std::int64_t> at_most_us;       ///< 'never' fails
   std::optional<std::int64_t> never_before_us;  ///< 'never' passes
@@ -36,7 +36,7 @@ struct TimeWithin {
 /// How much earlier than `other` a variant's RMS is within for good.
 struct Lead {
   static constexpr std::string_view kind = "lead";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;  ///< [SI]
   std::string other;
   std::optional<std::int64_t> at_least_us;
@@ -45,7 +45,7 @@ struct Lead {
 /// RMS over runs at the last update at or before a time.
 struct ValueAt {
   static constexpr std::string_view kind = "value_at";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   std::optional<double> at_most, at_least;  ///< [SI]
 };
@@ -53,9 +53,9 @@ struct ValueAt {
 /// How |quantity| is spread over runs at a time: of each run the last update at or before it.
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
-  Unit unit;                    ///< mrad or deg for angles
+  quantities::Unit unit;        ///< mrad or deg for angles
   std::optional<double> below;  ///< asks for the fraction of runs below it [SI]
   std::int64_t batch = 100;     ///< runs of the Monte Carlo whose RMS has the bootstrap range
   std::optional<double> rms_at_most, rms_at_least, median_at_most, median_at_least, p90_at_most;  ///< [SI]
@@ -65,7 +65,7 @@ struct Distribution {
 /// Mean and standard deviation over runs and a time window.
 struct WindowMoments {
   static constexpr std::string_view kind = "window";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> mean_at_most;  ///< of |mean| [SI]
   std::optional<double> standard_deviation_at_most;
@@ -74,7 +74,7 @@ struct WindowMoments {
 /// Mean of |quantity| over a time window of each run; its mean and standard deviation over the runs.
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< of the mean over runs [SI]
   std::string other;                                    ///< empty: compared with none
@@ -84,10 +84,10 @@ struct RunMean {
 /// RMS and mean over runs and a window of the time to go, and how they compare with another variant's.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
-  Quantity quantity = Quantity::los_rate;
-  double least = 0, most = 0;         ///< [s]
-  std::string other;                  ///< may be empty
-  std::optional<double> rms_at_most;  ///< [SI]
+  const Quantity* quantity = nullptr;  ///< of samples by time to go
+  double least = 0, most = 0;          ///< [s]
+  std::string other;                   ///< may be empty
+  std::optional<double> rms_at_most;   ///< [SI]
   std::optional<std::pair<double, double>> mean_between;
   std::optional<double> ratio_at_most, ratio_at_least;  ///< of the RMS to that of `other`
 };
@@ -95,7 +95,7 @@ struct ToGo {
 /// RMS over runs at their ends over that of `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
-  Quantity quantity = Quantity::miss;
+  const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::optional<double> at_most;
 };
@@ -103,7 +103,7 @@ struct RmsRatio {
 /// Fraction of runs in which |quantity| is smaller than that of `other` with the same random numbers.
 struct Paired {
   static constexpr std::string_view kind = "paired";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::int64_t at_us = 0;
   double confidence = 0.95;
@@ -113,7 +113,7 @@ struct Paired {
 /// Mean NEES or NIS with chi-square bounds.
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
-  Quantity quantity = Quantity::attitude_nees;
+  const Quantity* quantity = &quantities::innovation_nis;
   std::int64_t from_us = 0, to_us = 0;
   double probability = 0.95;
   std::optional<std::pair<double, double>> mean_between;
@@ -123,7 +123,7 @@ struct Consistency {
 /// Runs that went astray.
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
-  Quantity quantity = Quantity::heading;
+  const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
   std::optional<std::int64_t> at_most, at_least;  ///< runs
 };
@@ -138,7 +138,7 @@ struct Metric {
 };
 
 std::string_view kind(const Metric& metric);
-Quantity quantity_of(const Metric& metric);
+const Quantity& quantity_of(const Metric& metric);
 /// The variant that a metric compares with, as named in the file; empty: none.
 std::string other_of(const Metric& metric);
 

@@ -35,7 +35,7 @@ ordered_json json_of(const Endings& endings) {
 ordered_json json_of(const Answer& answer) {
   ordered_json json{{"metric", answer.metric},
                     {"kind", answer.kind},
-                    {"quantity", name(answer.quantity)},
+                    {"quantity", answer.quantity->name},
                     {"variant", answer.variant},
                     {"measured", answer.measured}};
   if (!answer.requirement.empty()) json["requirement"] = answer.requirement;
@@ -45,7 +45,7 @@ ordered_json json_of(const Answer& answer) {
   }
   for (const auto& [figure, value] : answer.figures) json[figure] = value ? number(*value) : ordered_json();
   if (answer.curve.empty()) return json;
-  const Unit unit = unit_of(answer.quantity);
+  const quantities::Unit unit = answer.quantity->unit;
   ordered_json times = ordered_json::array(), values = ordered_json::array(), missing = ordered_json::array();
   for (const CurvePoint& point : answer.curve) {
     times.push_back(static_cast<double>(point.t_us) / 1e6);

@@ -16,7 +16,7 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::int64_t hash_of(std::int64_t id, const Key& key, const run::Ending& ending, std::int64_t family,
+std::int64_t hash_of(std::int64_t id, const Key& key, const run::Ending& ending, std::string_view columns,
                      std::span<const std::uint8_t> samples) {
   return Digest()
       .add(id)
@@ -25,7 +25,7 @@ std::int64_t hash_of(std::int64_t id, const Key& key, const run::Ending& ending,
       .add(static_cast<std::int64_t>(ending.kind))
       .add(ending.t_us)
       .add(ending.detail)
-      .add(family)
+      .add(columns)
       .add(text_of(samples))
       .value();
 }
@@ -66,17 +66,17 @@ void bind_row(Statement& statement, std::uint64_t runs, const Finished& finished
   const auto& [variant, series] = finished;
   const Key key{.variant = variant, .run = series.run};
   const std::int64_t id = row_id(key, runs);
-  const auto family = static_cast<std::int64_t>(series.samples.family());
-  const auto samples = encode(series.samples);
+  const std::string columns = quantities::names(series.samples.layout());
+  const auto samples = quantities::encode(series.samples);
   statement.bind(1, id)
       .bind(2, static_cast<std::int64_t>(key.variant))
       .bind(3, static_cast<std::int64_t>(key.run))
       .bind(4, static_cast<std::int64_t>(series.ending.kind))
       .bind(5, series.ending.t_us)
       .bind(6, series.ending.detail)
-      .bind(7, family)
+      .bind(7, columns)
       .bind(8, samples)
-      .bind(9, hash_of(id, key, series.ending, family, samples));
+      .bind(9, hash_of(id, key, series.ending, columns, samples));
 }
 
 Result<Key> key_of(const Statement& row, std::uint64_t runs) {
@@ -94,14 +94,15 @@ Result<Finished> read_row(const Statement& row, std::uint64_t runs) {
   const auto key = key_of(row, runs);
   if (!key) return tl::unexpected(key.error());
   const auto kind = enumerator(row.integer(3), run::Ending::last_kind);
-  const auto family = enumerator(row.integer(6), last_family);
+  const std::string columns = row.text(6);
+  const estimators::Estimator* estimator = estimators::telling(columns);
   if (!kind) return damaged(row, fmt::format("has ending {}", row.integer(3)));
-  if (!family) return damaged(row, fmt::format("has family {}", row.integer(6)));
+  if (estimator == nullptr) return damaged(row, "has columns that no estimator tells");
   const std::span<const std::uint8_t> bytes = row.bytes(7);
   run::Ending ending{.kind = *kind, .t_us = row.integer(4), .detail = row.text(5)};
-  if (hash_of(row.integer(0), *key, ending, row.integer(6), bytes) != row.integer(8))
+  if (hash_of(row.integer(0), *key, ending, columns, bytes) != row.integer(8))
     return damaged(row, "has another hash than its content");
-  auto samples = decode(bytes, *family);
+  auto samples = quantities::decode(bytes, estimator->layout);
   if (!samples) return damaged(row, samples.error().message);
   return Finished{.variant = key->variant,
                   .series = {.run = key->run, .ending = std::move(ending), .samples = std::move(*samples)}};

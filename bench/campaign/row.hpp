@@ -38,12 +38,13 @@ class Digest {
   std::string bytes_;
 };
 
-/// What the table of runs consists of, for `create table`, and its columns for `select`.
+/// What the table of runs consists of (columns: the quantities of its samples, in their order), for `create
+/// table`, and its columns for `select`.
 inline constexpr std::string_view row_schema =
     "id integer primary key, variant integer, run integer, ending integer, end_us integer, detail text, "
-    "family integer, samples blob, hash integer";
+    "columns text, samples blob, hash integer";
 inline constexpr std::string_view row_columns =
-    "id, variant, run, ending, end_us, detail, family, samples, hash";
+    "id, variant, run, ending, end_us, detail, columns, samples, hash";
 inline constexpr std::string_view row_places = "?, ?, ?, ?, ?, ?, ?, ?, ?";
 inline constexpr std::string_view key_columns = "id, variant, run";
 

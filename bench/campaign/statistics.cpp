@@ -38,7 +38,7 @@ double standard_error_of_rms(const std::vector<double>& squares, double mean) {
 
 }  // namespace
 
-std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity) {
+std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, const Quantity& quantity) {
   std::vector<CurvePoint> curve;
   for (const std::int64_t t_us : update_times(runs, quantity)) {
     CurvePoint point{.t_us = t_us};
@@ -76,7 +76,7 @@ std::optional<double> time_within(std::span<const CurvePoint> curve, double thre
   return seconds(outside.base()->t_us);
 }
 
-RunDistribution run_distribution(std::span<const RunSeries> runs, Quantity quantity, std::int64_t t_us,
+RunDistribution run_distribution(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t t_us,
                                  double bound, std::size_t batch) {
   constexpr std::size_t resamples = 2000;
   std::vector<double> values;
@@ -117,8 +117,8 @@ RunDistribution run_distribution(std::span<const RunSeries> runs, Quantity quant
   return found;
 }
 
-WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
-                                   std::int64_t to_us) {
+WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quantity& quantity,
+                                   std::int64_t from_us, std::int64_t to_us) {
   std::vector<double> values;
   WindowStatistics statistics;
   for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
@@ -141,7 +141,7 @@ WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity qua
   return statistics;
 }
 
-RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t from_us,
                    std::int64_t to_us) {
   std::vector<double> means;
   for (const RunSeries& run : runs) {
@@ -169,16 +169,17 @@ RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int6
   return found;
 }
 
-ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quantity, double least,
+ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, const Quantity& quantity, double least,
                                 double most) {
   ToGoStatistics statistics;
   double sum = 0, squares = 0;
   for (const RunSeries& run : runs) {
     const std::size_t before = statistics.count;
+    const double stretch = seconds(run.samples.layout().to_go_stretch_us);
     for (std::size_t i = 0; i < run.samples.size(); ++i) {
       const double begins = -seconds(run.samples.times()[i]);
       constexpr double rounding = 1e-9;
-      if (begins < least + seconds(los_sample_us) - rounding || begins > most + rounding) continue;
+      if (begins < least + stretch - rounding || begins > most + rounding) continue;
       const double value = run.samples.value(i, quantity);
       if (!std::isfinite(value)) continue;
       sum += value;
@@ -197,8 +198,8 @@ ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quanti
   return statistics;
 }
 
-PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b, Quantity quantity,
-                               std::int64_t t_us, double confidence) {
+PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b,
+                               const Quantity& quantity, std::int64_t t_us, double confidence) {
   const std::vector<std::int64_t> a_times = update_times(a, quantity), b_times = update_times(b, quantity);
   PairedFraction paired;
   for (const RunSeries& run : a) {
@@ -219,8 +220,8 @@ PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const Run
   return paired;
 }
 
-ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
-                                  std::int64_t to_us, double probability) {
+ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantity& quantity,
+                                  std::int64_t from_us, std::int64_t to_us, double probability) {
   ConsistencyStatistics statistics;
   if (runs.empty()) return {.mean = nan};
   // Central intervals of the mean over so many runs.
@@ -229,7 +230,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quan
     const auto [place, is_new] = intervals.try_emplace(some);
     if (is_new) {
       const auto n = static_cast<double>(some);
-      const double degrees_of_freedom = info(quantity).degrees_of_freedom * n;
+      const double degrees_of_freedom = quantity.degrees_of_freedom * n;
       const double tail = (1 - probability) / 2;
       place->second = {checks::chi_squared_quantile(degrees_of_freedom, tail) / n,
                        checks::chi_squared_quantile_above(degrees_of_freedom, tail) / n};
@@ -268,7 +269,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quan
   return statistics;
 }
 
-Divergence divergence(std::span<const RunSeries> runs, Quantity quantity, double bound) {
+Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound) {
   constexpr std::int64_t at_the_end = std::numeric_limits<std::int64_t>::max();
   Divergence result{.runs = runs.size()};
   for (const RunSeries& run : runs) {

@@ -23,7 +23,7 @@ struct CurvePoint {
 };
 
 /// Root mean square over the runs of a quantity, at every update time that any run has, ascending.
-std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, Quantity quantity);
+std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, const Quantity& quantity);
 
 /// The last point at or before a time; none: the curve begins later.
 std::optional<CurvePoint> value_at(std::span<const CurvePoint> curve, std::int64_t t_us);
@@ -45,7 +45,7 @@ struct RunDistribution {
 };
 /// `batch`: runs drawn with replacement for each of 2000 bootstrap samples (Efron, Tibshirani (1993), chapter
 /// 6), from a fixed seed: the same runs give the same figures.
-RunDistribution run_distribution(std::span<const RunSeries> runs, Quantity quantity, std::int64_t t_us,
+RunDistribution run_distribution(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t t_us,
                                  double bound, std::size_t batch);
 
 /// Mean and standard deviation of the signed quantity over all runs and updates of a window, ends included.
@@ -55,8 +55,8 @@ struct WindowStatistics {
   std::size_t count = 0;          ///< finite values
   std::size_t missing = 0;        ///< not finite, or of runs that had ended
 };
-WindowStatistics window_statistics(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
-                                   std::int64_t to_us);
+WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quantity& quantity,
+                                   std::int64_t from_us, std::int64_t to_us);
 
 /// The mean of |quantity| over a window of each run, and how these means are spread over the runs.
 struct RunMeans {
@@ -66,16 +66,17 @@ struct RunMeans {
   std::size_t missing =
       0;  ///< runs that had ended early, have no update there, or a value that is not finite
 };
-RunMeans run_means(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
+RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t from_us,
                    std::int64_t to_us);
 
-/// RMS and mean over all runs and samples that lie within a window of the time to go [s]: of family los_rate.
+/// RMS and mean over all runs and samples that lie within a window of the time to go [s], by which the
+/// samples are.
 struct ToGoStatistics {
   double rms = 0, mean = 0;  ///< of the finite values [SI]
   std::size_t count = 0;     ///< finite values
   std::size_t missing = 0;   ///< runs without one, or that ended early
 };
-ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, Quantity quantity, double least,
+ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, const Quantity& quantity, double least,
                                 double most);
 
 /// In how many pairs of runs with the same random numbers one variant is better.
@@ -87,21 +88,21 @@ struct PairedFraction {
 };
 /// Compares at the last update at or before a time. `a` and `b`: in order of runs. Runs that only one of
 /// them has are no pair. Confidence in (0, 1).
-PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b, Quantity quantity,
-                               std::int64_t t_us, double confidence);
+PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b,
+                               const Quantity& quantity, std::int64_t t_us, double confidence);
 
 /// Normalised errors squared against chi-square, over a window. Errors of one run are correlated in time, so
 /// the bounds are for the mean over runs at one update (Bar-Shalom, Li, Kirubarajan (2001), section 5.4.2).
 struct ConsistencyStatistics {
   double mean = 0;           ///< over all runs and updates
-  double low = 0, high = 0;  ///< central interval of chi2(3 n) / n, n: runs
+  double low = 0, high = 0;  ///< central interval of chi2(k n) / n, n: runs, k: degrees of freedom
   double inside = 0;         ///< fraction of the updates whose mean over runs lies within
   std::size_t updates = 0;
   std::size_t missing = 0;
 };
-/// `quantity` is attitude_nees or nis, both of 3 degrees of freedom. Probability in (0, 1).
-ConsistencyStatistics consistency(std::span<const RunSeries> runs, Quantity quantity, std::int64_t from_us,
-                                  std::int64_t to_us, double probability);
+/// `quantity` has degrees of freedom. Probability in (0, 1).
+ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantity& quantity,
+                                  std::int64_t from_us, std::int64_t to_us, double probability);
 
 /// Runs that ended early, or whose |quantity| at their last update is above a bound (SI) or not finite.
 struct Divergence {
@@ -109,6 +110,6 @@ struct Divergence {
   std::size_t beyond = 0;  ///< of those that came to their end
   std::size_t runs = 0;
 };
-Divergence divergence(std::span<const RunSeries> runs, Quantity quantity, double bound);
+Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound);
 
 }  // namespace canhil::campaign

@@ -18,9 +18,9 @@ double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 std::int64_t end_of(const RunSeries& run) {
   if (run.samples.empty()) return run.freshness.end_us;
   const std::size_t last = run.samples.size() - 1;
-  // A missile that did not pass its target has no time that is the end.
-  const bool open =
-      run.samples.family() == Family::los_rate && std::isnan(run.samples.value(last, Quantity::miss));
+  // A flight that did not come to what ends it has no time that is the end.
+  const Quantity* known_by = run.samples.layout().end_known_by;
+  const bool open = known_by != nullptr && std::isnan(run.samples.value(last, *known_by));
   return open ? run.samples.times()[last] : run.freshness.end_us;
 }
 
@@ -60,17 +60,17 @@ std::vector<std::int64_t> all_times(std::span<const RunSeries> runs) {
 }
 
 // Whether a run's update is too old to say anything of a time, or of the end, if that comes first.
-bool stale(const RunSeries& run, Quantity quantity, std::int64_t updated_us, std::int64_t t_us) {
-  if (info(quantity).of_whole_run) return false;
+bool stale(const RunSeries& run, const Quantity& quantity, std::int64_t updated_us, std::int64_t t_us) {
+  if (quantity.of_whole_run) return false;
   const std::int64_t until_us = std::min(t_us, end_of(run));
   return until_us > updated_us && until_us - updated_us > run.freshness.age_limit_us;
 }
 
 }  // namespace
 
-std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, Quantity quantity) {
+std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, const Quantity& quantity) {
   std::vector<std::int64_t> times = all_times(runs);
-  if (runs.empty() || info(quantity).of_whole_run) return times;
+  if (runs.empty() || quantity.of_whole_run) return times;
   return with_stale(times, end_of_all(runs), runs.front().freshness.age_limit_us);
 }
 
@@ -86,7 +86,7 @@ std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int
   return times;
 }
 
-double value_at(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_us) {
   const auto times = run.samples.times();
   const auto at = std::ranges::lower_bound(times, t_us);
   if (at == times.end() || *at != t_us) return nan;
@@ -94,28 +94,27 @@ double value_at(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
   return std::isfinite(value) ? value : nan;
 }
 
-bool is_untold(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us) {
   const auto times = run.samples.times();
   auto place = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
   const auto untold = [&] { return std::isnan(run.samples.value(place, quantity)); };
-  if (!info(quantity).may_be_untold || place == times.size() || times[place] != t_us || !untold())
-    return false;
-  // A gated fix was answered; a filter that coasts on and on says nothing of its updates.
-  if (run.samples.family() == Family::alignment) return true;
+  if (!quantity.may_be_untold || place == times.size() || times[place] != t_us || !untold()) return false;
+  // A filter that coasts on and on says nothing of its updates.
+  if (run.samples.layout().answers_untold) return true;
   while (place > 0 && t_us - times[--place] <= run.freshness.age_limit_us) {
     if (!untold()) return true;
   }
   return false;
 }
 
-double magnitude_at(const RunSeries& run, Quantity quantity, std::span<const std::int64_t> times,
+double magnitude_at(const RunSeries& run, const Quantity& quantity, std::span<const std::int64_t> times,
                     std::int64_t t_us) {
   const auto after = std::ranges::upper_bound(times, t_us);
   const double value = after == times.begin() ? nan : value_at(run, quantity, *std::prev(after));
   return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
 }
 
-double last_magnitude(const RunSeries& run, Quantity quantity, std::int64_t t_us) {
+double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t t_us) {
   const bool ended = run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
   const auto times = run.samples.times();
   const auto after = std::ranges::upper_bound(times, t_us) - times.begin();
@@ -132,7 +131,7 @@ bool answers_throughout(const RunSeries& run, std::int64_t from_us, std::int64_t
                                  static_cast<double>(run.freshness.age_limit_us));
 }
 
-double samples_to_go(const Freshness& freshness, double least, double most) {
+double samples_to_go(const quantities::Freshness& freshness, double least, double most) {
   if (freshness.sample_us == 0) return 0;
   const double flown = std::min(most, -seconds(freshness.begin_us)) - least;
   return std::max(0.0, flown / seconds(freshness.sample_us));

@@ -10,6 +10,7 @@
 
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/execute.hpp"
+#include "bench/campaign/export.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/campaign/report.hpp"
 #include "bench/commands/become.hpp"
@@ -51,6 +52,10 @@ struct ReportArguments {
 struct PaperArguments {
   std::string paper;
   std::string exact;
+};
+struct ExportArguments {
+  std::string results;
+  std::string format = "csv";
 };
 struct ReplayArguments {
   std::string file;
@@ -157,16 +162,32 @@ ExitCode merge(const MergeArguments& arguments) {
   return merged ? ExitCode::pass : complain(merged.error());
 }
 
+// The campaign whose results these are.
+Result<campaign::Campaign> campaign_of(const campaign::Store& store) {
+  const auto sources = store.sources();
+  if (!sources) return tl::unexpected(sources.error());
+  auto campaign = campaign::parse_campaign(*sources);
+  if (!campaign) return campaign;
+  campaign->runs = store.identity().runs;
+  campaign->rounding = store.identity().rounding;
+  return campaign;
+}
+
 ExitCode report_on(const ReportArguments& arguments) {
   const auto store = campaign::Store::open(arguments.merged);
   if (!store) return complain(store.error());
-  const auto sources = store->sources();
-  if (!sources) return complain(sources.error());
-  auto campaign = campaign::parse_campaign(*sources);
+  const auto campaign = campaign_of(*store);
   if (!campaign) return complain(campaign.error());
-  campaign->runs = store->identity().runs;
-  campaign->rounding = store->identity().rounding;
   return print_report(*campaign, arguments.merged, std::string(arguments.json ? report::to_stdout : ""));
+}
+
+ExitCode export_results(const ExportArguments& arguments) {
+  const auto store = campaign::Store::open(arguments.results);
+  if (!store) return complain(store.error());
+  const auto campaign = campaign_of(*store);
+  if (!campaign) return complain(campaign.error());
+  const auto exported = campaign::export_csv(*campaign, *store, report::write_stdout);
+  return exported ? ExitCode::pass : complain(exported.error());
 }
 
 ExitCode replay(const ReplayArguments& arguments) {
@@ -221,6 +242,19 @@ void add_report(command_line::Command campaign, int& code) {
   command.on_given([&code, arguments] { code = static_cast<int>(report_on(*arguments)); });
 }
 
+void add_export(command_line::Command campaign, int& code) {
+  auto arguments = std::make_shared<ExportArguments>();
+  const auto command = campaign.add_subcommand("export", "results as a table: variant, run, time, quantity");
+  command.add_option("RESULTS", arguments->results, "results of a campaign, or of a shard").required();
+  command.add_option("--format", arguments->format, "csv (default)");
+  command.on_given([&code, arguments] {
+    code = static_cast<int>(
+        arguments->format == "csv"
+            ? export_results(*arguments)
+            : complain({fmt::format("--format '{}': is unknown, expected 'csv'", arguments->format)}));
+  });
+}
+
 void add_replay(command_line::Command campaign, int& code) {
   auto arguments = std::make_shared<ReplayArguments>();
   const auto command = campaign.add_subcommand("replay", "one run again, with its checks and its frames");
@@ -268,6 +302,7 @@ void add_campaign(command_line::Command app, int& code) {
   command.require_subcommands(0, 1);
   add_merge(command, code);
   add_report(command, code);
+  add_export(command, code);
   add_replay(command, code);
   command.on_given([&code, arguments, paper, command, file, name] {
     if (command.subcommand_given()) return;
@@ -275,7 +310,7 @@ void add_campaign(command_line::Command app, int& code) {
       code = reproduce(*paper, *arguments);
       return;
     }
-    if (!file.given()) command_line::throw_required("FILE, or merge, report or replay");
+    if (!file.given()) command_line::throw_required("FILE, or merge, report, export or replay");
     code = static_cast<int>(execute(*arguments));
   });
 }

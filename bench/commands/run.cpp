@@ -17,6 +17,7 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/doctor/interface.hpp"
+#include "bench/report/csv.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
@@ -50,6 +51,7 @@ struct Arguments {
   std::string json;
   std::string junit;
   std::string html;
+  std::string csv;
   std::string log;
 };
 
@@ -136,7 +138,8 @@ std::string progress_text(std::int64_t t_us, std::int64_t duration_us) {
 
 // A run that has begun leaves no report of an earlier one that could be taken for its own, however it ends.
 void remove_earlier(const Arguments& arguments) {
-  for (const std::string& path : {arguments.json, arguments.junit, arguments.html, arguments.log}) {
+  for (const std::string& path :
+       {arguments.json, arguments.junit, arguments.html, arguments.csv, arguments.log}) {
     std::error_code ignored;
     if (path != report::to_stdout) std::filesystem::remove(path, ignored);
   }
@@ -159,13 +162,14 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
     const auto page = report::html(report::document(scenario, run));
     note(page ? report::write_file(arguments.html, *page) : tl::unexpected(page.error()));
   }
+  if (!arguments.csv.empty()) note(report::write_file(arguments.csv, report::csv(scenario, run)));
   if (run.log_error) note(tl::unexpected(*run.log_error));
   return all;
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
-  if (auto distinct = report::check_distinct(
-          {arguments.scenario, arguments.json, arguments.junit, arguments.html, arguments.log});
+  if (auto distinct = report::check_distinct({arguments.scenario, arguments.json, arguments.junit,
+                                              arguments.html, arguments.csv, arguments.log});
       !distinct) {
     return distinct;
   }
@@ -173,7 +177,7 @@ Result<void> check_outputs(const Arguments& arguments) {
     if (path.empty() || path == report::to_stdout) continue;
     if (auto writable = report::check_writable(path); !writable) return writable;
   }
-  for (const std::string& path : {arguments.html, arguments.log}) {
+  for (const std::string& path : {arguments.html, arguments.csv, arguments.log}) {
     if (path.empty()) continue;
     if (auto writable = report::check_writable(path); !writable) return writable;
   }
@@ -331,6 +335,8 @@ void add_run(command_line::Command app, int& code) {
   command.add_option("--junit", arguments->junit,
                      "write the checks as JUnit XML to a file; -: to stdout, in place of the text");
   command.add_option("--html", arguments->html, "write the report as one HTML page to a file");
+  command.add_option("--csv", arguments->csv,
+                     "write a table of time, quantity, estimate, truth, error and sigma to a file");
   command.add_option("--log", arguments->log, "record every frame in candump's log format");
   command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }

@@ -40,10 +40,10 @@ Result<campaign::Campaign> read_embedded(const EmbeddedFile& file, std::span<con
 }  // namespace
 
 std::span<const campaign::CurvePoint> Flown::curve(std::string_view variant, std::string_view point,
-                                                   campaign::Quantity quantity) const {
+                                                   const campaign::Quantity& quantity) const {
   return find_answer(*this, variant, point,
                      [&](const campaign::Answer& answer) {
-                       return answer.kind == campaign::RmsCurve::kind && answer.quantity == quantity;
+                       return answer.kind == campaign::RmsCurve::kind && answer.quantity == &quantity;
                      })
       .curve;
 }

@@ -46,7 +46,7 @@ struct Flown {
   /// RMS over runs of a variant, by its name in the file and its point of the sweep; they must exist.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       std::string_view variant, std::string_view point = {},
-      campaign::Quantity quantity = campaign::Quantity::heading) const;
+      const campaign::Quantity& quantity = quantities::attitude_heading) const;
   /// The answer of a metric, by its name, for a variant; it must exist.
   [[nodiscard]] const campaign::Answer& answer(std::string_view metric, std::string_view variant,
                                                std::string_view point = {}) const;

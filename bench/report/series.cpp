@@ -1,47 +1,118 @@
 #include "bench/report/series.hpp"
 
-#include <algorithm>
+#include <iterator>
 
 #include "bench/checks/probability.hpp"
-#include "bench/report/series_parts.hpp"
+#include "bench/estimators/estimator.hpp"
+#include "bench/report/series_bars.hpp"
+#include "bench/report/thinned.hpp"
 
 namespace canhil::report {
 namespace {
 
-std::string plain(std::string_view name) {
-  std::string words(name);
-  std::ranges::replace(words, '_', ' ');
-  return words;
+using quantities::Told;
+using quantities::Track;
+
+std::optional<double> in(const quantities::Unit& unit, const std::optional<double>& value) {
+  return value ? std::optional(*value / unit.factor) : std::nullopt;
 }
+
+Series::Kind kind_of(const Track& track) {
+  switch (track.kind) {
+    case Track::Kind::innovation:
+      return Series::Kind::innovation;
+    case Track::Kind::statistic:
+      return Series::Kind::statistic;
+    case Track::Kind::error:
+      break;
+  }
+  return Series::Kind::error;
+}
+
+// The pictures of one estimator: estimates beside the truth first.
+class Pictures {
+ public:
+  Pictures(std::string_view estimator, std::int64_t duration_us)
+      : estimator_(estimator), duration_us_(duration_us) {}
+
+  void add(const Track& track) {
+    if (!track.estimate_title.empty()) {
+      Series series = empty(track, track.estimate_title, track.estimate_unit);
+      series.kind = Series::Kind::estimate;
+      estimates_.push_back(thinned(std::move(series), track, [&](const Told& told) {
+        return Sample{.value = *in(track.estimate_unit, told.estimate),
+                      .sigma = {},
+                      .truth = in(track.estimate_unit, told.truth)};
+      }));
+    }
+    Series series = empty(track, track.title, track.unit);
+    series.kind = kind_of(track);
+    series.only_if_judged = track.only_if_judged;
+    if (series.kind == Series::Kind::statistic) {
+      for (const double probability : {0.025, 0.975})
+        series.between.push_back(
+            checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
+    }
+    values_.push_back(thinned(std::move(series), track, [&](const Told& told) {
+      return Sample{.value = told.value / track.unit.factor, .sigma = in(track.unit, told.sigma)};
+    }));
+  }
+
+  void move_to(std::vector<Series>& all) {
+    std::ranges::move(estimates_, std::back_inserter(all));
+    std::ranges::move(values_, std::back_inserter(all));
+  }
+
+ private:
+  [[nodiscard]] Series empty(const Track& track, std::string title, const quantities::Unit& unit) const {
+    return {.estimator = std::string(estimator_),
+            .about = track.quantity,
+            .quantity = std::move(title),
+            .unit = std::string(unit.name),
+            .unit_si = unit.factor};
+  }
+
+  template <class AsSample>
+  Series thinned(Series series, const Track& track, AsSample sample) const {
+    Thinned points({.duration_us = duration_us_, .end_us = track.answers_end_us}, track.longest_wait_us);
+    for (const Told& told : track.told) {
+      if (told.t_us <= track.drawn_until_us) points.add(told.t_us, sample(told));
+    }
+    series.points = std::move(points).points();
+    return series;
+  }
+
+  std::string_view estimator_;
+  std::int64_t duration_us_;
+  std::vector<Series> estimates_, values_;
+};
 
 }  // namespace
 
-std::string error_of(scenario::AttitudeAxis axis) { return plain(name(axis)) + " error"; }
-std::string error_of(scenario::VelocityAxis axis) { return "velocity error " + plain(name(axis)); }
-std::string error_of(scenario::PositionAxis axis) { return "position error " + plain(name(axis)); }
-std::string error_of(scenario::WindAxis axis) { return "wind error " + plain(name(axis)); }
-std::string error_of(scenario::LosPlane plane) { return "LOS rate error, " + plain(name(plane)); }
-
-Series nis_series(std::string_view estimator, const Span& span, double longest_wait_us,
-                  const std::vector<checks::Normalised>& nis, double degrees_of_freedom) {
-  Series empty{.estimator = std::string(estimator),
-               .quantity = "normalised innovation squared",
-               .unit = "",
-               .kind = Series::Kind::statistic};
-  for (const double probability : {0.025, 0.975})
-    empty.between.push_back(checks::chi_squared_quantile(degrees_of_freedom, probability));
-  return thinned(
-      std::move(empty), span, longest_wait_us, nis, [](const checks::Normalised& n) { return n.t_us; },
-      [](const checks::Normalised& n) { return Sample{.value = n.value}; });
+void give_tracks(const scenario::Scenario& scenario, const run::Run& run, const TrackOf& give) {
+  const auto& [engagement, glide] = run.own_truth;
+  const estimators::Truth truth{.flight = run.truth,
+                                .duration_us = scenario.duration_us,
+                                .engagement = engagement ? &*engagement : nullptr,
+                                .glide = glide ? &*glide : nullptr};
+  for (const estimators::Estimator* one : estimators::all()) {
+    if (!scenario.runs(one->name)) continue;
+    one->tracks(run.seen, truth, [&](const Track& track) { give(one->name, track); });
+  }
 }
 
 std::vector<Series> series(const scenario::Scenario& scenario, const run::Run& run) {
   std::vector<Series> all;
-  for (const auto aligner : {scenario::Aligner::transfer_alignment, scenario::Aligner::inflight_alignment}) {
-    if (scenario.runs(name(aligner))) add_alignment(all, aligner, run, scenario.duration_us);
-  }
-  if (run.own_truth.glide && scenario.runs("wind")) add_wind(all, run, scenario.duration_us);
-  if (run.own_truth.engagement && scenario.runs("los_rate")) add_los(all, run, scenario.duration_us);
+  std::string_view of;
+  std::optional<Pictures> pictures;
+  give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
+    if (!pictures || of != estimator) {
+      if (pictures) pictures->move_to(all);
+      pictures.emplace(of = estimator, scenario.duration_us);
+    }
+    pictures->add(track);
+  });
+  if (pictures) pictures->move_to(all);
   add_bars(all, scenario, run);
   std::erase_if(
       all, [](const Series& one) { return one.points.empty() || (one.only_if_judged && one.bars.empty()); });

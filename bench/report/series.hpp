@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/quantities/track.hpp"
 #include "bench/run/session.hpp"
 
 namespace canhil::report {
@@ -28,7 +30,8 @@ struct Series {
     double from_s = 0, to_s = 0;
   };
   std::string estimator;
-  std::string quantity;
+  const quantities::Quantity* about = nullptr;
+  std::string quantity;  ///< in words
   std::string unit;
   double unit_si = 1;  ///< one of the unit in SI
   Kind kind = Kind::error;
@@ -37,6 +40,11 @@ struct Series {
   std::vector<Bar> bars{};
   bool only_if_judged = false;  ///< of no interest without a bar
 };
+
+/// Takes a track of the estimator of this name.
+using TrackOf = std::function<void(std::string_view estimator, const quantities::Track& track)>;
+/// Gives the tracks of every estimator that the scenario runs, estimator by estimator.
+void give_tracks(const scenario::Scenario& scenario, const run::Run& run, const TrackOf& give);
 
 /// Of every estimator that the scenario runs.
 std::vector<Series> series(const scenario::Scenario& scenario, const run::Run& run);

@@ -26,7 +26,7 @@ Result<void> draw_first_runs(Results& results, const FlyOptions& options, std::s
     if (!runs) return tl::unexpected(runs.error());
     const auto first = std::span(*runs).first(std::min(drawn_runs, runs->size()));
     results.curves[fmt::format("{} {}", name, campaign.variants[v].name)] =
-        campaign::rms_curve(first, campaign::Quantity::heading);
+        campaign::rms_curve(first, quantities::attitude_heading);
   }
   return {};
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/estimators/los_rate/los_rate.hpp"
+#include "bench/estimators/los_rate/quantities.hpp"
 #include "bench/papers/los_rate/sections.hpp"
 #include "bench/world/units.hpp"
 
@@ -90,14 +92,15 @@ Figure rms_figure(const Results& results) {
       .y_range = {0.3, 300},
       .thresholds = {},
       .curves = {}};
+  const double half_us = static_cast<double>(estimators::los_rate.layout.to_go_stretch_us) / 2;
   for (const auto& [variant, label] :
        {std::pair{"kalman", "Kalman"}, std::pair{"switched_at_once", "switched"},
         std::pair{"combined", "combined"}, std::pair{"low_pass_4", "4 rad/s"},
         std::pair{"low_pass_8", "8 rad/s"}, std::pair{"low_pass_12", "12 rad/s"}}) {
     Curve curve{.label = label, .points = {}};
     for (const campaign::CurvePoint& point :
-         results.of("open_loop").curve(variant, {}, campaign::Quantity::los_rate)) {
-      const double middle_s = 1e-6 * (static_cast<double>(point.t_us) + campaign::los_sample_us / 2.0);
+         results.of("open_loop").curve(variant, {}, quantities::los_rate_both)) {
+      const double middle_s = 1e-6 * (static_cast<double>(point.t_us) + half_us);
       constexpr double blind_s = 0.06;  // from 50 m on guidance is to hold
       if (middle_s < -blind_s) add_rms(curve, middle_s, point, world::units::mrad);
     }

@@ -105,8 +105,9 @@ std::vector<Figure> axis_figures(const Results& results) {
   const Flown& table = results.of("table2");
   std::vector<Figure> figures;
   figures.reserve(4);
-  const std::array axes{std::pair{Quantity::heading, "heading"}, std::pair{Quantity::roll, "roll"},
-                        std::pair{Quantity::pitch, "pitch"}};
+  const std::array axes{std::pair{&quantities::attitude_heading, "heading"},
+                        std::pair{&quantities::attitude_roll, "roll"},
+                        std::pair{&quantities::attitude_pitch, "pitch"}};
   for (const auto& [quantity, axis] : axes) {
     figures.push_back(
         {.id = fmt::format("fig7-{}", axis),
@@ -117,9 +118,9 @@ std::vector<Figure> axis_figures(const Results& results) {
          .y_label = fmt::format("{} error, 1σ [mrad]", axis),
          .y_range = {0.1, 300},
          .thresholds = {1, 3},
-         .curves = {curve("KF told 1°", table.curve("kf_p1", {}, quantity)),
-                    curve("H2 told 1°", table.curve("h2_case2_p1", {}, quantity)),
-                    curve("KF told 5°", table.curve("kf_p5", {}, quantity))}});
+         .curves = {curve("KF told 1°", table.curve("kf_p1", {}, *quantity)),
+                    curve("H2 told 1°", table.curve("h2_case2_p1", {}, *quantity)),
+                    curve("KF told 5°", table.curve("kf_p5", {}, *quantity))}});
   }
   figures.front().curves.push_back(curve_through("paper KF", paper_kalman));
   figures.front().curves.push_back(curve_through("paper H2", paper_h2));
@@ -134,10 +135,10 @@ std::vector<Figure> axis_figures(const Results& results) {
       .curves = {}};
   for (const auto& [variant, filter] : {std::pair{"kf_p1", "KF"}, std::pair{"h2_case2_p1", "H2"}}) {
     for (const auto& [quantity, axis] :
-         {std::pair{Quantity::v_north, "north"}, std::pair{Quantity::v_east, "east"},
-          std::pair{Quantity::v_down, "down"}})
+         {std::pair{&quantities::velocity_north, "north"}, std::pair{&quantities::velocity_east, "east"},
+          std::pair{&quantities::velocity_down, "down"}})
       velocity.curves.push_back(
-          curve(fmt::format("{} {}", filter, axis), table.curve(variant, {}, quantity), 1));
+          curve(fmt::format("{} {}", filter, axis), table.curve(variant, {}, *quantity), 1));
   }
   figures.push_back(std::move(velocity));
   return figures;

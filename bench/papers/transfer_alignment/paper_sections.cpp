@@ -209,18 +209,19 @@ Section axes(const Results& results) {
               .note = "RMS over runs at the last update."};
   struct Axis {
     const char* name;
-    Quantity quantity;
+    const campaign::Quantity* quantity;
     double unit;
     const char *form, *reference;
   };
-  for (const Axis& axis : {Axis{"roll [mrad]", Quantity::roll, 1e-3, "{:.2f}", "-"},
-                           Axis{"pitch [mrad]", Quantity::pitch, 1e-3, "{:.2f}", "-"},
-                           Axis{"heading [mrad]", Quantity::heading, 1e-3, "{:.2f}", "-"},
-                           Axis{"v north [m/s]", Quantity::v_north, 1, "{:.3f}", "KF 0.016, H2 0.013"},
-                           Axis{"v east [m/s]", Quantity::v_east, 1, "{:.3f}", "KF 0.019, H2 0.005"},
-                           Axis{"v down [m/s]", Quantity::v_down, 1, "{:.3f}", "KF 0.029, H2 0.019"}}) {
+  for (const Axis& axis :
+       {Axis{"roll [mrad]", &quantities::attitude_roll, 1e-3, "{:.2f}", "-"},
+        Axis{"pitch [mrad]", &quantities::attitude_pitch, 1e-3, "{:.2f}", "-"},
+        Axis{"heading [mrad]", &quantities::attitude_heading, 1e-3, "{:.2f}", "-"},
+        Axis{"v north [m/s]", &quantities::velocity_north, 1, "{:.3f}", "KF 0.016, H2 0.013"},
+        Axis{"v east [m/s]", &quantities::velocity_east, 1, "{:.3f}", "KF 0.019, H2 0.005"},
+        Axis{"v down [m/s]", &quantities::velocity_down, 1, "{:.3f}", "KF 0.029, H2 0.019"}}) {
     const auto end = [&](const char* variant) {
-      return flown.curve(variant, {}, axis.quantity).back().rms / axis.unit;
+      return flown.curve(variant, {}, *axis.quantity).back().rms / axis.unit;
     };
     const bool below = end("h2_case2_p1") < end("kf_p1");
     table.rows.push_back(

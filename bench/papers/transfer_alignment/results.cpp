@@ -43,8 +43,8 @@ Result<std::vector<std::pair<std::string, Spread>>> spreads_of(const campaign::C
     if (size == 0) return all;
     std::optional<Spread> spread;
     for (std::size_t b = 0; b < batches; ++b) {
-      const Times times =
-          times_of(campaign::rms_curve(std::span(*runs).subspan(b * size, size), Quantity::heading));
+      const Times times = times_of(
+          campaign::rms_curve(std::span(*runs).subspan(b * size, size), quantities::attitude_heading));
       if (!spread) spread = Spread{times, times};
       spread = Spread{lowest(spread->low, times), highest(spread->high, times)};
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/estimators/wind/quantities.hpp"
 #include "bench/papers/wind/sections.hpp"
 #include "bench/world/glide/glide.hpp"
 
@@ -47,7 +48,7 @@ Figure error_figure(const Results& results, int number, int level) {
   for (const Filter& filter : filters) {
     if (*filter.curve == '\0') continue;
     Curve curve{.label = filter.curve, .points = {}};
-    const auto points = results.of("table1").curve(variant(filter, level), {}, campaign::Quantity::wind_norm);
+    const auto points = results.of("table1").curve(variant(filter, level), {}, quantities::wind_norm);
     constexpr std::size_t step = 10;  // answers come every 100 ms: a point a second
     for (std::size_t i = 0; i < points.size(); i += step)
       add_rms(curve, static_cast<double>(points[i].t_us) * 1e-6, points[i]);

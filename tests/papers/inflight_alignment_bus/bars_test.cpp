@@ -10,7 +10,7 @@ TEST(InflightAlignmentPaperOverTheBus, MeetsTheBarsWith40Runs) {
   const auto answers = expect_bars_met("inflight_alignment_bus/bars.toml", 8);
   const auto rms_deg = [&](const char* variant) {
     const auto found = std::ranges::find_if(answers, [&](const campaign::Answer& answer) {
-      return answer.variant == variant && answer.quantity == campaign::Quantity::heading;
+      return answer.variant == variant && answer.quantity == &quantities::attitude_heading;
     });
     if (found == answers.end()) {
       ADD_FAILURE() << variant;

@@ -37,11 +37,11 @@ set = {{ "target.algorithm" = "robust_h2" }}
 "master_ins.latency_ms" = [0, 100]
 [[metric]]
 kind = "rms_curve"
-quantity = "heading"
+quantity = "attitude.heading"
 [[metric]]
 name = "heading at 2 s"
 kind = "value_at"
-quantity = "heading"
+quantity = "attitude.heading"
 at_s = 2.0
 variants = ["KF"]
 at_most_mrad = 200
@@ -160,6 +160,23 @@ TEST(Report, ComesFromTheMergedFileAlone) {
   EXPECT_THAT(hil_bench(fmt::format("campaign report {}/results", at)).out, HasSubstr("heading at 2 s"));
 }
 
+TEST(Export, IsATableOfWhatTheRunsTold) {
+  undisturbed();
+  const std::string results = scratch("undisturbed") + "/merged.db";
+  const Ended ended = hil_bench(fmt::format("campaign export {}", results));
+  expect_done(ended);
+  EXPECT_THAT(ended.out,
+              testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
+  // 4 variants of 30 runs with 29 updates, each with 12 quantities.
+  EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 4 * 30 * 29 * 12);
+  EXPECT_THAT(ended.out, testing::ContainsRegex(
+                             "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
+  EXPECT_EQ(hil_bench(fmt::format("campaign export {}", results)).out, ended.out);
+  expect_one_line(hil_bench(fmt::format("campaign export {} --format xls", results)),
+                  "--format 'xls': is unknown, expected 'csv'");
+  expect_one_line(hil_bench("campaign export none.sqlite"), "none.sqlite");
+}
+
 TEST(Report, ABarThatIsNotMetIsExitCode1) {
   std::string text = read(campaign_file(5));
   const std::string bar = "at_most_mrad = 200";
@@ -213,7 +230,7 @@ TEST(CampaignBadInput, IsOneLine) {
   const auto campaign = [&](const std::string& arguments) {
     return hil_bench(fmt::format("campaign {} {}", file, arguments));
   };
-  expect_one_line(hil_bench("campaign"), "FILE, or merge, report or replay");
+  expect_one_line(hil_bench("campaign"), "FILE, or merge, report, export or replay");
   expect_one_line(hil_bench("campaign none.toml"), "none.toml: cannot be read");
   expect_one_line(campaign("--shard 3/3"), "shard '3/3'");
   expect_one_line(campaign("--threads 0"), "--threads");

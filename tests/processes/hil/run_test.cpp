@@ -7,6 +7,8 @@
 #include <fstream>
 
 #include <algorithm>
+#include <map>
+#include <sstream>
 #include <utility>
 #include <vector>
 #include "tests/processes/hil/program.hpp"
@@ -292,6 +294,32 @@ TEST(Output, ThatIsLostIsSaid) {
     EXPECT_THAT(ended.err, ContainsRegex("cannot (be written|write to file)")) << command;
     EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
   }
+}
+
+TEST(Run, CsvIsATableOfAllThatWasTold) {
+  const std::string table = scratch("run.csv");
+  const Ended ended = hil_bench(fmt::format(
+      "run {}/bench/scenarios/transfer_alignment_quick.toml --bus in-process --csv {}", SOURCE_DIR, table));
+  EXPECT_EQ(ended.code, 3) << ended.err;
+  std::ifstream file(table);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "t_s,estimator,quantity,unit,estimate,truth,error,sigma");
+  std::map<std::string, int> lines;  // by quantity
+  while (std::getline(file, line)) {
+    std::istringstream fields(line);
+    std::vector<std::string> row;
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    ASSERT_GE(row.size(), 5U) << line;
+    EXPECT_EQ(row[1], "transfer_alignment");
+    ++lines[row[2]];
+    if (row[2] != "attitude.heading") continue;
+    ASSERT_GE(row.size(), 7U) << line;
+    EXPECT_NEAR(std::stod(row[4]) - std::stod(row[5]), std::stod(row[6]), 1e-12) << line;
+  }
+  EXPECT_EQ(lines["attitude.heading"], 300) << "3 s at 100 Hz";
+  EXPECT_EQ(lines["innovation.nis"], 30) << "3 s at 10 Hz";
+  EXPECT_EQ(lines.size(), 14U);
 }
 
 TEST(Run, JsonToStdoutReplacesTheText) {

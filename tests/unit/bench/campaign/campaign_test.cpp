@@ -45,7 +45,7 @@ TEST(Campaign, SweepIsTheCartesianProductWithEveryVariant) {
 "target.parameters.fading_per_s" = [0.0, 0.1]
 [[metric]]
 kind = "paired"
-quantity = "heading"
+quantity = "attitude.heading"
 at_s = 2.0
 other = "A"
 )");
@@ -124,54 +124,56 @@ INSTANTIATE_TEST_SUITE_P(
                 "is set by variant 'B' too"},
         Mistake{"unknown kind", metric("kind = 'pared'\n"),
                 "key 'metric[1].kind': 'pared' is unknown, expected 'paired'"},
-        Mistake{"unknown quantity", metric("kind = 'rms_curve'\nquantity = 'heding'\n"),
-                "'heding' is unknown, expected 'heading'"},
-        Mistake{"unknown variant", metric("kind = 'rms_curve'\nquantity = 'roll'\nvariants = ['C']\n"),
+        Mistake{"unknown quantity", metric("kind = 'rms_curve'\nquantity = 'attitude.heding'\n"),
+                "'attitude.heding' is unknown, expected 'attitude.heading'"},
+        Mistake{"unknown variant",
+                metric("kind = 'rms_curve'\nquantity = 'attitude.roll'\nvariants = ['C']\n"),
                 "key 'metric[1].variants': 'C' is unknown"},
         Mistake{"another unit",
-                metric("kind = 'value_at'\nquantity = 'v_east'\nat_s = 1\nat_most_mrad = 2\n"),
+                metric("kind = 'value_at'\nquantity = 'velocity.east'\nat_s = 1\nat_most_mrad = 2\n"),
                 "key 'metric[1].at_most_mrad': is unknown, expected 'at_most_mps'"},
-        Mistake{"after the end", metric("kind = 'value_at'\nquantity = 'v_east'\nat_s = 4\n"),
+        Mistake{"after the end", metric("kind = 'value_at'\nquantity = 'velocity.east'\nat_s = 4\n"),
                 "at_s': is after the end of the run, expected at most duration_s = 3"},
         Mistake{"compared with itself",
-                metric("kind = 'paired'\nquantity = 'roll'\nat_s = 1\nother = 'A'\nvariants = ['B', 'A']\n"),
+                metric("kind = 'paired'\nquantity = 'attitude.roll'\nat_s = 1\nother = 'A'\nvariants = ['B', "
+                       "'A']\n"),
                 "key 'metric[1].other': 'A' would be compared with itself, expected another variant"},
         Mistake{"nobody to compare with",
                 two_variants.substr(0, two_variants.rfind("[[variant]]")) +
-                    "[[metric]]\nkind = 'lead'\nquantity = 'roll'\nwithin_mrad = 1\nother = 'A'\n",
+                    "[[metric]]\nkind = 'lead'\nquantity = 'attitude.roll'\nwithin_mrad = 1\nother = 'A'\n",
                 "key 'metric[1].other': 'A' would be compared with itself"},
-        Mistake{"of another family", metric("kind = 'rms_curve'\nquantity = 'miss'\n"),
-                "'rms_curve miss' asks for miss, which variant 'A' does not tell, expected a quantity of its "
+        Mistake{"of another family", metric("kind = 'rms_curve'\nquantity = 'miss.distance'\n"),
+                "'rms_curve miss.distance' asks for miss.distance, which variant 'A' does not tell, expected "
+                "a quantity of its "
                 "estimator"},
-        Mistake{"of another estimator", metric("kind = 'rms_curve'\nquantity = 'p_north'\n"),
-                "'rms_curve p_north' asks for p_north, which variant 'A' does not tell"},
-        Mistake{"repairs of transfer alignment", metric("kind = 'rms_curve'\nquantity = 'repairs'\n"),
-                "asks for repairs, which variant 'A' does not tell"},
-        Mistake{
-            "bars that exclude each other",
-            metric("kind = 'value_at'\nquantity = 'roll'\nat_s = 1\nat_least_mrad = 2\nat_most_mrad = 1\n"),
-            "key 'metric[1].at_least_mrad': is more than at_most_mrad, expected a lower limit below the "
-            "upper"},
-        Mistake{
-            "ratios that exclude each other",
-            metric(
-                "kind = 'run_mean'\nquantity = 'roll'\nother = 'A'\nratio_at_least = 2\nratio_at_most = 1\n"),
-            "key 'metric[1].ratio_at_least': is more than ratio_at_most"},
-        Mistake{
-            "counts that exclude each other",
-            metric("kind = 'divergence'\nquantity = 'roll'\nbeyond_mrad = 1\nat_least = 2\nat_most = 1\n"),
-            "key 'metric[1].at_least': is more than at_most"},
+        Mistake{"of another estimator", metric("kind = 'rms_curve'\nquantity = 'position.north'\n"),
+                "'rms_curve position.north' asks for position.north, which variant 'A' does not tell"},
+        Mistake{"repairs of transfer alignment",
+                metric("kind = 'rms_curve'\nquantity = 'covariance.repairs'\n"),
+                "asks for covariance.repairs, which variant 'A' does not tell"},
+        Mistake{"bars that exclude each other",
+                metric("kind = 'value_at'\nquantity = 'attitude.roll'\nat_s = 1\nat_least_mrad = "
+                       "2\nat_most_mrad = 1\n"),
+                "key 'metric[1].at_least_mrad': is more than at_most_mrad, expected a lower limit below the "
+                "upper"},
+        Mistake{"ratios that exclude each other",
+                metric("kind = 'run_mean'\nquantity = 'attitude.roll'\nother = 'A'\nratio_at_least = "
+                       "2\nratio_at_most = 1\n"),
+                "key 'metric[1].ratio_at_least': is more than ratio_at_most"},
+        Mistake{"counts that exclude each other",
+                metric("kind = 'divergence'\nquantity = 'attitude.roll'\nbeyond_mrad = 1\nat_least = "
+                       "2\nat_most = 1\n"),
+                "key 'metric[1].at_least': is more than at_most"},
         Mistake{"never before and at most",
-                metric("kind = 'time_within'\nquantity = 'roll'\nwithin_mrad = 1\nnever_before_s = "
+                metric("kind = 'time_within'\nquantity = 'attitude.roll'\nwithin_mrad = 1\nnever_before_s = "
                        "2\nat_most_s = 1\n"),
                 "key 'metric[1].never_before_s': is more than at_most_s"},
-        Mistake{"empty window", metric("kind = 'window'\nquantity = 'roll'\nfrom_s = 2\nto_s = 2\n"),
+        Mistake{"empty window", metric("kind = 'window'\nquantity = 'attitude.roll'\nfrom_s = 2\nto_s = 2\n"),
                 "is not before the end of the window"},
-        Mistake{
-            "metric twice",
-            metric(
-                "kind = 'rms_curve'\nquantity = 'roll'\n[[metric]]\nkind = 'rms_curve'\nquantity = 'roll'\n"),
-            "'rms_curve roll' is the name of another metric"}));
+        Mistake{"metric twice",
+                metric("kind = 'rms_curve'\nquantity = 'attitude.roll'\n[[metric]]\nkind = "
+                       "'rms_curve'\nquantity = 'attitude.roll'\n"),
+                "'rms_curve attitude.roll' is the name of another metric"}));
 
 }  // namespace
 }  // namespace canhil::campaign

@@ -24,7 +24,7 @@ std::vector<RunSeries> runs_of(std::size_t variant) {
 }
 
 Result<Evaluation> ask(const std::string& metric, const Load& load = runs_of) {
-  return parse(two_variants + "[[metric]]\nquantity = 'heading'\n" + metric)
+  return parse(two_variants + "[[metric]]\nquantity = 'attitude.heading'\n" + metric)
       .and_then([&](const Campaign& campaign) { return evaluate(campaign, load); });
 }
 
@@ -148,7 +148,8 @@ TEST(Report, OfACampaignThatAsksForNothingIsNotMeasured) {
 }
 
 TEST(Report, CurvesAreInJson) {
-  const auto campaign = parse(two_variants + "[[metric]]\nkind = 'rms_curve'\nquantity = 'heading'\n");
+  const auto campaign =
+      parse(two_variants + "[[metric]]\nkind = 'rms_curve'\nquantity = 'attitude.heading'\n");
   const auto evaluation = evaluate(*campaign, runs_of);
   const auto json = nlohmann::json::parse(canhil::campaign::json(*campaign, *evaluation));
   EXPECT_EQ(json["outcome"], "pass");

@@ -39,7 +39,8 @@ TEST(Execute, StoresWhatRunInProcessGives) {
   const scenario::Scenario& scenario = campaign->variants[1].scenario;
   const auto truth = run::make_truth(scenario);
   const auto flown = run::run_in_process(scenario, *truth, 2);
-  EXPECT_EQ(encode((*runs)[2].samples), encode(series_of(2, *flown, *truth, Family::alignment).samples));
+  EXPECT_EQ(encode((*runs)[2].samples),
+            encode(series_of(2, *flown, *truth, estimators::transfer_alignment).samples));
   EXPECT_EQ((*runs)[2].run, 2U);
 }
 
@@ -103,7 +104,7 @@ TEST(Execute, AScenarioOfWhichNoRunCanBeFlownEndsItWithOneLine) {
 TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
   // Within 10 m of the date line some start beyond it.
   const auto campaign = parse(two_variants +
-                              "[[metric]]\nkind = 'divergence'\nquantity = 'heading'\nbeyond_mrad = "
+                              "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = "
                               "9000\nat_most = 0\n[sweep]\n\"truth.longitude_deg\" = [179.99999]\n"
                               "\"initial_error.position_sigma_m\" = [5.0]\n");
   ASSERT_TRUE(campaign) << campaign.error().message;

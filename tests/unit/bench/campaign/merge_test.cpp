@@ -50,7 +50,7 @@ TEST(Merge, GivesTheSameBytesForAnyDivisionAndOrder) {
   }
   ASSERT_TRUE(merge(a, Files{a, even}));  // onto itself
   EXPECT_EQ(content(a), content(b));
-  EXPECT_EQ(Store::open(a)->load(1)->at(2).samples.value(0, Quantity::heading), 3e-3);
+  EXPECT_EQ(Store::open(a)->load(1)->at(2).samples.value(0, quantities::attitude_heading), 3e-3);
 }
 
 void expect_refused(const Files& files, const std::string& why) {

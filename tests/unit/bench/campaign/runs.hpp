@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,23 +14,42 @@
 
 #include "bench/campaign/campaign.hpp"
 #include "bench/campaign/series.hpp"
+#include "bench/estimators/inflight_alignment/inflight_alignment.hpp"
+#include "bench/estimators/inflight_alignment/quantities.hpp"
+#include "bench/estimators/los_rate/los_rate.hpp"
+#include "bench/estimators/los_rate/quantities.hpp"
+#include "bench/estimators/transfer_alignment/quantities.hpp"
+#include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
+#include "bench/estimators/wind/quantities.hpp"
+#include "bench/estimators/wind/wind.hpp"
 
 namespace canhil::campaign {
 
-/// Adds a sample that has these numbers, and 0 for whatever else its family keeps.
-inline void add(Samples& samples, std::int64_t t_us, const std::map<Quantity, double>& given) {
+using quantities::Samples;
+
+/// Adds a sample that has these numbers, and 0 for whatever else its layout keeps.
+inline void add(Samples& samples, std::int64_t t_us, const std::map<const Quantity*, double>& given) {
   std::vector<double> values;
-  for (const Quantity quantity : kept(samples.family()))
+  for (const Quantity* quantity : samples.layout().kept)
     values.push_back(given.contains(quantity) ? given.at(quantity) : 0);
   samples.add(t_us, values);
 }
 
+/// The layout of a transfer alignment, or, if that does not tell a quantity, the first that does.
+inline const quantities::Layout& layout_with(const Quantity& quantity) {
+  if (quantities::tells(estimators::transfer_alignment.layout, quantity))
+    return estimators::transfer_alignment.layout;
+  const auto found = std::ranges::find_if(
+      estimators::all(), [&](const auto* one) { return quantities::tells(one->layout, quantity); });
+  return (*found)->layout;
+}
+
 /// A run with these values of a quantity at 0.1 s, 0.2 s ...
 inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
-                          Quantity quantity = Quantity::heading) {
-  RunSeries series{.run = run, .ending = {}, .samples = Samples(info(quantity).family)};
+                          const Quantity& quantity = quantities::attitude_heading) {
+  RunSeries series{.run = run, .ending = {}, .samples = Samples(layout_with(quantity))};
   for (std::size_t i = 0; i < values.size(); ++i)
-    add(series.samples, 100'000 * static_cast<std::int64_t>(i + 1), {{quantity, values[i]}});
+    add(series.samples, 100'000 * static_cast<std::int64_t>(i + 1), {{&quantity, values[i]}});
   return series;
 }
 

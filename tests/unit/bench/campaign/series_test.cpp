@@ -14,78 +14,67 @@ namespace canhil::campaign {
 namespace {
 
 TEST(Series, BytesAreDoublesLittleEndian) {
-  Samples samples;
-  add(samples, 1'000'000, {{Quantity::repairs, -2}});
+  Samples samples(estimators::inflight_alignment.layout);
+  add(samples, 1'000'000, {{&quantities::covariance_repairs, -2}});
   const auto bytes = encode(samples);
-  ASSERT_EQ(bytes.size(), 17U * 8);
+  ASSERT_EQ(bytes.size(), 16U * 8);
   const std::vector<std::uint8_t> one{0, 0, 0, 0, 0, 0, 0xF0, 0x3F}, minus_two{0, 0, 0, 0, 0, 0, 0, 0xC0};
   EXPECT_EQ(std::vector(bytes.begin(), bytes.begin() + 8), one);
   EXPECT_EQ(std::vector(bytes.end() - 8, bytes.end()), minus_two);
 }
 
 TEST(Series, ComesBackAsItWas) {
-  for (const Family family : {Family::alignment, Family::los_rate, Family::wind}) {
-    std::map<Quantity, double> values;
-    for (const Quantity quantity : kept(family))
+  for (const estimators::Estimator* estimator : estimators::all()) {
+    const quantities::Layout& layout = estimator->layout;
+    std::map<const Quantity*, double> values;
+    for (const Quantity* quantity : layout.kept)
       values[quantity] = 1.5 * static_cast<double>(values.size() + 1);
     values.begin()->second = std::numeric_limits<double>::infinity();
     std::next(values.begin())->second = std::nan("");
-    Samples samples(family);
+    Samples samples(layout);
     add(samples, -5'540'000, values);
     add(samples, 86'399'999'999, {});
-    const auto decoded = decode(encode(samples), family);
+    const auto decoded = decode(encode(samples), layout);
     ASSERT_TRUE(decoded) << decoded.error().message;
     const Samples& back = *decoded;
     ASSERT_EQ(back.size(), 2U);
-    EXPECT_EQ(back.family(), family);
+    EXPECT_EQ(&back.layout(), &layout);
     EXPECT_EQ(back.times()[0], -5'540'000);
     EXPECT_EQ(back.times()[1], 86'399'999'999);
     for (const auto& [quantity, value] : values) {
-      const double found = back.value(0, quantity);
-      EXPECT_TRUE(found == value || (std::isnan(found) && std::isnan(value))) << name(quantity);
+      const double found = back.value(0, *quantity);
+      EXPECT_TRUE(found == value || (std::isnan(found) && std::isnan(value))) << quantity->name;
     }
     EXPECT_EQ(encode(back), encode(samples));
   }
 }
 
 TEST(Series, BytesThatAreNoSamplesAreRefused) {
-  Samples samples(Family::wind);
+  Samples samples(estimators::wind.layout);
   add(samples, 0, {});
   auto bytes = encode(samples);
   bytes.pop_back();
-  EXPECT_EQ(decode(bytes, Family::wind).error().message, "has 55 bytes of samples of 56 each");
+  EXPECT_EQ(decode(bytes, estimators::wind.layout).error().message, "has 55 bytes of samples of 56 each");
   bytes = encode(samples);
   bytes[7] = 0x7F;  // not a number, or nearly infinite
   bytes[6] = 0xF0;
-  EXPECT_EQ(decode(bytes, Family::wind).error().message, "has a sample at inf s");
+  EXPECT_EQ(decode(bytes, estimators::wind.layout).error().message, "has a sample at inf s");
 }
 
 TEST(Series, QuantitiesThatFollowFromOthers) {
-  Samples alignment;
-  add(alignment, 0, {{Quantity::heading, 6}, {Quantity::heading_sigma, 0.5}});
-  EXPECT_EQ(alignment.value(0, Quantity::heading_over_sigma), 12);
-  EXPECT_TRUE(std::isnan(alignment.value(0, Quantity::los_pitch))) << "of another family";
-  Samples los(Family::los_rate);
+  Samples alignment(estimators::transfer_alignment.layout);
+  add(alignment, 0, {{&quantities::attitude_heading, 6}, {&quantities::heading_sigma, 0.5}});
+  EXPECT_EQ(alignment.value(0, quantities::heading_over_sigma), 12);
+  EXPECT_TRUE(std::isnan(alignment.value(0, quantities::los_rate_pitch))) << "of another estimator";
+  Samples los(estimators::los_rate.layout);
   add(los, 0,
-      {{Quantity::los_pitch, 3},
-       {Quantity::los_yaw, 4},
-       {Quantity::miss_pitch, 3},
-       {Quantity::miss_yaw, -4}});
-  EXPECT_DOUBLE_EQ(los.value(0, Quantity::los_rate), std::sqrt(12.5));
-  EXPECT_DOUBLE_EQ(los.value(0, Quantity::miss), 5);
-  EXPECT_TRUE(std::isnan(los.value(0, Quantity::heading)));
-}
-
-TEST(Series, EveryQuantityHasItsNameAndEveryFamilyItsOwn) {
-  EXPECT_EQ(name(Quantity::phi_north), "phi_north");
-  EXPECT_EQ(name(Quantity::nis), "nis");
-  EXPECT_EQ(name(Quantity::heading_sigma), "heading_sigma");
-  EXPECT_EQ(name(Quantity::los_pitch), "los_pitch");
-  EXPECT_EQ(name(Quantity::los_nis), "los_nis");
-  EXPECT_EQ(name(Quantity::miss), "miss");
-  for (const Family family : {Family::alignment, Family::los_rate, Family::wind}) {
-    for (const Quantity quantity : kept(family)) EXPECT_EQ(info(quantity).family, family) << name(quantity);
-  }
+      {{&quantities::los_rate_pitch, 3},
+       {&quantities::los_rate_yaw, 4},
+       {&quantities::miss_pitch, 3},
+       {&quantities::miss_yaw, -4}});
+  EXPECT_DOUBLE_EQ(los.value(0, quantities::los_rate_both), std::sqrt(12.5));
+  EXPECT_DOUBLE_EQ(los.value(0, quantities::miss_distance), 5);
+  EXPECT_TRUE(std::isnan(los.value(0, quantities::attitude_heading)));
 }
 
 TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
@@ -112,19 +101,20 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   flown.own_truth.engagement = record;
   flown.seen.navigation.emplace_back();
   const RunSeries series = series_of(
-      7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), Family::los_rate);
-  ASSERT_EQ(series.samples.family(), Family::los_rate) << "by what was asked for, whatever else was seen";
+      7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), estimators::los_rate);
+  ASSERT_EQ(&series.samples.layout(), &estimators::los_rate.layout)
+      << "by what was asked for, whatever else was seen";
   // To go: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 | 10.5 ms.
   ASSERT_EQ(series.samples.size(), 5U);
   EXPECT_EQ(series.samples.times()[0], -100'000) << "begins at 100 ms to go";
   EXPECT_EQ(series.samples.times()[4], -20'000);
-  EXPECT_DOUBLE_EQ(series.samples.value(0, Quantity::los_pitch), 3e-3);
-  EXPECT_TRUE(std::isnan(series.samples.value(0, Quantity::los_nis)));
-  EXPECT_DOUBLE_EQ(series.samples.value(1, Quantity::los_pitch), std::sqrt(12.5) * 1e-3);
-  EXPECT_DOUBLE_EQ(series.samples.value(1, Quantity::los_yaw), 1e-3);
-  EXPECT_DOUBLE_EQ(series.samples.value(1, Quantity::los_nis), 1.5);
-  EXPECT_DOUBLE_EQ(series.samples.value(2, Quantity::miss_pitch), -0.4);
-  EXPECT_DOUBLE_EQ(series.samples.value(2, Quantity::miss), 0.5);
+  EXPECT_DOUBLE_EQ(series.samples.value(0, quantities::los_rate_pitch), 3e-3);
+  EXPECT_TRUE(std::isnan(series.samples.value(0, quantities::los_mean_nis)));
+  EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_rate_pitch), std::sqrt(12.5) * 1e-3);
+  EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_rate_yaw), 1e-3);
+  EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_mean_nis), 1.5);
+  EXPECT_DOUBLE_EQ(series.samples.value(2, quantities::miss_pitch), -0.4);
+  EXPECT_DOUBLE_EQ(series.samples.value(2, quantities::miss_distance), 0.5);
 }
 
 TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
@@ -133,7 +123,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   const auto truth = run::make_truth(*scenario);
   const auto flown = run::run_in_process(*scenario, *truth, 5);
   ASSERT_TRUE(flown) << flown.error().message;
-  const RunSeries series = series_of(5, *flown, *truth, Family::alignment);
+  const RunSeries series = series_of(5, *flown, *truth, estimators::transfer_alignment);
   EXPECT_EQ(series.run, 5U);
   EXPECT_EQ(series.ending.kind, run::Ending::Kind::completed);
   // 10 Hz for 3 s; the last update is followed by no answer.
@@ -145,15 +135,15 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
     };
     const auto after = std::ranges::find_if(errors, same_time);
     ASSERT_NE(after, errors.end());
-    const auto value = [&](Quantity quantity) { return series.samples.value(i, quantity); };
-    EXPECT_EQ(value(Quantity::heading), after->angles.heading);
-    EXPECT_EQ(value(Quantity::roll), after->angles.roll);
-    EXPECT_EQ(value(Quantity::v_east), after->v_eb_n.y());
-    EXPECT_EQ(value(Quantity::v_down), after->v_eb_n.z());
-    EXPECT_EQ(value(Quantity::phi_north), after->misalignment.x());
-    EXPECT_TRUE(std::isnan(value(Quantity::p_north)));
+    const auto value = [&](const Quantity& quantity) { return series.samples.value(i, quantity); };
+    EXPECT_EQ(value(quantities::attitude_heading), after->angles.heading);
+    EXPECT_EQ(value(quantities::attitude_roll), after->angles.roll);
+    EXPECT_EQ(value(quantities::velocity_east), after->v_eb_n.y());
+    EXPECT_EQ(value(quantities::velocity_down), after->v_eb_n.z());
+    EXPECT_EQ(value(quantities::misalignment_north), after->misalignment.x());
+    EXPECT_TRUE(std::isnan(value(quantities::position_north)));
   }
-  EXPECT_EQ(series.samples.value(4, Quantity::nis), flown->seen.filter[4].nis);
+  EXPECT_EQ(series.samples.value(4, quantities::innovation_nis), flown->seen.filter[4].nis);
 }
 
 TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
@@ -174,18 +164,18 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   fix.cause_us = 1'500'000;
   fix.nis = 900;
   flown.seen.fixes.push_back(fix);
-  const RunSeries series = series_of(5, flown, truth, Family::alignment);
+  const RunSeries series = series_of(5, flown, truth, estimators::inflight_alignment);
   ASSERT_EQ(series.samples.size(), 2U) << "only of fixes that were considered";
-  EXPECT_TRUE(std::isnan(series.samples.value(1, Quantity::nis))) << "the filter did not use it";
-  const auto value = [&](Quantity quantity) { return series.samples.value(0, quantity); };
+  EXPECT_TRUE(std::isnan(series.samples.value(1, quantities::innovation_nis))) << "the filter did not use it";
+  const auto value = [&](const Quantity& quantity) { return series.samples.value(0, quantity); };
   EXPECT_EQ(series.samples.times()[0], 500'000);
-  EXPECT_DOUBLE_EQ(value(Quantity::heading), 1.5) << "the first answer that knew of a late fix";
-  EXPECT_NEAR(value(Quantity::p_north), 1, 1e-6);
-  EXPECT_NEAR(value(Quantity::p_down), 3, 1e-6);
-  EXPECT_DOUBLE_EQ(value(Quantity::heading_over_sigma), 3);
-  EXPECT_EQ(value(Quantity::repairs), 6);
-  EXPECT_EQ(value(Quantity::nis), 4);
-  EXPECT_TRUE(std::isnan(value(Quantity::attitude_nees)));
+  EXPECT_DOUBLE_EQ(value(quantities::attitude_heading), 1.5) << "the first answer that knew of a late fix";
+  EXPECT_NEAR(value(quantities::position_north), 1, 1e-6);
+  EXPECT_NEAR(value(quantities::position_down), 3, 1e-6);
+  EXPECT_DOUBLE_EQ(value(quantities::heading_over_sigma), 3);
+  EXPECT_EQ(value(quantities::covariance_repairs), 6);
+  EXPECT_EQ(value(quantities::innovation_nis), 4);
+  EXPECT_TRUE(std::isnan(value(quantities::attitude_nees)));
 }
 
 }  // namespace

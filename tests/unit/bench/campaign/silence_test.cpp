@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "bench/campaign/evaluate.hpp"
-#include "bench/campaign/freshness.hpp"
 #include "bench/campaign/statistics.hpp"
 #include "bench/run/contract.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
@@ -12,18 +11,18 @@
 namespace canhil::campaign {
 namespace {
 
-constexpr Quantity heading = Quantity::heading;
+constexpr const Quantity& heading = quantities::attitude_heading;
 constexpr std::int64_t s_us = 1'000'000;
 constexpr std::int64_t end_us = 10 * s_us;
 
 /// Value 1 at every half second from 0.5 s on, but for a silence.
-RunSeries run_silent(std::int64_t from_us, std::int64_t to_us, Quantity quantity = heading) {
+RunSeries run_silent(std::int64_t from_us, std::int64_t to_us, const Quantity& quantity = heading) {
   RunSeries series{.run = 0,
                    .ending = {},
-                   .samples = Samples(info(quantity).family),
+                   .samples = Samples(layout_with(quantity)),
                    .freshness = {.age_limit_us = s_us, .end_us = end_us}};
   for (std::int64_t t_us = s_us / 2; t_us <= end_us; t_us += s_us / 2) {
-    if (t_us <= from_us || t_us >= to_us) add(series.samples, t_us, {{quantity, 1}});
+    if (t_us <= from_us || t_us >= to_us) add(series.samples, t_us, {{&quantity, 1}});
   }
   return series;
 }
@@ -67,9 +66,9 @@ TEST(Silence, OfAStretchOfAWindowIsMissing) {
   EXPECT_EQ(run_means(in_between, heading, 6 * s_us, end_us).missing, 0U) << "after it";
   EXPECT_EQ(run_means(in_between, heading, 4 * s_us, end_us).missing, 1U) << "at the window's beginning";
   EXPECT_GT(window_statistics(in_between, heading, 4 * s_us, end_us).missing, 0U);
-  const std::vector nis{run_silent(3 * s_us, 6 * s_us, Quantity::nis)};
-  EXPECT_GT(consistency(nis, Quantity::nis, 0, end_us, 0.95).missing, 0U);
-  EXPECT_EQ(consistency(nis, Quantity::nis, 6 * s_us, end_us, 0.95).missing, 0U);
+  const std::vector nis{run_silent(3 * s_us, 6 * s_us, quantities::innovation_nis)};
+  EXPECT_GT(consistency(nis, quantities::innovation_nis, 0, end_us, 0.95).missing, 0U);
+  EXPECT_EQ(consistency(nis, quantities::innovation_nis, 6 * s_us, end_us, 0.95).missing, 0U);
 }
 
 TEST(Silence, OfOneRunIsMissingBesideOthers) {
@@ -82,44 +81,48 @@ TEST(Silence, OfOneRunIsMissingBesideOthers) {
 TEST(Silence, AMissDoesNotAge) {
   RunSeries series{.run = 0,
                    .ending = {},
-                   .samples = Samples(Family::los_rate),
+                   .samples = Samples(estimators::los_rate.layout),
                    .freshness = {.age_limit_us = s_us, .end_us = 0}};
-  add(series.samples, -5 * s_us, {{Quantity::miss_pitch, 3}, {Quantity::miss_yaw, 4}});
-  EXPECT_EQ(run_distribution(std::vector{series}, Quantity::miss, end_us, 6, 1).missing, 0U);
-  EXPECT_EQ(run_distribution(std::vector{series}, Quantity::los_pitch, end_us, 6, 1).missing, 1U);
+  add(series.samples, -5 * s_us, {{&quantities::miss_pitch, 3}, {&quantities::miss_yaw, 4}});
+  EXPECT_EQ(run_distribution(std::vector{series}, quantities::miss_distance, end_us, 6, 1).missing, 0U);
+  EXPECT_EQ(run_distribution(std::vector{series}, quantities::los_rate_pitch, end_us, 6, 1).missing, 1U);
 }
 
 TEST(Silence, HalfOfTheSamplesToGoMustBeAnswered) {
-  RunSeries series{.run = 0,
-                   .ending = {},
-                   .samples = Samples(Family::los_rate),
-                   .freshness = {.end_us = 0, .begin_us = -2 * s_us, .sample_us = los_sample_us}};
-  for (int i = 50; i > 20; --i) add(series.samples, -i * los_sample_us, {{Quantity::los_pitch, 1}});
+  RunSeries series{
+      .run = 0,
+      .ending = {},
+      .samples = Samples(estimators::los_rate.layout),
+      .freshness = {
+          .end_us = 0, .begin_us = -2 * s_us, .sample_us = estimators::los_rate.layout.to_go_stretch_us}};
+  for (int i = 50; i > 20; --i)
+    add(series.samples, -i * estimators::los_rate.layout.to_go_stretch_us,
+        {{&quantities::los_rate_pitch, 1}});
   const std::vector runs{series};
-  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0, 1).missing, 0U) << "30 of 50";
-  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0, 0.7).missing, 1U) << "15 of 35";
-  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0.4, 9).missing, 1U) << "30 of 80";
-  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0.8, 9).missing, 1U) << "10 of 60";
+  EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0, 1).missing, 0U) << "30 of 50";
+  EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0, 0.7).missing, 1U) << "15 of 35";
+  EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0.4, 9).missing, 1U) << "30 of 80";
+  EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0.8, 9).missing, 1U) << "10 of 60";
 }
 
 TEST(Silence, OfAFilterThatCoastsIsThatOfItsNis) {
   RunSeries series{.run = 0,
                    .ending = {},
-                   .samples = Samples(Family::wind),
+                   .samples = Samples(estimators::wind.layout),
                    .freshness = {.age_limit_us = s_us, .end_us = end_us}};
   for (std::int64_t t_us = s_us / 10; t_us <= end_us; t_us += s_us / 10)
     add(series.samples, t_us,
-        {{Quantity::wind_nis, t_us > 3 * s_us && t_us <= 5 * s_us ? std::nan("") : 9.0}});
+        {{&quantities::wind_nis, t_us > 3 * s_us && t_us <= 5 * s_us ? std::nan("") : 9.0}});
   const std::vector runs{series};
-  EXPECT_EQ(consistency(runs, Quantity::wind_nis, 0, 4 * s_us, 0.95).missing, 0U) << "for a second";
-  EXPECT_EQ(consistency(runs, Quantity::wind_nis, 0, end_us, 0.95).missing, 10U);
+  EXPECT_EQ(consistency(runs, quantities::wind_nis, 0, 4 * s_us, 0.95).missing, 0U) << "for a second";
+  EXPECT_EQ(consistency(runs, quantities::wind_nis, 0, end_us, 0.95).missing, 10U);
 }
 
 std::int64_t age_limit_us(const std::string& scenario, const std::vector<scenario::Setting>& settings = {}) {
   const std::string file = SOURCE_DIR "/bench/scenarios/" + scenario;
   const auto read = scenario::parse(content(file), file, run::contract(), settings);
   EXPECT_TRUE(read) << read.error().message;
-  return freshness_of(*read).age_limit_us;
+  return estimators::of(*read).freshness(*read).age_limit_us;
 }
 
 scenario::Setting set(const std::string& key, const std::string& value) {
@@ -159,7 +162,7 @@ TEST(Silence, MeetsNoBar) {
         "kind = 'distribution'\nat_s = 3.0\nrms_at_most_mrad = 100\n",
         "kind = 'window'\nmean_at_most_mrad = 100\n", "kind = 'run_mean'\nat_most_mrad = 100\n",
         "kind = 'divergence'\nbeyond_mrad = 100\nat_most = 0\n"}) {
-    const auto campaign = parse(two_variants + "[[metric]]\nquantity = 'heading'\n" + metric);
+    const auto campaign = parse(two_variants + "[[metric]]\nquantity = 'attitude.heading'\n" + metric);
     ASSERT_TRUE(campaign) << campaign.error().message;
     for (const std::size_t updates : {10U, 30U}) {
       const auto evaluation = evaluate(*campaign, [&](std::size_t) -> Result<std::vector<RunSeries>> {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr Quantity heading = Quantity::heading;
+constexpr const Quantity& heading = quantities::attitude_heading;
 
 TEST(RmsCurve, IsTheRootOfTheMeanSquareOverRuns) {
   const std::vector runs{run_with(0, {3, 1}), run_with(1, {-4, 7})};
@@ -160,23 +160,23 @@ TEST(PairedFraction, AllBetterIsBoundedBelowOnly) {
 }
 
 TEST(Consistency, HasTheBoundsOfChiSquareForTheMeanOverRuns) {
-  std::vector<RunSeries> runs(10, run_with(0, {3, 9}, Quantity::nis));
-  const auto found = consistency(runs, Quantity::nis, 0, 1'000'000, 0.95);
+  std::vector<RunSeries> runs(10, run_with(0, {3, 9}, quantities::innovation_nis));
+  const auto found = consistency(runs, quantities::innovation_nis, 0, 1'000'000, 0.95);
   EXPECT_DOUBLE_EQ(found.mean, 6);
   EXPECT_NEAR(found.low, 1.6791, 1e-4);   // chi2(30) at 2.5 %: 16.791
   EXPECT_NEAR(found.high, 4.6979, 1e-4);  // at 97.5 %: 46.979
   EXPECT_EQ(found.updates, 2U);
   EXPECT_DOUBLE_EQ(found.inside, 0.5);
-  runs[3] = run_with(3, {inf, 9}, Quantity::nis);
-  EXPECT_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).missing, 1U);
-  EXPECT_DOUBLE_EQ(consistency(runs, Quantity::nis, 0, 1'000'000, 0.95).inside, 0);
+  runs[3] = run_with(3, {inf, 9}, quantities::innovation_nis);
+  EXPECT_EQ(consistency(runs, quantities::innovation_nis, 0, 1'000'000, 0.95).missing, 1U);
+  EXPECT_DOUBLE_EQ(consistency(runs, quantities::innovation_nis, 0, 1'000'000, 0.95).inside, 0);
 }
 
 TEST(Consistency, IsOfTheRunsThatWereAsked) {
   // The fixes of the second update were gated in all runs but one, those of the third in all.
-  std::vector<RunSeries> runs(10, run_with(0, {3, nan, nan}, Quantity::nis));
-  runs[4] = run_with(4, {3, 9.3, nan}, Quantity::nis);
-  const auto found = consistency(runs, Quantity::nis, 0, 1'000'000, 0.95);
+  std::vector<RunSeries> runs(10, run_with(0, {3, nan, nan}, quantities::innovation_nis));
+  runs[4] = run_with(4, {3, 9.3, nan}, quantities::innovation_nis);
+  const auto found = consistency(runs, quantities::innovation_nis, 0, 1'000'000, 0.95);
   EXPECT_EQ(found.missing, 0U);
   EXPECT_EQ(found.updates, 2U);
   EXPECT_DOUBLE_EQ(found.mean, (30 + 9.3) / 11);
@@ -185,9 +185,9 @@ TEST(Consistency, IsOfTheRunsThatWereAsked) {
 }
 
 RunSeries engagement(std::uint64_t run, const std::map<std::int64_t, double>& pitch_by_ms_to_go) {
-  RunSeries series{.run = run, .ending = {}, .samples = Samples(Family::los_rate)};
+  RunSeries series{.run = run, .ending = {}, .samples = Samples(estimators::los_rate.layout)};
   for (const auto& [ms, pitch] : pitch_by_ms_to_go)
-    add(series.samples, -1000 * ms, {{Quantity::los_pitch, pitch}});
+    add(series.samples, -1000 * ms, {{&quantities::los_rate_pitch, pitch}});
   return series;
 }
 
@@ -196,17 +196,17 @@ TEST(ToGo, TakesTheSamplesThatLieWithinTheWindow) {
   std::map<std::int64_t, double> to_go;
   for (const auto& [ms, value] : values) to_go[-ms] = value;
   std::vector<RunSeries> runs{engagement(0, to_go), engagement(1, to_go)};
-  const auto found = to_go_statistics(runs, Quantity::los_pitch, 0.2, 0.5);
+  const auto found = to_go_statistics(runs, quantities::los_rate_pitch, 0.2, 0.5);
   EXPECT_EQ(found.count, 4U) << "that from 0.5 s on, and that down to 0.2 s, of both";
   EXPECT_DOUBLE_EQ(found.mean, 3.5);
   EXPECT_DOUBLE_EQ(found.rms, std::sqrt(12.5));
   EXPECT_EQ(found.missing, 0U);
-  EXPECT_DOUBLE_EQ(to_go_statistics(runs, Quantity::los_rate, 0.2, 0.5).rms, std::sqrt(12.5 / 2))
+  EXPECT_DOUBLE_EQ(to_go_statistics(runs, quantities::los_rate_both, 0.2, 0.5).rms, std::sqrt(12.5 / 2))
       << "yaw is 0";
   runs[1] = engagement(1, {{1000, 9}});
-  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0.2, 0.5).missing, 1U);
+  EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0.2, 0.5).missing, 1U);
   runs[0].ending.kind = run::Ending::Kind::target_fault;
-  EXPECT_EQ(to_go_statistics(runs, Quantity::los_pitch, 0.2, 0.5).missing, 2U);
+  EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0.2, 0.5).missing, 2U);
 }
 
 TEST(Divergence, CountsFaultsAndWhatIsBeyondAtTheEnd) {

@@ -18,10 +18,10 @@ using testing::HasSubstr;
 
 const std::string asked = two_variants + R"([[metric]]
 kind = "rms_curve"
-quantity = "heading"
+quantity = "attitude.heading"
 [[metric]]
 kind = "divergence"
-quantity = "heading"
+quantity = "attitude.heading"
 beyond_mrad = 5
 at_most = 0
 )";
@@ -154,7 +154,8 @@ TEST_F(Damaged, RowsAreRefusedByWhatIsWrong) {
   EXPECT_THAT(complaint_after("update run set ending = 99 where id = 2"), HasSubstr("row 2 has ending 99"));
   EXPECT_THAT(complaint_after("update run set ending = 0 where id = 2"),
               HasSubstr("row 2 has another hash than its content"));
-  EXPECT_THAT(complaint_after("update run set family = 3 where id = 2"), HasSubstr("row 2 has family 3"));
+  EXPECT_THAT(complaint_after("update run set columns = 'height' where id = 2"),
+              HasSubstr("row 2 has columns that no estimator tells"));
   EXPECT_THAT(complaint_after("update run set samples = substr(samples, 9) where id = 2"),
               HasSubstr("row 2 has another hash"));
   EXPECT_THAT(complaint_after("update run set detail = 'fine' where id = 2"), HasSubstr("another hash"));
@@ -165,7 +166,7 @@ TEST_F(Damaged, RowsAreRefusedByWhatIsWrong) {
   EXPECT_THAT(complaint_after("update source set name = 'other.toml' where kind = 'campaign'"),
               HasSubstr("another hash"));
   EXPECT_THAT(complaint_after("pragma application_id = 0x43484333"),
-              HasSubstr("is of format 3, expected 4: it must be flown again"));
+              HasSubstr("is of format 3, expected 5: it must be flown again"));
 }
 
 TEST_F(Damaged, IsRefusedByMergeAndResumeToo) {

@@ -18,34 +18,35 @@ constexpr std::int64_t end_us = 1'000'000;
 
 std::vector<RunSeries> three_runs() {
   // Means of |value| from 0.2 s on: 2, 4, 6.
-  return {run_with(0, {90, 1, -3}, Quantity::wind_along), run_with(1, {90, -4, 4}, Quantity::wind_along),
-          run_with(2, {90, 6, 6}, Quantity::wind_along)};
+  return {run_with(0, {90, 1, -3}, quantities::wind_along), run_with(1, {90, -4, 4}, quantities::wind_along),
+          run_with(2, {90, 6, 6}, quantities::wind_along)};
 }
 
 TEST(RunMeans, AreOfEachRunOverTheWindow) {
-  const RunMeans found = run_means(three_runs(), Quantity::wind_along, 200'000, end_us);
+  const RunMeans found = run_means(three_runs(), quantities::wind_along, 200'000, end_us);
   EXPECT_DOUBLE_EQ(found.mean, 4);
   EXPECT_DOUBLE_EQ(found.standard_deviation, 2);
   EXPECT_DOUBLE_EQ(found.largest, 6);
   EXPECT_EQ(found.missing, 0U);
-  EXPECT_DOUBLE_EQ(run_means(three_runs(), Quantity::wind_along, 0, 100'000).mean, 90);
+  EXPECT_DOUBLE_EQ(run_means(three_runs(), quantities::wind_along, 0, 100'000).mean, 90);
 }
 
 TEST(RunMeans, CountRunsThatWereLost) {
   auto runs = three_runs();
   runs[1].ending.kind = run::Ending::Kind::target_silent;
-  runs[2] = run_with(2, {1, std::numeric_limits<double>::quiet_NaN(), 1}, Quantity::wind_along);
-  const RunMeans found = run_means(runs, Quantity::wind_along, 200'000, end_us);
+  runs[2] = run_with(2, {1, std::numeric_limits<double>::quiet_NaN(), 1}, quantities::wind_along);
+  const RunMeans found = run_means(runs, quantities::wind_along, 200'000, end_us);
   EXPECT_EQ(found.missing, 2U);
   EXPECT_DOUBLE_EQ(found.mean, 2);
   EXPECT_TRUE(std::isnan(found.standard_deviation));
-  EXPECT_EQ(run_means(three_runs(), Quantity::wind_along, 500'000, end_us).missing, 3U);  // no updates there
+  EXPECT_EQ(run_means(three_runs(), quantities::wind_along, 500'000, end_us).missing,
+            3U);  // no updates there
 }
 
 // Heading of A: 2 mrad in the mean, of B: 6.
 std::optional<bool> passed(const std::string& metric) {
   const auto campaign =
-      parse(two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'heading'\n" + metric);
+      parse(two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'attitude.heading'\n" + metric);
   EXPECT_TRUE(campaign) << campaign.error().message;
   const auto evaluation = evaluate(*campaign, [](std::size_t variant) -> Result<std::vector<RunSeries>> {
     std::vector<RunSeries> runs;
@@ -69,33 +70,33 @@ TEST(RunMean, Bars) {
 }
 
 TEST(RunMean, ARatioNeedsAnother) {
-  const auto campaign =
-      parse(two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'heading'\nratio_at_most = 0.5\n");
+  const auto campaign = parse(
+      two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'attitude.heading'\nratio_at_most = 0.5\n");
   ASSERT_FALSE(campaign);
   EXPECT_THAT(campaign.error().message, testing::HasSubstr("metric[1].ratio_at_most': is of no use alone"));
 }
 
 TEST(WindSeries, IsWhatTheChecksSee) {
   auto scenario = scenario::read_file(SOURCE_DIR "/bench/scenarios/wind_quick.toml", run::contract()).value();
-  EXPECT_EQ(family_of(scenario), Family::wind);
+  EXPECT_EQ(&estimators::of(scenario), &estimators::wind);
   const auto truth = run::make_truth(scenario);
   const auto flown = run::run_in_process(scenario, *truth, 2);
   ASSERT_TRUE(flown) << flown.error().message;
-  const RunSeries series = series_of(2, *flown, *truth, family_of(scenario));
+  const RunSeries series = series_of(2, *flown, *truth, estimators::of(scenario));
   const auto errors = checks::wind_errors(flown->seen, *flown->own_truth.glide);
-  ASSERT_EQ(series.samples.family(), Family::wind);
-  EXPECT_TRUE(series_of(2, *flown, *truth, Family::los_rate).samples.empty()) << "flew no engagement";
+  ASSERT_EQ(&series.samples.layout(), &estimators::wind.layout);
+  EXPECT_TRUE(series_of(2, *flown, *truth, estimators::los_rate).samples.empty()) << "flew no engagement";
   ASSERT_EQ(series.samples.size(), errors.size());
   const std::size_t last = errors.size() - 1;
-  const auto value = [&](Quantity quantity) { return series.samples.value(last, quantity); };
+  const auto value = [&](const Quantity& quantity) { return series.samples.value(last, quantity); };
   EXPECT_EQ(series.samples.times()[last], errors[last].t_us);
-  EXPECT_EQ(value(Quantity::wind_along), errors[last].along_track);
-  EXPECT_EQ(value(Quantity::wind_cross), errors[last].cross_track);
-  EXPECT_EQ(value(Quantity::wind_down), errors[last].error_n.z());
-  EXPECT_NEAR(value(Quantity::wind_norm), errors[last].error_n.norm(), 1e-12);
-  EXPECT_EQ(value(Quantity::wind_nis), flown->seen.wind.back().nis);
-  EXPECT_GT(value(Quantity::wind_nees), 0);
-  EXPECT_EQ(value(Quantity::wind_along_sigma), flown->seen.wind.back().along_track_sigma);
+  EXPECT_EQ(value(quantities::wind_along), errors[last].along_track);
+  EXPECT_EQ(value(quantities::wind_cross), errors[last].cross_track);
+  EXPECT_EQ(value(quantities::wind_down), errors[last].error_n.z());
+  EXPECT_NEAR(value(quantities::wind_norm), errors[last].error_n.norm(), 1e-12);
+  EXPECT_EQ(value(quantities::wind_nis), flown->seen.wind.back().nis);
+  EXPECT_GT(value(quantities::wind_nees), 0);
+  EXPECT_EQ(value(quantities::wind_along_sigma), flown->seen.wind.back().along_track_sigma);
 }
 
 }  // namespace

@@ -1,15 +1,14 @@
-// What the series of a run are put together from.
+// Values of a run put together into as many points as a picture has.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "bench/checks/errors.hpp"
 #include "bench/report/series.hpp"
 
 namespace canhil::report {
@@ -75,36 +74,5 @@ class Thinned {
   std::int64_t last_us_ = 0;
   std::vector<Series::Point> points_;
 };
-
-/// The series with a sample of each item, whose time `time` gives; silence is what lasts longer than the
-/// wait.
-template <class Items, class Time, class Value>
-Series thinned(Series empty, const Span& span, double longest_wait_us, const Items& items, Time time,
-               Value value) {
-  Thinned points(span, longest_wait_us);
-  for (const auto& item : items) points.add(time(item), value(item));
-  empty.points = std::move(points).points();
-  return empty;
-}
-
-/// A normalised innovation squared, and where 95 % of the values of a consistent filter lie.
-Series nis_series(std::string_view estimator, const Span& span, double longest_wait_us,
-                  const std::vector<checks::Normalised>& nis, double degrees_of_freedom);
-
-/// Names of the quantities that checks judge, as in Series::quantity.
-std::string error_of(scenario::AttitudeAxis axis);
-std::string error_of(scenario::VelocityAxis axis);
-std::string error_of(scenario::PositionAxis axis);
-std::string error_of(scenario::WindAxis axis);
-std::string error_of(scenario::LosPlane plane);
-
-/// Attitude, velocity, innovations of an estimator of attitude and velocity; of one with fixes its position.
-void add_alignment(std::vector<Series>& all, scenario::Aligner aligner, const run::Run& run,
-                   std::int64_t duration_us);
-void add_wind(std::vector<Series>& all, const run::Run& run, std::int64_t duration_us);
-void add_los(std::vector<Series>& all, const run::Run& run, std::int64_t duration_us);
-
-/// Gives each series the bars of the checks that judge it.
-void add_bars(std::vector<Series>& all, const scenario::Scenario& scenario, const run::Run& run);
 
 }  // namespace canhil::report

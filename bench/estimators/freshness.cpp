@@ -1,0 +1,33 @@
+#include "bench/estimators/freshness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace canhil::estimators {
+namespace {
+
+/// So many periods without a fix are no silence where each is lost with a probability: more in a row are not
+/// to be expected in a campaign.
+double periods_of_fixes(double loss_probability) {
+  constexpr double improbable = 1e-6;
+  constexpr double most_periods = 1e6;
+  constexpr double without_loss = checks::tolerated_fixes + 1;
+  if (loss_probability <= 0) return without_loss;
+  if (loss_probability >= 1) return most_periods;
+  return std::max(without_loss, std::ceil(std::log(improbable) / std::log(loss_probability)));
+}
+
+}  // namespace
+
+double period_us(const scenario::Schedule& schedule, std::int64_t cycle_us) {
+  return static_cast<double>(schedule.period_us.value_or(cycle_us));
+}
+
+double longest_wait_of_fixes_us(const scenario::Schedule& schedule, std::int64_t cycle_us,
+                                const scenario::FixFaults& faults) {
+  const double lost = 1 - (1 - faults.loss_probability) * (1 - faults.invalid_probability);
+  return checks::longest_wait_us(period_us(schedule, cycle_us), periods_of_fixes(lost)) +
+         static_cast<double>(schedule.latency_us);
+}
+
+}  // namespace canhil::estimators

@@ -1,0 +1,40 @@
+// What in-flight alignment alone tells.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+/// At the time of validity of a fix, NED.
+inline constexpr Quantity position_north{.name = "position.north",
+                                         .meaning = "error of the position north, at the time of a fix",
+                                         .unit = metres,
+                                         .once = "p_north"};
+inline constexpr Quantity position_east{.name = "position.east",
+                                        .meaning = "error of the position east, at the time of a fix",
+                                        .unit = metres,
+                                        .once = "p_east"};
+inline constexpr Quantity position_down{.name = "position.down",
+                                        .meaning = "error of the position down, at the time of a fix",
+                                        .unit = metres,
+                                        .once = "p_down"};
+/// Of the covariance, since the start.
+inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
+                                             .meaning = "repairs of the covariance since the start",
+                                             .unit = plain,
+                                             .once = "repairs"};
+
+inline constexpr Quantity position_horizontal{.name = "position.horizontal",
+                                              .meaning = "magnitude of the horizontal error of the position",
+                                              .unit = metres};
+inline constexpr Quantity position_norm{
+    .name = "position.norm", .meaning = "magnitude of the error of the position", .unit = metres};
+/// Of a fix, NED.
+inline constexpr Quantity position_innovation_north{
+    .name = "innovation.position.north", .meaning = "innovation of a fix north", .unit = metres};
+inline constexpr Quantity position_innovation_east{
+    .name = "innovation.position.east", .meaning = "innovation of a fix east", .unit = metres};
+inline constexpr Quantity position_innovation_down{
+    .name = "innovation.position.down", .meaning = "innovation of a fix down", .unit = metres};
+
+}  // namespace canhil::quantities

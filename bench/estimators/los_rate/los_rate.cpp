@@ -1,0 +1,147 @@
+#include "bench/estimators/los_rate/los_rate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "bench/checks/los.hpp"
+#include "bench/checks/silence.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/estimators/freshness.hpp"
+#include "bench/estimators/los_rate/quantities.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::estimators {
+namespace {
+
+using namespace quantities;
+
+constexpr std::array<const Quantity*, 5> kept{&los_rate_pitch, &los_rate_yaw, &los_mean_nis, &miss_pitch,
+                                              &miss_yaw};
+
+double both_planes(const Samples& samples, std::size_t place) {
+  const double pitch = samples.value(place, los_rate_pitch), yaw = samples.value(place, los_rate_yaw);
+  return std::sqrt((pitch * pitch + yaw * yaw) / 2);
+}
+double miss_of(const Samples& samples, std::size_t place) {
+  return std::hypot(samples.value(place, miss_pitch), samples.value(place, miss_yaw));
+}
+constexpr std::array derived{Derived{.quantity = &los_rate_both, .of = both_planes},
+                             Derived{.quantity = &miss_distance, .of = miss_of}};
+
+constexpr std::int64_t stretch_us = 20'000;
+constexpr std::array<const Quantity*, 1> of_runs_alone{&los_nis};
+
+constexpr Layout layout{
+    .kept = kept, .derived = derived, .to_go_stretch_us = stretch_us, .end_known_by = &miss_distance};
+
+/// What falls into one stretch.
+struct Stretch {
+  double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
+  int rates = 0, updates = 0;
+};
+
+Samples samples_of(const checks::Observations& seen, const Truth& truth) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Samples samples(layout);
+  if (truth.engagement == nullptr) return samples;
+  const world::EngagementRecord& engagement = *truth.engagement;
+  std::map<std::int64_t, Stretch> stretches;  // by -(time to go), in stretches
+  const auto at = [&](double time_to_go) -> Stretch& {
+    return stretches[-static_cast<std::int64_t>(
+        std::floor(time_to_go * 1e6 / static_cast<double>(stretch_us)))];
+  };
+  for (const checks::LosError& error : checks::los_errors(seen, engagement)) {
+    Stretch& stretch = at(error.time_to_go);
+    stretch.pitch_squares += error.rate.pitch * error.rate.pitch;
+    stretch.yaw_squares += error.rate.yaw * error.rate.yaw;
+    ++stretch.rates;
+  }
+  for (const checks::Normalised& update : checks::los_nis(seen)) {
+    const world::EngagementTruth* epoch = engagement.at(update.t_us);
+    if (epoch == nullptr) continue;
+    Stretch& stretch = at(epoch->time_to_go());
+    stretch.nis_sum += update.value;
+    ++stretch.updates;
+  }
+  const world::Vector3 miss_n = engagement.miss_n.value_or(world::Vector3::Constant(nan));
+  for (const auto& [place, stretch] : stretches) {
+    if (stretch.rates == 0) continue;
+    const std::array<double, kept.size()> values{
+        std::sqrt(stretch.pitch_squares / stretch.rates), std::sqrt(stretch.yaw_squares / stretch.rates),
+        stretch.updates > 0 ? told(stretch.nis_sum / stretch.updates) : nan, miss_n.z(), miss_n.y()};
+    samples.add((place - 1) * stretch_us, values);
+  }
+  return samples;
+}
+
+void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
+  if (truth.engagement == nullptr) return;
+  const world::EngagementRecord& engagement = *truth.engagement;
+  const auto errors = checks::los_errors(seen, engagement);
+  // In the last moments before the passage the rate itself grows beyond any picture.
+  constexpr double least_to_go_s = 0.08;
+  const auto last = std::find_if(errors.rbegin(), errors.rend(),
+                                 [](const checks::LosError& e) { return e.time_to_go >= least_to_go_s; });
+  const auto empty = [&](const Quantity& quantity) {
+    return Track{.quantity = &quantity,
+                 .unit = quantity.unit,
+                 .longest_wait_us = checks::longest_wait_us(
+                     1e6 * checks::nominal_period_s(seen, messages::LosRateTarget::info.name)),
+                 .answers_end_us = engagement.miss_n ? std::min(truth.duration_us, engagement.passage_us)
+                                                     : truth.duration_us};
+  };
+  const auto plane = [&](const Quantity& quantity, const std::string& name,
+                         double world::Planes<double>::*member) {
+    Track track = empty(quantity);
+    track.drawn_until_us = last == errors.rend() ? 0 : last->t_us;
+    track.title = "LOS rate error, " + name;
+    track.estimate_title = "LOS rate, " + name;
+    track.estimate_unit = mradps;
+    for (const checks::LosError& e : errors) {
+      const auto& answer = *std::ranges::lower_bound(seen.los, e.t_us, {}, &checks::LosAnswer::cause_us);
+      track.told.push_back({.t_us = e.t_us,
+                            .value = e.rate.*member,
+                            .sigma = answer.rate_sigma.*member,
+                            .estimate = answer.rate.*member,
+                            .truth = answer.rate.*member - e.rate.*member});
+    }
+    give(std::move(track));
+  };
+  plane(los_rate_pitch, "pitch", &world::Planes<double>::pitch);
+  plane(los_rate_yaw, "yaw", &world::Planes<double>::yaw);
+  Track statistic = empty(los_nis);
+  statistic.kind = Track::Kind::statistic;
+  statistic.title = "normalised innovation squared";
+  for (const checks::Normalised& n : checks::los_nis(seen))
+    statistic.told.push_back({.t_us = n.t_us, .value = n.value});
+  give(std::move(statistic));
+}
+
+Freshness freshness_of(const scenario::Scenario& scenario) {
+  if (!scenario.engagement || !scenario.seeker) return {};
+  const world::EngagementPlan& plan = *scenario.engagement;
+  const scenario::Schedule& schedule = scenario.seeker->schedule;
+  const std::int64_t cycle_us = messages::SeekerRange::info.cycle_time_us;
+  const double to_go_s = plan.range / (plan.missile_speed + plan.target_speed);  // at the start
+  return {.age_limit_us = std::llround(checks::longest_wait_us(period_us(schedule, cycle_us))),
+          .end_us = 0,
+          .begin_us = -std::llround(to_go_s * 1e6),
+          .sample_us = std::max(stretch_us, schedule.period_us.value_or(cycle_us))};
+}
+
+}  // namespace
+
+constinit const Estimator los_rate{.name = "los_rate",
+                                   .layout = layout,
+                                   .of_runs_alone = of_runs_alone,
+                                   .samples = samples_of,
+                                   .tracks = tracks_of,
+                                   .freshness = freshness_of};
+
+}  // namespace canhil::estimators

@@ -1,0 +1,10 @@
+// Line-of-sight rate of a seeker: a sample is 20 ms of the time to go.
+#pragma once
+
+#include "bench/estimators/estimator.hpp"
+
+namespace canhil::estimators {
+
+extern const Estimator los_rate;
+
+}  // namespace canhil::estimators

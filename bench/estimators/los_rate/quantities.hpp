@@ -1,0 +1,55 @@
+// What the LOS rate of a seeker tells.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+/// In the antenna's axes; both: RMS of the two planes.
+inline constexpr Quantity los_rate_pitch{
+    .name = "los.rate.pitch",
+    .meaning = "error of the LOS rate in pitch, antenna axes; in campaigns RMS of 20 ms of the time to go",
+    .unit = mradps,
+    .once = "los_pitch"};
+inline constexpr Quantity los_rate_yaw{
+    .name = "los.rate.yaw",
+    .meaning = "error of the LOS rate in yaw, antenna axes; in campaigns RMS of 20 ms of the time to go",
+    .unit = mradps,
+    .once = "los_yaw"};
+inline constexpr Quantity los_rate_both{
+    .name = "los.rate",
+    .meaning = "error of the LOS rate: RMS of both planes and 20 ms of the time to go",
+    .unit = mradps,
+    .once = "los_rate"};
+/// Mean over the updates of a stretch, of 2 degrees of freedom each; NaN without an update.
+inline constexpr Quantity los_mean_nis{
+    .name = "los.nis.mean",
+    .meaning = "mean NIS of the updates (2 degrees of freedom each) in 20 ms of the time to go",
+    .unit = plain,
+    .may_be_untold = true,
+    .once = "los_nis"};
+/// As the start's axes divide it; NaN: the target was not passed.
+inline constexpr Quantity miss_pitch{.name = "miss.pitch",
+                                     .meaning = "closest approach in pitch, of the axes at the start",
+                                     .unit = metres,
+                                     .of_whole_run = true,
+                                     .once = "miss_pitch"};
+inline constexpr Quantity miss_yaw{.name = "miss.yaw",
+                                   .meaning = "closest approach in yaw, of the axes at the start",
+                                   .unit = metres,
+                                   .of_whole_run = true,
+                                   .once = "miss_yaw"};
+inline constexpr Quantity miss_distance{.name = "miss.distance",
+                                        .meaning = "closest approach",
+                                        .unit = metres,
+                                        .of_whole_run = true,
+                                        .once = "miss"};
+
+/// Of one update.
+inline constexpr Quantity los_nis{.name = "los.nis",
+                                  .meaning = "normalised innovation squared of an update",
+                                  .unit = plain,
+                                  .degrees_of_freedom = 2,
+                                  .may_be_untold = true};
+
+}  // namespace canhil::quantities

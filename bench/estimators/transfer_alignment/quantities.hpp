@@ -1,0 +1,25 @@
+// What transfer alignment alone tells.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+/// NEES of the misalignment, with the covariance of AlignAttitudeSigma and AlignAttitudeCorrelation.
+inline constexpr Quantity attitude_nees{
+    .name = "attitude.nees",
+    .meaning = "normalised error squared of the misalignment, with sigmas and correlations as told",
+    .unit = plain,
+    .degrees_of_freedom = 3,
+    .may_be_untold = true,
+    .once = "attitude_nees"};
+
+/// Of a velocity update, NED.
+inline constexpr Quantity velocity_innovation_north{
+    .name = "innovation.velocity.north", .meaning = "innovation of a velocity north", .unit = mps};
+inline constexpr Quantity velocity_innovation_east{
+    .name = "innovation.velocity.east", .meaning = "innovation of a velocity east", .unit = mps};
+inline constexpr Quantity velocity_innovation_down{
+    .name = "innovation.velocity.down", .meaning = "innovation of a velocity down", .unit = mps};
+
+}  // namespace canhil::quantities

@@ -1,0 +1,11 @@
+// Transfer alignment of a slave INS to a master INS by velocity matching: a sample is a velocity update, with
+// the errors of the first navigation answer that knew of it.
+#pragma once
+
+#include "bench/estimators/estimator.hpp"
+
+namespace canhil::estimators {
+
+extern const Estimator transfer_alignment;
+
+}  // namespace canhil::estimators

@@ -1,0 +1,44 @@
+// What a wind estimate tells.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+/// Along the horizontal air velocity, to its right, down; the norm is of all three.
+inline constexpr Quantity wind_along{.name = "wind.along",
+                                     .meaning = "error of the wind along the horizontal air velocity",
+                                     .unit = mps,
+                                     .once = "wind_along"};
+inline constexpr Quantity wind_cross{
+    .name = "wind.cross",
+    .meaning = "error of the wind to the right of the horizontal air velocity",
+    .unit = mps,
+    .once = "wind_cross"};
+inline constexpr Quantity wind_down{
+    .name = "wind.down", .meaning = "error of the wind downwards", .unit = mps, .once = "wind_down"};
+inline constexpr Quantity wind_norm{
+    .name = "wind.norm", .meaning = "magnitude of the error of the wind", .unit = mps, .once = "wind_norm"};
+inline constexpr Quantity wind_north{.name = "wind.north", .meaning = "error of the wind north", .unit = mps};
+inline constexpr Quantity wind_east{.name = "wind.east", .meaning = "error of the wind east", .unit = mps};
+/// NaN without an update.
+inline constexpr Quantity wind_nis{.name = "wind.nis",
+                                   .meaning = "normalised innovation squared of an update",
+                                   .unit = plain,
+                                   .degrees_of_freedom = 9,
+                                   .may_be_untold = true,
+                                   .once = "wind_nis"};
+inline constexpr Quantity wind_nees{
+    .name = "wind.nees",
+    .meaning = "normalised error squared of the wind, with sigmas and correlations as told",
+    .unit = plain,
+    .degrees_of_freedom = 3,
+    .once = "wind_nees"};
+/// As the target tells it.
+inline constexpr Quantity wind_along_sigma{
+    .name = "wind.along.sigma",
+    .meaning = "sigma of the wind along the track as the target tells it",
+    .unit = mps,
+    .once = "wind_along_sigma"};
+
+}  // namespace canhil::quantities

@@ -1,0 +1,10 @@
+// Wind velocity of a glider: a sample is an answer of a filter that runs.
+#pragma once
+
+#include "bench/estimators/estimator.hpp"
+
+namespace canhil::estimators {
+
+extern const Estimator wind;
+
+}  // namespace canhil::estimators

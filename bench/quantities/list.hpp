@@ -1,0 +1,65 @@
+// The quantities that more than one may tell, in the project's words. What a single estimator tells stands in
+// its folder.
+#pragma once
+
+#include "bench/quantities/quantity.hpp"
+#include "bench/world/units.hpp"
+
+namespace canhil::quantities {
+
+inline constexpr Unit mrad{"mrad", "_mrad", world::units::mrad}, degrees{"deg", "_deg", world::units::deg},
+    mradps{"mrad/s", "_mradps", world::units::mrad}, mps{"m/s", "_mps"}, metres{"m", "_m"}, plain{};
+
+/// Euler angles of the body in NED, and the rotation vector phi of C_estimated = exp(-[phi x]) C_true, NED.
+inline constexpr Quantity attitude_roll{
+    .name = "attitude.roll", .meaning = "error of the roll angle", .unit = mrad, .once = "roll"};
+inline constexpr Quantity attitude_pitch{
+    .name = "attitude.pitch", .meaning = "error of the pitch angle", .unit = mrad, .once = "pitch"};
+inline constexpr Quantity attitude_heading{
+    .name = "attitude.heading", .meaning = "error of the heading angle", .unit = mrad, .once = "heading"};
+inline constexpr Quantity misalignment_north{
+    .name = "misalignment.north",
+    .meaning = "rotation from true to estimated attitude, about north",
+    .unit = mrad,
+    .once = "phi_north"};
+inline constexpr Quantity misalignment_east{.name = "misalignment.east",
+                                            .meaning = "rotation from true to estimated attitude, about east",
+                                            .unit = mrad,
+                                            .once = "phi_east"};
+inline constexpr Quantity misalignment_down{.name = "misalignment.down",
+                                            .meaning = "rotation from true to estimated attitude, about down",
+                                            .unit = mrad,
+                                            .once = "phi_down"};
+/// The heading's sigma as the target tells it, and the error over it.
+inline constexpr Quantity heading_sigma{.name = "attitude.heading.sigma",
+                                        .meaning = "sigma of the heading as the target tells it",
+                                        .unit = mrad,
+                                        .once = "heading_sigma"};
+inline constexpr Quantity heading_over_sigma{
+    .name = "attitude.heading.over_sigma",
+    .meaning = "error of the heading over the sigma that the target tells",
+    .unit = plain,
+    .once = "heading_over_sigma"};
+
+/// Velocity of the body over the earth, NED.
+inline constexpr Quantity velocity_north{
+    .name = "velocity.north", .meaning = "error of the velocity north", .unit = mps, .once = "v_north"};
+inline constexpr Quantity velocity_east{
+    .name = "velocity.east", .meaning = "error of the velocity east", .unit = mps, .once = "v_east"};
+inline constexpr Quantity velocity_down{
+    .name = "velocity.down", .meaning = "error of the velocity down", .unit = mps, .once = "v_down"};
+
+/// Normalised innovation squared of a velocity or of a position, NED.
+inline constexpr Quantity innovation_nis{
+    .name = "innovation.nis",
+    .meaning = "normalised innovation squared of a velocity or a position",
+    .unit = plain,
+    .degrees_of_freedom = 3,
+    .may_be_untold = true,
+    .once = "nis"};
+
+/// Of the errors of a velocity update, NED.
+inline constexpr Quantity velocity_norm{
+    .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
+
+}  // namespace canhil::quantities

@@ -1,0 +1,45 @@
+// One quantity over a run, as an estimator told it: what pictures, tables and bars are made of.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/quantities/quantity.hpp"
+
+namespace canhil::quantities {
+
+/// Of one answer, at the time of validity of its cause. SI.
+struct Told {
+  std::int64_t t_us = 0;
+  double value = 0;                  ///< the error (estimated - true); of a statistic or an innovation itself
+  std::optional<double> sigma{};     ///< of the error, told in time
+  std::optional<double> estimate{};  ///< as told; angles without a jump
+  std::optional<double> truth{};
+};
+
+struct Track {
+  enum class Kind : std::uint8_t { error, innovation, statistic };
+
+  const Quantity* quantity = nullptr;
+  Kind kind = Kind::error;
+  Unit unit{};                      ///< that pictures have
+  std::string title{};              ///< of a picture of the values: "attitude error about north"
+  std::string estimate_title{};     ///< of a picture of estimate and truth; empty: none is drawn
+  Unit estimate_unit{};             ///< that this picture has
+  bool only_if_judged = false;      ///< the values are of no interest without a bar
+  std::vector<Told> told{};         ///< in order of time
+  double longest_wait_us = 0;       ///< from one to the next that is no silence
+  std::int64_t answers_end_us = 0;  ///< after which nobody answers
+  /// Values after it are beyond any picture.
+  std::int64_t drawn_until_us = std::numeric_limits<std::int64_t>::max();
+};
+
+/// Takes tracks one after the other, so that a long run needs the room of one.
+using TrackSink = std::function<void(Track track)>;
+
+}  // namespace canhil::quantities

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "bench/estimators/estimator.hpp"
+#include "bench/run/contract.hpp"
+
+namespace canhil::estimators {
+namespace {
+
+using quantities::Quantity;
+
+TEST(Registry, EveryQuantityHasANameOfItsOwn) {
+  std::set<std::string_view> names, names_of_before;
+  for (const Quantity* quantity : every_quantity()) {
+    EXPECT_TRUE(names.insert(quantity->name).second) << quantity->name;
+    if (quantity->once.empty()) continue;
+    EXPECT_TRUE(names_of_before.insert(quantity->once).second) << quantity->once;
+    EXPECT_FALSE(names.contains(quantity->once)) << quantity->once;
+  }
+}
+
+TEST(Registry, KnowsTheEstimatorsOfTheContract) {
+  std::vector<std::string> names;
+  for (const Estimator* one : all()) {
+    names.emplace_back(one->name);
+    EXPECT_EQ(find(one->name), one);
+    EXPECT_EQ(telling(quantities::names(one->layout)), one);
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAreArray(run::contract().estimators));
+  EXPECT_EQ(find("wheel_odometry"), nullptr);
+  EXPECT_EQ(telling("height"), nullptr);
+}
+
+// The table of docs/quantities.md, as the code has it.
+std::string table() {
+  std::string rows;
+  std::vector<const Quantity*> by_name(every_quantity().begin(), every_quantity().end());
+  std::ranges::sort(by_name, {}, &Quantity::name);
+  for (const Quantity* quantity : by_name) {
+    std::vector<std::string_view> tellers;
+    for (const Estimator* one : all()) {
+      const bool of_runs = std::ranges::find(one->of_runs_alone, quantity) != one->of_runs_alone.end();
+      if (of_runs || quantities::tells(one->layout, *quantity)) tellers.push_back(one->name);
+    }
+    std::ranges::sort(tellers);
+    rows +=
+        fmt::format("| `{}` | {} | {} | {} | {} |\n", quantity->name, quantity->meaning, quantity->unit.name,
+                    quantity->degrees_of_freedom == 0 ? "" : std::to_string(quantity->degrees_of_freedom),
+                    fmt::join(tellers, ", "));
+  }
+  return rows;
+}
+
+TEST(Registry, TheDocumentedListIsThatOfTheCode) {
+  std::ostringstream page;
+  page << std::ifstream(SOURCE_DIR "/docs/quantities.md").rdbuf();
+  EXPECT_NE(page.str().find("|---|---|---|---|---|\n" + table() + "\n"), std::string::npos)
+      << "expected this table:\n"
+      << table();
+}
+
+}  // namespace
+}  // namespace canhil::estimators
