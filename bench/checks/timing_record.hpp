@@ -56,9 +56,10 @@ struct TransmitTiming {
   Histogram echoed;       ///< it had passed the bus; empty where the bus echoes nothing
 };
 
-/// How long the frames of a message took from being queued to their end on the bus. Of a message of the bench
-/// from the hand-over to the echo; of one of the target at least so long: from the beginning of the first
-/// frame of its answer, as nobody else saw when it was queued.
+/// How long frames took from being queued to their end on the bus. Of one of the bench from the hand-over to
+/// the echo (a container is handed over with its last message; of one that lacks it nobody saw when it went);
+/// of one of the target at least so long: from the beginning of the first frame of its answer, as nobody else
+/// saw when it was queued.
 struct WireResponse {
   std::uint64_t count = 0;
   std::int64_t max_ns = 0;
@@ -118,13 +119,14 @@ struct SlowestAnswer {
 struct WireFacts {
   wire::BitRates rates{};     ///< nominal 0: not known, or a frame takes no time
   bool urgent_first = false;  ///< false: the oldest first, as Linux does
+  bool fd = false;            ///< the contract on CAN FD: messages travel in wire::fd_carriers
 };
 
 struct TimingRecord {
   WireFacts wire{};
   std::array<AnswerTiming, messages::all_messages.size()> answers;     ///< by place in all_messages
   std::array<TransmitTiming, messages::all_messages.size()> transmit;  ///< by place in all_messages
-  std::array<WireResponse, messages::all_messages.size()> responses;   ///< by place in all_messages
+  std::array<WireResponse, messages::all_messages.size()> responses;   ///< by wire::Carrier::first
   Histogram lateness;                     ///< of all messages of the bench when handed over
   TimeLine lateness_line;                 ///< the same over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource

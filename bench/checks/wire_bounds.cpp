@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bench/checks/timing.hpp"
 #include "bench/schedulability/analysis.hpp"
+#include "dbc/wire/arbitration.hpp"
+#include "dbc/wire/carriers.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -42,18 +45,19 @@ std::int64_t together(const Observations& seen, const AnswerTiming& timing, std:
   return std::max<std::int64_t>(1, std::llround(in_a_period));
 }
 
-// All that the bench plays goes through one queue.
-Stream stream_of(const Observations& seen, std::size_t index) {
+// All that the bench plays goes through one queue. The messages of a container are sent together, as often.
+Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
+  const std::size_t index = carrier.first;
   const MessageInfo& info = messages::all_messages[index];
   const std::int64_t period = period_ns(seen, info);
   const std::int64_t burst = info.answers.empty() ? together(seen, seen.timing.answers[index], period) : 1;
-  return {.name = std::string(info.name),
+  return {.name = std::string(carrier.name),
           .id = info.id,
           .extended = info.extended,
           .sender = is_targets(info) ? "target" : "bench",
           .period_ns = period / burst,
           .jitter_ns = (burst - 1) * (period / burst),  // so that so many may be queued at once
-          .length = wire::worst_case_length(info.size, info.extended)};
+          .length = carrier.longest};
 }
 
 // R is from becoming due, J before being queued.
@@ -67,36 +71,37 @@ std::optional<std::int64_t> from_queued(const Stream& stream, const schedulabili
 std::vector<WireBound> wire_bounds(const Observations& seen) {
   const TimingRecord& timing = seen.timing;
   if (timing.wire.rates.nominal == 0) return {};
-  std::vector<std::size_t> indices;
+  // By priority.
+  std::map<std::uint32_t, wire::Carrier> carriers;
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
-    if (was_seen(timing, i)) indices.push_back(i);
+    const wire::Carrier& carrier = wire::carriers(timing.wire.fd)[i];
+    const MessageInfo& first = messages::all_messages[carrier.first];
+    if (was_seen(timing, i)) carriers.emplace(wire::arbitration_rank(first.id, first.extended), carrier);
   }
-  std::ranges::sort(indices, {}, [](std::size_t i) { return messages::all_messages[i].id; });
   std::vector<Stream> streams;
-  for (const std::size_t i : indices) streams.push_back(stream_of(seen, i));
+  for (const auto& [rank, carrier] : carriers) streams.push_back(stream_of(seen, carrier));
   const auto responses = timing.wire.urgent_first
                              ? schedulability::responses(streams, {.rates = timing.wire.rates})
                              : schedulability::fifo_responses(streams, timing.wire.rates);
   std::vector<WireBound> bounds;
-  for (std::size_t k = 0; k < indices.size(); ++k) {
-    const WireResponse& measured = timing.responses[indices[k]];
+  std::size_t k = 0;
+  for (const auto& [rank, carrier] : carriers) {
+    const Stream& stream = streams[k];
+    const schedulability::Response& response = responses[k++];
+    const WireResponse& measured = timing.responses[carrier.first];
     if (measured.count == 0) continue;
-    const MessageInfo& info = messages::all_messages[indices[k]];
-    bounds.push_back({.message = info.name,
-                      .of_target = is_targets(info),
+    bounds.push_back({.message = carrier.name,
+                      .of_target = is_targets(messages::all_messages[carrier.first]),
                       .count = measured.count,
                       .longest_ns = measured.max_ns,
-                      .frame_ns = responses[k].transmission_ns,
-                      .bound_ns = from_queued(streams[k], responses[k])});
+                      .frame_ns = response.transmission_ns,
+                      .bound_ns = from_queued(stream, response)});
   }
   return bounds;
 }
 
 std::string no_bounds(const Observations& seen) {
-  // On CAN FD times are taken of what containers hold, not of the containers.
-  if (seen.timing.wire.rates.nominal == 0)
-    return seen.bit_rates.nominal > 0 ? "on CAN FD frames travel in containers, whose times are not taken"
-                                      : "the bit rate of this bus is not known";
+  if (seen.timing.wire.rates.nominal == 0) return "the bit rate of this bus is not known";
   if (seen.bus.errors.frames > 0) return fmt::format("{} errors on the bus", seen.bus.errors.frames);
   if (seen.bus.downs > 0) return "the interface was down";
   if (!seen.transmit_stamps_echoed) return "the bus does not echo the bench's own frames";

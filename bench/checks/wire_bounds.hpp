@@ -11,9 +11,10 @@
 
 namespace canhil::checks {
 
-/// A message, its longest response (see WireResponse) and the bound: of theory for the order of the bus's
-/// queues and the messages that were seen, each as often as it was sent or as the DBC says, whichever is more
-/// often. From being queued on, so that the lateness of the bench and the target's computing are in neither.
+/// A message of the bus's contract, on CAN FD a container, its longest response (see WireResponse) and the
+/// bound: of theory for the order of the bus's queues and the messages that were seen, each as often as it
+/// was sent or as the DBC says, whichever is more often. From being queued on, so that the lateness of the
+/// bench and the target's computing are in neither.
 struct WireBound {
   std::string_view message{};
   bool of_target = false;  ///< its response is a least one

@@ -66,6 +66,7 @@ Json wire_of(const checks::Observations& seen) {
   Json json{{"bitrate_bitps", seen.timing.wire.rates.nominal},
             {"no_bounds", checks::no_bounds(seen)},
             {"messages", Json::array()}};
+  if (seen.timing.wire.fd) json["data_bitrate_bitps"] = seen.timing.wire.rates.data;
   for (const checks::WireBound& bound : checks::wire_bounds(seen)) {
     json["messages"].push_back(
         {{"name", bound.message},

@@ -181,9 +181,9 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return failure(explained(configured.error().message));
   }
 
-  // A container of CAN FD is none of the frames that the observers see.
-  Monitor monitor(checks::timed_windows(scenario.checks),
-                  options.format == BusFormat::classic ? options.wire : checks::WireFacts{});
+  checks::WireFacts wire = options.wire;
+  wire.fd = options.format == BusFormat::fd;
+  Monitor monitor(checks::timed_windows(scenario.checks), wire);
   link.attach(monitor);
   LoadMeter meter(options.format, load_by(options));
   link.attach(meter);

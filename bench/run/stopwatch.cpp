@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "bench/checks/finding.hpp"
 #include "dbc/wire/e2e.hpp"
@@ -45,9 +46,22 @@ void add(checks::WireResponse& response, std::int64_t ns) {
 
 }  // namespace
 
+/// The frame on the wire that ends with this message; none: more are in it.
+std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
+  if (!record_.wire.fd) return message;
+  if (packer.due_before(message)) packer.clear();  // went without its last message
+  return packer.put(message);
+}
+
 std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
   const wire::BitRates& rates = record_.wire.rates;
   return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
+}
+
+/// What of a container's time is not between its hand-over and its echo: the stamp comes before the
+/// intermission. The last frame of a classic group has that of the frame before it in this time instead.
+std::int64_t Stopwatch::no_intermission_ns() const {
+  return record_.wire.fd ? wire::duration_ns({.nominal = wire::intermission_bits}, record_.wire.rates) : 0;
 }
 
 void Stopwatch::sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
@@ -71,17 +85,18 @@ void Stopwatch::echoed(const Received& received, std::string_view group, std::in
   const std::size_t index = bench_messages(received.frame);
   if (index == Routes::nowhere) return;
   Pending& pending = pending_[index][e2e::counter(received.frame.payload())];
+  const std::optional<Frame> on_wire = closed_by(received.frame, echoes_);
   const bool known = pending.waiting && std::ranges::equal(pending.frame.payload(), received.frame.payload());
   if (known) {
     pending.waiting = false;
     const std::int64_t on_bus_ns = received.t_ns - pending.t_ns;
     record_.transmit[index].echoed.add(pending.late_ns + on_bus_ns);
-    add(record_.responses[index], on_bus_ns);
+    if (on_wire) add(record_.responses[carriers_[index].first], on_bus_ns);
   }
   Sent* sent = group.empty() ? nullptr : find(group, valid_us);
   if (sent == nullptr) return;
   if (known) sent->to_echo_ns = received.t_ns - pending.t_ns;
-  sent->wire_ns = on_wire_ns(received.frame);
+  if (on_wire) sent->wire_ns = on_wire_ns(*on_wire) - no_intermission_ns();
   sent->stimulus.t_ns = received.t_ns;
   sent->stimulus.hardware_ns = received.hardware_ns;
 }
@@ -90,7 +105,9 @@ void Stopwatch::arrived(std::size_t index, const Received& received) {
   ++record_.stamps[static_cast<std::size_t>(received.source)];
   if (received.hardware_ns == 0) ++record_.without_hardware_stamp;
   const checks::Arrival arrival{.t_ns = received.t_ns, .hardware_ns = received.hardware_ns};
-  newest_[index] = {.arrival = arrival, .wire_ns = on_wire_ns(received.frame)};
+  newest_[index] = arrival;
+  if (const auto on_wire = closed_by(received.frame, arrivals_))
+    wire_ns_[carriers_[index].first] = on_wire_ns(*on_wire);
   checks::AnswerTiming& timing = record_.answers[index];
   const std::int64_t heard_ns = timing.last_ns.value_or(first_ns_.value_or(arrival.t_ns));
   timing.longest_silence_ns = std::max(timing.longest_silence_ns, arrival.t_ns - heard_ns);
@@ -117,16 +134,22 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
     for (const std::size_t index : indices) ++record_.answers[index].unpaired;
     return;
   }
-  const Newest& first = newest_[indices.front()];
+  const std::size_t first = indices.front();
+  const std::int64_t began_ns = newest_[first].t_ns - wire_ns_[carriers_[first].first];
+  std::size_t before = carriers_.size();
   for (const std::size_t index : indices) {
-    answered(index, group, *sent, cause_us);
-    add(record_.responses[index], newest_[index].arrival.t_ns - (first.arrival.t_ns - first.wire_ns));
+    // Messages of one container follow one another and came with it: the first of them counts for it.
+    const std::size_t carrier = carriers_[index].first;
+    const bool another = std::exchange(before, carrier) != carrier;
+    answered(index, group, *sent, another ? wire_ns_[carrier] : 0, cause_us);
+    if (another) add(record_.responses[carrier], newest_[index].t_ns - began_ns);
   }
 }
 
-void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t cause_us) {
+void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+                         std::int64_t cause_us) {
   checks::AnswerTiming& timing = record_.answers[index];
-  const checks::Arrival& arrival = newest_[index].arrival;
+  const checks::Arrival& arrival = newest_[index];
   const std::int64_t latency_ns = elapsed_ns(sent.stimulus, arrival);
   timing.latency.add(latency_ns);
   timing.latency_line.add(arrival.t_ns - first_ns_.value_or(arrival.t_ns), latency_ns);
@@ -140,7 +163,7 @@ void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, 
     window.latency.add(latency_ns);
     add_arrival(window, arrival);
   }
-  split(index, group, sent, latency_ns);
+  split(index, group, sent, wire_ns, latency_ns);
 }
 
 checks::LatencySplit& Stopwatch::split_of(std::string_view group) {
@@ -151,8 +174,8 @@ checks::LatencySplit& Stopwatch::split_of(std::string_view group) {
 }
 
 // A stimulus may have several answers: it has been answered with the last of them.
-void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std::int64_t latency_ns) {
-  const std::int64_t wire_ns = newest_[index].wire_ns;
+void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+                      std::int64_t latency_ns) {
   sent.reply_wire_ns += wire_ns;
   record_.answers[index].reply_wire_ns += sent.reply_wire_ns;
   for (checks::LatencySplit* split : {&record_.split, &split_of(group)}) {
@@ -170,7 +193,7 @@ void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std
   sent.answered = true;
   if (latency_ns <= untold_.slowest.latency_ns) return;
   untold_.slowest = {.message = messages::all_messages[index].name,
-                     .t_ns = newest_[index].arrival.t_ns - first_ns_.value_or(0),
+                     .t_ns = newest_[index].t_ns - first_ns_.value_or(0),
                      .latency_ns = latency_ns,
                      .reply_wire_ns = sent.reply_wire_ns};
 }

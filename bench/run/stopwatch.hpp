@@ -10,7 +10,8 @@
 #include <string_view>
 
 #include "bench/checks/timing_record.hpp"
-#include "dbc/ports/port.hpp"
+#include "dbc/ports/fd_groups.hpp"
+#include "dbc/wire/carriers.hpp"
 
 namespace canhil::run {
 
@@ -20,7 +21,8 @@ class Stopwatch {
   static constexpr std::size_t remembered = 1024;
 
   /// The record says which windows are asked for, and how fast the bus is.
-  explicit Stopwatch(checks::TimingRecord& record) : record_(record) {}
+  explicit Stopwatch(checks::TimingRecord& record)
+      : record_(record), carriers_(wire::carriers(record.wire.fd)) {}
 
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
@@ -57,10 +59,6 @@ class Stopwatch {
     std::deque<Sent> sent{};
     std::optional<checks::Stimulus> before{};  // the last one that is no longer remembered
   };
-  struct Newest {
-    checks::Arrival arrival{};
-    std::int64_t wire_ns = 0;
-  };
   struct Last {
     checks::Arrival arrival;
     std::int64_t due_ns = 0;  // when what it answers was to be sent
@@ -73,15 +71,22 @@ class Stopwatch {
 
   Sent* find(std::string_view group, std::int64_t valid_us);
   void forget_oldest(std::string_view name, Group& group);
-  void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t cause_us);
+  void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+                std::int64_t cause_us);
   checks::LatencySplit& split_of(std::string_view group);
-  void split(std::size_t index, std::string_view group, Sent& sent, std::int64_t latency_ns);
+  void split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+             std::int64_t latency_ns);
+  std::optional<Frame> closed_by(const Frame& message, FdPacker& packer) const;
   [[nodiscard]] std::int64_t on_wire_ns(const Frame& frame) const;
+  [[nodiscard]] std::int64_t no_intermission_ns() const;
 
   checks::TimingRecord& record_;
+  const wire::Carriers& carriers_;
+  FdPacker echoes_, arrivals_;  // the containers again
   std::array<std::array<Pending, 16>, messages::all_messages.size()> pending_{};
   std::map<std::string_view, Group> groups_;
-  std::array<Newest, messages::all_messages.size()> newest_{};
+  std::array<checks::Arrival, messages::all_messages.size()> newest_{};
+  std::array<std::int64_t, messages::all_messages.size()> wire_ns_{};  // of what came, by Carrier::first
   std::array<std::optional<Last>, messages::all_messages.size()> last_{};
   std::optional<std::int64_t> first_ns_;
   Untold untold_;

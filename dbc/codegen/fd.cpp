@@ -213,8 +213,8 @@ Result<std::string> fd_header(const Database& classic, std::string_view name_spa
     const Message container = container_of(part);
     std::vector<std::uint32_t> ids;
     for (const Message* message : part.messages) ids.push_back(message->id);
-    rows += fmt::format("    {{.id = {}, .size = {}, .count = {}, .slots = {{{}}}}},  // {}\n", container.id,
-                        container.size, ids.size(), fmt::join(ids, ", "), container.name);
+    rows += fmt::format("    {{.name = \"{}\", .id = {}, .size = {}, .count = {}, .slots = {{{}}}}},\n",
+                        container.name, container.id, container.size, ids.size(), fmt::join(ids, ", "));
     ++count;
   }
   return fmt::format(

@@ -5,8 +5,9 @@
 namespace canhil {
 namespace {
 
+using wire::intermission_bits;
+
 constexpr int two_flags_bits = 12;
-constexpr std::int64_t intermission_bits = 3;
 
 /// From the start of a frame to the end of its bits up to this one, which counts from 0.
 std::int64_t end_of_bit_ns(std::int64_t bit, const wire::BitLength& length, const wire::BitRates& rates) {

@@ -19,7 +19,7 @@ constexpr int receive_errors_after_success = 119;
 constexpr std::int64_t recovery_runs = 128;
 constexpr std::int64_t recessive_run_bits = 11;
 
-constexpr std::int64_t intermission_bits = 3;
+using wire::intermission_bits;
 constexpr std::int64_t delimiter_bits = 8;
 constexpr std::int64_t suspend_bits = 8;
 constexpr std::int64_t after_acknowledgement_bits = 1 + 7 + intermission_bits;  // delimiter, end of frame

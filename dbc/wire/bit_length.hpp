@@ -73,8 +73,11 @@ class BitStream {
   std::uint32_t crc_ = 0;
 };
 
+/// Behind every frame, at the nominal bit rate; the stamp of a frame is taken before.
+inline constexpr std::int64_t intermission_bits = 3;
+
 /// Acknowledgement with delimiter, end of frame, intermission.
-inline constexpr int frame_end_bits = 2 + 7 + 3;
+inline constexpr std::int64_t frame_end_bits = 2 + 7 + intermission_bits;
 
 /// The data length code of a size that has one.
 constexpr std::uint32_t data_length_code(unsigned size) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace canhil::wire {
 
@@ -13,7 +14,8 @@ struct FdContainer {
   static constexpr std::size_t max_slots = 8;
   static constexpr std::size_t slot_bytes = 8;
 
-  std::uint16_t id = 0;  ///< that of its first slot
+  std::string_view name{};  ///< of the message on CAN FD
+  std::uint16_t id = 0;     ///< that of its first slot
   std::uint8_t size = 0;
   std::uint8_t count = 0;
   std::array<std::uint16_t, max_slots> slots{};  ///< the ids of the classic frames

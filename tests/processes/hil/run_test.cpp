@@ -129,26 +129,65 @@ TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
   EXPECT_EQ(compared.code, 0) << compared.out;
 }
 
-TEST(SimulatedWire, EveryMessageKeepsItsBoundAndTheWholeLatencyIsExplained) {
+// One scenario on the bus of each contract, with the check of the bounds.
+nlohmann::json with_bounds(const std::string& options) {
   std::ofstream(scratch("bounds.toml"))
       << read(scenario("los_quick")) << "\n[[check]]\nkind = \"wire_response\"\n";
   const std::string report = scratch("bounds.json");
-  const Ended ended = hil_bench(
-      fmt::format("run {} --bus 'in-process?bitrate=500000' --json {}", scratch("bounds.toml"), report));
+  const Ended ended = hil_bench(fmt::format("run {} {} --json {}", scratch("bounds.toml"), options, report));
   EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
-  const nlohmann::json page = read_json(report);
-  EXPECT_GE(page["wire"]["messages"].size(), 8U);
+  nlohmann::json page = read_json(report);
   for (const auto& message : page["wire"]["messages"]) {
     EXPECT_LE(message["longest_s"].get<double>(), message["bound_s"].get<double>()) << message;
     EXPECT_LE(message["frame_s"].get<double>(), message["bound_s"].get<double>()) << message;
   }
   EXPECT_NEAR(page["split"]["parts_s"]["not_explained"].get<double>(), 0, 20e-6)
       << "what Sync and heartbeats take";
+  return page;
+}
+
+TEST(SimulatedWire, EveryMessageKeepsItsBoundAndTheWholeLatencyIsExplained) {
+  nlohmann::json page = with_bounds("--bus 'in-process?bitrate=500000'");
+  EXPECT_GE(page["wire"]["messages"].size(), 8U);
+  EXPECT_FALSE(page["wire"].contains("data_bitrate_bitps"));
   EXPECT_GT(page["split"]["parts_s"]["reply_wire"].get<double>(), 3 * 150e-6);
 
   const Ended without = hil_bench(fmt::format("run {} --bus in-process", scratch("bounds.toml")));
   EXPECT_EQ(without.code, 3) << without.out;
   EXPECT_THAT(without.out, HasSubstr("the bit rate of this bus is not known"));
+}
+
+TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplained) {
+  nlohmann::json page = with_bounds("--dbc canhil-fd --bus 'in-process?bitrate=500000&data-bitrate=2000000'");
+  EXPECT_EQ(page["wire"]["data_bitrate_bitps"], 2'000'000);
+  std::vector<std::string> names;
+  for (const auto& message : page["wire"]["messages"]) names.push_back(message["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"Seeker", "LosRate", "Sync"}));
+  EXPECT_GT(page["split"]["parts_s"]["stimulus_wire"].get<double>(), 150e-6);
+  EXPECT_GT(page["split"]["parts_s"]["reply_wire"].get<double>(), 150e-6);
+  const Ended drawn = hil_bench("report " + scratch("bounds.json"));
+  EXPECT_EQ(drawn.code, 0) << drawn.err;
+  EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
+}
+
+// In real time, with the target's own account; how long a host takes is not judged.
+TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
+  const std::string report = scratch("fd.json");
+  const Ended ended = hil_bench(
+      fmt::format("run {} --dbc canhil-fd --bus 'local:?bitrate=500000&data-bitrate=2000000' --json {}",
+                  scenario("transfer_alignment_quick"), report));
+  EXPECT_NE(ended.code, 2) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("bounds for 6 of 6 messages"));
+  const nlohmann::json page = read_json(report);
+  EXPECT_EQ(page["wire"]["no_bounds"], "");
+  double sum_s = 0;
+  for (const auto& [part, mean] : page["split"]["parts_s"].items()) {
+    ASSERT_TRUE(mean.is_number()) << part;
+    const bool is_rest = part == "not_explained";  // of means over other stimuli than those of the target
+    EXPECT_TRUE(is_rest || mean.get<double>() >= 0) << part;
+    sum_s += mean.get<double>();
+  }
+  EXPECT_NEAR(sum_s, page["split"]["total_s"].get<double>(), 1e-9);
 }
 
 TEST(Schedulability, SaysByItsExitCodeWhetherTheBusCanCarryTheContract) {

@@ -9,6 +9,7 @@ namespace canhil::checks {
 namespace {
 
 using messages::AlignAttitude;
+using messages::SlaveImuDeltaTheta;
 using messages::SlaveImuStatus;
 using messages::TargetHeartbeat;
 using testing::HasSubstr;
@@ -87,8 +88,28 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   EXPECT_EQ(judged().outcome, Outcome::not_measured);
   EXPECT_EQ(judged().measured, "the bit rate of this bus is not known");
   EXPECT_TRUE(wire_bounds(seen_).empty());
-  seen_.bit_rates = {.nominal = 500'000, .data = 2'000'000};  // known, but frames travel in containers
-  EXPECT_THAT(judged().measured, HasSubstr("CAN FD"));
+}
+
+// Three messages each way in a container of 24 bytes: 20 + 12 bits at the nominal rate, 246 + 33 at that of
+// the data; of the heartbeat's 8 bytes 86 + 28.
+TEST_F(OnTheWire, OnCanFdTheBoundIsThatOfTheContainer) {
+  constexpr std::int64_t container_ns = 32'000 + 69'750, heartbeat_ns = 32'000 + 28'500;
+  seen_.timing.wire = {.rates = {.nominal = 1'000'000, .data = 4'000'000}, .fd = true};
+  seen_.timing.responses = {};
+  WireResponse& sent = seen_.timing.responses[message_index<SlaveImuDeltaTheta>()];
+  WireResponse& answered = seen_.timing.responses[message_index<AlignAttitude>()];
+  sent = {.count = 100, .max_ns = 150'000};
+  answered = {.count = 100, .max_ns = container_ns};
+  EXPECT_EQ(wire_bounds(seen_).size(), 2U);
+  EXPECT_EQ(bound_of("SlaveImu"), 2 * container_ns);
+  EXPECT_EQ(bound_of("AlignNav"), 2 * container_ns + heartbeat_ns);
+  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::pass);
+  EXPECT_THAT(judge(scenario::WireResponse{}, seen_).measured, HasSubstr("SlaveImu: 0.150 of 0.20"));
+  sent.max_ns = 2 * container_ns + 1;  // held back by a frame more than there can be
+  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::fail);
+  sent.max_ns = 150'000;
+  answered.max_ns = 2 * container_ns + heartbeat_ns + 1;
+  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::fail);
 }
 
 TEST_F(OnTheWire, WhatIsSentFasterThanTheContractSaysCountsAsOften) {

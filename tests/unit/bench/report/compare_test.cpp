@@ -291,6 +291,11 @@ TEST(Compare, NamesAnotherBusWireAndHost) {
   EXPECT_THAT(compared(one, other).text,
               HasSubstr("differs  bus can0 -> can1, bit rate of the wire 500000 -> 1000000, host bench-1 -> "
                         "bench-2\n"));
+  other = one;
+  one["wire"]["data_bitrate_bitps"] = 2000000;
+  other["wire"]["data_bitrate_bitps"] = 5000000;
+  EXPECT_THAT(compared(one, other).text,
+              HasSubstr("differs  data bit rate of the wire 2000000 -> 5000000\n"));
 }
 
 TEST(Compare, TheBusThatABenchMadeForItselfIsNoOther) {

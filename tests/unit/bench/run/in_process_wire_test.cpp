@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "bench/checks/wire_bounds.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/session.hpp"
 #include "bench/schedulability/message_set.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/wire/transmit.hpp"
 
 namespace canhil::run {
 namespace {
@@ -25,6 +27,8 @@ Flown fly(const scenario::Scenario& scenario, const std::string& bus, BusFormat 
   Options options;
   options.bus = bus;
   options.format = format;
+  if (const auto wire = wire_settings(bus))
+    options.wire = {.rates = wire->rates, .urgent_first = wire->order == QueueOrder::priority};
   options.clock = clock_of(bus, false);
   auto flown = canhil::run::run(scenario, options, never, [](std::int64_t) {});
   EXPECT_TRUE(flown) << flown.error().message;
@@ -147,6 +151,52 @@ TEST(InProcessWire, CarriesTheContractOfCanFd) {
   const std::size_t index = message_index<messages::AlignUpdate>();
   EXPECT_LT(run.seen.timing.answers[index].latency.max_ns(),
             classic.seen.timing.answers[index].latency.min_ns());
+}
+
+/// All four estimators on CAN FD, in both orders of the queues.
+class Containers : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {
+  scenario::Scenario all = scenario_of("all_four");
+  all.duration_us = 4'000'000;
+  const Flown run =
+      fly(all, fmt::format("in-process?bitrate=500000&data-bitrate=2000000{}", GetParam()), BusFormat::fd);
+  const checks::TimingRecord& timing = run.seen.timing;
+  const auto bounds = checks::wire_bounds(run.seen);
+  EXPECT_EQ(bounds.size(), 17U) << "all but the heartbeat";
+  double nearest = 0;
+  for (const checks::WireBound& bound : bounds) {
+    ASSERT_TRUE(bound.bound_ns) << bound.message;
+    EXPECT_LE(bound.longest_ns, *bound.bound_ns) << bound.message;
+    EXPECT_GT(bound.longest_ns, bound.frame_ns / 2) << bound.message;
+    nearest = std::max(nearest, static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns));
+  }
+  EXPECT_GT(nearest, GetParam().empty() ? 0.45 : 0.8) << "the bounds bind nothing";
+  // Every group was whole: a container of each.
+  EXPECT_EQ(timing.responses[message_index<messages::SlaveImuDeltaTheta>()].count,
+            run.seen.stimuli.at("SlaveImu").count);
+  EXPECT_EQ(timing.responses[message_index<messages::SeekerAntenna>()].count,
+            run.seen.stimuli.at("Seeker").count);
+  for (const auto& [group, split] : timing.split_by_group) {
+    EXPECT_EQ(split.echoed, split.stimuli) << group;
+    EXPECT_GE(split.to_echo_ns, split.stimulus_wire_ns) << group;
+    // Rounded up to whole ns by frame.
+    EXPECT_GE(split.latency_ns + static_cast<std::int64_t>(4 * split.stimuli), split.reply_wire_ns) << group;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(InProcessWire, Containers, testing::Values("", "&queue=priority"));
+
+// The seeker's container is the first after Sync has passed, and nothing else is on the bus but Sync and the
+// heartbeat: what its answer takes is its two containers.
+TEST(InProcessWire, OnCanFdTheWholeLatencyIsExplained) {
+  const Flown run =
+      fly(scenario_of("los_quick"), "in-process?bitrate=500000&data-bitrate=2000000", BusFormat::fd);
+  const checks::LatencySplit& split = run.seen.timing.split;
+  const auto stimuli = static_cast<double>(split.stimuli);
+  EXPECT_GT(split.stimuli, 1000U);
+  EXPECT_NEAR(static_cast<double>(split.to_echo_ns - split.stimulus_wire_ns) / stimuli, 0, 1'000);
+  EXPECT_NEAR(static_cast<double>(split.latency_ns - split.reply_wire_ns) / stimuli, 0, 20'000);
 }
 
 TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {

@@ -87,6 +87,7 @@ TEST(FdContract, AContainerHoldsTheValuesOfItsMessages) {
     }
     ASSERT_TRUE(packed);
     const Message& message = *find_message(fd, container.id);
+    EXPECT_EQ(message.name, container.name);
     const auto all = decode(message, packed->payload());
     auto next = all->begin();
     for (const Frame& frame : frames) {
