@@ -117,8 +117,11 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
     for (const std::size_t index : indices) ++record_.answers[index].unpaired;
     return;
   }
+  const bool again = sent->answered_by.test(indices.back());
+  sent->answered_by.set(indices.back());
   const Newest& first = newest_[indices.front()];
   for (const std::size_t index : indices) {
+    if (again) ++record_.answers[index].repeated;
     answered(index, group, *sent, cause_us);
     add(record_.responses[index], newest_[index].arrival.t_ns - (first.arrival.t_ns - first.wire_ns));
   }
