@@ -44,7 +44,7 @@ std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, const Quantit
     CurvePoint point{.t_us = t_us};
     std::vector<double> squares;
     for (const RunSeries& run : runs) {
-      const double value = value_at(run, quantity, t_us);
+      const double value = last_value(run, quantity, t_us);
       if (!std::isnan(value)) squares.push_back(value * value);
     }
     point.runs = squares.size();
@@ -124,10 +124,10 @@ WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quanti
   for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
     for (const RunSeries& run : runs) {
       const double value = value_at(run, quantity, t_us);
-      if (std::isnan(value)) {
-        ++statistics.missing;
-      } else {
+      if (!std::isnan(value)) {
         values.push_back(value);
+      } else if (!is_untold(run, quantity, t_us, from_us)) {
+        ++statistics.missing;
       }
     }
   }
@@ -200,15 +200,16 @@ ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, const Quantity&
 
 PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b,
                                const Quantity& quantity, std::int64_t t_us, double confidence) {
-  const std::vector<std::int64_t> a_times = update_times(a, quantity), b_times = update_times(b, quantity);
+  const auto magnitude = [&](const RunSeries& run) {
+    const double value = last_magnitude(run, quantity, t_us);
+    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+  };
   PairedFraction paired;
   for (const RunSeries& run : a) {
     const auto other = std::ranges::lower_bound(b, run.run, {}, &RunSeries::run);
     if (other == b.end() || other->run != run.run) continue;
     ++paired.pairs;
-    if (magnitude_at(run, quantity, a_times, t_us) < magnitude_at(*other, quantity, b_times, t_us)) {
-      ++paired.better;
-    }
+    if (magnitude(run) < magnitude(*other)) ++paired.better;
   }
   if (paired.pairs == 0) return {.fraction = nan, .low = 0, .high = 1};
   const auto pairs = static_cast<double>(paired.pairs), better = static_cast<double>(paired.better);
@@ -244,7 +245,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
     double sum_here = 0;
     std::size_t here = 0, untold = 0;
     for (const RunSeries& run : runs) {
-      if (is_untold(run, quantity, t_us)) {
+      if (is_untold(run, quantity, t_us, from_us)) {
         ++untold;
         continue;
       }

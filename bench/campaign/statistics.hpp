@@ -1,5 +1,5 @@
-// Statistics over the runs of a variant. A run that is missing at a time (it ended early) or has no finite
-// value there is counted, never ignored: where one is missing, no bar is met.
+// Statistics over the runs of a variant. A run that is missing at a time (it ended early, or its last update
+// is stale) or has no finite value there is counted, never ignored: where one is missing, no bar is met.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,8 @@ struct CurvePoint {
   std::size_t missing = 0;                                      ///< runs without one
 };
 
-/// Root mean square over the runs of a quantity, at every update time that any run has, ascending.
+/// Root mean square over the runs of a quantity, at every update time that any run has, ascending. Of each
+/// run its last update at or before it counts: one that was lost leaves the one before.
 std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, const Quantity& quantity);
 
 /// The last point at or before a time; none: the curve begins later.
@@ -53,7 +54,7 @@ struct WindowStatistics {
   double mean = 0;
   double standard_deviation = 0;  ///< about the mean, with n - 1
   std::size_t count = 0;          ///< finite values
-  std::size_t missing = 0;        ///< not finite, or of runs that had ended
+  std::size_t missing = 0;        ///< not finite, or of runs that had ended or fallen silent
 };
 WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quantity& quantity,
                                    std::int64_t from_us, std::int64_t to_us);

@@ -24,15 +24,18 @@ std::int64_t end_of(const RunSeries& run) {
   return open ? run.samples.times()[last] : run.freshness.end_us;
 }
 
-// Adds the times at which the last of these updates is stale, up to the end. No run has an update there, so
-// that whoever asks for one finds it missing.
+bool had_ended(const RunSeries& run, std::int64_t t_us) {
+  return run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
+}
+
+// Adds the times from which on the last of these updates is stale, up to the end.
 std::vector<std::int64_t> with_stale(const std::vector<std::int64_t>& times, std::int64_t end_us,
                                      std::int64_t age_limit_us) {
   std::vector<std::int64_t> all;
   const auto add_stale = [&](std::int64_t until_us) {
     if (all.empty()) return;
     while (until_us > all.back() && until_us - all.back() > age_limit_us)
-      all.push_back(all.back() + age_limit_us);
+      all.push_back(all.back() + age_limit_us + 1);
   };
   for (const std::int64_t t_us : times) {
     add_stale(t_us);
@@ -94,11 +97,15 @@ double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_u
   return std::isfinite(value) ? value : nan;
 }
 
-bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us) {
+bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us) {
   const auto times = run.samples.times();
   auto place = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
+  if (place == times.size() || times[place] != t_us) {
+    const std::int64_t heard_us = place == 0 ? from_us : std::max(from_us, times[place - 1]);
+    return !had_ended(run, t_us) && !stale(run, quantity, heard_us, t_us);
+  }
   const auto untold = [&] { return std::isnan(run.samples.value(place, quantity)); };
-  if (!quantity.may_be_untold || place == times.size() || times[place] != t_us || !untold()) return false;
+  if (!quantity.may_be_untold || !untold()) return false;
   // A filter that coasts on and on says nothing of its updates.
   if (run.samples.layout().answers_untold) return true;
   while (place > 0 && t_us - times[--place] <= run.freshness.age_limit_us) {
@@ -107,21 +114,17 @@ bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us
   return false;
 }
 
-double magnitude_at(const RunSeries& run, const Quantity& quantity, std::span<const std::int64_t> times,
-                    std::int64_t t_us) {
-  const auto after = std::ranges::upper_bound(times, t_us);
-  const double value = after == times.begin() ? nan : value_at(run, quantity, *std::prev(after));
-  return std::isnan(value) ? std::numeric_limits<double>::infinity() : std::abs(value);
+double last_value(const RunSeries& run, const Quantity& quantity, std::int64_t t_us) {
+  const auto times = run.samples.times();
+  const auto after = std::ranges::upper_bound(times, t_us) - times.begin();
+  if (had_ended(run, t_us) || after == 0) return nan;
+  if (stale(run, quantity, times[static_cast<std::size_t>(after - 1)], t_us)) return nan;
+  const double value = run.samples.value(static_cast<std::size_t>(after - 1), quantity);
+  return std::isfinite(value) ? value : nan;
 }
 
 double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t t_us) {
-  const bool ended = run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
-  const auto times = run.samples.times();
-  const auto after = std::ranges::upper_bound(times, t_us) - times.begin();
-  if (ended || after == 0) return nan;
-  if (stale(run, quantity, times[static_cast<std::size_t>(after - 1)], t_us)) return nan;
-  const double value = std::abs(run.samples.value(static_cast<std::size_t>(after - 1), quantity));
-  return std::isfinite(value) ? value : nan;
+  return std::abs(last_value(run, quantity, t_us));
 }
 
 bool answers_throughout(const RunSeries& run, std::int64_t from_us, std::int64_t to_us) {

@@ -10,8 +10,7 @@
 
 namespace canhil::campaign {
 
-/// Update times [us] that any run has, ascending, and those at which all runs are stale: nobody has an update
-/// there, so that whoever asks for its value finds it missing.
+/// Update times [us] that any run has, ascending, and those from which on all runs are stale.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, const Quantity& quantity);
 /// Those within a window; runs that have not begun are stale too.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int64_t from_us,
@@ -19,13 +18,14 @@ std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int
 
 /// The quantity of a run's update at exactly that time; NaN: it has none, or no finite value.
 double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
-/// Whether a run has an update at that time that was not asked for the quantity, as a fix that was not used
-/// has no NIS: nothing is missing then.
-bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
-/// |value| of a run at the last of these times (of its variant) at or before a time; infinite: none.
-double magnitude_at(const RunSeries& run, const Quantity& quantity, std::span<const std::int64_t> times,
-                    std::int64_t t_us);
-/// |value| of a run at its own last update at or before a time; NaN: none, a stale one, or the run had ended.
+/// Whether a run has no value of the quantity at that time and none was due: it has no update there, as one
+/// that was lost, and its last one, or the beginning of the window if that is later, is not stale; or the
+/// update was not asked for the quantity, as a fix that was not used has no NIS.
+bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
+/// The quantity of a run's own last update at or before a time; NaN: none, a stale one, no finite value, or
+/// the run had ended.
+double last_value(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
+/// Its magnitude.
 double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 
 /// Whether a run leaves no stretch of a window unanswered.

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dbc/ports/bus_errors.hpp"
@@ -27,6 +29,7 @@ struct BusRecord {
   std::uint64_t more_incidents = 0;    ///< those after
   std::uint64_t downs = 0;             ///< how often the interface went down or was removed
   std::uint64_t late_in_queue = 0;     ///< frames of the bench that waited for room beyond their deadline
+  std::map<std::string_view, std::uint64_t> intruded;  ///< frames of others under a message of the bench
   std::uint64_t foreign = 0;       ///< frames of others in the format that the bus's contract does not have
   std::vector<std::string> notes;  ///< who else troubled the bus and how, a line each
 };

@@ -12,6 +12,7 @@
 #include "bench/checks/finding.hpp"
 #include "bench/checks/fixes.hpp"
 #include "bench/checks/los.hpp"
+#include "bench/checks/other_senders.hpp"
 #include "bench/checks/probability.hpp"
 #include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
@@ -368,6 +369,15 @@ Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence) {
                               .outcome = finding.outcome,
                               .measured = std::move(finding.measured),
                               .expected = std::move(finding.expected)});
+  }
+  // With others on the bus in their names, neither bench nor target can be shown to have met a check.
+  if (std::string others = other_senders(evidence.seen); !others.empty()) {
+    verdict.checks.push_back({.name = std::string(senders_kind),
+                              .kind = std::string(senders_kind),
+                              .requirement = "",
+                              .outcome = Outcome::not_measured,
+                              .measured = std::move(others),
+                              .expected = "each message from its own sender alone"});
   }
   conclude(verdict, evidence.ended_early);
   return verdict;

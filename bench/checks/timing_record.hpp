@@ -44,6 +44,7 @@ struct AnswerTiming {
   TimeLine latency_line;       ///< over the time of arrival
   std::uint64_t count = 0;     ///< arrivals
   std::uint64_t unpaired = 0;  ///< answers to what the bench did not send
+  std::uint64_t repeated = 0;  ///< to what was answered before
   std::int64_t reply_wire_ns =
       0;  ///< over all of `latency`: the frames of the answer up to this one on the wire
   std::optional<std::int64_t> last_ns{};  ///< its last arrival

@@ -33,7 +33,7 @@ void Gps::transmit(Transmission& out) {
   const world::Position measured =
       valid ? displaced(truth, bias_ + noise + fate.jump) : world::Position{};  // nothing to be had from it
   out.send(messages::GpsLatitude{.latitude_deg = measured.latitude / deg, .height_m = measured.height});
-  out.send(messages::GpsLongitude{.longitude_deg = measured.longitude / deg,
+  out.send(messages::GpsLongitude{.longitude_deg = world::longitude_deg(measured),
                                   .satellites = valid ? satellites : std::uint8_t{0},
                                   .position_validity = valid ? Validity::valid : Validity::invalid});
   out.send(messages::GpsTime{.horizontal_sigma_m = std::max(config_.noise.x(), config_.noise.y()),

@@ -28,7 +28,7 @@ void MasterIns::transmit(Transmission& out) {
       .roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg});
   out.send(messages::MasterInsLatitude{.latitude_deg = solution.position.latitude / deg,
                                        .height_m = solution.position.height});
-  out.send(messages::MasterInsLongitude{.longitude_deg = solution.position.longitude / deg});
+  out.send(messages::MasterInsLongitude{.longitude_deg = world::longitude_deg(solution.position)});
   out.send(messages::MasterInsVelocityD{.velocity_down_mps = solution.v_eb_n.z(),
                                         .time_of_validity_us = wrap_us(sampling_.valid_us())});
   if (is_lost(loss_, sampling_.valid_us(), losses_))

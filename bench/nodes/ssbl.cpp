@@ -36,7 +36,7 @@ void Ssbl::transmit(Transmission& out) {
                                     .relative_east_m = measured.y(),
                                     .position_validity = fate.invalid ? Validity::invalid : Validity::valid});
   out.send(messages::SsblShipLatitude{.latitude_deg = reported.latitude / deg, .height_m = reported.height});
-  out.send(messages::SsblShipLongitude{.longitude_deg = reported.longitude / deg,
+  out.send(messages::SsblShipLongitude{.longitude_deg = world::longitude_deg(reported),
                                        .relative_sigma_m = sigma.maxCoeff()});
   out.send(messages::SsblRelativeD{.relative_down_m = measured.z(), .time_of_validity_us = wrap_us(t_us)});
   if (fate.lost) out.clear();  // counted as sent: the receiver sees the gap

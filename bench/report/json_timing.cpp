@@ -94,6 +94,7 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& 
       latency["closes_group"] = std::ranges::find(closing, name) != closing.end();
       latency["unanswered"] = never_came;
       latency["unpaired"] = answers.unpaired;
+      latency["repeated"] = answers.repeated;
       latency["line"] = object(answers.latency_line);
     }
     if (answers.jitter.count() > 0) page["jitter_s"][name] = object(answers.jitter);

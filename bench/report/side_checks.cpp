@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/checks/other_senders.hpp"
 #include "bench/checks/verdict.hpp"
 #include "bench/scenario/checks.hpp"
 
@@ -77,8 +78,9 @@ struct Tally {
 };
 
 Tally tally_of(const std::vector<std::vector<Judged>>& side, const Key& key) {
-  // The bus is judged unasked too; its check is there when it fails.
-  const bool implied = key.kind == scenario::BusErrorLimits::kind && key.name == key.kind;
+  // The bus and who sends on it are judged unasked too; their checks are there when they do not pass.
+  const bool implied = key.name == key.kind &&
+                       (key.kind == scenario::BusErrorLimits::kind || key.kind == checks::senders_kind);
   Tally tally;
   for (const auto& run : side) {
     const auto found = std::ranges::find(run, key, &Judged::key);

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
+#include <algorithm>
 
 namespace canhil::run {
 namespace {
@@ -15,30 +15,48 @@ constexpr std::int64_t break_ns = 20'000'000;
 }  // namespace
 
 std::string words(const Flood& flood) {
-  const std::string id = flood.extended ? fmt::format("{:08X}", flood.id) : fmt::format("{:03X}", flood.id);
-  return fmt::format("the bus was flooded by id {}: {} of {} frames in {:.2f} s", id, flood.of_id,
-                     flood.frames, static_cast<double>(flood.duration_ns) * 1e-9);
+  return fmt::format("the bus was flooded by {} in {:.2f} s", flood.whose,
+                     static_cast<double>(flood.duration_ns) * 1e-9);
+}
+
+void Shares::add(const Frame& frame) {
+  ++frames_;
+  if (frame.error) {
+    ++error_frames_;
+    return;
+  }
+  const std::pair id{frame.id, frame.extended};
+  if (const auto known = by_id_.find(id); known != by_id_.end())
+    ++known->second;
+  else if (by_id_.size() < most_ids)
+    by_id_.emplace(id, 1);
+}
+
+void Shares::clear() { *this = {}; }
+
+std::string Shares::words() const {
+  if (2 * error_frames_ >= frames_)
+    return fmt::format("error frames: {} of {} frames", error_frames_, frames_);
+  const auto most = std::ranges::max_element(by_id_, {}, [](const auto& one) { return one.second; });
+  const auto [id, extended] = most->first;
+  const std::string all =
+      fmt::format(", the most of {}{} ids", by_id_.size() == most_ids ? "more than " : "", by_id_.size());
+  return fmt::format("id {:0{}X}: {} of {} frames{}", id, extended ? 8 : 3, most->second, frames_,
+                     2 * most->second < frames_ ? all : "");
 }
 
 void Backlog::pause(bool more, std::int64_t now_ns) {
   more_ = more;
   if (since_ns_ && now_ns - last_ns_ > break_ns) {
     since_ns_.reset();
-    frames_.clear();
+    shares_.clear();
   }
   if (!more) return;
   last_ns_ = now_ns;
   if (!since_ns_) since_ns_ = now_ns;
   const std::int64_t duration_ns = now_ns - *since_ns_;
   if (duration_ns < flood_ns || (longest_ && duration_ns <= longest_->duration_ns)) return;
-  Flood flood{.duration_ns = duration_ns};
-  for (const auto& [id, count] : frames_) {
-    flood.frames += count;
-    if (count <= flood.of_id) continue;
-    flood.of_id = count;
-    std::tie(flood.id, flood.extended) = id;
-  }
-  longest_ = flood;
+  longest_ = Flood{.duration_ns = duration_ns, .whose = shares_.words()};
 }
 
 }  // namespace canhil::run

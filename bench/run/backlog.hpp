@@ -11,13 +11,27 @@
 
 namespace canhil::run {
 
+/// Whose frames a stretch of time brought.
+class Shares {
+ public:
+  void add(const Frame& frame);
+  void clear();
+  [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  /// "id 0C0: 900 of 1000 frames"; "error frames: ..."; where no id has half of them, also of how many ids.
+  [[nodiscard]] std::string words() const;
+
+ private:
+  // Of all ids that a flood can have only so many are told apart: 2^29 would fill the memory.
+  static constexpr std::size_t most_ids = 4096;
+  std::uint64_t frames_ = 0;
+  std::uint64_t error_frames_ = 0;
+  std::map<std::pair<std::uint32_t, bool>, std::uint64_t> by_id_;  // and whether it is extended
+};
+
 /// A time for which frames waited with hardly a break.
 struct Flood {
   std::int64_t duration_ns = 0;
-  std::uint64_t frames = 0;  ///< that the bench looked at in it
-  std::uint32_t id = 0;      ///< whose frames were the most
-  bool extended = false;
-  std::uint64_t of_id = 0;  ///< how many these were
+  std::string whose{};  ///< frames the bench looked at in it: Shares::words()
 };
 
 /// "the bus was flooded by id 0C0: 900 of 1000 frames in 0.41 s".
@@ -27,7 +41,7 @@ class Backlog {
  public:
   /// The bench has looked at a frame.
   void add(const Frame& frame) {
-    if (since_ns_) ++frames_[{frame.id, frame.extended}];
+    if (since_ns_) shares_.add(frame);
   }
   /// The bench turns to something else at `now_ns`. `more`: frames may still be waiting.
   void pause(bool more, std::int64_t now_ns);
@@ -43,7 +57,7 @@ class Backlog {
   bool more_ = false;
   std::optional<std::int64_t> since_ns_;  // frames have been waiting again and again
   std::int64_t last_ns_ = 0;              // they were
-  std::map<std::pair<std::uint32_t, bool>, std::uint64_t> frames_;
+  Shares shares_;
   std::optional<Flood> longest_;
 };
 

@@ -21,7 +21,10 @@ std::string errors_of(const messages::TargetHeartbeat& heartbeat) {
 }
 
 std::string fault_of(const messages::TargetHeartbeat& heartbeat) {
-  return fmt::format("the target reported a fault of its {}, its errors: {}", name_of(heartbeat.estimator),
+  const std::string_view known = name_of(heartbeat.estimator);
+  const std::string estimator =
+      known.empty() ? fmt::format("estimator {}", static_cast<int>(heartbeat.estimator)) : std::string(known);
+  return fmt::format("the target reported a fault of its {}, its errors: {}", estimator,
                      errors_of(heartbeat));
 }
 

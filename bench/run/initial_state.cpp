@@ -12,7 +12,7 @@ InitialState initial_state(const world::NavigationSolution& initial, const scena
   return {.air = {},
           .navigation = {
               {.latitude_deg = initial.position.latitude / deg, .height_m = initial.position.height},
-              {.longitude_deg = initial.position.longitude / deg, .position_sigma_m = sigma.position},
+              {.longitude_deg = world::longitude_deg(initial.position), .position_sigma_m = sigma.position},
               {.velocity_north_mps = initial.v_eb_n.x(), .velocity_east_mps = initial.v_eb_n.y()},
               {.roll_deg = angles.roll / deg,
                .pitch_deg = angles.pitch / deg,

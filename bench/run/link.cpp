@@ -19,6 +19,7 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
     look_at_interface();
     if (outcome == SendOutcome::sent) {
       const bool waited = deadline_ns != 0;
+      if (waited) while_waiting_.reset();
       if (waited && late_ns > late_in_queue_ns) ++late_in_queue_;
       for (Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
       return LinkState::up;
@@ -26,8 +27,15 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
     const bool may_return = outcome == SendOutcome::down && !port_.up();
     if (outcome != SendOutcome::queue_full && !may_return) return LinkState::down;
     const std::int64_t now_ns = port_.monotonic_ns();
-    if (deadline_ns == 0) deadline_ns = now_ns + patience_ns;
-    if (now_ns >= deadline_ns) return may_return ? LinkState::down : LinkState::congested;
+    if (deadline_ns == 0) {
+      deadline_ns = now_ns + patience_ns;
+      while_waiting_.emplace();
+    }
+    if (now_ns >= deadline_ns) {
+      crowd_ = while_waiting_->frames() == 0 ? "" : while_waiting_->words();
+      while_waiting_.reset();
+      return may_return ? LinkState::down : LinkState::congested;
+    }
     // What fills the queue may be a target that waits for us to read its answers.
     if (drain() == LinkState::down) return LinkState::down;
     if (!backlog_.more()) wait(port_, WaitFor::room, deadline_ns);
@@ -40,6 +48,7 @@ LinkState Link::drain() {
     const auto received = port_.receive();
     if (!received) break;
     backlog_.add(received->frame);
+    if (while_waiting_ && !received->own) while_waiting_->add(received->frame);
     for (Observer* observer : observers_)
       received->foreign ? observer->foreign(*received) : observer->received(*received);
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bench/run/backlog.hpp"
@@ -50,6 +51,9 @@ class Link {
   LinkState drain();
   static constexpr int most_at_once = 256;  ///< a few of the target's groups; less than a millisecond's work
 
+  /// After `congested`: what came while there was no room, as Shares::words(); empty: nothing.
+  [[nodiscard]] const std::string& crowd() const { return crowd_; }
+
   /// The longest time for which frames came faster than they could be looked at; none: they never did.
   [[nodiscard]] const std::optional<Flood>& flood() const { return backlog_.flood(); }
 
@@ -75,6 +79,8 @@ class Link {
   bool up_ = true;
   std::uint64_t late_in_queue_ = 0;
   Backlog backlog_;
+  std::optional<Shares> while_waiting_;  // for room
+  std::string crowd_;
 };
 
 /// Keeps an observer attached while it lives.

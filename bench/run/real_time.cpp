@@ -23,6 +23,12 @@ constexpr Routes target_messages([](const MessageInfo& info) {
   return info.sender == messages::TargetHeartbeat::info.sender;
 });
 
+// A bus that carried much all the while is full, and by whom is worth knowing.
+std::string took_none(const Link& link, std::int64_t due_us) {
+  return fmt::format("the bus took no frame since t={:.3f} s{}{}", static_cast<double>(due_us) * 1e-6,
+                     link.crowd().empty() ? "" : " and carried ", link.crowd());
+}
+
 // When the target was last heard and whether it gave up.
 class TargetWatch final : public Observer {
  public:
@@ -102,12 +108,10 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
         case LinkState::congested:
           if (link.now_ns() > excused_until_ns()) {  // a target that reads no more fills the bus
             Ending ending = silent();
-            ending.detail +=
-                fmt::format(", the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6);
+            ending.detail += ", " + took_none(link, due_us);
             return ending;
           }
-          return {Ending::Kind::target_silent, due_us,
-                  fmt::format("the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6)};
+          return {Ending::Kind::target_silent, due_us, took_none(link, due_us)};
         case LinkState::down:
           return {Ending::Kind::bus_down, due_us, "the bus is down"};
       }

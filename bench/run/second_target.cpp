@@ -24,6 +24,8 @@ std::optional<std::size_t> kind_of(const Frame& frame) {
   if (nodes::is_whole<TargetHeartbeat>(frame)) return 0;
   if (nodes::is_whole<ParamAck>(frame)) return 1;
   if (nodes::is_whole<StepDone>(frame)) return 2;
+  if (nodes::is_whole<TargetTiming>(frame)) return 3;
+  if (nodes::is_whole<TargetCounters>(frame)) return 4;
   return std::nullopt;
 }
 

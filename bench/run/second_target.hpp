@@ -10,10 +10,11 @@
 
 namespace canhil::run {
 
-/// Watches what a target says of itself (heartbeats, acknowledgements, ends of steps). Each of these messages
-/// carries a counter that goes up by one. A frame that continues not the last frame but an earlier one has a
-/// sender of its own; several in a short time are a second target. Lost frames make no such sequence: nearly
-/// a whole period of the counter would have to get lost again and again, each within a few heartbeats.
+/// Watches what a target says of itself (heartbeats, acknowledgements, ends of steps, timing, counters). Each
+/// of these messages carries a counter that goes up by one. A frame that continues not the last frame but an
+/// earlier one has a sender of its own; several in a short time are a second target. Lost frames make no such
+/// sequence: nearly a whole period of the counter would have to get lost again and again, each within a few
+/// heartbeats.
 class SecondTarget final : public Observer {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
@@ -33,7 +34,7 @@ class SecondTarget final : public Observer {
 
   static bool continues_an_earlier_one(const History& history, const Seen& now);
 
-  std::array<History, 3> histories_;
+  std::array<History, 5> histories_;
   int strange_ = 0;  // frames of a sender of their own
   int plain_ = 0;    // in a row since
   bool found_ = false;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/run/bus_watch.hpp"
 #include "bench/run/ears.hpp"
@@ -14,6 +15,7 @@
 #include "bench/run/host_watch.hpp"
 #include "bench/run/in_process_port.hpp"
 #include "bench/run/in_process_wire.hpp"
+#include "bench/run/intruders.hpp"
 #include "bench/run/load_meter.hpp"
 #include "bench/run/lockstep.hpp"
 #include "bench/run/monitor.hpp"
@@ -57,7 +59,8 @@ Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format,
   HubRules rules;
   rules.on_turned_away = [&notes](const std::string& line) { notes.push_back(line); };
   auto hosted = host_local_bus(bus, options, std::move(rules));
-  // Somebody hosts it after all: why it could not be joined says more.
+  // Where somebody hosts it after all, why it could not be joined says more.
+  if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
   return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
 }
@@ -154,6 +157,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   };
   BusWatch bus(**port);
   link.attach(bus);
+  Intruders intruders;
+  link.attach(intruders);
   std::unique_ptr<Recorder> recorder;
   if (options.log_path) {
     auto opened = Recorder::open(*options.log_path, **port);
@@ -217,14 +222,17 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     if (auto closed = recorder->close(); !closed) log_error = closed.error();
   }
 
+  checks::Observations seen = monitor.finish();
+  seen.bus = bus.record();
+  seen.bus.intruded = intruders.frames();
+  if (const std::string others = checks::other_senders(seen); !others.empty())
+    notes.insert(notes.begin(), others);
   if (ending.kind != Ending::Kind::completed) ending.detail = explained(ending.detail);
 
-  checks::Observations seen = monitor.finish();
   // What the host did has no part in the times of a simulated wire.
   if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
   seen.bit_rates = options.wire.rates;
   seen.length_by_second = meter.lengths();
-  seen.bus = bus.record();
   seen.bus.reports_errors = std::ranges::all_of(buses_of(options), reports_errors);
   seen.bus.late_in_queue = link.late_in_queue();
   seen.bus.foreign = (*port)->counters().foreign;

@@ -134,6 +134,8 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
     for (const std::size_t index : indices) ++record_.answers[index].unpaired;
     return;
   }
+  const bool again = sent->answered_by.test(indices.back());
+  sent->answered_by.set(indices.back());
   const std::size_t first = indices.front();
   const std::int64_t began_ns = newest_[first].t_ns - wire_ns_[carriers_[first].first];
   std::size_t before = carriers_.size();
@@ -141,6 +143,7 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
     // Messages of one container follow one another and came with it: the first of them counts for it.
     const std::size_t carrier = carriers_[index].first;
     const bool another = std::exchange(before, carrier) != carrier;
+    if (again) ++record_.answers[index].repeated;
     answered(index, group, *sent, another ? wire_ns_[carrier] : 0, cause_us);
     if (another) add(record_.responses[carrier], newest_[index].t_ns - began_ns);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -52,8 +53,9 @@ class Stopwatch {
     std::optional<std::int64_t> to_echo_ns{};
     std::int64_t wire_ns = 0;
     bool answered = false;
-    std::int64_t latency_ns = 0;     // of the last answer so far
-    std::int64_t reply_wire_ns = 0;  // of all answers so far
+    std::bitset<messages::all_messages.size()> answered_by{};  // the last message of each answer
+    std::int64_t latency_ns = 0;                               // of the last answer so far
+    std::int64_t reply_wire_ns = 0;                            // of all answers so far
   };
   struct Group {
     std::deque<Sent> sent{};

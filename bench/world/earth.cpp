@@ -3,6 +3,7 @@
 #include <GeographicLib/Constants.hpp>
 #include <GeographicLib/NormalGravity.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "bench/world/units.hpp"
 
@@ -22,7 +23,12 @@ double radius_divisor(double latitude) {
   return 1.0 - e2() * s * s;
 }
 
+// The same angle from -pi to pi; one that lies there already keeps its bits.
+double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+
 }  // namespace
+
+double longitude_deg(const Position& position) { return wrapped(position.longitude) / units::deg; }
 
 double meridian_radius(double latitude) {
   const double d = radius_divisor(latitude);
@@ -68,7 +74,7 @@ Position displaced(const Position& position, const Vector3& displacement_n) {
 
 Vector3 displacement_n(const Position& from, const Position& to) {
   return {(to.latitude - from.latitude) * (meridian_radius(from.latitude) + from.height),
-          (to.longitude - from.longitude) * (transverse_radius(from.latitude) + from.height) *
+          wrapped(to.longitude - from.longitude) * (transverse_radius(from.latitude) + from.height) *
               std::cos(from.latitude),
           -(to.height - from.height)};
 }

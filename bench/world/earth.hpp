@@ -12,6 +12,9 @@ struct Position {
   double height = 0;     ///< above the ellipsoid [m]
 };
 
+/// As messages carry it, from -180 to 180 deg; along a flight across 180 deg `longitude` itself goes on.
+double longitude_deg(const Position& position);
+
 /// Meridian radius of curvature R_N of Groves (2013), eq. (2.105) [m].
 double meridian_radius(double latitude);
 /// Transverse radius of curvature R_E of Groves (2013), eq. (2.106) [m].
@@ -31,8 +34,8 @@ Position position_rate(const Position& position, const Vector3& v_eb_n);
 /// The position a small displacement in NED [m] away (first order in displacement / Earth radius).
 Position displaced(const Position& position, const Vector3& displacement_n);
 
-/// The displacement in NED [m] from one position to another nearby, with the radii of `from`. Inverse of
-/// displaced().
+/// The displacement in NED [m] from one position to another nearby, also across 180 deg, with the radii of
+/// `from`. Inverse of displaced().
 Vector3 displacement_n(const Position& from, const Position& to);
 
 }  // namespace canhil::world

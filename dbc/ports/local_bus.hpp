@@ -47,9 +47,10 @@ struct HubRules {
 Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const PortOptions& options,
                                                  HubRules rules = {});
 
-/// Joins the bus `local:NAME`. Error: a wrong name, nobody hosts it, its host is
-/// another user's process, or it has the other frame format.
+/// Joins the bus `local:NAME`. Error: a wrong name, nobody hosts it (it then begins with `nobody_hosts`), its
+/// host is another user's process, or it has the other frame format.
 Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOptions& options);
+inline constexpr std::string_view nobody_hosts = "no bus ";
 
 /// Serves a bus that has a hub and no host of its own (`hil-bench bus local:NAME`), until stop(); asks it at
 /// least every 100 ms.

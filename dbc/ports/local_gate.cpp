@@ -71,6 +71,7 @@ void Gate::drop_silent(std::vector<Peer>& peers, bool fd_bus) {
     const Reading last = read(peer, fd_bus, none, no_frame);
     if (last == Reading::joined) return false;  // it had spoken; it was the host that did not look
     if (last == Reading::nothing) tell(words(peer), "never said who it is and was dropped");
+    if (last == Reading::nonsense) tell_of_nonsense(peer);
     return true;
   });
   set_alarm(peers);
@@ -82,6 +83,11 @@ bool Gate::has_waited_enough(const Peer& peer, std::int64_t now_ns) const {
 
 void Gate::tell_of_dropped_reader(const Peer& peer) {
   tell(words(peer), "did not read what the bus brought and was dropped");
+}
+
+void Gate::tell_of_nonsense(const Peer& peer) {
+  tell(words(peer), peer.joined ? "sent what is no frame of this bus and was dropped"
+                                : "did not join as a node of this version does and was dropped");
 }
 
 void Gate::set_alarm(const std::vector<Peer>& peers) {

@@ -33,6 +33,7 @@ class Gate {
   /// Whether the bus has waited for the node for long enough; then it is to be dropped.
   [[nodiscard]] bool has_waited_enough(const Peer& peer, std::int64_t now_ns) const;
   void tell_of_dropped_reader(const Peer& peer);
+  void tell_of_nonsense(const Peer& peer);
 
   /// Sets the alarm to when the next of the nodes is to be dropped.
   void set_alarm(const std::vector<Peer>& peers);

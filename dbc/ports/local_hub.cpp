@@ -34,6 +34,10 @@ using local::Reading;
 constexpr int backlog = 64;                // nodes that wait to be accepted
 constexpr std::size_t ready_limit = 4096;  // own frames that the host has not read back
 constexpr int accept_every = 64;           // frames in a row after which new nodes get their turn
+// Nodes may send, and come and go, for ever: one call takes no more than this, and what is left keeps the
+// descriptor readable.
+constexpr int most_at_once = 256;
+constexpr int most_let_in = 4;  // who comes costs far more than a frame
 
 class Hub final : public LocalHub {
  public:
@@ -79,11 +83,12 @@ class Hub final : public LocalHub {
     if (wire_) return std::nullopt;
     std::optional<Received> received(std::in_place);
     Datagram datagram;
-    while (catch_up()) {
+    int let_in = 0;
+    for (int n = 0; n < most_at_once && catch_up(); ++n) {
       if (++reads_since_accept_ >= accept_every) accept_nodes();
       const int origin = read_any(datagram, received->frame);
       if (origin == no_origin) {
-        if (!std::exchange(found_nothing_, true) || !accept_nodes()) break;
+        if (!std::exchange(found_nothing_, true) || ++let_in > most_let_in || !accept_nodes()) break;
         continue;
       }
       found_nothing_ = false;
@@ -197,6 +202,9 @@ class Hub final : public LocalHub {
         case Reading::frame:
           ++next_;
           return peer.socket.get();
+        case Reading::nonsense:
+          gate_.tell_of_nonsense(peer);
+          [[fallthrough]];
         case Reading::gone:
           peers_.erase(peers_.begin() + static_cast<std::ptrdiff_t>(next_));
           break;
@@ -247,12 +255,13 @@ class Hub final : public LocalHub {
 
   /// Lets what the nodes have sent onto the wire, and delivers what has been sent on it by now.
   void run_wire() {
+    int left = most_at_once;
     while (catch_up()) {
       if (const auto report = wire_->report()) {
         tell(*report);
         continue;
       }
-      take_in();
+      take_in(left);
       if (behind_ > 0) continue;
       if (const auto carried = wire_->next()) {
         arrive(*carried);
@@ -291,13 +300,14 @@ class Hub final : public LocalHub {
     if ((!own || own_echo_) && wants(carried.frame)) queue_ready(carried.frame, carried.delivered_ns, own);
   }
 
-  /// Takes over what the nodes have sent, as far as their queues on the wire have room.
-  void take_in() {
-    while (accept_nodes()) {
+  /// Takes over what the nodes have sent, as far as their queues on the wire have room, the host keeps up
+  /// with reading, and no more than is `left` to take.
+  void take_in(int& left) {
+    for (int n = 0; n < most_let_in && accept_nodes(); ++n) {
     }
     Datagram datagram;
     Frame frame;
-    while (behind_ == 0) {
+    while (behind_ == 0 && ready_.size() < ready_limit && left-- > 0) {
       hold_full_nodes();
       const int origin = read_any(datagram, frame);
       if (origin == no_origin) return;

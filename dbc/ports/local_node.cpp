@@ -86,8 +86,8 @@ std::string why_not_joined(std::string_view bus, const std::string& directory, c
                     bus)
               : fmt::format("bus '{}' carries CAN FD and this node is classic: join with FD", bus);
   }
-  return fmt::format("no bus '{0}': nobody hosts it in {1}; start `hil-bench` first or `hil-bench bus {0}`",
-                     bus, directory);
+  return fmt::format("{2}'{0}': nobody hosts it in {1}; start `hil-bench` first or `hil-bench bus {0}`", bus,
+                     directory, nobody_hosts);
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ Reading read_hello(Peer& peer) {
   Hello hello;
   const ssize_t bytes = ::recv(peer.socket.get(), &hello, sizeof hello, MSG_TRUNC);
   if (bytes < 0 && (errno == EAGAIN || errno == EINTR)) return Reading::nothing;
-  if (bytes != sizeof hello || hello.magic != Hello::expected_magic) return Reading::gone;
+  if (bytes <= 0) return Reading::gone;
+  if (bytes != sizeof hello || hello.magic != Hello::expected_magic) return Reading::nonsense;
   hello.node_name.back() = '\0';
   peer.name = hello.node_name.data();
   // It is shown to people: no line breaks, nothing that moves a cursor.
@@ -43,7 +44,7 @@ Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame) {
   if (bytes < 0 && errno == EAGAIN) return Reading::nothing;
   if (bytes <= 0) return Reading::gone;
   const bool one_of_ours = decode(datagram, static_cast<std::size_t>(bytes), fd_bus, frame);
-  return one_of_ours ? Reading::frame : Reading::gone;
+  return one_of_ours ? Reading::frame : Reading::nonsense;
 }
 
 bool offer(Peer& peer, Datagram& datagram, bool own) {

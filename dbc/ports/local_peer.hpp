@@ -37,9 +37,9 @@ constexpr std::int64_t worked_off_ns = 250'000;
 std::string words(const Peer& peer);
 
 /// What came of reading from a node.
-enum class Reading : std::uint8_t { nothing, joined, frame, gone };
+enum class Reading : std::uint8_t { nothing, joined, frame, nonsense, gone };
 
-/// Reads what the node says next: Hello, or a frame into `datagram` and `frame`.
+/// Reads what the node says next: Hello, or a frame into `datagram` and `frame`; `nonsense`: neither.
 Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame);
 
 /// Gives a frame to the node if it wants it; `own`: it is the node's own. False: the node wants it and has no

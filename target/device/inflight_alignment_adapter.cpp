@@ -254,7 +254,9 @@ class InflightAlignmentAdapter final : public Adapter {
                                .innovation_down_m = result.innovation.z()});
     answers.send(FixPositionLatitude{.latitude_deg = result.position.latitude / deg,
                                      .height_m = result.position.height});
-    answers.send(FixPositionLongitude{.longitude_deg = result.position.longitude / deg});
+    // The INS counts on across 180 deg; the message has -180 to 180.
+    answers.send(FixPositionLongitude{
+        .longitude_deg = std::remainder(result.position.longitude, 2 * std::numbers::pi) / deg});
     answers.send(FixAttitudeSigma{.tilt_sigma_north_deg = attitude.x(),
                                   .tilt_sigma_east_deg = attitude.y(),
                                   .heading_sigma_deg = attitude.z()});

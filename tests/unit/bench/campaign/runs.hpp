@@ -53,6 +53,16 @@ inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
   return series;
 }
 
+/// The same, of a run that ended early: with its last value.
+inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values,
+                            const Quantity& quantity = quantities::attitude_heading) {
+  RunSeries series = run_with(run, values, quantity);
+  series.ending = {.kind = run::Ending::Kind::target_fault,
+                   .t_us = 100'000 * static_cast<std::int64_t>(values.size()),
+                   .detail = ""};
+  return series;
+}
+
 /// Values up to 3 s, the end of the quick flight: after those given the last of them.
 inline std::vector<double> held(std::vector<double> values) {
   constexpr std::size_t updates = 30;

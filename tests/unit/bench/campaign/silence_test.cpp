@@ -78,6 +78,46 @@ TEST(Silence, OfOneRunIsMissingBesideOthers) {
   EXPECT_EQ(run_distribution(runs, heading, end_us, 2, 1).missing, 1U);
 }
 
+/// Two runs with fixes every half second; those of the second at 3 and 3.5 s were lost.
+std::vector<RunSeries> with_lost_fixes(const Quantity& quantity) {
+  return {run_silent(end_us, end_us, quantity), run_silent(5 * s_us / 2, 4 * s_us, quantity)};
+}
+
+TEST(LostFixes, LeaveTheEstimateBeforeThem) {
+  const auto runs = with_lost_fixes(heading);
+  for (std::int64_t t_us = s_us / 2; t_us <= end_us; t_us += s_us / 2)
+    EXPECT_EQ(value_at(rms_curve(runs, heading), t_us)->missing, 0U) << t_us;
+  EXPECT_EQ(time_within(rms_curve(runs, heading), 2), 0.5);
+  const std::vector lost{runs.back()};
+  std::vector twice{runs.front()};
+  twice.front().samples = Samples(estimators::transfer_alignment.layout);
+  for (std::int64_t t_us = s_us / 2; t_us <= end_us; t_us += s_us / 2)
+    add(twice.front().samples, t_us, {{&heading, 2}});
+  EXPECT_EQ(paired_fraction(lost, twice, heading, 3 * s_us, 0.9).better, 1U);
+  EXPECT_EQ(paired_fraction(twice, lost, heading, 3 * s_us, 0.9).better, 0U);
+}
+
+TEST(LostFixes, AreNoUpdatesOfAWindow) {
+  const auto window = window_statistics(with_lost_fixes(heading), heading, 0, end_us);
+  EXPECT_EQ(window.missing, 0U);
+  EXPECT_EQ(window.count, 38U);
+  const auto nis =
+      consistency(with_lost_fixes(quantities::innovation_nis), quantities::innovation_nis, 0, end_us, 0.95);
+  EXPECT_EQ(nis.missing, 0U);
+  EXPECT_EQ(nis.updates, 20U);
+  EXPECT_EQ(nis.mean, 1);
+}
+
+TEST(LostFixes, TooManyInARowAreASilence) {
+  const std::vector runs{run_silent(end_us, end_us), run_silent(2 * s_us, 4 * s_us)};  // 2 s, may be 1 s old
+  EXPECT_EQ(value_at(rms_curve(runs, heading), 3 * s_us)->missing, 0U);
+  EXPECT_EQ(value_at(rms_curve(runs, heading), 7 * s_us / 2)->missing, 1U);
+  EXPECT_EQ(window_statistics(runs, heading, 0, end_us).missing, 1U);
+  const std::vector nis{run_silent(end_us, end_us, quantities::innovation_nis),
+                        run_silent(2 * s_us, 4 * s_us, quantities::innovation_nis)};
+  EXPECT_EQ(consistency(nis, quantities::innovation_nis, 0, end_us, 0.95).missing, 1U);
+}
+
 TEST(Silence, AMissDoesNotAge) {
   RunSeries series{.run = 0,
                    .ending = {},

@@ -36,7 +36,7 @@ TEST(RmsCurve, HasTheStandardErrorThatTheScatterOverTheRunsGivesIt) {
 }
 
 TEST(RmsCurve, CountsRunsThatEndedOrAreNotFinite) {
-  const std::vector runs{run_with(0, {3, 1}), run_with(1, {4}), run_with(2, {nan, 1})};
+  const std::vector runs{run_with(0, {3, 1}), ended_with(1, {4}), run_with(2, {nan, 1})};
   const auto curve = rms_curve(runs, heading);
   ASSERT_EQ(curve.size(), 2U);
   EXPECT_EQ(curve[0].missing, 1U);
@@ -53,7 +53,7 @@ TEST(TimeWithin, IsTheFirstUpdateAfterWhichItStaysWithin) {
 }
 
 TEST(TimeWithin, IsNeverWhileARunIsMissing) {
-  EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 1, 1}), run_with(1, {1, 1})}, heading), 2),
+  EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 1, 1}), ended_with(1, {1, 1})}, heading), 2),
             std::nullopt);
   EXPECT_EQ(time_within(rms_curve(std::vector{run_with(0, {1, 1}), run_with(1, {nan, 1})}, heading), 2), 0.2);
 }
@@ -124,7 +124,7 @@ TEST(WindowStatistics, AreMeanAndStandardDeviationOverRunsAndTime) {
   EXPECT_DOUBLE_EQ(found.mean, 4);
   EXPECT_DOUBLE_EQ(found.standard_deviation, std::sqrt(8.0 / 3));
   EXPECT_EQ(
-      window_statistics(std::vector{run_with(0, {1, 2}), run_with(1, {1})}, heading, 0, 1'000'000).missing,
+      window_statistics(std::vector{run_with(0, {1, 2}), ended_with(1, {1})}, heading, 0, 1'000'000).missing,
       1U);
 }
 
@@ -141,7 +141,7 @@ TEST(PairedFraction, ComparesMagnitudesOfTheSameRun) {
 }
 
 TEST(PairedFraction, NoValueIsWorseThanAny) {
-  const std::vector good{run_with(0, {5, 5})}, ended{run_with(0, {1}), run_with(1, {1, 1})};
+  const std::vector good{run_with(0, {5, 5})}, ended{ended_with(0, {1}), run_with(1, {1, 1})};
   EXPECT_EQ(paired_fraction(good, ended, heading, 200'000, 0.9).better, 1U);
   EXPECT_EQ(paired_fraction(ended, good, heading, 200'000, 0.9).better, 0U);
   const std::vector lost{run_with(0, {nan, nan})};

@@ -306,6 +306,23 @@ TEST_F(Judged, ABusThatFailedFailsARunThatSaysNothingOfIt) {
   EXPECT_EQ(verdict_.outcome, Outcome::pass);
 }
 
+TEST_F(Judged, WithOthersWhoSendInTheBenchsOrTheTargetsNameNothingIsShown) {
+  EXPECT_EQ(judge(attitude).outcome, Outcome::pass);
+  EXPECT_EQ(verdict_.outcome, Outcome::pass);
+  seen_.bus.intruded = {{"Sync", 2}, {"TargetCommand", 1}};
+  judge(attitude);
+  ASSERT_EQ(verdict_.checks.size(), 2U);
+  EXPECT_EQ(verdict_.checks[1].kind, "senders");
+  EXPECT_EQ(verdict_.checks[1].measured, "somebody else sent frames of the bench: Sync 2, TargetCommand 1");
+  EXPECT_EQ(verdict_.outcome, Outcome::not_measured);
+  seen_.bus.intruded.clear();
+  came<messages::AlignAttitude>().push_back({.t_ns = duration_us * 1000, .cause_us = duration_us});
+  judge(attitude);
+  ASSERT_EQ(verdict_.checks.size(), 2U);
+  EXPECT_EQ(verdict_.checks[1].measured, "answers to nothing that was asked, or given twice: AlignNav 1");
+  EXPECT_EQ(verdict_.outcome, Outcome::not_measured);
+}
+
 TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
   const std::vector<scenario::Check> checks{
       {.name = "it",

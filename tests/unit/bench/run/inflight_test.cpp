@@ -66,6 +66,22 @@ TEST(InFlight, AlignsFromNinetyDegreesOff) {
   EXPECT_EQ(std::ranges::count(flown.seen.fix_navigation, true, &checks::NavigationAnswer::coasting), 0);
 }
 
+// The S path goes east by some 60 m in 30 s: across the line within the first seconds.
+TEST(InFlight, GoesOnAcrossTheDateLineAsAnywhereElse) {
+  for (const std::string aiding : {"0", "1"}) {  // ssbl, gps
+    const auto at = [&](const std::string& longitude_deg) {
+      return fly({set("gps.noise_m", "2"), set("target.parameters.aiding", aiding),
+                  set("truth.longitude_deg", longitude_deg)});
+    };
+    const Flown here = at("129.0"), across = at("179.9999");
+    EXPECT_EQ(across.count(FixOutcome::invalid), 0) << aiding;
+    EXPECT_EQ(across.count(FixOutcome::accepted), here.count(FixOutcome::accepted)) << aiding;
+    EXPECT_EQ(across.outcome("position_error norm"), checks::Outcome::pass) << aiding;
+    EXPECT_LT(across.seen.fixes.back().position.longitude, 0) << aiding;
+    EXPECT_NEAR(across.seen.fixes.back().nis, here.seen.fixes.back().nis, 0.1) << aiding;
+  }
+}
+
 TEST(InFlight, OutliersOfAKilometreAreGatedAndDoNoHarm) {
   const Flown flown = fly({set("ssbl.outlier_percent", "15"), set("ssbl.outlier_m", "1000"),
                            set("target.parameters.gate_nis", "30"), set("seed", "3")});

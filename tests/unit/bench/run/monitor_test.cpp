@@ -360,6 +360,17 @@ TEST_F(Watched, CountsAnswersThatNeverCameAndThoseToNothing) {
   const auto& answers = seen().timing.answers[message_index<AlignVelocityD>()];
   EXPECT_EQ(answers.unpaired, 1U);
   EXPECT_EQ(answers.latency.count(), 2U);
+  EXPECT_EQ(answers.repeated, 0U);
+}
+
+TEST_F(Watched, CountsAnswersToWhatWasAnsweredBefore) {
+  sync(0);
+  imu(10'000, 0);
+  answer(10'000, 100'000);
+  answer_in_flight(10'000, 100'000);  // of another estimator
+  EXPECT_EQ(seen().timing.answers[message_index<FixVelocityD>()].repeated, 0U);
+  answer(10'000, 200'000);
+  EXPECT_EQ(seen().timing.answers[message_index<AlignVelocityD>()].repeated, 1U);
 }
 
 TEST_F(Watched, JitterOfACyclicMessageIsAgainstItsCycle) {

@@ -117,6 +117,14 @@ TEST_F(RealTime, EndsWithAFaultOfTheTarget) {
   EXPECT_LE(port_.sent.size(), 2U);
 }
 
+TEST_F(RealTime, AFaultOfAnEstimatorThatThereIsNotIsTold) {
+  port_.on_send = [&](const Frame&) {
+    port_.give(
+        TargetHeartbeat{.state = TargetState::fault, .estimator = static_cast<messages::Estimator>(7)});
+  };
+  EXPECT_EQ(run(patient_ns).detail, "the target reported a fault of its estimator 7, its errors: none");
+}
+
 TEST_F(RealTime, EndsWhenTheBusIsDownOrFullOrTheUserSaysSo) {
   port_.outcome = SendOutcome::down;
   EXPECT_EQ(run(patient_ns).kind, Ending::Kind::bus_down);

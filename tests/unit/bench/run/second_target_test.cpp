@@ -18,18 +18,18 @@ namespace canhil::run {
 namespace {
 
 using messages::TargetHeartbeat;
-using messages::TargetState;
 
 constexpr std::int64_t cycle_ns = TargetHeartbeat::info.cycle_time_us * 1000;
 
 // What the watch hears of targets; a target is its counter.
 class Watch : public testing::Test {
  protected:
+  template <class Message = TargetHeartbeat>
   void hear(int counter, std::int64_t t_ns) {
     Outbox<1> out;
-    out.send(TargetHeartbeat{.state = TargetState::running});
+    out.send(Message{});
     Frame frame = out.frames().front();
-    e2e::protect(std::span(frame.data).first(frame.size), TargetHeartbeat::info.e2e_data_id,
+    e2e::protect(std::span(frame.data).first(frame.size), Message::info.e2e_data_id,
                  static_cast<std::uint8_t>(counter % e2e::counter_period));
     watch_->received({.frame = frame, .t_ns = t_ns});
   }
@@ -45,6 +45,25 @@ TEST_F(Watch, FindsTwoWhateverTheirCounters) {
     }
     EXPECT_TRUE(watch_->found()) << apart;
   }
+}
+
+TEST_F(Watch, FindsTwoThatAccountForThemselves) {
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    hear<messages::TargetTiming>(cycle, cycle * cycle_ns);
+    hear<messages::TargetTiming>(cycle + 5, cycle * cycle_ns + cycle_ns / 3);
+  }
+  EXPECT_TRUE(watch_->found());
+  watch_.emplace();
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    hear<messages::TargetCounters>(cycle, cycle * cycle_ns);
+    hear<messages::TargetTiming>(cycle + 5, cycle * cycle_ns);
+  }
+  EXPECT_FALSE(watch_->found());
+  for (int cycle = 10; cycle < 20; ++cycle) {
+    hear<messages::TargetCounters>(cycle, cycle * cycle_ns);
+    hear<messages::TargetCounters>(cycle + 5, cycle * cycle_ns + cycle_ns / 3);
+  }
+  EXPECT_TRUE(watch_->found());
 }
 
 TEST_F(Watch, FindsTwoThatRunFourEstimatorsEach) {

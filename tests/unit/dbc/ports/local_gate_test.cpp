@@ -298,6 +298,47 @@ TEST_F(LocalGate, WhoReadsSoSlowlyThatItDragsTheBusAlongIsDropped) {
   EXPECT_THAT(told_.front(), HasSubstr("node 'slow'"));
 }
 
+TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
+  const auto hub = host();
+  const auto node = join(*hub);
+  const Descriptor stranger = local::connect_to(directory(), "x", Place::classic);
+  ASSERT_EQ(::send(stranger.get(), "hello", 5, MSG_NOSIGNAL), 5);
+  ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
+  const Descriptor joined = local::connect_to(directory(), "x", Place::classic);
+  local::Hello hello;
+  hello.node_name = {'o', 'd', 'd'};
+  ASSERT_EQ(::send(joined.get(), &hello, sizeof hello, MSG_NOSIGNAL), sizeof hello);
+  ASSERT_EQ(::send(joined.get(), "frame", 5, MSG_NOSIGNAL), 5);
+  ASSERT_TRUE(serve(*hub, [this] { return told_.size() > 1; }));
+  EXPECT_THAT(
+      told_,
+      ElementsAre(
+          fmt::format(
+              "bus 'local:x': a process ({}) did not join as a node of this version does and was dropped",
+              us()),
+          fmt::format("bus 'local:x': node 'odd' ({}) sent what is no frame of this bus and was dropped",
+                      us())));
+  EXPECT_THAT(hub->nodes(), ElementsAre("node"));
+}
+
+// Three nodes have more waiting than the hub may take at once.
+TEST_F(LocalGate, FramesThatTheHostDoesNotWantKeepItNoLongerThanOthers) {
+  const auto hub = host_local_bus("local:x", {.only_ids = {1}}).value();
+  std::vector<std::unique_ptr<Port>> senders;
+  int waiting = 0;
+  for (int n = 0; n < 3; ++n) senders.push_back(join(*hub));
+  for (const auto& sender : senders)
+    while (sender->send(frame_of(2)) == SendOutcome::sent) ++waiting;
+  ASSERT_GT(waiting, 600);
+  EXPECT_FALSE(hub->receive());
+  int room = 0;
+  for (const auto& sender : senders)
+    while (sender->send(frame_of(2)) == SendOutcome::sent) ++room;
+  EXPECT_GT(room, 0);
+  EXPECT_LE(room, 256);
+  EXPECT_TRUE(wait(*hub, WaitFor::frame, 0)) << "the rest wakes the host";
+}
+
 TEST_F(LocalGate, TakesSoManyNodesAndNoMore) {
   const auto hub = host({.most_nodes = 2});
   const auto a = join(*hub, "a");

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <thread>
+
 #include "dbc/ports/bus_errors.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/local_place.hpp"
 #include "dbc/wire/bit_length.hpp"
 #include "tests/unit/dbc/ports/frames.hpp"
 
@@ -234,6 +237,51 @@ TEST_F(TimedBus, ErrorReportsPassAtOnce) {
   EXPECT_EQ(next_frame(*node)->frame, report);
   EXPECT_EQ(next_frame(*hub)->frame, report);
   EXPECT_EQ(next_frame(*hub)->frame, frame_of(1));
+}
+
+// They take no time on the wire, so nothing else holds back who sends them without end.
+TEST_F(TimedBus, ErrorReportsWithoutEndAreTakenSoManyAtOnce) {
+  Frame report = frame_of(0x04);
+  report.size = 8;
+  report.error = true;
+  const auto hub = host("?bitrate=1000");
+  std::vector<std::unique_ptr<Port>> senders;
+  for (int n = 0; n < 3; ++n) senders.push_back(join(*hub, {.only_ids = {1}}));
+  const auto fill = [&] {
+    int sent = 0;
+    for (const auto& sender : senders) {
+      while (sender->send(report) == SendOutcome::sent) ++sent;
+      while (sender->receive()) {
+      }
+    }
+    return sent;
+  };
+  ASSERT_GT(fill(), 600);
+  EXPECT_TRUE(hub->receive());
+  const int taken = fill();
+  EXPECT_GT(taken, 0);
+  EXPECT_LE(taken, 256);
+  // Nor does it take more than it gives once the host is far behind with reading.
+  int more = 0;
+  for (int n = 0; n < 100; ++n) {
+    EXPECT_TRUE(hub->receive());
+    more += fill();
+  }
+  EXPECT_LT(more, 5000);
+}
+
+TEST_F(TimedBus, WhoComesAndGoesKeepsNobodyWaiting) {
+  const auto hub = host("?bitrate=1000");
+  const std::string directory = local::directory().value();
+  const std::string name = bus_.substr(std::string_view("local:").size());
+  const std::int64_t end_ns = in_seconds(3);
+  std::jthread crowd([&] {
+    while (clock_ns(CLOCK_MONOTONIC) < end_ns) local::connect_to(directory, name, local::Place::classic);
+  });
+  hub->receive();
+  ASSERT_TRUE(wait(*hub, WaitFor::frame, end_ns));
+  EXPECT_FALSE(hub->receive());
+  EXPECT_LT(clock_ns(CLOCK_MONOTONIC), end_ns) << "it took in all who came";
 }
 
 TEST_F(TimedBus, ANodeMaySayTheBitRateToo) {

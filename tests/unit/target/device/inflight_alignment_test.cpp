@@ -18,12 +18,12 @@ constexpr double latitude_deg = 37, longitude_deg = 127, height_m = 1000;
 class Vehicle : public BenchSide {
  public:
   explicit Vehicle(float aiding, Algorithm algorithm = Algorithm::sin_cos,
-                   std::vector<ParamSet> parameters = {}) {
+                   std::vector<ParamSet> parameters = {}, double starts_at_deg = longitude_deg) {
     command(Command::reset, Estimator::inflight_alignment, algorithm);
     send(ParamSet{.parameter = Parameter::aiding, .value = aiding});
     for (const ParamSet& parameter : parameters) send(parameter);
     send(TargetInitLatitude{.latitude_deg = latitude_deg, .height_m = height_m});
-    send(TargetInitLongitude{.longitude_deg = longitude_deg, .position_sigma_m = 10});
+    send(TargetInitLongitude{.longitude_deg = starts_at_deg, .position_sigma_m = 10});
     send(TargetInitVelocityNE{});
     send(TargetInitAttitude{});
     send(TargetInitSigma{.velocity_sigma_mps = 0.1, .tilt_sigma_deg = 1, .heading_sigma_deg = 90});
@@ -91,6 +91,19 @@ TEST(InflightAlignment, AnSsblFixIsTheShipsPositionPlusTheRelative) {
   EXPECT_NEAR(bench.last<FixInnovation>()->innovation_north_m, 0, 0.1);
   EXPECT_NEAR(bench.last<FixInnovation>()->innovation_down_m, 0, 0.1);
   EXPECT_GT(bench.last<FixBiasSigma>()->fix_bias_sigma_north_m, 2);
+}
+
+TEST(InflightAlignment, LongitudesAreToldFromMinus180To180Degrees) {
+  Vehicle bench(by_gps, Algorithm::sin_cos, {}, 179.999995);
+  bench.imu_until(1'000'000);
+  bench.send(GpsLatitude{.latitude_deg = latitude_deg, .height_m = height_m});
+  bench.send(GpsLongitude{.longitude_deg = -179.99995,
+                          .satellites = 9,
+                          .position_validity = Validity::valid});  // 5 m further east
+  bench.send(GpsTime{.time_of_validity_us = 1'000'000});
+  EXPECT_EQ(bench.outcome(), FixOutcome::accepted);
+  EXPECT_NEAR(bench.last<FixInnovation>()->innovation_east_m, -4.9, 0.2);
+  EXPECT_LT(bench.last<FixPositionLongitude>()->longitude_deg, -179.9999);
 }
 
 TEST(InflightAlignment, AnswersEachImuGroup) {

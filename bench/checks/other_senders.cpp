@@ -1,0 +1,34 @@
+#include "bench/checks/other_senders.hpp"
+
+#include <fmt/format.h>
+
+namespace canhil::checks {
+namespace {
+
+std::string counts(const std::map<std::string_view, std::uint64_t>& by_message) {
+  std::string list;
+  for (const auto& [message, count] : by_message)
+    list += fmt::format("{}{} {}", list.empty() ? "" : ", ", message, count);
+  return list;
+}
+
+}  // namespace
+
+std::string other_senders(const Observations& seen) {
+  std::string line;
+  if (!seen.bus.intruded.empty())
+    line = "somebody else sent frames of the bench: " + counts(seen.bus.intruded);
+  std::map<std::string_view, std::uint64_t> unasked;  // by sample group
+  for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
+    const AnswerTiming& answers = seen.timing.answers[i];
+    if (const std::uint64_t count = answers.unpaired + answers.repeated; count > 0)
+      unasked[messages::all_messages[i].sample_group] = count;
+  }
+  if (!unasked.empty()) {
+    line += fmt::format("{}answers to nothing that was asked, or given twice: {}", line.empty() ? "" : "; ",
+                        counts(unasked));
+  }
+  return line;
+}
+
+}  // namespace canhil::checks
