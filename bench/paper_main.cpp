@@ -68,7 +68,7 @@ int run(int argc, char** argv) {
                      campaign::most_runs);
   program.add_flag("--unrounded", arguments.unrounded, "frames that round nothing");
   program.add_option("--exact", arguments.exact, "results without the bus's rounding, to compare");
-  program.refuse_empty();
+  program.refuse_no_values();
   const auto parsed = program.parse(argc, argv);
   if (!parsed) return static_cast<int>(complain(parsed.error()));
   return *parsed ? **parsed : static_cast<int>(reproduce(arguments));

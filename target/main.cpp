@@ -23,7 +23,7 @@ std::atomic<bool> stop_requested = false;
 void request_stop(int /*signal*/) { stop_requested = true; }
 
 int complain(const canhil::Error& error) {
-  std::fprintf(stderr, "hil-target: %s\n", error.message.c_str());
+  std::fprintf(stderr, "hil-target: %s\n", canhil::command_line::one_line(error.message).c_str());
   return exit_usage;
 }
 
@@ -48,7 +48,7 @@ int run(int argc, char** argv) {
       .excludes(replay_option);
   canhil::realtime::Options realtime;
   canhil::realtime::add_options(program, realtime).excludes(replay_option);
-  program.refuse_empty();
+  program.refuse_no_values();
   const auto parsed = program.parse(argc, argv);
   if (!parsed) return complain({parsed.error().message + "; see hil-target --help"});
   if (*parsed) return **parsed;

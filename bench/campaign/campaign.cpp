@@ -89,6 +89,15 @@ std::vector<Setting> read_sweep(Section& root, const std::vector<Given>& given) 
       section->reject(key.key, fmt::format("is set by variant '{}' too", one->name), "one of the two");
     }
   }
+  std::uint64_t variants = given.size();
+  for (const Setting& key : sweep) {
+    variants *= key.elements.size();
+    if (variants > most_variants) {
+      section->reject(key.key, "makes more variants than can be looked at",
+                      fmt::format("at most {} in all", most_variants));
+      break;
+    }
+  }
   return sweep;
 }
 

@@ -34,6 +34,8 @@ struct Sources {
 
 /// Of one campaign: its list of runs stays in memory.
 inline constexpr std::uint64_t most_runs = 10'000'000;
+/// Each is a scenario of its own, read before the first run.
+inline constexpr std::uint64_t most_variants = 10'000;
 
 struct Campaign {
   Sources sources;

@@ -76,6 +76,15 @@ std::span<const std::uint8_t> Statement::bytes(int column) const {
 }
 
 Result<Database> Database::open(const std::filesystem::path& path, Access access) {
+  std::error_code unknown;
+  const auto status = std::filesystem::status(path, unknown);
+  if (std::filesystem::is_fifo(status) || std::filesystem::is_directory(status)) {  // SQLite waits for a pipe
+    return failure(fmt::format("{}: is a {}, expected results of a campaign", path.string(),
+                               std::filesystem::is_fifo(status) ? "pipe" : "folder"));
+  }
+  if (access != Access::create && status.type() == std::filesystem::file_type::not_found)
+    return failure(fmt::format("{}: cannot be read ({}), expected results of a campaign", path.string(),
+                               std::strerror(ENOENT)));
   int flags = SQLITE_OPEN_NOMUTEX;  // one thread at a time
   switch (access) {
     case Access::read:

@@ -338,7 +338,35 @@ Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t var
   return out;
 }
 
+bool any_failed(const std::vector<Answer>& answers) {
+  return std::ranges::any_of(answers, [](const Answer& answer) { return !answer.passed.value_or(true); });
+}
+
 }  // namespace
+
+std::string Evaluation::not_judged() const {
+  if (any_failed(answers)) return {};
+  if (answers.empty()) return "nothing was judged: no [[metric]]";
+  const auto judged = [this](const std::string* variant) {
+    return std::ranges::any_of(answers, [&](const Answer& answer) {
+      return answer.passed && (variant == nullptr || answer.variant == *variant);
+    });
+  };
+  if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a bar";
+  // What never flew may be compared with, and looks worse than anything.
+  for (const Endings& one : endings) {
+    if (one.completed == 0 && !judged(&one.variant))
+      return fmt::format(
+          "variant '{}' was not judged: none of its runs was completed ({}), and it has no bar", one.variant,
+          one.first_fault);
+  }
+  return {};
+}
+
+checks::Outcome Evaluation::outcome() const {
+  if (any_failed(answers)) return checks::Outcome::fail;
+  return not_judged().empty() ? checks::Outcome::pass : checks::Outcome::not_measured;
+}
 
 Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
   Evaluation evaluation;
@@ -365,7 +393,6 @@ Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
   for (const Metric& metric : campaign.metrics) {
     for (const std::size_t variant : variants_of(campaign, metric)) {
       evaluation.answers.push_back(answer_of(campaign, metric, variant, runs));
-      evaluation.passed = evaluation.passed && evaluation.answers.back().passed.value_or(true);
     }
   }
   return evaluation;

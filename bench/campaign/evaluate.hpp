@@ -40,12 +40,9 @@ struct Endings {
 struct Evaluation {
   std::vector<Endings> endings;
   std::vector<Answer> answers;
-  bool passed = true;  ///< no bar failed
-  /// Not measured: the campaign asks for nothing.
-  [[nodiscard]] checks::Outcome outcome() const {
-    if (answers.empty()) return checks::Outcome::not_measured;
-    return passed ? checks::Outcome::pass : checks::Outcome::fail;
-  }
+  /// Why nothing failed and it is no pass all the same; empty: something failed, or all was judged.
+  [[nodiscard]] std::string not_judged() const;
+  [[nodiscard]] checks::Outcome outcome() const;
 };
 
 /// Gives the runs of a variant.

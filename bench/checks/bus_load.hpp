@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "bench/checks/finding.hpp"
 #include "bench/checks/observations.hpp"
@@ -21,6 +22,10 @@ std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 /// Of the whole run at a bit rate [bit/s], in its whole_seconds().
 BusLoad bus_load(const Observations& seen, wire::BitRates rates);
 
+/// "500 kbit/s", "500 and 2000 kbit/s".
+std::string words(const wire::BitRates& rates);
+
+/// On the bus that the rule is about, and on the run's own where that is faster or slower.
 Finding judge(const scenario::BusLoad& rule, const Observations& seen);
 
 }  // namespace canhil::checks

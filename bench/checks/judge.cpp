@@ -134,7 +134,8 @@ class Judge {
   Finding operator()(const scenario::OutputPeriod& rule) const {
     const double nominal = nominal_period_s(evidence_.seen, rule.message);
     const std::string expected =
-        fmt::format("{:g} ms +- {:g} % ({})", nominal * 1e3, rule.within * 100, quantile_name(rule.quantile));
+        fmt::format("{} every {:g} ms +- {:g} % ({}) {}", rule.message, nominal * 1e3, rule.within * 100,
+                    quantile_name(rule.quantile), seconds(rule.window));
     if (nominal <= 0) return {Outcome::not_measured, "the message has no period", expected};
     if (auto why = unfit(rule.quantile, nominal * rule.within); !why.empty()) {
       return {Outcome::not_measured, std::move(why), expected};

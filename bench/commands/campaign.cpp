@@ -81,12 +81,25 @@ Result<fs::path> results_file(const Arguments& arguments, const campaign::Shard&
   const fs::path out = arguments.out;
   if (out == report::to_stdout) return failure("--out -: expected a folder or a file, not standard output");
   if (out.extension() == ".sqlite") return out;
-  std::error_code error;
-  if (!out.empty()) fs::create_directories(out, error);
-  if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
   const std::string stem = fs::path(arguments.file).stem().string();
   return out / (shard.count == 1 ? stem + ".sqlite"
                                  : fmt::format("{}-{}-of-{}.sqlite", stem, shard.index, shard.count));
+}
+
+Result<void> make_folder(const Arguments& arguments) {
+  const fs::path out = arguments.out;
+  std::error_code error;
+  if (!out.empty() && out.extension() != ".sqlite") fs::create_directories(out, error);
+  if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
+  return {};
+}
+
+// What is read must not be written over.
+Result<void> check_distinct(const campaign::Campaign& campaign, std::vector<std::string> outputs) {
+  outputs.push_back(campaign.sources.file);
+  const fs::path folder = fs::path(campaign.sources.file).parent_path();
+  for (const auto& [name, text] : campaign.sources.scenarios) outputs.push_back((folder / name).string());
+  return report::check_distinct(outputs);
 }
 
 ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, const std::string& json) {
@@ -102,8 +115,8 @@ ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, 
     if (auto written = report::write(json, campaign::json(campaign, *evaluation)); !written)
       return complain(written.error());
   }
-  if (evaluation->answers.empty())
-    fmt::print(stderr, "hil-bench: nothing was judged: {} has no [[metric]]\n", campaign.sources.file);
+  if (const std::string why = evaluation->not_judged(); !why.empty())
+    complain({fmt::format("{}: {}", campaign.sources.file, why)});
   return exit_code(evaluation->outcome());
 }
 
@@ -119,6 +132,10 @@ ExitCode execute(const Arguments& arguments) {
   const auto shard =
       arguments.shard.empty() ? campaign::shard_of_environment() : campaign::parse_shard(arguments.shard);
   if (!shard) return complain(shard.error());
+  const auto file = results_file(arguments, *shard);
+  if (!file) return complain(file.error());
+  if (auto distinct = check_distinct(*campaign, {file->string(), arguments.json}); !distinct)
+    return complain(distinct.error());
   if (!arguments.json.empty()) {
     if (shard->count > 1)
       return complain({"--json: a shard has no report, expected all runs: merge them first"});
@@ -127,8 +144,7 @@ ExitCode execute(const Arguments& arguments) {
         return complain(writable.error());
     }
   }
-  const auto file = results_file(arguments, *shard);
-  if (!file) return complain(file.error());
+  if (auto made = make_folder(arguments); !made) return complain(made.error());
 
   catch_interrupts();
   const auto execution = [&] {
@@ -213,6 +229,8 @@ ExitCode replay(const ReplayArguments& arguments) {
   options.clock = run::ClockKind::lockstep;
   options.run_index = *arguments.run;
   if (!arguments.log.empty()) {
+    if (auto distinct = check_distinct(*campaign, {arguments.log}); !distinct)
+      return complain(distinct.error());
     if (auto writable = report::check_writable(arguments.log); !writable) return complain(writable.error());
     options.log_path = arguments.log;
   }
@@ -221,6 +239,7 @@ ExitCode replay(const ReplayArguments& arguments) {
   if (!finished) return complain(finished.error());
   fmt::print("variant {} · run {}\n{}", variant->name, options.run_index,
              report::text(variant->scenario, *finished));
+  if (finished->log_error) return complain(*finished->log_error);
   return exit_code(finished->verdict.outcome);
 }
 
@@ -282,16 +301,18 @@ void add_campaign(command_line::Command app, int& code) {
   const auto command = app.add_subcommand(std::string(campaign_name), std::string(campaign_summary));
   const auto file = command.add_option("FILE", arguments->file, "campaign file (TOML)");
   command.add_option("--out", arguments->out, "folder, or file.sqlite, of the results (default: here)");
-  command.add_number("--threads", arguments->threads, "default: one a core", 1, most_threads);
-  command.add_option("--shard", arguments->shard,
-                     "i/N: only runs with run % N == i (default: the task of a Slurm array, or all)");
+  const auto threads =
+      command.add_number("--threads", arguments->threads, "default: one a core", 1, most_threads);
+  const auto shard =
+      command.add_option("--shard", arguments->shard,
+                         "i/N: only runs with run % N == i (default: the task of a Slurm array, or all)");
   command.add_number("--runs", arguments->runs, "another number of runs than the campaign's", 1,
                      campaign::most_runs);
-  command.add_flag("--resume", arguments->resume, "go on with results that are there");
+  const auto resume = command.add_flag("--resume", arguments->resume, "go on with results that are there");
   command.add_flag("--unrounded", arguments->unrounded,
                    "frames that round nothing: the difference is what the bus's resolution costs");
-  command.add_option("--json", arguments->json,
-                     "write the report as JSON to a file; -: to stdout, in place of the text");
+  const auto json = command.add_option(
+      "--json", arguments->json, "write the report as JSON to a file; -: to stdout, in place of the text");
   auto paper = std::make_shared<PaperArguments>();
   const auto name =
       command.add_option("--paper", paper->paper,
@@ -299,6 +320,7 @@ void add_campaign(command_line::Command app, int& code) {
   command.add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
       .needs(name);
   name.excludes(file);
+  for (const auto& option : {shard, resume, threads, json}) name.excludes(option);
   command.require_subcommands(0, 1);
   add_merge(command, code);
   add_report(command, code);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "bench/checks/verdict.hpp"
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::commands {
@@ -24,7 +25,7 @@ constexpr ExitCode exit_code(checks::Outcome outcome) {
 
 /// Says on stderr, in one line, why nothing was done.
 inline ExitCode complain(const Error& error) {
-  std::fprintf(stderr, "hil-bench: %s\n", error.message.c_str());
+  std::fprintf(stderr, "hil-bench: %s\n", command_line::one_line(error.message).c_str());
   return ExitCode::usage;
 }
 

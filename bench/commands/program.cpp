@@ -68,7 +68,7 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
   program.require_subcommands(1, 1);
   int code = 0;
   for (const AddCommand add : add_commands) add(program, code);
-  program.refuse_empty();
+  program.refuse_no_values();
   const auto parsed = program.parse(argc, argv);
   if (!parsed) {
     const std::vector<std::string> words(argv + 1, argv + argc);
@@ -80,7 +80,9 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
 }  // namespace
 
 int guarded(const std::function<int()>& run) {
+  // A disk that is full or a reader that has gone is told of, and costs no other report.
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     return command_line::finish("hil-bench", run());
   } catch (const std::exception& error) {

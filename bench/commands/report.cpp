@@ -21,9 +21,20 @@ std::string page_path(const std::string& report) {
   return std::filesystem::path(report).replace_extension(".html").string();
 }
 
+// Not beside a pipe: that is in a folder of devices.
+Result<void> has_room_for_a_page(const std::string& path) {
+  std::error_code unknown;
+  const auto status = std::filesystem::status(path, unknown);
+  if (std::filesystem::is_other(status))
+    return failure(
+        fmt::format("file '{}': is no regular file, expected one, as its page is to stand beside it", path));
+  return report::check_writable(page_path(path));
+}
+
 Result<void> rebuild(const std::string& path) {
   auto document = report::read_document(path);
   if (!document) return tl::unexpected(document.error());
+  if (auto room = has_room_for_a_page(path); !room) return room;
   auto page = report::html(*document);
   if (!page) return failure(fmt::format("file '{}': {}", path, page.error().message));
   return report::write_file(page_path(path), *page);
@@ -65,6 +76,10 @@ ExitCode compare_sides(Sides sides) {
   if (two) {
     sides.before = {sides.a};
     sides.after = {sides.b};
+  }
+  // A run that counts twice makes a side look steadier than it is.
+  for (const auto* side : {&sides.before, &sides.after}) {
+    if (auto distinct = report::check_distinct(*side); !distinct) return complain(distinct.error());
   }
   const auto before = read_all(sides.before);
   if (!before) return complain(before.error());

@@ -168,8 +168,10 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
-  if (auto distinct = report::check_distinct({arguments.scenario, arguments.json, arguments.junit,
-                                              arguments.html, arguments.csv, arguments.log});
+  // What is read must not be written over: --dbc and --target may name files too.
+  if (auto distinct =
+          report::check_distinct({arguments.scenario, arguments.dbc, arguments.target, arguments.json,
+                                  arguments.junit, arguments.html, arguments.csv, arguments.log});
       !distinct) {
     return distinct;
   }
@@ -195,9 +197,14 @@ Result<void> check_bus(const Arguments& arguments) {
   if (run::rounding_of(arguments.bus) == Rounding::none && !arguments.log.empty())
     return failure(
         fmt::format("--log: a log has no room for the frames of '{}', expected in-process", arguments.bus));
+  std::vector<std::string> nodes;
   for (const std::string& text : arguments.bus_of) {
     const auto named = node_and_bus(text);
     if (!named) return tl::unexpected(named.error());
+    if (std::ranges::find(nodes, named->first) != nodes.end())
+      return failure(
+          fmt::format("--bus-of '{}': {} has a bus already, expected each node once", text, named->first));
+    nodes.push_back(named->first);
     if (named->second == arguments.bus)
       return failure(
           fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bench/commands/exit_code.hpp"
+#include "bench/report/file.hpp"
 #include "bench/schedulability/message_set.hpp"
 #include "bench/schedulability/report.hpp"
 #include "dbc/parser/parse.hpp"
@@ -59,7 +60,9 @@ ExitCode execute(const Arguments& arguments) {
       {.rates = *rates,
        .queues = fifo ? schedulability::Queues::in_order : schedulability::Queues::by_priority,
        .errors = errors_of(arguments)});
-  fmt::print("{}", arguments.json ? schedulability::json(analysis) : schedulability::table(analysis));
+  const auto shown =
+      report::write_stdout(arguments.json ? schedulability::json(analysis) : schedulability::table(analysis));
+  if (!shown) return complain(shown.error());
   return schedulability::schedulable(analysis) ? ExitCode::pass : ExitCode::fail;
 }
 

@@ -8,6 +8,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "dbc/files/unfinished_name.hpp"
 
 namespace canhil::report {
 namespace {
@@ -25,8 +29,7 @@ Result<void> write_stdout(std::string_view content) {
 }
 
 Result<void> write_file(const std::string& path, std::string_view content) {
-  // A name of its own: two runs that are told the same path must not write into one file.
-  const std::string unfinished = fmt::format("{}.{}.part", path, getpid());
+  const std::string unfinished = unfinished_name(path);
   std::FILE* file = std::fopen(unfinished.c_str(), "wb");
   if (file == nullptr) return complaint(path, errno);
   const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
@@ -51,26 +54,36 @@ Result<void> write(const std::string& path, std::string_view content) {
 Result<void> check_writable(const std::string& path) {
   namespace fs = std::filesystem;
   if (path == to_stdout) return failure("file '-': standard output cannot hold this, expected a file");
-  const fs::path folder = fs::absolute(path).parent_path();
-  if (fs::is_directory(path)) return complaint(path, EISDIR);
+  std::error_code unknown;
+  if (fs::is_directory(path, unknown)) return complaint(path, EISDIR);
   // The finished file takes the name's place: a device, a pipe or a link would be gone.
-  if (fs::exists(fs::symlink_status(path)) && !fs::is_regular_file(fs::symlink_status(path))) {
+  const fs::file_status there = fs::symlink_status(path, unknown);
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
     return failure(fmt::format("file '{}': is no regular file, expected one or a new name", path));
   }
-  if (access(folder.c_str(), W_OK) != 0) return complaint(path, errno);
+  // Only a file that is made there proves that one can be: root may write to /proc, and cannot.
+  const std::string unfinished = unfinished_name(path);
+  const int file = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (file < 0) return complaint(path, errno);
+  close(file);
+  std::remove(unfinished.c_str());
   return {};
 }
 
 Result<void> check_distinct(const std::vector<std::string>& paths) {
-  std::vector<std::filesystem::path> seen;
+  namespace fs = std::filesystem;
+  std::vector<fs::path> seen;
   for (const std::string& path : paths) {
     if (path.empty()) continue;
-    namespace fs = std::filesystem;
-    const fs::path where = path == to_stdout ? fs::path(path) : fs::weakly_canonical(fs::absolute(path));
+    // What has no place in a folder (a pipe, a folder that is gone) goes by the name that was told.
+    std::error_code unknown;
+    fs::path where = fs::absolute(path, unknown);
+    if (!unknown) where = fs::weakly_canonical(where, unknown);
+    if (unknown || path == to_stdout) where = path;
     if (std::ranges::find(seen, where) != seen.end()) {
       return failure(fmt::format("file '{}': is named twice, expected a file of its own for each", path));
     }
-    seen.push_back(where);
+    seen.push_back(std::move(where));
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include "bench/report/markup.hpp"
 #include "bench/report/page_results.hpp"
 #include "bench/report/page_sections.hpp"
+#include "bench/report/whole.hpp"
 #include "dbc/files/text_file.hpp"
 
 namespace canhil::report {
@@ -132,15 +133,14 @@ Result<Json> read_document(const std::string& path) {
     return failure(fmt::format("file '{}': values lie {} deep within one another, expected a report", path,
                                most_depth + 1));
   }
-  if (document.is_discarded())
+  // To the parser a NUL is the end of the text, whatever comes behind.
+  if (document.is_discarded() || text->find('\0') != std::string::npos)
     return failure(fmt::format("file '{}': is no JSON, expected a report of hil-bench run --json", path));
   if (!document.is_object() || !document.contains("schema") || document.at("schema") != schema)
     return failure(
         fmt::format("file '{}': is no report, expected one with \"schema\": \"{}\"", path, schema));
-  for (const std::string_view key : {"verdict", "provenance", "checks"}) {
-    if (!document.contains(key))
-      return failure(fmt::format("file '{}': key '{}' is missing, expected a whole report", path, key));
-  }
+  if (const std::string why = why_not_whole(document); !why.empty())
+    return failure(fmt::format("file '{}': {}", path, why));
   return document;
 }
 

@@ -126,18 +126,12 @@ std::string told_us(std::uint16_t us) {
   return us < checks::most_told_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
 }
 
-std::string rate_words(const wire::BitRates& rates) {
-  const std::string data =
-      rates.data > 0 ? fmt::format(" and {:g}", static_cast<double>(rates.data) * 1e-3) : "";
-  return fmt::format("{:g}{} kbit/s", static_cast<double>(rates.nominal) * 1e-3, data);
-}
-
 std::string load_words(const run::Run& run) {
   std::string lines;
   for (const wire::BitRates& rates : load_rates(run)) {
     const checks::BusLoad load = checks::bus_load(run.seen, rates);
-    lines += fmt::format("  bus load at {:<17} mean {:.1f} %, busiest second {:.1f} %\n", rate_words(rates),
-                         load.mean * 100, load.busiest * 100);
+    lines += fmt::format("  bus load at {:<17} mean {:.1f} %, busiest second {:.1f} %\n",
+                         checks::words(rates), load.mean * 100, load.busiest * 100);
   }
   return lines;
 }
@@ -245,13 +239,19 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
     head(name(alignment.estimator));
     page += words(alignment);
   }
-  if (run.options.clock != run::ClockKind::lockstep) {
+  const bool virtual_time = run.options.clock == run::ClockKind::lockstep;
+  for (const MessageLatency& row : summary.latencies) {
+    if (row.latency_s.count == 0) {
+      page += fmt::format("  latency {:<22}no answers{}\n", row.message,
+                          row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
+    } else if (virtual_time && row.unanswered > 0) {
+      page += fmt::format("  latency {:<22}none in virtual time, of {} answers, {} never came\n", row.message,
+                          row.latency_s.count, row.unanswered);
+    }
+  }
+  if (!virtual_time) {
     for (const MessageLatency& row : summary.latencies) {
-      if (row.latency_s.count == 0) {
-        page += fmt::format("  latency {:<22}no answers{}\n", row.message,
-                            row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
-        continue;
-      }
+      if (row.latency_s.count == 0) continue;
       page += fmt::format("  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
                           row.latency_s.count,
                           row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");

@@ -1,21 +1,16 @@
 #include "bench/run/recorder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstring>
 
+#include "dbc/files/unfinished_name.hpp"
+
 namespace canhil::run {
-namespace {
-
-// A name of its own: two runs that are told the same path must not write into one file.
-std::string unfinished(const std::string& path) { return fmt::format("{}.{}.part", path, getpid()); }
-
-}  // namespace
 
 Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const Port& port) {
-  return LogWriter::create(unfinished(path)).map([&](LogWriter writer) {
+  return LogWriter::create(unfinished_name(path), path).map([&](LogWriter writer) {
     return std::unique_ptr<Recorder>(new Recorder(std::move(writer), path, port));
   });
 }
@@ -27,7 +22,7 @@ Recorder::Recorder(LogWriter writer, std::string path, const Port& port)
       to_realtime_ns_(clock_ns(CLOCK_REALTIME) - port.now_ns()) {}
 
 Recorder::~Recorder() {
-  if (!closed_) std::remove(unfinished(path_).c_str());
+  if (!closed_) std::remove(unfinished_name(path_).c_str());
 }
 
 void Recorder::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t /*late_ns*/) {
@@ -46,7 +41,7 @@ void Recorder::write(const Frame& frame, std::int64_t t_ns, bool transmitted) {
 
 Result<void> Recorder::close() {
   const auto give_name = [&](const std::string& name) {
-    closed_ = std::rename(unfinished(path_).c_str(), name.c_str()) == 0;
+    closed_ = std::rename(unfinished_name(path_).c_str(), name.c_str()) == 0;
     return closed_;
   };
   auto written = writer_.close();

@@ -43,6 +43,7 @@ Result<TargetProcess> TargetProcess::start(const std::string& program, const std
   }
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
+    std::signal(SIGPIPE, SIG_DFL);  // what the bench ignores is its own affair
     if (getppid() != parent) _exit(127);
     if (!cpus.empty()) realtime::pin(cpus);
     dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output is the bench's: a report may go there

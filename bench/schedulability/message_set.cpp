@@ -110,6 +110,9 @@ Result<wire::BitRates> bit_rates(const dbc::Database& database, const wire::BitR
   const wire::BitRates rates{.nominal = given.nominal > 0 ? given.nominal : network("Baudrate"),
                              .data = given.data > 0 ? given.data : network("BaudrateCANFD")};
   if (rates.nominal <= 0) return failure("no bit rate, expected --bitrate or the DBC's attribute Baudrate");
+  if (rates.data > 0 && rates.data < rates.nominal)
+    return failure(
+        fmt::format("data phase at {} bit/s, expected at least the bit rate, {}", rates.data, rates.nominal));
   return rates;
 }
 

@@ -1,11 +1,16 @@
 // dbcgen: a DBC file to a C++ header, or to what a person wants to know of it.
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <string_view>
+#include <utility>
 
 #include "dbc/codegen/fd.hpp"
 #include "dbc/codegen/generate.hpp"
@@ -31,13 +36,14 @@ struct Options {
 };
 
 int complain(const std::string& line) {
-  fmt::print(stderr, "{}\n", line);
+  fmt::print(stderr, "{}\n", canhil::command_line::one_line(line));
   return 2;
 }
 
 int print(const std::string& text) {
-  fmt::print("{}", text);
-  return 0;
+  const bool taken = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (taken && std::fflush(stdout) == 0) return 0;
+  return complain(fmt::format("dbcgen: standard output: cannot be written: {}", std::strerror(errno)));
 }
 
 canhil::Result<std::string> text_for(const canhil::dbc::Database& database, const Options& options) {
@@ -48,6 +54,8 @@ canhil::Result<std::string> text_for(const canhil::dbc::Database& database, cons
 }
 
 bool holds(const std::string& path, const std::string& text) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown)) return false;  // a device may have no end
   std::ifstream file(path, std::ios::binary);
   return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
 }
@@ -72,6 +80,34 @@ int write(const canhil::dbc::Database& database, const Options& options) {
   return options.output.empty() ? print(*text) : write_file(options.output, *text);
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code unknown;
+  const auto where = [&](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, unknown), unknown);
+  };
+  return !a.empty() && !b.empty() && where(a) == where(b);
+}
+
+// Letters, digits and '_' in parts with '::' between them, as in messages::fd.
+bool is_namespace(std::string_view name) {
+  static const std::regex parts("[A-Za-z_][A-Za-z0-9_]*(::[A-Za-z_][A-Za-z0-9_]*)*");
+  return std::regex_match(name.begin(), name.end(), parts);
+}
+
+// Empty: all go together.
+std::string refused(const Options& options) {
+  for (const auto& [a, b] : {std::pair(options.output, options.dbc), std::pair(options.source, options.dbc),
+                             std::pair(options.source, options.output)}) {
+    if (same_file(a, b))
+      return fmt::format("file '{}': is named twice, expected a file of its own for each", a);
+  }
+  if (!is_namespace(options.name_space))
+    return fmt::format("--namespace: '{}' is no name of a namespace in C++", options.name_space);
+  const int asked = options.quantisation + options.load + options.json + options.fd + options.fd_header;
+  if (asked > 1) return "expected one of --quantisation, --load, --json, --fd and --fd-header";
+  return {};
+}
+
 int run(int argc, char** argv) {
   Options options;
   canhil::command_line::Program program{"Turns a DBC file into a C++ header of constexpr codecs."};
@@ -88,12 +124,18 @@ int run(int argc, char** argv) {
   program.add_flag("--fd", options.fd,
                    "write the same contract for CAN FD, one frame a sample group, as a DBC file");
   program.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
+  program.refuse_no_values();
   const auto parsed = program.parse(argc, argv);
   if (!parsed) return complain(fmt::format("dbcgen: {}; see dbcgen --help", parsed.error().message));
   if (*parsed) return **parsed;
 
+  if (const std::string why = refused(options); !why.empty())
+    return complain(fmt::format("dbcgen: {}; see dbcgen --help", why));
+
   auto database = canhil::dbc::read_file(options.dbc);
   if (!database) return complain(database.error().message);
+  if (database->messages.empty())
+    return complain(fmt::format("{}: no messages in the DBC, expected one at least", options.dbc));
   if (options.quantisation) return print(canhil::dbc::quantisation_table(*database));
   if (options.load) return print(canhil::dbc::load_table(*database));
   if (options.json) return print(canhil::dbc::to_json(*database) + "\n");
@@ -106,7 +148,6 @@ int main(int argc, char** argv) {
   try {
     return canhil::command_line::finish("dbcgen", run(argc, argv));
   } catch (const std::exception& error) {
-    std::fputs(error.what(), stderr);
-    return 2;
+    return complain(fmt::format("dbcgen: {}", error.what()));
   }
 }

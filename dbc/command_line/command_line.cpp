@@ -1,6 +1,7 @@
 #include "dbc/command_line/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -33,12 +34,14 @@ std::string text_of(double value) {
   return std::move(text).str();
 }
 
-void refuse_empty_in(CLI::App& command) {
-  const auto not_empty = [](const std::string& text) {
-    return text.empty() ? std::string("is empty, expected a value") : std::string();
+void refuse_no_values_in(CLI::App& command) {
+  const auto is_value = [](const std::string& text) {
+    if (text.empty()) return std::string("is empty, expected a value");
+    if (text.starts_with("--")) return "'" + text + "' is no value, expected one (of a file: ./" + text + ")";
+    return std::string();
   };
-  for (CLI::Option* option : command.get_options()) option->check(not_empty);
-  for (CLI::App* below : command.get_subcommands(nullptr)) refuse_empty_in(*below);
+  for (CLI::Option* option : command.get_options()) option->check(is_value);
+  for (CLI::App* below : command.get_subcommands(nullptr)) refuse_no_values_in(*below);
 }
 
 }  // namespace
@@ -117,7 +120,7 @@ Program::Program(const std::string& help, const std::string& version) : Program(
 }
 Program::~Program() = default;
 
-void Program::refuse_empty() { refuse_empty_in(*app_); }
+void Program::refuse_no_values() { refuse_no_values_in(*app_); }
 
 Result<std::optional<int>> Program::parse(int argc, const char* const* argv) {
   try {
@@ -128,6 +131,12 @@ Result<std::optional<int>> Program::parse(int argc, const char* const* argv) {
     return failure(error.what());
   }
   return std::nullopt;
+}
+
+std::string one_line(std::string message) {
+  const auto control = [](unsigned char c) { return c < ' ' || c == 0x7F; };
+  std::replace_if(message.begin(), message.end(), control, '?');
+  return message;
 }
 
 int finish(const char* program, int code) {

@@ -87,7 +87,7 @@ class Program : public Command {
   Program& operator=(const Program&) = delete;
 
   /// Refuses '' as the value of any option or argument, also of subcommands. To be called when all are there.
-  void refuse_empty();
+  void refuse_no_values();
 
   /// What was wrong, in a line; or the exit code where help or the version was asked for, and printed.
   Result<std::optional<int>> parse(int argc, const char* const* argv);
@@ -97,6 +97,9 @@ class Program : public Command {
 
   std::unique_ptr<CLI::App> app_;
 };
+
+/// A message with '?' for what would break its line or steer a terminal: names of files may hold anything.
+std::string one_line(std::string message);
 
 /// The exit code of a program that ends with `code`: 2, with a line on stderr, if standard output did not
 /// take all that was printed. Nothing is added to 2, which has its line.

@@ -169,10 +169,13 @@ Result<LogEntry> parse_log_line(std::string_view line, std::string_view where) {
   return entry;
 }
 
-Result<LogWriter> LogWriter::create(const std::string& path) {
+Result<LogWriter> LogWriter::create(const std::string& path, const std::string& final_name) {
   std::FILE* file = std::fopen(path.c_str(), "we");
-  if (file == nullptr) return failure(fmt::format("cannot write log '{}': {}", path, std::strerror(errno)));
-  return LogWriter(file, path);
+  const int error = errno;
+  LogWriter writer(file, final_name.empty() ? path : final_name);
+  if (file == nullptr)
+    return failure(fmt::format("cannot write log '{}': {}", writer.path_, std::strerror(error)));
+  return writer;
 }
 
 void LogWriter::write(const LogEntry& entry) {

@@ -32,7 +32,8 @@ Result<LogEntry> parse_log_line(std::string_view line, std::string_view where);
 /// Writes a log, buffered. A write that fails (disk full) makes close() tell.
 class LogWriter {
  public:
-  static Result<LogWriter> create(const std::string& path);
+  /// `final_name`: what it will be called, and is called in complaints, where that is another name.
+  static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
   void write(const LogEntry& entry);
   /// Writes out what is buffered and ends the log.
   Result<void> close();

@@ -44,7 +44,9 @@ Result<WireSettings> wire_settings(std::string_view bus) {
   std::string_view rest = bus;
   cut(rest, '?');
   std::set<std::string_view> given;
-  while (!rest.empty()) {
+  bool more = !rest.empty();
+  while (more) {
+    more = rest.find('&') != std::string_view::npos;  // what follows a '&' is a setting, too
     const std::string_view setting = cut(rest, '&');
     if (!read_setting(setting, result)) {
       return failure(
@@ -59,6 +61,9 @@ Result<WireSettings> wire_settings(std::string_view bus) {
   }
   if (result.rates.nominal == 0 && bus.find('?') != std::string_view::npos)
     return failure(fmt::format("'{}': expected bitrate=1000..1000000 after '?'", bus));
+  if (result.rates.data > 0 && result.rates.data < result.rates.nominal)
+    return failure(fmt::format("'{}': data-bitrate={} is slower than bitrate={}, expected that at the least",
+                               bus, result.rates.data, result.rates.nominal));
   return result;
 }
 

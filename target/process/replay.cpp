@@ -1,5 +1,8 @@
 #include "target/process/replay.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
 #include "target/device/device.hpp"
@@ -12,16 +15,26 @@ constexpr Routes from_target_route([](const MessageInfo& info) {
 });
 bool from_target(const Frame& frame) { return from_target_route(frame) != Routes::nowhere; }
 
-// Reads a log to its end, before the first line of a replay is written. One without frames is no recording.
+// Reads a log to its end, before the first line of a replay is written. One without frames for the target is
+// no recording of a run.
 Result<void> check(const std::string& log_path) {
+  std::error_code unknown;
+  const auto status = std::filesystem::status(log_path, unknown);
+  if (std::filesystem::is_fifo(status) || std::filesystem::is_socket(status))
+    return failure(log_path + ": is a pipe, expected a log in a file, as it is read twice");
   auto reader = LogReader::open(log_path);
   if (!reader) return tl::unexpected(reader.error());
-  for (bool empty = true;; empty = false) {
+  bool empty = true, unheard = true;
+  for (;;) {
     const auto next = reader->next();
     if (!next) return tl::unexpected(next.error());
-    if (!*next && empty) return failure(log_path + ": holds no frames, expected the log of a run");
-    if (!*next) return {};
+    if (!*next) break;
+    empty = false;
+    unheard = unheard && from_target((*next)->frame);
   }
+  if (empty) return failure(log_path + ": holds no frames, expected the log of a run");
+  if (unheard) return failure(log_path + ": holds frames of the target alone, expected the log of a run");
+  return {};
 }
 
 }  // namespace

@@ -198,9 +198,18 @@ TEST(Report, OfACampaignThatAsksForNothingIsExitCode3) {
     const Ended ended = hil_bench(command);
     EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
     EXPECT_THAT(ended.out, HasSubstr("seed 11 · not measured"));
-    EXPECT_THAT(ended.err, HasSubstr("hil-bench: nothing was judged: "));
-    EXPECT_THAT(ended.err, HasSubstr("asks_nothing.toml has no [[metric]]\n"));
+    EXPECT_THAT(ended.err, HasSubstr("asks_nothing.toml: nothing was judged: no [[metric]]\n"));
   }
+}
+
+TEST(Report, OfMetricsWithoutABarIsExitCode3) {
+  std::string text = read(campaign_file(2));
+  const std::string bar = "at_most_mrad = 200\n";
+  std::ofstream(scratch("no_bar.toml")) << text.erase(text.find(bar), bar.size());
+  const Ended ended =
+      hil_bench(fmt::format("campaign {} --out {}", scratch("no_bar.toml"), folder("no_bar")));
+  EXPECT_EQ(ended.code, 3) << ended.out << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("no_bar.toml: nothing was judged: no [[metric]] has a bar\n"));
 }
 
 TEST(Report, OfResultsThatAreCutOffIsOneLine) {
@@ -251,6 +260,50 @@ TEST(CampaignBadInput, IsOneLine) {
   expect_one_line(campaign("--out /proc/none.sqlite"), "/proc/none.sqlite");
   expect_one_line(hil_bench(fmt::format("campaign merge {}/out.db {}", at, file)), "is no SQLite file");
   expect_one_line(hil_bench("campaign report " + file), "is no SQLite file");
+}
+
+TEST(CampaignBadInput, WhatIsReadIsNotWrittenOver) {
+  const std::string at = folder("written_over");
+  fs::copy_file(scenario("transfer_alignment_quick"), at + "/q.toml");
+  std::ofstream(at + "/c.toml")
+      << "title = 'T'\nruns = 1\nseed = 1\n[[variant]]\nname = 'A'\nscenario = 'q.toml'\n";
+  const std::string campaign = read(at + "/c.toml"), flown = read(at + "/q.toml");
+  for (const char* json : {"c.toml", "./c.toml", "q.toml", "o.sqlite"})
+    expect_one_line(
+        shell(fmt::format("cd {}; {} campaign c.toml --out o.sqlite --json {}", at, HIL_BENCH, json)),
+        "is named twice");
+  for (const char* log : {"c.toml", "q.toml"})
+    expect_one_line(shell(fmt::format("cd {}; {} campaign replay c.toml 0 --log {}", at, HIL_BENCH, log)),
+                    "is named twice");
+  EXPECT_EQ(read(at + "/c.toml"), campaign);
+  EXPECT_EQ(read(at + "/q.toml"), flown);
+  EXPECT_FALSE(fs::exists(at + "/o.sqlite"));
+}
+
+TEST(CampaignBadInput, AReplayWhoseLogIsCutOffIsNoReplay) {
+  const std::string log = folder("cut_log") + "/x.log";
+  const Ended ended =
+      shell(fmt::format("ulimit -f 16; {} campaign replay {} 0 --log {}", HIL_BENCH, campaign_file(), log));
+  EXPECT_EQ(ended.code, 2) << ended.out;
+  EXPECT_THAT(ended.err, testing::StartsWith("hil-bench: cannot write log '" + log + "': File too large"));
+}
+
+TEST(CampaignBadInput, ResultsThatAreAPipeOrAFolder) {
+  const std::string at = folder("pipes");
+  ASSERT_EQ(shell("mkfifo " + at + "/p.sqlite").code, 0);
+  for (const std::string command : {"report p.sqlite", "merge m.db p.sqlite"})
+    expect_one_line(shell(fmt::format("cd {}; timeout 10 {} campaign {}", at, HIL_BENCH, command)),
+                    "p.sqlite: is a pipe, expected results of a campaign");
+  expect_one_line(hil_bench("campaign report " + at), ": is a folder, expected results of a campaign");
+  expect_one_line(hil_bench(fmt::format("campaign {} --resume --out {}/p.sqlite", campaign_file(), at)),
+                  "is a pipe");
+  expect_one_line(hil_bench("campaign report /no.sqlite"),
+                  "/no.sqlite: cannot be read (No such file or directory), expected results of a campaign");
+}
+
+TEST(CampaignBadInput, WhatHasNoEffectOnAPaper) {
+  for (const char* option : {"--shard 0/2", "--resume", "--threads 1", "--json x"})
+    expect_one_line(hil_bench(fmt::format("campaign --paper wind {}", option)), "excludes");
 }
 
 TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {

@@ -1,4 +1,5 @@
 // What is done with reports of finished runs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -93,6 +94,31 @@ TEST_F(Reports, WhatIsNoReportIsRefusedInOneLine) {
     EXPECT_EQ(std::ranges::count(ended.err, '\n'), 1) << ended.err;
     EXPECT_THAT(ended.err, StartsWith("hil-bench: "));
   }
+}
+
+TEST_F(Reports, ARunThatCountsTwiceIsRefused) {
+  const std::string one = scratch("one.json");
+  std::filesystem::copy_file(one, scratch("other.json"), std::filesystem::copy_options::overwrite_existing);
+  for (const std::string& sides : {"--before " + one + " " + one + " --after " + scratch("other.json"),
+                                   "--before " + scratch("other.json") + " --after " + one + " " + one})
+    expect_one_line(hil_bench("compare " + sides), "one.json': is named twice");
+}
+
+TEST_F(Reports, WhatIsWrongInAReportIsToldWithItsFileAndKey) {
+  const std::string odd = altered("odd.json", [](auto& report) { report["checks"][0]["kind"] = 5; });
+  const std::string said = "file '" + odd + "': key 'checks[0].kind': is 5, expected text";
+  expect_one_line(hil_bench("report " + odd), said);
+  expect_one_line(hil_bench("compare " + scratch("one.json") + " " + odd), said);
+}
+
+TEST_F(Reports, APageStandsBesideAFileAndInNoLinksPlace) {
+  expect_one_line(shell(fmt::format("cat {} | {} report /dev/stdin", scratch("one.json"), HIL_BENCH)),
+                  "file '/dev/stdin': is no regular file");
+  const std::string linked = altered("linked.json", [](auto&) {});
+  std::filesystem::create_symlink("elsewhere", scratch("linked.html"));
+  expect_one_line(hil_bench("report " + linked), "linked.html': is no regular file");
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch("linked.html")));
+  std::filesystem::remove(scratch("linked.html"));
 }
 
 TEST_F(Reports, APageThatCannotBeWrittenIsToldBeforeTheRun) {

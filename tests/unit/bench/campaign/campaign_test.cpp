@@ -85,6 +85,11 @@ TEST_P(Mistakes, AreOneLine) {
 }
 
 std::string metric(const std::string& keys) { return two_variants + "[[metric]]\n" + keys; }
+std::string numbers(int count) {
+  std::string list;
+  for (int i = 0; i < count; ++i) list += fmt::format("{}, ", i);
+  return list;
+}
 std::string with_set(const std::string& set) {
   std::string text = two_variants;
   const auto where = text.find("set = {");
@@ -113,6 +118,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"setting inside a value", with_set("{ \"title.sub\" = 1 }"),
                 "key 'title.sub': 'title' is a string, expected a table"},
         Mistake{"setting of the seed", with_set("{ seed = 1 }"), "is the same for all variants"},
+        Mistake{
+            "too many variants",
+            two_variants + "[sweep]\n\"master_ins.latency_ms\" = [" + numbers(200) +
+                "]\n\"slave_imu.latency_ms\" = [" + numbers(200) + "]\n",
+            "key 'sweep.slave_imu.latency_ms': makes more variants than can be looked at, expected at most "
+            "10000 in all"},
         Mistake{"empty sweep", two_variants + "[sweep]\n", "key 'sweep': is empty"},
         Mistake{"sweep without values", two_variants + "[sweep]\n\"master_ins.period_ms\" = []\n",
                 "key 'sweep.master_ins.period_ms': is empty, expected an array"},

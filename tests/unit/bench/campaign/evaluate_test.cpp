@@ -121,7 +121,7 @@ TEST(Bars, AreNotMetWhileARunIsMissing) {
     const auto evaluation = ask(metric, one_faulted);
     ASSERT_TRUE(evaluation) << evaluation.error().message;
     EXPECT_EQ(evaluation->answers[0].passed, false) << metric;
-    EXPECT_FALSE(evaluation->passed);
+    EXPECT_EQ(evaluation->outcome(), checks::Outcome::fail);
     EXPECT_EQ(evaluation->endings[0].completed, 3U);
     EXPECT_EQ(evaluation->endings[0].first_fault, "run 1: input_silent");
   }
@@ -147,12 +147,46 @@ TEST(Report, OfACampaignThatAsksForNothingIsNotMeasured) {
   EXPECT_THAT(text(*campaign, *evaluation), HasSubstr("seed 3 · not measured"));
 }
 
+TEST(Report, OfMetricsWithoutABarIsNotMeasured) {
+  const auto evaluation =
+      ask("kind = 'rms_curve'\n[[metric]]\nquantity = 'attitude.roll'\nkind = 'value_at'\nat_s = 1.0\n");
+  ASSERT_TRUE(evaluation) << evaluation.error().message;
+  EXPECT_EQ(evaluation->outcome(), checks::Outcome::not_measured);
+  EXPECT_EQ(evaluation->not_judged(), "nothing was judged: no [[metric]] has a bar");
+}
+
+// B looks worse than A in every run, as it has no values at all.
+TEST(Report, OfAVariantThatNeverFlewIsNoPass) {
+  const auto unflown = [](std::size_t variant) {
+    auto runs = runs_of(variant);
+    for (RunSeries& run : runs) {
+      if (variant == 0) continue;
+      run.samples = Samples(Family::alignment);
+      run.ending = {.kind = run::Ending::Kind::target_fault, .t_us = 0, .detail = "input_silent"};
+    }
+    return runs;
+  };
+  const std::string better = "kind = 'paired'\nat_s = 3.0\nother = 'B'\nvariants = ['A']\nat_least = 0.9\n";
+  const auto paired = ask(better, unflown);
+  ASSERT_TRUE(paired) << paired.error().message;
+  EXPECT_EQ(paired->answers.at(0).passed, true);
+  EXPECT_EQ(paired->outcome(), checks::Outcome::not_measured);
+  EXPECT_EQ(
+      paired->not_judged(),
+      "variant 'B' was not judged: none of its runs was completed (run 0: input_silent), and it has no bar");
+  const std::string astray = "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = 1\n";
+  EXPECT_EQ(ask(better + astray + "variants = ['B']\nat_least = 4\n", unflown)->outcome(),
+            checks::Outcome::pass)
+      << "as it was meant to";
+  EXPECT_EQ(ask(better + astray + "at_most = 0\n", unflown)->outcome(), checks::Outcome::fail);
+}
+
 TEST(Report, CurvesAreInJson) {
   const auto campaign =
       parse(two_variants + "[[metric]]\nkind = 'rms_curve'\nquantity = 'attitude.heading'\n");
   const auto evaluation = evaluate(*campaign, runs_of);
   const auto json = nlohmann::json::parse(canhil::campaign::json(*campaign, *evaluation));
-  EXPECT_EQ(json["outcome"], "pass");
+  EXPECT_EQ(json["outcome"], "not measured");
   const auto& curve = json["answers"][0]["curve"];
   EXPECT_EQ(curve["t_s"].size(), 30U);
   EXPECT_EQ(curve["t_s"][1], 0.2);

@@ -76,7 +76,8 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   expect_refused(altered([](Identity& id) { ++id.runs; }), "odd.sqlite: is of a campaign of 5 runs");
   expect_refused({even}, "4 of 8 runs are in no shard (first: run 1 of variant 'A')");
   expect_refused({even, shard("all.sqlite", all_keys, 2e-3)}, "run 0 of variant 0 differs from that in");
-  expect_refused({even, scratch("absent.sqlite")}, "absent.sqlite: cannot be read or written");
+  expect_refused({even, scratch("absent.sqlite")},
+                 "absent.sqlite: cannot be read (No such file or directory)");
   expect_refused({even, even}, "even.sqlite: is given twice, expected each shard once");
   const auto link = scratch("link.sqlite");
   std::filesystem::create_symlink(even, link);

@@ -34,6 +34,32 @@ TEST(BusLoad, IsJudgedOnTheWireOfTheRunToo) {
   EXPECT_EQ(judge(rule, seen).outcome, Outcome::pass);
 }
 
+// 60 000 bits of the data phase: 30 ms at 2 Mbit/s, 12 ms at 5.
+TEST(BusLoad, IsJudgedOnTheWireOfTheRunTooWhereItsDataRateAloneDiffers) {
+  Observations seen;
+  seen.length_by_second = {{.nominal = 5'000, .data = 60'000}};
+  seen.bit_rates = {.nominal = 500'000, .data = 2'000'000};
+  scenario::BusLoad rule{.bitrate = 500'000, .data_bitrate = 5'000'000, .below = 0.03};
+  const Finding full = judge(rule, seen);
+  EXPECT_EQ(full.outcome, Outcome::fail);
+  EXPECT_EQ(
+      full.measured,
+      "2.2 % in the busiest second, 2.2 % in the mean; at the 500 and 2000 kbit/s of this run's bus 4.0 % "
+      "in the busiest second, 4.0 % in the mean");
+  EXPECT_EQ(full.expected, "< 3 % of 500 and 5000 kbit/s, and of this run's bus");
+  rule.data_bitrate = 2'000'000;
+  rule.below = 0.05;
+  EXPECT_EQ(judge(rule, seen).expected, "< 5 % of 500 and 2000 kbit/s");
+  // Of classic frames no bit is of the data phase; without a data rate FD frames are as fast as the nominal.
+  seen.length_by_second = {{.nominal = 5'000}};
+  rule.data_bitrate = 0;
+  EXPECT_EQ(judge(rule, seen).expected, "< 5 % of 500 kbit/s");
+  seen.length_by_second = {{.nominal = 5'000, .data = 60'000}};
+  seen.bit_rates = {.nominal = 500'000, .data = 0};
+  rule.data_bitrate = 500'000;
+  EXPECT_EQ(judge(rule, seen).expected, "< 5 % of 500 and 500 kbit/s");
+}
+
 TEST(BusLoad, OfNothingIsNotAPass) {
   EXPECT_EQ(judge(scenario::BusLoad{.bitrate = 1'000'000, .below = 0.5}, {}).outcome, Outcome::fail);
 }

@@ -188,6 +188,7 @@ TEST_F(Judged, LatencyAtItsQuantile) {
 TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
   scenario::OutputPeriod rule{.message = "AlignAttitude", .window = whole, .within = 0.2, .quantile = 0.99};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  EXPECT_EQ(judge(rule).expected, "AlignAttitude every 10 ms +- 20 % (99 % quantile) from 0 to 4 s");
   auto& all = came<messages::AlignAttitude>();
   const auto kept = all;
   all.erase(all.begin() + 100, all.begin() + 150);  // one gap of half a second

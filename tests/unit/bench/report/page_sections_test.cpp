@@ -13,6 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -134,6 +135,14 @@ TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
                                   HasSubstr("answers that never came: AlignUpdate")));
   EXPECT_THAT(text(scenario_of(), run),
               HasSubstr("latency AlignUpdate           no answers, 200 never came\n"));
+}
+
+TEST(PageSections, TellInVirtualTimeTooWhatWasNeverAnswered) {
+  run::Run run = run_of();
+  run.options.clock = run::ClockKind::lockstep;
+  EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("latency AlignVelocityD")));
+  run.seen.timing.answers[message_index<messages::AlignVelocityD>()] = {};
+  EXPECT_THAT(text(scenario_of(), run), ContainsRegex("latency AlignVelocityD +no answers"));
 }
 
 TEST(PageSections, TheLoadDoesNotFallInTheSecondInWhichTheRunEnded) {

@@ -239,6 +239,10 @@ TEST(File, IsWholeOrNotThere) {
   EXPECT_FALSE(check_writable(folder));
   EXPECT_FALSE(check_writable(folder / "no" / "such"));
   EXPECT_TRUE(check_writable(path));
+  EXPECT_FALSE(check_writable("/proc/no_report")) << "where nobody may write, root neither";
+  EXPECT_FALSE(check_writable(folder / std::string(250, 'n'))) << "longer than allowed until it is whole";
+  EXPECT_THAT(check_writable(folder / std::string(300, 'n')).error().message,
+              HasSubstr("File name too long"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1) << "nothing unfinished stays";
   std::filesystem::remove_all(folder);
 }

@@ -211,6 +211,11 @@ TEST(LogWriting, TellsOfAFullDisk) {
   ASSERT_FALSE(closed);
   EXPECT_EQ(closed.error().message, "cannot write log '/dev/full': No space left on device");
   EXPECT_FALSE(LogWriter::create("/no/such/folder/x.log"));
+  EXPECT_EQ(LogWriter::create("/no/such/folder/x.log.7.part", "x.log").error().message,
+            "cannot write log 'x.log': No such file or directory");
+  auto unfinished = LogWriter::create("/dev/full", "x.log");
+  unfinished->write({.interface = "c", .frame = frame_of(1)});
+  EXPECT_EQ(unfinished->close().error().message, "cannot write log 'x.log': No space left on device");
 }
 
 }  // namespace

@@ -1,0 +1,141 @@
+#include "bench/report/whole.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+namespace canhil::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The first thing that is wrong ends the look.
+struct Wrong {
+  std::string what;
+};
+
+// A value and the way to it.
+struct At {
+  const Json& value;
+  std::string path;
+
+  [[noreturn]] void expected(std::string_view what) const {
+    constexpr std::size_t most = 60;
+    std::string is = value.dump(-1, ' ', true, Json::error_handler_t::replace);
+    if (is.size() > most) is = is.substr(0, most) + "...";
+    throw Wrong{fmt::format("key '{}': is {}, expected {}", path, is, what)};
+  }
+  [[nodiscard]] bool has(const std::string& key) const { return value.contains(key); }
+  [[nodiscard]] At operator[](const std::string& key) const {
+    if (!value.is_object()) expected("a table");
+    const std::string inner = path.empty() ? key : path + "." + key;
+    const auto found = value.find(key);
+    if (found == value.end()) throw Wrong{fmt::format("key '{}' is missing, expected a whole report", inner)};
+    return {*found, inner};
+  }
+  template <class Look>
+  void each(Look look) const {
+    if (!value.is_array()) expected("a list");
+    for (std::size_t i = 0; i < value.size(); ++i) look(At{value[i], fmt::format("{}[{}]", path, i)});
+  }
+  template <class Look>
+  void each_key(Look look) const {
+    if (!value.is_object()) expected("a table");
+    for (const auto& [key, inner] : value.items()) look(At{inner, path + "." + key});
+  }
+};
+
+void text(const At& at) {
+  if (!at.value.is_string()) at.expected("text");
+}
+void flag(const At& at) {
+  if (!at.value.is_boolean()) at.expected("true or false");
+}
+double number(const At& at) {
+  if (!at.value.is_number() || !std::isfinite(at.value.get<double>())) at.expected("a number");
+  return at.value.get<double>();
+}
+std::uint64_t count(const At& at) {
+  constexpr std::string_view expected = "a whole number of at least 0";
+  if (!at.value.is_number_integer()) at.expected(expected);
+  if (!at.value.is_number_unsigned() && at.value.get<std::int64_t>() < 0) at.expected(expected);
+  return at.value.get<std::uint64_t>();
+}
+
+// [[from us, count], ...]: ascending, and as many in all as were counted.
+void buckets(const At& at, std::uint64_t counted) {
+  constexpr std::uint64_t last_us = 10'000'000;  // that bucket holds all above
+  std::uint64_t next_us = 0, left = counted;
+  at.each([&](const At& bucket) {
+    if (!bucket.value.is_array() || bucket.value.size() != 2) bucket.expected("[from us, count]");
+    bucket.each([](const At& item) { count(item); });
+    const auto from_us = bucket.value[0].get<std::uint64_t>(), inside = bucket.value[1].get<std::uint64_t>();
+    if (from_us < next_us || from_us > last_us)
+      bucket.expected(fmt::format("a bucket from {} to {} us, in ascending order", next_us, last_us));
+    if (inside > left) bucket.expected(fmt::format("no more than the {} of 'count' in all", counted));
+    next_us = from_us + 1;
+    left -= inside;
+  });
+  if (left > 0)
+    throw Wrong{fmt::format("key '{}' holds {} of {}, expected as many as 'count'", at.path, counted - left,
+                            counted)};
+}
+
+void distribution(const At& at) {
+  double least = -std::numeric_limits<double>::infinity();
+  const std::uint64_t counted = count(at["count"]);
+  for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"}) {
+    const At one = at[key];
+    if (number(one) < least) one.expected(fmt::format("at least {:g}, as the one before it", least));
+    least = number(one);
+  }
+  buckets(at["buckets_us"], counted);
+}
+
+// In virtual time there are no distributions.
+void timing(const At& report) {
+  flag(report["timing"]["judged"]);
+  text(report["timing"]["why_not"]);
+  if (report.has("latency_s")) {
+    report["latency_s"].each_key([](const At& message) {
+      distribution(message);
+      flag(message["closes_group"]);
+    });
+  }
+  if (report.has("jitter_s")) report["jitter_s"].each_key(distribution);
+  if (report.has("transmit_lateness_s")) {
+    report["transmit_lateness_s"].each_key([](const At& message) {
+      distribution(message["handed_over"]);
+      if (message.has("echoed")) distribution(message["echoed"]);
+    });
+  }
+  if (report.has("bench_lateness_s")) distribution(report["bench_lateness_s"]);
+}
+
+}  // namespace
+
+std::string why_not_whole(const Json& report) {
+  try {
+    const At all{report, ""};
+    for (const char* key : {"title", "verdict", "reason"}) text(all[key]);
+    number(all["duration_s"]);
+    for (const char* key : {"scenario", "scenario_hash", "contract", "bus", "clock", "date"})
+      text(all["provenance"][key]);
+    all["checks"].each([](const At& check) {
+      for (const char* key : {"name", "kind", "outcome", "measured", "expected"}) text(check[key]);
+    });
+    timing(all);
+    all["series"].each([](const At& series) {
+      for (const char* key : {"estimator", "quantity", "unit", "kind"}) text(series[key]);
+    });
+  } catch (const Wrong& wrong) {
+    return wrong.what;
+  }
+  return {};
+}
+
+}  // namespace canhil::report
