@@ -161,7 +161,7 @@ TEST(Report, OfAVariantThatNeverFlewIsNoPass) {
     auto runs = runs_of(variant);
     for (RunSeries& run : runs) {
       if (variant == 0) continue;
-      run.samples = Samples(Family::alignment);
+      run.samples = Samples(estimators::transfer_alignment.layout);
       run.ending = {.kind = run::Ending::Kind::target_fault, .t_us = 0, .detail = "input_silent"};
     }
     return runs;
@@ -174,7 +174,8 @@ TEST(Report, OfAVariantThatNeverFlewIsNoPass) {
   EXPECT_EQ(
       paired->not_judged(),
       "variant 'B' was not judged: none of its runs was completed (run 0: input_silent), and it has no bar");
-  const std::string astray = "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = 1\n";
+  const std::string astray =
+      "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = 1\n";
   EXPECT_EQ(ask(better + astray + "variants = ['B']\nat_least = 4\n", unflown)->outcome(),
             checks::Outcome::pass)
       << "as it was meant to";
