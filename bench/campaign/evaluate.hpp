@@ -2,31 +2,15 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "bench/campaign/answer.hpp"
 #include "bench/campaign/campaign.hpp"
-#include "bench/campaign/statistics.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/checks/verdict.hpp"
 
 namespace canhil::campaign {
-
-/// Of one metric for one variant.
-struct Answer {
-  std::string metric;
-  std::string kind;
-  std::string requirement;
-  std::string variant;
-  std::string measured;                                                ///< with its unit
-  std::string expected;                                                ///< the bars in words; empty: none
-  std::optional<bool> passed;                                          ///< none: without a bar
-  std::vector<std::pair<std::string, std::optional<double>>> figures;  ///< by name with unit; none: never
-  std::vector<CurvePoint> curve;                                       ///< of rms_curve, else empty
-  const Quantity* quantity = nullptr;
-};
 
 /// How the runs of a variant ended.
 struct Endings {

@@ -1,5 +1,5 @@
 // [[metric]]: what a campaign is asked, and the bars that make a verdict of the answer. A new kind is a
-// struct here, its reader in metric.cpp, and its answer in evaluate.cpp.
+// struct here, its reader in metric.cpp, and its answer in answer.cpp.
 #pragma once
 
 #include <cstdint>

@@ -27,6 +27,9 @@ MAY_INCLUDE = {
 # Out of reach even through other headers: a check judges decoded frames against the truth, and nothing else.
 NEVER_REACHES = {"bench/checks/": ("target/", "bench/nodes/")}
 
+# What works on quantities names no estimator (a folder of bench/estimators) and no message. More is to come here.
+ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/series.", "bench/report/thinned.", "bench/report/csv.")
+
 # Aim for 300. A long table or one long derivation may pass it; at a third more, a file has got a second subject.
 MOST_LINES = 400
 VAGUE = {"util", "utils", "common", "manager", "helper", "helpers", "base"}
@@ -48,7 +51,7 @@ def check(root):
     sources = {n: t for n, t in texts.items() if n.split("/")[0] in CODE and n.endswith((".hpp", ".cpp"))}
     graph = {name: includes(text) for name, text in sources.items()}
     return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *size_breaches(sources),
-            *name_breaches(texts), *machine_path_breaches(texts), *dbc_breaches(texts, sources)]
+            *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources), *dbc_breaches(texts, sources)]
 
 
 def without_comments(text, keep_strings=True):
@@ -153,6 +156,18 @@ def cycle_breaches(graph):
     done = set()
     for start in list(edges):
         yield from visit(start, [])
+
+
+def quantity_breaches(sources):
+    estimators = {n.split("/")[2] for n in sources if n.startswith("bench/estimators/") and n.count("/") == 3}
+    named = re.compile(rf"\b({'|'.join(sorted(estimators))})\b|\bmessages::[A-Z]\w*") if estimators else None
+    for name, text in sources.items():
+        if not named or not name.startswith(ON_QUANTITIES):
+            continue
+        clean = without_comments(text)
+        for found in named.finditer(clean):
+            line = clean.count("\n", 0, found.start()) + 1
+            yield f"{name}:{line}: names {found[0]}, expected quantities: what is particular stands in bench/estimators"
 
 
 def size_breaches(sources):

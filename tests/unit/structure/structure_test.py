@@ -75,6 +75,16 @@ class Checker(unittest.TestCase):
         self.expect_include("target/estimators/filtering/update.hpp", "target/estimators/wind/model.hpp")
         self.expect_include("target/estimators/all.hpp", "target/estimators/wind/model.hpp")
 
+    def test_what_works_on_quantities_names_no_estimator(self):
+        wind = {"bench/estimators/wind/wind.hpp": "int wind;\n"}
+        for name in ("bench/campaign/series.cpp", "bench/quantities/samples.cpp", "bench/report/series.cpp", "bench/report/csv.cpp"):
+            for text in ('auto name = "wind";\n', "auto f() { return seen.wind.size(); }\n", "messages::WindUpdate update;\n",
+                         '#include "bench/estimators/wind/wind.hpp"\n'):
+                with self.subTest(name=name, text=text):
+                    self.expect(f"{name}:1: names", {**wind, name: text})
+        self.assertEqual(breaches_of({**wind, "bench/campaign/series.cpp": "int window;  // not wind\n",
+                                      "bench/estimators/wind/wind.cpp": "int wind;\n"}), [])
+
     def test_dbc_knows_neither_side(self):
         for other in ("target/device/device.hpp", "bench/world/truth.hpp", "tests/unit/made.hpp"):
             with self.subTest(other):

@@ -1,0 +1,303 @@
+#include "bench/campaign/answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace canhil::campaign {
+namespace {
+
+using Runs = std::vector<RunSeries>;
+
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
+
+double in_unit(double value, const Quantity& quantity) { return value / quantity.unit.factor; }
+
+std::string with_unit(double value, const Quantity& quantity) {
+  const std::string_view unit = quantity.unit.name;
+  return fmt::format("{:.4g}{}{}", in_unit(value, quantity), unit.empty() ? "" : " ", unit);
+}
+
+std::string figure(std::string_view stem, const Quantity& quantity) {
+  return fmt::format("{}{}", stem, quantity.unit.ending);
+}
+
+std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
+
+/// " (3 missing)", as no bar is met then.
+std::string missing_note(std::size_t missing) {
+  return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
+}
+
+/// The bars of an answer: each adds what it expects and whether it holds.
+class Bars {
+ public:
+  Bars(Answer& answer, bool complete) : answer_(answer), complete_(complete) {}
+  void expect(bool holds, const std::string& words) {
+    answer_.expected += (answer_.expected.empty() ? "" : ", ") + words;
+    answer_.passed = answer_.passed.value_or(true) && complete_ && holds;
+  }
+
+ private:
+  Answer& answer_;
+  bool complete_;  // with a run missing no bar is met
+};
+
+std::size_t missing_in(std::span<const CurvePoint> curve) {
+  std::size_t most = 0;
+  for (const CurvePoint& point : curve) most = std::max(most, point.missing);
+  return most;
+}
+
+void answer(const RmsCurve& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  out.curve = rms_curve(runs, *rule.quantity);
+  if (out.curve.empty()) {
+    out.measured = "no updates";
+    return;
+  }
+  const CurvePoint& last = out.curve.back();
+  out.measured = fmt::format("{} updates, {} at the last{}", out.curve.size(),
+                             with_unit(last.rms, *rule.quantity), missing_note(last.missing));
+}
+
+void answer(const TimeWithin& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const auto curve = rms_curve(runs, *rule.quantity);
+  const auto t_s = time_within(curve, rule.within);
+  const std::size_t missing = missing_in(curve);
+  out.measured = time_or_never(t_s) + missing_note(missing);
+  out.figures = {{"time_s", t_s}};
+  Bars bars(out, missing == 0);
+  if (rule.at_most_us) {
+    const double bar = seconds(*rule.at_most_us);
+    bars.expect(t_s && *t_s <= bar, fmt::format("at most {:g} s", bar));
+  }
+  if (rule.never_before_us) {
+    const double bar = seconds(*rule.never_before_us);
+    bars.expect(!t_s || *t_s >= bar, fmt::format("never before {:g} s", bar));
+  }
+}
+
+void answer(const Lead& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const auto own_curve = rms_curve(runs, *rule.quantity), other_curve = rms_curve(other, *rule.quantity);
+  const auto own_s = time_within(own_curve, rule.within), other_s = time_within(other_curve, rule.within);
+  const std::size_t missing = missing_in(own_curve) + missing_in(other_curve);
+  out.figures = {{"time_s", own_s}, {"other_time_s", other_s}};
+  if (own_s && other_s) out.figures.emplace_back("lead_s", *other_s - *own_s);
+  out.measured =
+      fmt::format("{} against {}{}", time_or_never(own_s), time_or_never(other_s), missing_note(missing));
+  if (!rule.at_least_us) return;
+  const double bar = seconds(*rule.at_least_us);
+  constexpr double rounding_s = 1e-9;  // times are multiples of 1 us, their difference only nearly
+  const bool holds = own_s && (!other_s || *other_s - *own_s >= bar - rounding_s);
+  Bars(out, missing == 0).expect(holds, fmt::format("at least {:g} s before", bar));
+}
+
+void answer(const ValueAt& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const auto point = value_at(rms_curve(runs, *rule.quantity), rule.at_us);
+  const double rms = point ? point->rms : std::nan("");
+  const std::size_t missing = point ? point->missing : runs.size();
+  out.measured = with_unit(rms, *rule.quantity) + missing_note(missing);
+  out.figures = {{figure("rms", *rule.quantity), in_unit(rms, *rule.quantity)}};
+  Bars bars(out, missing == 0);
+  if (rule.at_most) bars.expect(rms <= *rule.at_most, "at most " + with_unit(*rule.at_most, *rule.quantity));
+  if (rule.at_least)
+    bars.expect(rms >= *rule.at_least, "at least " + with_unit(*rule.at_least, *rule.quantity));
+}
+
+void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const quantities::Unit& unit = rule.unit;
+  const RunDistribution found = run_distribution(runs, *rule.quantity, rule.at_us, rule.below.value_or(0),
+                                                 static_cast<std::size_t>(rule.batch));
+  const auto words = [&](double value) {
+    return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
+  };
+  out.measured = fmt::format("RMS {} (of {} runs: {:.4g} to {:.4g}), median {}, p90 {}", words(found.rms),
+                             found.batch, found.rms_low / unit.factor, found.rms_high / unit.factor,
+                             words(found.median), words(found.p90));
+  if (rule.below)
+    out.measured += fmt::format(", below {} in {:.1f} %", words(*rule.below), 100 * found.below);
+  out.measured += missing_note(found.missing);
+  const auto add = [&](std::string_view stem, double value) {
+    out.figures.emplace_back(fmt::format("{}{}", stem, unit.ending), value / unit.factor);
+  };
+  add("rms", found.rms);
+  add("rms_low", found.rms_low);
+  add("rms_high", found.rms_high);
+  add("mean", found.mean);
+  add("median", found.median);
+  add("p90", found.p90);
+  if (rule.below) out.figures.emplace_back("fraction_below", found.below);
+  Bars bars(out, found.missing == 0);
+  const auto at_most = [&](std::string_view what, double value, const std::optional<double>& bar) {
+    if (bar) bars.expect(value <= *bar, fmt::format("{} at most {}", what, words(*bar)));
+  };
+  const auto at_least = [&](std::string_view what, double value, const std::optional<double>& bar) {
+    if (bar) bars.expect(value >= *bar, fmt::format("{} at least {}", what, words(*bar)));
+  };
+  at_most("RMS", found.rms, rule.rms_at_most);
+  at_least("RMS", found.rms, rule.rms_at_least);
+  at_most("median", found.median, rule.median_at_most);
+  at_least("median", found.median, rule.median_at_least);
+  at_most("p90", found.p90, rule.p90_at_most);
+  if (rule.fraction_at_least)
+    bars.expect(found.below >= *rule.fraction_at_least,
+                fmt::format("below in at least {:g} %", 100 * *rule.fraction_at_least));
+  if (rule.fraction_at_most)
+    bars.expect(found.below <= *rule.fraction_at_most,
+                fmt::format("below in at most {:g} %", 100 * *rule.fraction_at_most));
+}
+
+void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const auto [mean, deviation, count, missing] =
+      window_statistics(runs, *rule.quantity, rule.from_us, rule.to_us);
+  out.measured = fmt::format("mean {}, standard deviation {}{}", with_unit(mean, *rule.quantity),
+                             with_unit(deviation, *rule.quantity), missing_note(missing));
+  out.figures = {{figure("mean", *rule.quantity), in_unit(mean, *rule.quantity)},
+                 {figure("standard_deviation", *rule.quantity), in_unit(deviation, *rule.quantity)},
+                 {"values", static_cast<double>(count)}};
+  Bars bars(out, missing == 0);
+  if (rule.mean_at_most) {
+    bars.expect(std::abs(mean) <= *rule.mean_at_most,
+                "|mean| at most " + with_unit(*rule.mean_at_most, *rule.quantity));
+  }
+  if (rule.standard_deviation_at_most) {
+    bars.expect(deviation <= *rule.standard_deviation_at_most,
+                "standard deviation at most " + with_unit(*rule.standard_deviation_at_most, *rule.quantity));
+  }
+}
+
+void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const RunMeans found = run_means(runs, *rule.quantity, rule.from_us, rule.to_us);
+  out.measured =
+      fmt::format("mean {}, standard deviation {} over runs, largest {}{}",
+                  with_unit(found.mean, *rule.quantity), with_unit(found.standard_deviation, *rule.quantity),
+                  with_unit(found.largest, *rule.quantity), missing_note(found.missing));
+  out.figures = {
+      {figure("mean", *rule.quantity), in_unit(found.mean, *rule.quantity)},
+      {figure("standard_deviation", *rule.quantity), in_unit(found.standard_deviation, *rule.quantity)},
+      {figure("largest", *rule.quantity), in_unit(found.largest, *rule.quantity)},
+      {"missing", static_cast<double>(found.missing)}};
+  Bars bars(out, found.missing == 0);
+  if (rule.at_most)
+    bars.expect(found.mean <= *rule.at_most, "at most " + with_unit(*rule.at_most, *rule.quantity));
+  if (rule.at_least)
+    bars.expect(found.mean >= *rule.at_least, "at least " + with_unit(*rule.at_least, *rule.quantity));
+  if (rule.other.empty()) return;
+  const RunMeans others = run_means(other, *rule.quantity, rule.from_us, rule.to_us);
+  const double ratio = found.mean / others.mean;
+  out.measured += fmt::format(", {:.3g} times that of {}", ratio, rule.other);
+  out.figures.emplace_back("ratio", ratio);
+  Bars both(out, found.missing + others.missing == 0);
+  if (rule.ratio_at_most)
+    both.expect(ratio <= *rule.ratio_at_most,
+                fmt::format("at most {:g} times {}", *rule.ratio_at_most, rule.other));
+  if (rule.ratio_at_least)
+    both.expect(ratio >= *rule.ratio_at_least,
+                fmt::format("at least {:g} times {}", *rule.ratio_at_least, rule.other));
+}
+
+void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const ToGoStatistics found = to_go_statistics(runs, *rule.quantity, rule.least, rule.most);
+  out.measured = fmt::format("RMS {}, mean {}", with_unit(found.rms, *rule.quantity),
+                             with_unit(found.mean, *rule.quantity));
+  out.figures = {{figure("rms", *rule.quantity), in_unit(found.rms, *rule.quantity)},
+                 {figure("mean", *rule.quantity), in_unit(found.mean, *rule.quantity)}};
+  std::size_t missing = found.missing;
+  double ratio = std::nan("");
+  if (!rule.other.empty()) {
+    const ToGoStatistics against = to_go_statistics(other, *rule.quantity, rule.least, rule.most);
+    ratio = found.rms / against.rms;
+    missing += against.missing;
+    out.measured += fmt::format(", {:.4g} times that of {}", ratio, rule.other);
+    out.figures.emplace_back("ratio", ratio);
+  }
+  out.measured += missing_note(missing);
+  Bars bars(out, missing == 0);
+  if (rule.rms_at_most)
+    bars.expect(found.rms <= *rule.rms_at_most,
+                "RMS at most " + with_unit(*rule.rms_at_most, *rule.quantity));
+  if (rule.mean_between) {
+    const auto [low, high] = *rule.mean_between;
+    bars.expect(found.mean >= low && found.mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
+  }
+  if (rule.ratio_at_most)
+    bars.expect(ratio <= *rule.ratio_at_most, fmt::format("at most {:g} times", *rule.ratio_at_most));
+  if (rule.ratio_at_least)
+    bars.expect(ratio >= *rule.ratio_at_least, fmt::format("at least {:g} times", *rule.ratio_at_least));
+}
+
+void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const auto rms_of = [&](const Runs& some) {
+    return run_distribution(some, *rule.quantity, std::numeric_limits<std::int64_t>::max(), 0, 1);
+  };
+  const RunDistribution own = rms_of(runs), against = rms_of(other);
+  const double ratio = own.rms / against.rms;
+  const std::size_t missing = own.missing + against.missing;
+  out.measured = fmt::format("{} against {}: {:.4g} times{}", with_unit(own.rms, *rule.quantity),
+                             with_unit(against.rms, *rule.quantity), ratio, missing_note(missing));
+  out.figures = {{"ratio", ratio}};
+  if (rule.at_most)
+    Bars(out, missing == 0).expect(ratio <= *rule.at_most, fmt::format("at most {:g} times", *rule.at_most));
+}
+
+// A run without a value counts as worse than any, so nothing is missing here.
+void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const PairedFraction paired = paired_fraction(runs, other, *rule.quantity, rule.at_us, rule.confidence);
+  out.measured =
+      fmt::format("better in {} of {}: {:.1f} % ({:g} %: {:.1f} to {:.1f} %)", paired.better, paired.pairs,
+                  100 * paired.fraction, 100 * rule.confidence, 100 * paired.low, 100 * paired.high);
+  out.figures = {{"fraction", paired.fraction},
+                 {"low", paired.low},
+                 {"high", paired.high},
+                 {"pairs", static_cast<double>(paired.pairs)}};
+  Bars bars(out, true);
+  if (rule.at_least)
+    bars.expect(paired.fraction >= *rule.at_least, fmt::format("at least {:g} %", 100 * *rule.at_least));
+  if (rule.at_most)
+    bars.expect(paired.fraction <= *rule.at_most, fmt::format("at most {:g} %", 100 * *rule.at_most));
+}
+
+void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const ConsistencyStatistics found =
+      consistency(runs, *rule.quantity, rule.from_us, rule.to_us, rule.probability);
+  out.measured =
+      fmt::format("mean {:.4g}, inside [{:.4g}, {:.4g}] in {:.1f} % of {} updates{}", found.mean, found.low,
+                  found.high, 100 * found.inside, found.updates, missing_note(found.missing));
+  out.figures = {{"mean", found.mean}, {"low", found.low}, {"high", found.high}, {"inside", found.inside}};
+  Bars bars(out, found.missing == 0);
+  if (rule.mean_between) {
+    const auto [low, high] = *rule.mean_between;
+    bars.expect(found.mean >= low && found.mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
+  }
+  if (rule.inside_at_least) {
+    bars.expect(found.inside >= *rule.inside_at_least,
+                fmt::format("inside in at least {:g} %", 100 * *rule.inside_at_least));
+  }
+}
+
+void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const Divergence found = divergence(runs, *rule.quantity, rule.beyond);
+  const std::size_t astray = found.faulted + found.beyond;
+  out.measured = fmt::format("{} of {} runs ({} ended early)", astray, found.runs, found.faulted);
+  out.figures = {{"diverged", static_cast<double>(astray)}, {"faulted", static_cast<double>(found.faulted)}};
+  Bars bars(out, true);
+  const auto count = static_cast<std::int64_t>(astray);
+  if (rule.at_most) bars.expect(count <= *rule.at_most, fmt::format("at most {}", *rule.at_most));
+  if (rule.at_least) bars.expect(count >= *rule.at_least, fmt::format("at least {}", *rule.at_least));
+}
+
+}  // namespace
+
+void answer(const Metric& metric, const Runs& runs, const Runs& other, Answer& out) {
+  std::visit(
+      [&](const auto& rule) {
+        out.quantity = rule.quantity;
+        answer(rule, runs, other, out);
+      },
+      metric.rule);
+}
+
+}  // namespace canhil::campaign
