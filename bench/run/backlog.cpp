@@ -45,9 +45,9 @@ std::string Shares::words() const {
                      2 * most->second < frames_ ? all : "");
 }
 
-void Backlog::pause(bool more, std::int64_t now_ns) {
+void Backlog::pause(bool more, bool overflowed, std::int64_t now_ns) {
   more_ = more;
-  if (since_ns_ && now_ns - last_ns_ > break_ns) {
+  if (since_ns_ && !overflowed && now_ns - last_ns_ > break_ns) {
     since_ns_.reset();
     shares_.clear();
   }

@@ -43,8 +43,10 @@ class Backlog {
   void add(const Frame& frame) {
     if (since_ns_) shares_.add(frame);
   }
-  /// The bench turns to something else at `now_ns`. `more`: frames may still be waiting.
-  void pause(bool more, std::int64_t now_ns);
+  /// The bench turns to something else at `now_ns`. `more`: frames may still be waiting. `overflowed`: the
+  /// port has lost some since the last pause, so they waited all the while, however long the bench had no
+  /// CPU.
+  void pause(bool more, bool overflowed, std::int64_t now_ns);
   /// The last pause left frames waiting.
   [[nodiscard]] bool more() const { return more_; }
   /// Frames were left waiting a moment ago: pause() is to be called each time.

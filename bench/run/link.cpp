@@ -52,8 +52,12 @@ LinkState Link::drain() {
     for (Observer* observer : observers_)
       received->foreign ? observer->foreign(*received) : observer->received(*received);
   }
-  if (looked_at == most_at_once || backlog_.stands())
-    backlog_.pause(looked_at == most_at_once, port_.monotonic_ns());
+  const bool more = looked_at == most_at_once;
+  if (more || backlog_.stands()) {
+    const std::uint64_t before = overflowed_;
+    if (more) overflowed_ = port_.counters().overflowed;  // a system call: not asked without a reason
+    backlog_.pause(more, overflowed_ > before, port_.monotonic_ns());
+  }
   look_at_interface();
   return port_.closed() ? LinkState::down : LinkState::up;
 }

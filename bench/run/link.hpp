@@ -78,6 +78,7 @@ class Link {
   std::vector<Observer*> observers_;
   bool up_ = true;
   std::uint64_t late_in_queue_ = 0;
+  std::uint64_t overflowed_ = 0;  // when last asked
   Backlog backlog_;
   std::optional<Shares> while_waiting_;  // for room
   std::string crowd_;

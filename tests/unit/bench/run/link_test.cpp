@@ -29,7 +29,9 @@ class FloodedPort final : public FakePort {
     return simulated ? static_cast<std::int64_t>(brought) * frame_ns : FakePort::monotonic_ns();
   }
   [[nodiscard]] int descriptor() const override { return ends[0]; }
+  [[nodiscard]] PortCounters counters() const override { return {.overflowed = overflowed}; }
   std::array<int, 2> ends{-1, -1};
+  std::uint64_t overflowed = 0;
   std::uint64_t brought = 0;
   std::uint64_t most = 50'000'000;
   bool simulated = false;
@@ -106,6 +108,23 @@ TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
   port.most += 9'000;
   while (port.brought < port.most) link.drain();
   EXPECT_FALSE(link.flood());
+}
+
+// Who floods the bus may leave the bench a CPU now and then only.
+TEST(LinkFlood, FramesThatWereLostMeanwhileHadBeenWaiting) {
+  FloodedPort port;
+  port.simulated = true;
+  port.most = 0;
+  Link link(port);
+  for (int turn = 0; turn < 5; ++turn) {
+    port.most += 1'000;
+    while (port.brought < port.most) link.drain();
+    port.most += 5'000;  // 50 ms go by
+    while (port.brought < port.most) port.receive();
+    port.overflowed += 4'000;
+  }
+  ASSERT_TRUE(link.flood());
+  EXPECT_GT(link.flood()->duration_ns, 200'000'000);
 }
 
 class Flooded : public testing::Test {
