@@ -54,8 +54,10 @@ TEST(BadFiles, WhatIsReadIsNotWrittenOver) {
   const std::string dbc = copied(SOURCE_DIR "/dbc/canhil.dbc", "mine.dbc");
   expect_one_line(hil_bench(fmt::format("{} --dbc {} --json {}", in_process(), dbc, dbc)), "is named twice");
   EXPECT_EQ(read(dbc), read(SOURCE_DIR "/dbc/canhil.dbc"));
-  expect_one_line(hil_bench(fmt::format("run {} --target {} --log {}", quick(), HIL_TARGET, HIL_TARGET)),
+  const std::string target = copied(HIL_TARGET, "my-target");
+  expect_one_line(hil_bench(fmt::format("run {} --target {} --log {}", quick(), target, target)),
                   "is named twice");
+  EXPECT_TRUE(read(target) == read(HIL_TARGET));
   expect_one_line(shell(fmt::format("{} {} -o {}", DBCGEN, dbc, dbc)), "is named twice");
   expect_one_line(shell(fmt::format("{} {} --source {}", DBCGEN, dbc, dbc)), "is named twice");
   EXPECT_EQ(read(dbc), read(SOURCE_DIR "/dbc/canhil.dbc"));
