@@ -154,8 +154,8 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   }
   summary.lateness_s = checks::distribution_s(run.seen.timing.lateness);
   summary.stamp_source =
-      run.options.clock == run::ClockKind::lockstep         ? "virtual time"
-      : run.options.clock == run::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
+      run.clock == run::ClockKind::lockstep         ? "virtual time"
+      : run.clock == run::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
       : checks::stamped_by_hardware(run.seen.timing)
           ? "the controller's hardware stamps of stimulus and answer"
       : run.seen.transmit_stamps_echoed ? "bus stamps of stimulus and answer"

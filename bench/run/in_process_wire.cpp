@@ -16,6 +16,7 @@ constexpr std::int64_t heartbeat_ns = messages::TargetHeartbeat::info.cycle_time
 InProcessWire::InProcessWire(std::string name, const WireSettings& settings, BusFormat format)
     : name_(std::move(name)),
       fd_(format == BusFormat::fd),
+      facts_(settings.facts()),
       wire_(settings.rates,
             {{.order = settings.order, .told = true}, {.order = settings.order, .told = true}},
             disturbance(settings)) {}

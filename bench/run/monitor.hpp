@@ -19,7 +19,7 @@ class Monitor final : public Observer {
   /// Takes no times: those of virtual time say nothing, and a campaign flies thousands of runs in it.
   Monitor() = default;
   /// Takes times, also within the windows.
-  explicit Monitor(std::vector<checks::TimedWindow> windows, const checks::WireFacts& wire = {}) {
+  explicit Monitor(std::vector<checks::TimedWindow> windows, const WireFacts& wire = {}) {
     seen_.timing.windows = std::move(windows);
     seen_.timing.wire = wire;
     stopwatch_.emplace(seen_.timing);

@@ -33,55 +33,40 @@ constexpr std::int64_t step_limit_ns = 5'000'000'000;
 static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
 
 // Without a wire there is no bus, and frames travel as they are in both contracts.
-Result<std::unique_ptr<Port>> open_in_process(const std::string& bus, BusFormat format) {
-  if (bus == in_process_bus || bus == unrounded_bus) return std::make_unique<InProcessPort>(rounding_of(bus));
-  const auto wire = wire_settings(bus);
-  if (!wire) return tl::unexpected(wire.error());
-  auto port = std::make_unique<InProcessWire>(bus, *wire, format);
+Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat format) {
+  if (bus.rounding == Rounding::none) return std::make_unique<InProcessPort>(bus.rounding);
+  if (!bus.wire) return tl::unexpected(bus.wire.error());
+  if (bus.wire->rates.nominal == 0) return std::make_unique<InProcessPort>(bus.rounding);
+  auto port = std::make_unique<InProcessWire>(bus.text, *bus.wire, format);
   if (format == BusFormat::fd) return in_fd_groups(std::move(port));
   return port;
 }
 
 // A local bus is hosted by the bench, unless somebody does already. `notes`: whom the bench as a host turns
 // away; must outlive the port.
-Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format,
-                                   std::vector<std::string>& notes) {
-  if (is_in_process(bus)) return open_in_process(bus, format);
+Result<std::unique_ptr<Port>> open(const BusName& bus, BusFormat format, std::vector<std::string>& notes) {
+  if (bus.in_process) return open_in_process(bus, format);
   PortOptions options;
   options.own_echo = true;
   options.foreign = true;
   options.node_name = "hil-bench";
-  auto joined = open_bus(bus, options, format);
-  if (joined || !bus.starts_with("local:")) return joined;
-  options.fd = format == BusFormat::fd;
   HubRules rules;
   rules.on_turned_away = [&notes](const std::string& line) { notes.push_back(line); };
-  auto hosted = host_local_bus(bus, options, std::move(rules));
-  // Somebody hosts it after all: why it could not be joined says more.
-  if (!hosted) return joined;
-  return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
-}
-
-// Whether a bus tells of what goes wrong on it: one with a controller, or a simulated wire.
-bool reports_errors(const std::string& bus) {
-  const bool embedded = is_in_process(bus) || bus.starts_with("local:");
-  const auto wire = wire_settings(bus);
-  return !embedded || (wire && wire->rates.nominal > 0);
+  return join_or_host(bus.text, std::move(options), format, std::move(rules));
 }
 
 // The bus of each node that has one of its own, each once, after the first.
 std::vector<std::string> buses_of(const Options& options) {
-  std::vector<std::string> buses{options.bus};
+  std::vector<std::string> buses{options.bus.text};
   for (const auto& [node, bus] : options.bus_of) {
     if (std::ranges::find(buses, bus) == buses.end()) buses.push_back(bus);
   }
   return buses;
 }
 
-LoadBy load_by(const Options& options) {
-  if (options.clock == ClockKind::lockstep)
-    return is_in_process(options.bus) ? LoadBy::time_base_alone : LoadBy::time_base;
-  return options.wire.rates.nominal > 0 ? LoadBy::stamps : LoadBy::time_base;
+LoadBy load_by(const Capabilities& bus, ClockKind clock) {
+  if (clock == ClockKind::lockstep) return bus.in_process ? LoadBy::time_base_alone : LoadBy::time_base;
+  return bus.wire.rates.nominal > 0 ? LoadBy::stamps : LoadBy::time_base;
 }
 
 // One port over all of them; a frame goes to the bus of its sender.
@@ -89,7 +74,7 @@ Result<std::unique_ptr<Port>> open_all(const Options& options, std::vector<std::
   const std::vector<std::string> buses = buses_of(options);
   std::vector<std::unique_ptr<Port>> ports;
   for (const std::string& bus : buses) {
-    auto opened = open(bus, options.format, notes);
+    auto opened = open(BusName(bus), options.format, notes);
     if (!opened) return opened;
     ports.push_back(std::move(*opened));
   }
@@ -97,7 +82,7 @@ Result<std::unique_ptr<Port>> open_all(const Options& options, std::vector<std::
     const MessageInfo* info = messages::find_message(frame.id);
     const auto own = std::ranges::find_if(
         options.bus_of, [&](const auto& entry) { return info != nullptr && info->sender == entry.first; });
-    const std::string& bus = own == options.bus_of.end() ? options.bus : own->second;
+    const std::string& bus = own == options.bus_of.end() ? options.bus.text : own->second;
     return static_cast<std::size_t>(std::ranges::find(buses, bus) - buses.begin());
   });
 }
@@ -117,15 +102,13 @@ std::string full_wire(const std::vector<wire::BitLength>& by_second, std::int64_
 
 }  // namespace
 
-ClockKind clock_of(std::string_view bus, bool lockstep) {
-  const bool has_wire = bus != in_process_bus && bus != unrounded_bus;
-  if (is_in_process(bus)) return has_wire ? ClockKind::simulated_wire : ClockKind::lockstep;
-  return lockstep ? ClockKind::lockstep : ClockKind::real_time;
+ClockKind clock_of(BusTime time, bool lockstep) {
+  if (time == BusTime::waits) return ClockKind::simulated_wire;
+  return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
 }
 
 Result<Run> run(const scenario::Scenario& scenario, const Options& options,
                 const std::atomic<bool>& stop_requested, const Progress& progress) {
-  const bool lockstep = options.clock == ClockKind::lockstep;
   const auto in_file = [&](const Error& error) {
     return failure(fmt::format("{}: {}", scenario.file, error.message));
   };
@@ -138,7 +121,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   const std::vector<int> target_cpus =
       options.target_cpu ? std::vector{*options.target_cpu} : realtime::cpus();
-  const bool starts_target = options.target && !is_in_process(options.bus);
+  const bool starts_target = options.target && !options.bus.in_process;
   const auto target_file = starts_target ? look_at_program(*options.target) : std::nullopt;
   if (options.realtime) {
     if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
@@ -147,6 +130,10 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   auto port = open_all(options, notes);
   if (!port) return tl::unexpected(port.error());
   Link link(**port);
+  Capabilities can = (*port)->capabilities();
+  if (can.wire.rates.nominal == 0) can.wire = options.controller;
+  const ClockKind clock = clock_of(can.time, options.lockstep);
+  const bool lockstep = clock == ClockKind::lockstep;
   // Who floods the bus, or was turned away from it, may be why.
   const auto explained = [&](const std::string& why) {
     if (link.flood()) return fmt::format("{}; {}", why, words(*link.flood()));
@@ -163,7 +150,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   }
   std::optional<TargetProcess> target;
   if (starts_target) {
-    auto started = TargetProcess::start(*options.target, options.bus, options.target_arguments, target_cpus);
+    auto started =
+        TargetProcess::start(*options.target, options.bus.text, options.target_arguments, target_cpus);
     if (!started) return tl::unexpected(started.error());
     target.emplace(std::move(*started));
   }
@@ -174,8 +162,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     return why ? std::optional("target: " + *why) : std::nullopt;
   };
 
-  Schedule schedule =
-      make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep, rounding_of(options.bus));
+  Schedule schedule = make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep, can.rounding);
   if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone, options.format);
       !configured) {
     return failure(explained(configured.error().message));
@@ -183,9 +170,9 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   // A container of CAN FD is none of the frames that the observers see.
   Monitor monitor(checks::timed_windows(scenario.checks),
-                  options.format == BusFormat::classic ? options.wire : checks::WireFacts{});
+                  options.format == BusFormat::classic ? can.wire : WireFacts{});
   link.attach(monitor);
-  LoadMeter meter(options.format, load_by(options));
+  LoadMeter meter(options.format, load_by(can, clock));
   link.attach(meter);
   HostWatch host((*port)->stamp_clock());
   link.attach(host);
@@ -208,7 +195,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
     else if (target && target->stopped())
       ending.detail += " (its process is stopped by a signal)";
     else if (!lockstep)
-      ending.detail += full_wire(meter.lengths(), ending.t_us * 1000 + silence_limit_ns, options.wire.rates);
+      ending.detail += full_wire(meter.lengths(), ending.t_us * 1000 + silence_limit_ns, can.wire.rates);
   }
   stop(link, schedule.outbox(), scenario.targets);
   std::optional<Error> log_error;
@@ -221,11 +208,11 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
 
   checks::Observations seen = monitor.finish();
   // What the host did has no part in the times of a simulated wire.
-  if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
-  seen.bit_rates = options.wire.rates;
+  if (clock != ClockKind::simulated_wire) seen.host = host.record();
+  seen.bit_rates = can.wire.rates;
   seen.length_by_second = meter.lengths();
   seen.bus = bus.record();
-  seen.bus.reports_errors = std::ranges::all_of(buses_of(options), reports_errors);
+  seen.bus.reports_errors = can.reports_errors;
   seen.bus.late_in_queue = link.late_in_queue();
   seen.bus.foreign = (*port)->counters().foreign;
   seen.bus.notes = notes;
@@ -245,19 +232,20 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options,
   if (evidence.ended_early.empty() && verdict.outcome != checks::Outcome::pass)
     verdict.reason = explained(verdict.reason);
   if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
-  return Run{
-      .verdict = std::move(verdict),
-      .ending = std::move(ending),
-      .seen = std::move(seen),
-      .truth = std::move(*truth),
-      .own_truth = std::move(*own_truth),
-      .options = options,
-      .timing_unfit = std::move(timing_unfit),
-      .host = options.clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
-      .target_file = target_file,
-      .wall_s = wall_s,
-      .started_s = started_s,
-      .log_error = std::move(log_error)};
+  return Run{.verdict = std::move(verdict),
+             .ending = std::move(ending),
+             .seen = std::move(seen),
+             .truth = std::move(*truth),
+             .own_truth = std::move(*own_truth),
+             .options = options,
+             .clock = clock,
+             .in_process = can.in_process,
+             .timing_unfit = std::move(timing_unfit),
+             .host = clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
+             .target_file = target_file,
+             .wall_s = wall_s,
+             .started_s = started_s,
+             .log_error = std::move(log_error)};
 }
 
 }  // namespace canhil::run

@@ -35,17 +35,17 @@ constexpr std::string_view name(ClockKind clock) {
   return "?";
 }
 
-/// The clock of a run on a bus.
-ClockKind clock_of(std::string_view bus, bool lockstep);
+/// The clock of a run on a bus; `lockstep`: asked for.
+ClockKind clock_of(BusTime time, bool lockstep);
 
 /// What the command line decides.
 struct Options {
-  std::string bus;  ///< "local:NAME", a SocketCAN interface, or is_in_process()
-  std::vector<std::pair<std::string, std::string>> bus_of;  ///< node of the DBC, bus of its own
+  BusName bus{};
+  std::vector<std::pair<std::string, std::string>> bus_of{};  ///< node of the DBC, bus of its own
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
   BusFormat format = BusFormat::classic;
-  checks::WireFacts wire{};                   ///< of the bus, where they are known
-  ClockKind clock = ClockKind::real_time;     ///< clock_of(bus, ...)
+  WireFacts controller{};                     ///< of an interface, where the kernel tells
+  bool lockstep = false;                      ///< rather than real time
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments
   std::vector<std::string> target_arguments;  ///< besides --bus
@@ -62,6 +62,8 @@ struct Run {
   world::FlightRecord truth;
   OwnTruth own_truth{};
   Options options;
+  ClockKind clock = ClockKind::real_time;
+  bool in_process = false;                   ///< the target was the bench's own device
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: it is
   std::optional<realtime::Standing> host{};  ///< of the bench, in real time
   std::optional<ProgramFile> target_file{};  ///< of Options::target when it was started; none: it was not

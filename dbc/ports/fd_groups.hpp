@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "dbc/ports/candump_log.hpp"
+#include "dbc/ports/local_bus.hpp"
 #include "dbc/ports/port.hpp"
 #include "dbc/wire/fd_container.hpp"
 
@@ -85,6 +86,10 @@ class ClassicLogReader {
 
 /// open_port() for a contract.
 Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options, BusFormat format);
+
+/// open_bus(); an embedded bus that nobody hosts is hosted here, by these rules.
+Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions options, BusFormat format,
+                                           HubRules rules = {});
 
 /// The contract that `--dbc` names: canhil, canhil-fd, or a file that holds the text of one of the two as
 /// this program was built with. Error: one line.

@@ -60,6 +60,11 @@ class Several final : public Port {
     }
     return sum;
   }
+  /// No wire: each bus has its own.
+  [[nodiscard]] Capabilities capabilities() const override {
+    return {.reports_errors = std::ranges::all_of(
+                ports_, [](const auto& port) { return port->capabilities().reports_errors; })};
+  }
   [[nodiscard]] int stamp_clock() const override { return ports_.front()->stamp_clock(); }
   [[nodiscard]] const std::string& name() const override { return ports_.front()->name(); }
 
