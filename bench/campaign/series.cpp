@@ -207,7 +207,7 @@ Samples wind_samples(const checks::Observations& seen, const world::GlideRecord&
   return samples;
 }
 
-Samples samples_of(const run::InProcessRun& finished, const world::FlightRecord& truth, Family family) {
+Samples samples_of(const run::Collected& finished, const world::FlightRecord& truth, Family family) {
   const auto& [engagement, glide] = finished.own_truth;
   switch (family) {
     case Family::los_rate:
@@ -276,8 +276,8 @@ Family family_of(const scenario::Scenario& scenario) {
   return Family::alignment;
 }
 
-RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth, Family family) {
+RunSeries series_of(std::uint64_t run_index, const run::Collected& finished, const world::FlightRecord& truth,
+                    Family family) {
   return {.run = run_index, .ending = finished.ending, .samples = samples_of(finished, truth, family)};
 }
 

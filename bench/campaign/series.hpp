@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/campaign/freshness.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 #include "bench/world/flight_record.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -128,8 +128,8 @@ inline constexpr std::int64_t los_sample_us = 20'000;
 
 /// The series of a finished run. `truth` is that of its variant, `family` that of its scenario (family_of);
 /// no samples where the run has no truth of the family.
-RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth, Family family);
+RunSeries series_of(std::uint64_t run_index, const run::Collected& finished, const world::FlightRecord& truth,
+                    Family family);
 
 /// Samples as bytes: doubles, little endian: t in s and what is kept, sample by sample.
 std::vector<std::uint8_t> encode(const Samples& samples);

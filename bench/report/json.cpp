@@ -203,7 +203,7 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
             {"seed", scenario.seed},
             {"run", run.options.run_index},
             {"bus", run.options.bus.text},
-            {"clock", name(run.clock)},
+            {"clock", summary.clock},
             {"latency_stamps", summary.stamp_source},
             {"period_overrides", period_overrides(scenario)},
             {"date", date_utc(run.started_s)},

@@ -211,7 +211,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   page += fmt::format("{}\n", scenario.title);
   page +=
       fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus.text,
-                  run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", name(run.clock),
+                  run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", summary.clock,
                   static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);

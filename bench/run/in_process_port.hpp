@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/bus_name.hpp"
+#include "bench/run/buses.hpp"
 #include "dbc/ports/port.hpp"
 #include "target/device/device.hpp"
 

@@ -85,17 +85,8 @@ void InProcessWire::arrive(const Carried& carried) {
 
 /// Hands over what the device sends.
 void InProcessWire::put(std::span<const Frame> answers, std::int64_t t_ns) {
-  for (const Frame& frame : answers) {
-    if (!fd_) {
-      queue(frame, t_ns);
-      continue;
-    }
-    if (const auto due = packer_.due_before(frame)) {
-      queue(*due, t_ns);
-      packer_.clear();
-    }
-    if (const auto full = packer_.put(frame)) queue(*full, t_ns);
-  }
+  const auto onto_wire = [&](const Frame& frame) { queue(frame, t_ns); };
+  for (const Frame& frame : answers) fd_ ? packer_.pack(frame, onto_wire) : onto_wire(frame);
 }
 
 void InProcessWire::queue(const Frame& frame, std::int64_t t_ns) {

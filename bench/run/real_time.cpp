@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "bench/run/bus_watch.hpp"
+#include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
 #include "bench/run/second_target.hpp"
-#include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::run {
@@ -18,10 +18,6 @@ constexpr std::int64_t lead_ns = 20'000'000;             // from here to the fir
 constexpr std::int64_t last_answers_ns = 150'000'000;    // longer than a heartbeat period
 constexpr std::int64_t outage_limit_ns = 5'000'000'000;  // an interface down and up, a restart after bus-off
 constexpr std::int64_t progress_period_us = 100'000;
-
-constexpr Routes target_messages([](const MessageInfo& info) {
-  return info.sender == messages::TargetHeartbeat::info.sender;
-});
 
 // When the target was last heard and whether it gave up.
 class TargetWatch final : public Observer {
@@ -99,15 +95,14 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       switch (state) {
         case LinkState::up:
           break;
-        case LinkState::congested:
-          if (link.now_ns() > excused_until_ns()) {  // a target that reads no more fills the bus
-            Ending ending = silent();
-            ending.detail +=
-                fmt::format(", the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6);
-            return ending;
-          }
-          return {Ending::Kind::target_silent, due_us,
-                  fmt::format("the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6)};
+        case LinkState::congested: {
+          const auto full =
+              fmt::format("the bus took no frame since t={:.3f} s", static_cast<double>(due_us) * 1e-6);
+          if (link.now_ns() <= excused_until_ns()) return {Ending::Kind::target_silent, due_us, full};
+          Ending ending = silent();  // a target that reads no more fills the bus
+          ending.detail += ", " + full;
+          return ending;
+        }
         case LinkState::down:
           return {Ending::Kind::bus_down, due_us, "the bus is down"};
       }

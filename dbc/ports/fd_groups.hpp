@@ -41,6 +41,15 @@ class FdPacker {
   /// Takes a frame that nothing is due before; gives what goes on the bus with it: the container that it
   /// completes, itself as an FD frame if it belongs to none, or nothing yet.
   std::optional<Frame> put(const Frame& frame);
+  /// All of it: gives what goes on the bus before the frame, and with it, to `out`.
+  template <class Out>
+  void pack(const Frame& frame, const Out& out) {
+    if (const auto due = due_before(frame)) {
+      out(*due);
+      clear();
+    }
+    if (const auto full = put(frame)) out(*full);
+  }
 
  private:
   static constexpr std::uint8_t none = wire::FdPlace::nowhere;

@@ -1,12 +1,14 @@
-// A bus as the command line names it.
+// From the names of buses to one port.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "dbc/ports/fd_groups.hpp"
 #include "dbc/ports/wire_settings.hpp"
-#include "dbc/wire/unrounded.hpp"
 
 namespace canhil::run {
 
@@ -15,7 +17,8 @@ inline constexpr std::string_view in_process_bus = "in-process";
 /// The same with frames that round nothing.
 inline constexpr std::string_view unrounded_bus = "in-process?unrounded";
 
-/// Read once, to be opened. What the bus can do is then asked of its port.
+/// A bus as the command line names it, read once, to be opened. What the bus can do is then asked of its
+/// port.
 struct BusName {
   explicit BusName(std::string name = {})
       : text(std::move(name)),
@@ -28,5 +31,17 @@ struct BusName {
   Rounding rounding;          ///< of its frames
   Result<WireSettings> wire;  ///< what follows '?'
 };
+
+/// Nodes of the DBC, each with a bus of its own.
+using BusOf = std::vector<std::pair<std::string, std::string>>;
+
+struct OpenBuses {
+  std::shared_ptr<std::vector<std::string>> notes;  ///< whom the bench as a host turned away, a line each
+  std::unique_ptr<Port> port;                       ///< over all of them
+};
+
+/// A frame goes to the bus of its sender. A local bus is hosted by the bench, unless somebody does already.
+/// Error: one line.
+Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format);
 
 }  // namespace canhil::run
