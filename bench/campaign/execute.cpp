@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "bench/run/flight.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 
 namespace canhil::campaign {
 namespace {

@@ -2,8 +2,8 @@
 
 namespace canhil::campaign {
 
-RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth, const estimators::Estimator& estimator) {
+RunSeries series_of(std::uint64_t run_index, const run::Collected& finished, const world::FlightRecord& truth,
+                    const estimators::Estimator& estimator) {
   const auto& [engagement, glide] = finished.own_truth;
   const estimators::Truth all{
       .flight = truth, .engagement = engagement ? &*engagement : nullptr, .glide = glide ? &*glide : nullptr};

@@ -7,7 +7,7 @@
 #include "bench/estimators/estimator.hpp"
 #include "bench/quantities/list.hpp"
 #include "bench/quantities/samples.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 #include "bench/world/flight_record.hpp"
 
 namespace canhil::campaign {
@@ -24,7 +24,7 @@ struct RunSeries {
 
 /// The series of a finished run. `truth` is that of its variant, `estimator` that of its scenario; no samples
 /// where the run has no truth to hold the answers against.
-RunSeries series_of(std::uint64_t run_index, const run::InProcessRun& finished,
-                    const world::FlightRecord& truth, const estimators::Estimator& estimator);
+RunSeries series_of(std::uint64_t run_index, const run::Collected& finished, const world::FlightRecord& truth,
+                    const estimators::Estimator& estimator);
 
 }  // namespace canhil::campaign

@@ -9,7 +9,7 @@
 
 #include "bench/checks/histogram.hpp"
 #include "bench/scenario/checks.hpp"
-#include "dbc/wire/bit_length.hpp"
+#include "dbc/ports/port.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::checks {
@@ -114,13 +114,6 @@ struct SlowestAnswer {
   std::int64_t reply_wire_ns = 0;
   std::uint16_t queue_max_us = 0;
   std::uint16_t compute_max_us = 0;
-};
-
-/// What is known of a bus: how long a frame takes, and which one a node sends first.
-struct WireFacts {
-  wire::BitRates rates{};     ///< nominal 0: not known, or a frame takes no time
-  bool urgent_first = false;  ///< false: the oldest first, as Linux does
-  bool fd = false;            ///< the contract on CAN FD: messages travel in wire::fd_carriers
 };
 
 struct TimingRecord {

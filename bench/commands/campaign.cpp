@@ -225,8 +225,7 @@ ExitCode replay(const ReplayArguments& arguments) {
                                  *arguments.run, campaign->runs - 1)});
   }
   run::Options options;
-  options.bus = run::in_process_bus;
-  options.clock = run::ClockKind::lockstep;
+  options.bus = run::BusName(std::string(run::in_process_bus));
   options.run_index = *arguments.run;
   if (!arguments.log.empty()) {
     if (auto distinct = check_distinct(*campaign, {arguments.log}); !distinct)

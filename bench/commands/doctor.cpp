@@ -18,8 +18,7 @@
 #include "bench/doctor/loop.hpp"
 #include "bench/doctor/machine_lines.hpp"
 #include "bench/report/file.hpp"
-#include "dbc/ports/local_bus.hpp"
-#include "dbc/ports/wire_settings.hpp"
+#include "dbc/ports/fd_groups.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "dbc/realtime/host.hpp"
 
@@ -29,7 +28,6 @@ namespace {
 using doctor::Grade;
 using doctor::Line;
 
-constexpr std::string_view local_prefix = "local:";
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 constexpr std::int64_t listen_ns = ns_per_s;  // ten heartbeats
 
@@ -56,14 +54,10 @@ struct Examination {
 
 bool stop() { return interrupted; }
 
-bool is_local(const std::string& bus) { return bus.starts_with(local_prefix); }
-
 Result<std::unique_ptr<Port>> open(const std::string& bus) {
   PortOptions options;
   options.node_name = "hil-bench doctor";
-  auto joined = open_port(bus, options);
-  if (joined || !is_local(bus)) return joined;
-  return host_local_bus(bus, options).map([](auto hub) -> std::unique_ptr<Port> { return hub; });
+  return join_or_host(bus, std::move(options), BusFormat::classic);
 }
 
 // Refuses what is no name of a bus; whether there is one is a finding.
@@ -83,12 +77,12 @@ std::optional<doctor::Interface> interface_of(const std::string& bus) {
 
 std::vector<Line> bus_lines(const std::string& bus) {
   if (is_local(bus)) {
-    const auto wire = wire_settings(bus);
-    const bool timed = wire && wire->rates.nominal > 0;
+    const auto port = open(bus);
+    const wire::BitRates rates = port ? (*port)->capabilities().wire.rates : wire::BitRates{};
     return {{Grade::good, "interface",
              fmt::format("{}: embedded bus of this machine; no controller, {}", bus,
-                         timed ? fmt::format("a simulated wire of {} bit/s", wire->rates.nominal)
-                               : "no wire, no bit rate")}};
+                         rates.nominal > 0 ? fmt::format("a simulated wire of {} bit/s", rates.nominal)
+                                           : "no wire, no bit rate")}};
   }
   const auto interface = interface_of(bus);
   return interface ? doctor::interface_lines(*interface) : std::vector{doctor::no_interface(bus)};
@@ -186,10 +180,7 @@ std::string json(const Arguments& arguments, const Examination& found) {
 }
 
 // local: and local:?bitrate=500000 stand for a bus of this process alone, as with hil-bench run.
-std::string named(const std::string& bus) {
-  const bool is_private = bus == local_prefix || bus.starts_with("local:?");
-  return is_private ? fmt::format("local:canhil-{}{}", getpid(), bus.substr(local_prefix.size())) : bus;
-}
+std::string named(const std::string& bus) { return named_local(bus, fmt::format("canhil-{}", getpid())); }
 
 ExitCode execute(Arguments arguments) {
   for (std::string* bus : {&arguments.bus, &arguments.loop}) *bus = named(*bus);

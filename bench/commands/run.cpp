@@ -26,20 +26,19 @@
 #include "bench/run/contract.hpp"
 #include "bench/run/session.hpp"
 #include "bench/scenario/nearest.hpp"
-#include "dbc/ports/wire_settings.hpp"
+#include "dbc/ports/local_bus.hpp"
 #include "dbc/realtime/command_line.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::commands {
 namespace {
 
-constexpr std::string_view private_bus = "local:";
 constexpr std::size_t heap_bytes = 64 << 20;  // what a run of some minutes records
 
 // As typed.
 struct Arguments {
   std::string scenario;
-  std::string bus{private_bus};
+  std::string bus{local_prefix};    // a private one
   std::vector<std::string> bus_of;  // NODE=BUS
   std::string target;               // empty: the hil-target beside this program
   std::string dbc;                  // empty: the scenario's
@@ -81,34 +80,31 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
   const auto node = std::ranges::find_if(
       nodes, [&](std::string_view name) { return same_name(name, text.substr(0, equals)); });
   const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
-  if (node == nodes.end() || bus.empty() || bus == private_bus || run::is_in_process(bus))
+  if (node == nodes.end() || bus.empty() || bus == local_prefix || run::BusName(bus).in_process)
     return failure(
         fmt::format("--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME",
                     text, fmt::join(nodes, ", ")));
   return std::pair(std::string(*node), bus);
 }
 
-// What the name of a bus says of it, or its controller.
-checks::WireFacts facts_of(const std::string& bus) {
-  if (const auto settings = wire_settings(bus); settings && settings->rates.nominal > 0)
-    return {.rates = settings->rates, .urgent_first = settings->order == QueueOrder::priority};
+// What the kernel knows of an interface's controller.
+WireFacts controller_of(const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
   if (!interface || !interface->controller) return {};
   return {.rates = {.nominal = interface->controller->nominal.bitrate,
                     .data = interface->controller->data.bitrate}};
 }
 
-run::Options options_of(const Arguments& arguments, BusFormat format) {
+run::Options options_of(const Arguments& arguments, run::BusName bus, BusFormat format) {
   run::Options options;
   options.format = format;
   const bool external = arguments.target == "none";
-  options.bus = arguments.bus;
+  options.bus = std::move(bus);
   // Nobody else can know the name of a private bus, so two benches on one machine do not meet.
-  if (options.bus == private_bus || options.bus.starts_with("local:?"))
-    options.bus.insert(private_bus.size(), external ? "canhil" : fmt::format("canhil-{}", getpid()));
+  options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
-  if (arguments.bus_of.empty()) options.wire = facts_of(options.bus);
-  options.clock = run::clock_of(options.bus, arguments.lockstep);
+  if (arguments.bus_of.empty()) options.controller = controller_of(options.bus.text);
+  options.lockstep = arguments.lockstep;
   if (!arguments.log.empty()) options.log_path = arguments.log;
   options.realtime = arguments.realtime.request();
   if (options.realtime) {
@@ -186,15 +182,15 @@ Result<void> check_outputs(const Arguments& arguments) {
   return {};
 }
 
-Result<void> check_bus(const Arguments& arguments) {
-  const bool here = run::is_in_process(arguments.bus);
+Result<void> check_bus(const Arguments& arguments, const run::BusName& bus) {
+  const bool here = bus.in_process;
   if (here && !arguments.target.empty())
     return failure(
         "--target: with --bus in-process the device is in hil-bench itself, expected only one of the two");
   if (here && (arguments.realtime.wanted || arguments.spin_us))
     return failure(
         "--bus in-process: virtual time has no deadlines, expected neither --realtime nor --spin-us");
-  if (run::rounding_of(arguments.bus) == Rounding::none && !arguments.log.empty())
+  if (bus.rounding == Rounding::none && !arguments.log.empty())
     return failure(
         fmt::format("--log: a log has no room for the frames of '{}', expected in-process", arguments.bus));
   std::vector<std::string> nodes;
@@ -212,8 +208,7 @@ Result<void> check_bus(const Arguments& arguments) {
   // Two wires deliver in an order of their own: the answer to a step could miss what the other brings.
   if (!arguments.bus_of.empty() && (arguments.lockstep || here))
     return failure("--bus-of: one step over two buses has no order, expected real time");
-  const auto wire = wire_settings(arguments.bus);
-  if (arguments.lockstep && wire && wire->order == QueueOrder::priority)
+  if (arguments.lockstep && bus.wire && bus.wire->order == QueueOrder::priority)
     return failure(
         fmt::format("--lockstep: with the queues of --bus '{}' Sync overtakes the samples of its step, "
                     "expected queue=fifo",
@@ -223,8 +218,8 @@ Result<void> check_bus(const Arguments& arguments) {
   if (arguments.target_cpu) {
     if (auto known = realtime::check_cpu("--target-cpu", *arguments.target_cpu); !known) return known;
   }
-  static const std::vector<std::string> known{std::string(run::in_process_bus), std::string(private_bus)};
-  const bool names_one = arguments.bus.starts_with(private_bus) || here;
+  static const std::vector<std::string> known{std::string(run::in_process_bus), std::string(local_prefix)};
+  const bool names_one = is_local(arguments.bus) || here;
   const std::string meant = scenario::nearest(arguments.bus, known);
   if (!names_one && !meant.empty() && if_nametoindex(arguments.bus.c_str()) == 0)
     return failure(
@@ -279,7 +274,8 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
 }
 
 ExitCode execute(const Arguments& arguments) {
-  if (auto fine = check_bus(arguments); !fine) return complain(fine.error());
+  const run::BusName bus(arguments.bus);
+  if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
   auto scenario = scenario::read_file(arguments.scenario, run::contract());
   if (!scenario) return complain(scenario.error());
   if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
@@ -291,7 +287,7 @@ ExitCode execute(const Arguments& arguments) {
   Result<run::Run> finished = [&] {
     const ProgressLine line;
     bool begun = false;
-    return run::run(*scenario, options_of(arguments, *format), interrupted, [&](std::int64_t t_us) {
+    return run::run(*scenario, options_of(arguments, bus, *format), interrupted, [&](std::int64_t t_us) {
       if (!std::exchange(begun, true)) remove_earlier(arguments);
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });

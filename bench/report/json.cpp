@@ -184,7 +184,7 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
 
 // What was tested: the program and which of its versions, as far as the bench knows it.
 Json target(const run::Run& run) {
-  if (run::is_in_process(run.options.bus)) return {{"program", "in hil-bench itself"}};
+  if (run.in_process) return {{"program", "in hil-bench itself"}};
   if (!run.options.target) return {{"program", "runs elsewhere"}};
   Json json{{"program", *run.options.target}};
   if (run.target_file) {
@@ -202,8 +202,8 @@ Json provenance(const scenario::Scenario& scenario, const run::Run& run, const S
             {"dbc_hash", fmt::format("{:016x}", messages::dbc_hash)},
             {"seed", scenario.seed},
             {"run", run.options.run_index},
-            {"bus", run.options.bus},
-            {"clock", name(run.options.clock)},
+            {"bus", run.options.bus.text},
+            {"clock", summary.clock},
             {"latency_stamps", summary.stamp_source},
             {"period_overrides", period_overrides(scenario)},
             {"date", date_utc(run.started_s)},
@@ -270,7 +270,7 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
   if (summary.engagement) page["engagement"] = object(*summary.engagement);
   if (summary.wind) page["wind"] = object(*summary.wind);
   page["timing"] = timing_judged(run);
-  if (run.options.clock != run::ClockKind::lockstep) add_timing(page, scenario, run);
+  if (run.clock != run::ClockKind::lockstep) add_timing(page, scenario, run);
   if (run.seen.target_timing_seen)
     page["target_timing_us"] = {{"queue_max", run.seen.queue_max_us},
                                 {"compute_max", run.seen.compute_max_us}};

@@ -14,6 +14,18 @@
 namespace canhil::report {
 namespace {
 
+std::string_view name(run::ClockKind clock) {
+  switch (clock) {
+    case run::ClockKind::real_time:
+      return "real time";
+    case run::ClockKind::lockstep:
+      return "lockstep";
+    case run::ClockKind::simulated_wire:
+      return "virtual, simulated wire";
+  }
+  return "?";
+}
+
 // Of the heading, in the unit of the alignment.
 constexpr double bands_mrad[] = {10, 3, 2, 1};
 constexpr double bands_deg[] = {30, 10, 3, 1};
@@ -153,9 +165,10 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
                                  .unanswered = checks::unanswered(run.seen, message)});
   }
   summary.lateness_s = checks::distribution_s(run.seen.timing.lateness);
+  summary.clock = name(run.clock);
   summary.stamp_source =
-      run.options.clock == run::ClockKind::lockstep         ? "virtual time"
-      : run.options.clock == run::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
+      run.clock == run::ClockKind::lockstep         ? "virtual time"
+      : run.clock == run::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
       : checks::stamped_by_hardware(run.seen.timing)
           ? "the controller's hardware stamps of stimulus and answer"
       : run.seen.transmit_stamps_echoed ? "bus stamps of stimulus and answer"

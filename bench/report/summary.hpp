@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,7 @@ struct Summary {
   std::size_t wind_answers = 0;
   std::vector<MessageLatency> latencies;  ///< of the closing message of each group
   checks::Distribution lateness_s;        ///< of the bench's own transmissions
+  std::string_view clock;                 ///< by which the run went
   std::string stamp_source;               ///< what the latencies were measured with
 };
 

@@ -203,9 +203,10 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   std::string page;
 
   page += fmt::format("{}\n", scenario.title);
-  page += fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus,
-                      run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "",
-                      name(run.options.clock), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
+  page +=
+      fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus.text,
+                  run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", summary.clock,
+                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
   if (run.host) {
@@ -239,7 +240,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
     head(name(alignment.estimator));
     page += words(alignment);
   }
-  const bool virtual_time = run.options.clock == run::ClockKind::lockstep;
+  const bool virtual_time = run.clock == run::ClockKind::lockstep;
   for (const MessageLatency& row : summary.latencies) {
     if (row.latency_s.count == 0) {
       page += fmt::format("  latency {:<22}no answers{}\n", row.message,

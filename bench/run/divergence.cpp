@@ -89,10 +89,9 @@ std::string describe(const Frame& frame) {
       text = describe_as<Message>(frame);
     }
   };
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    (try_one(std::type_identity<std::tuple_element_t<I, messages::AllMessages>>{}), ...);
-  }
-  (std::make_index_sequence<std::tuple_size_v<messages::AllMessages>>{});
+  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+    (try_one(std::type_identity<Messages>{}), ...);
+  }(std::type_identity<messages::AllMessages>{});
   return text;
 }
 

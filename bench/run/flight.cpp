@@ -33,6 +33,24 @@ InitialState state_at_release(const world::GlideRecord& glide, const scenario::G
   return state;
 }
 
+Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
+  OwnTruth own;
+  if (scenario.glide) {
+    const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
+    own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
+                      stream("glide.gusts"));
+    const double missing_s = 1e-6 * static_cast<double>(scenario.duration_us - own.glide->end_us());
+    if (missing_s >= 1e-6 * static_cast<double>(world::GlideRecord::step_us)) {
+      return failure(
+          fmt::format("key 'duration_s': the glide of run {} ends {:g} s before it, at a height of {:.0f} m, "
+                      "expected to be in the air to the end",
+                      run_index, missing_s, own.glide->epochs().back().height));
+    }
+  }
+  if (scenario.engagement) own.engagement.emplace();
+  return own;
+}
+
 }  // namespace
 
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
@@ -58,39 +76,22 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   return truth;
 }
 
-Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
-  OwnTruth own;
-  if (scenario.glide) {
-    const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
-    own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
-                      stream("glide.gusts"));
-    const double missing_s = 1e-6 * static_cast<double>(scenario.duration_us - own.glide->end_us());
-    if (missing_s >= 1e-6 * static_cast<double>(world::GlideRecord::step_us)) {
-      return failure(
-          fmt::format("key 'duration_s': the glide of run {} ends {:g} s before it, at a height of {:.0f} m, "
-                      "expected to be in the air to the end",
-                      run_index, missing_s, own.glide->epochs().back().height));
-    }
-  }
-  if (scenario.engagement) own.engagement.emplace();
-  return own;
-}
-
-Result<std::vector<InitialState>> make_initial_states(const scenario::Scenario& scenario,
-                                                      const world::FlightRecord& truth,
-                                                      const OwnTruth& own_truth, std::uint64_t run_index) {
-  std::vector<InitialState> states;
+Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                           std::uint64_t run_index) {
+  auto own_truth = make_own_truth(scenario, run_index);
+  if (!own_truth) return tl::unexpected(own_truth.error());
+  Flight flight{.own_truth = std::move(*own_truth), .initial = {}};
+  const auto& glide = flight.own_truth.glide;
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream stream(scenario.seed, run_index, "initial_error");
-    const bool glides = own_truth.glide && target.estimator == "wind";
     const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
-    states.push_back(
-        glides
-            ? state_at_release(*own_truth.glide, *scenario.glide, target.initial_sigma, stream)
+    flight.initial.push_back(
+        glide && target.estimator == "wind"
+            ? state_at_release(*glide, *scenario.glide, target.initial_sigma, stream)
             : initial_state(initial_solution(truth.epochs().front(), error, stream), target.initial_sigma));
-    if (auto fits = check_fits(states.back()); !fits) return tl::unexpected(fits.error());
+    if (auto fits = check_fits(flight.initial.back()); !fits) return tl::unexpected(fits.error());
   }
-  return states;
+  return flight;
 }
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,

@@ -25,14 +25,18 @@ struct OwnTruth {
   std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
 };
 
-/// Flies what run `run_index` flies by itself. Error: one line, if the flight ends before the run.
-Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index);
+/// What one run draws before it begins.
+struct Flight {
+  OwnTruth own_truth;
+  /// What each estimator of the target is told: the truth with the errors that this run draws, the same draw
+  /// for each.
+  std::vector<InitialState> initial;
+};
 
-/// What each estimator of the target is told in run `run_index`: the truth with the errors that this run
-/// draws, the same draw for each. Error: one line, if the bus cannot carry it.
-Result<std::vector<InitialState>> make_initial_states(const scenario::Scenario& scenario,
-                                                      const world::FlightRecord& truth,
-                                                      const OwnTruth& own_truth, std::uint64_t run_index);
+/// The flight of run `run_index`. Error: one line, if it ends before the run, or the bus cannot carry what
+/// the target is told.
+Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                           std::uint64_t run_index);
 
 /// The nodes of run `run_index`, in the order of precedence. All but the index must outlive the schedule.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,

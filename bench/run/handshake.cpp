@@ -98,13 +98,11 @@ class Dialogue {
   // A target that beats and does not do as it was told has a reason.
   [[nodiscard]] std::string complaint(std::string_view what, std::int64_t limit_ns) const {
     const double limit_s = static_cast<double>(limit_ns) * 1e-9;
-    if (!mailbox_.heartbeat) {
-      return fmt::format("target on '{}': no answer within {:g} s while {}", link_.port().name(), limit_s,
-                         what);
-    }
-    return fmt::format("target on '{}': no answer within {:g} s while {}; its state is {}, its errors: {}",
-                       link_.port().name(), limit_s, what, name_of(mailbox_.heartbeat->state),
-                       errors_of(*mailbox_.heartbeat));
+    std::string text =
+        fmt::format("target on '{}': no answer within {:g} s while {}", link_.port().name(), limit_s, what);
+    if (const auto& beat = mailbox_.heartbeat)
+      text += fmt::format("; its state is {}, its errors: {}", name_of(beat->state), errors_of(*beat));
+    return text;
   }
 
   template <class Request>

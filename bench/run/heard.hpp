@@ -1,4 +1,4 @@
-// One message of the target in what the bus gave.
+// What the target says in what the bus gives.
 #pragma once
 
 #include <optional>
@@ -6,8 +6,15 @@
 #include "bench/nodes/is_whole.hpp"
 #include "dbc/ports/port.hpp"
 #include "dbc/wire/message.hpp"
+#include "dbc/wire/routes.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::run {
+
+/// The messages of the target.
+inline constexpr Routes target_messages([](const MessageInfo& info) {
+  return info.sender == messages::TargetHeartbeat::info.sender;
+});
 
 /// The message, if this is one and whole, and no echo of ours.
 template <class Message>

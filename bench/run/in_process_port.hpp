@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/bus_name.hpp"
+#include "bench/run/buses.hpp"
 #include "dbc/ports/port.hpp"
 #include "target/device/device.hpp"
 
@@ -15,7 +15,9 @@ namespace canhil::run {
 class InProcessPort final : public Port {
  public:
   explicit InProcessPort(Rounding rounding)
-      : device_(rounding), name_(rounding == Rounding::none ? unrounded_bus : in_process_bus) {
+      : device_(rounding),
+        rounding_(rounding),
+        name_(rounding == Rounding::none ? unrounded_bus : in_process_bus) {
     append(device_.idle_heartbeat());
   }
 
@@ -39,6 +41,9 @@ class InProcessPort final : public Port {
   [[nodiscard]] RoomWait room_wait() const override { return {}; }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
+  [[nodiscard]] Capabilities capabilities() const override {
+    return {.in_process = true, .time = BusTime::told, .rounding = rounding_};
+  }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] std::int64_t now_ns() const override { return now_ns_; }
   void tell_time(std::int64_t t_ns) override { now_ns_ = t_ns; }
@@ -50,6 +55,7 @@ class InProcessPort final : public Port {
   }
 
   target::Device device_;
+  Rounding rounding_;
   std::vector<Frame> answers_;
   std::size_t next_ = 0;  // the first of answers_ that was not received yet
   std::int64_t now_ns_ = 0;

@@ -16,6 +16,7 @@ constexpr std::int64_t heartbeat_ns = messages::TargetHeartbeat::info.cycle_time
 InProcessWire::InProcessWire(std::string name, const WireSettings& settings, BusFormat format)
     : name_(std::move(name)),
       fd_(format == BusFormat::fd),
+      facts_(settings.facts()),
       wire_(settings.rates,
             {{.order = settings.order, .told = true}, {.order = settings.order, .told = true}},
             disturbance(settings)) {}
@@ -84,17 +85,8 @@ void InProcessWire::arrive(const Carried& carried) {
 
 /// Hands over what the device sends.
 void InProcessWire::put(std::span<const Frame> answers, std::int64_t t_ns) {
-  for (const Frame& frame : answers) {
-    if (!fd_) {
-      queue(frame, t_ns);
-      continue;
-    }
-    if (const auto due = packer_.due_before(frame)) {
-      queue(*due, t_ns);
-      packer_.clear();
-    }
-    if (const auto full = packer_.put(frame)) queue(*full, t_ns);
-  }
+  const auto onto_wire = [&](const Frame& frame) { queue(frame, t_ns); };
+  for (const Frame& frame : answers) fd_ ? packer_.pack(frame, onto_wire) : onto_wire(frame);
 }
 
 void InProcessWire::queue(const Frame& frame, std::int64_t t_ns) {

@@ -29,6 +29,9 @@ class InProcessWire final : public Port {
   [[nodiscard]] RoomWait room_wait() const override { return {}; }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
+  [[nodiscard]] Capabilities capabilities() const override {
+    return {.reports_errors = true, .in_process = true, .time = BusTime::waits, .wire = facts_};
+  }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] std::int64_t now_ns() const override { return now_ns_; }
   [[nodiscard]] std::int64_t monotonic_ns() const override { return now_ns_; }
@@ -47,6 +50,7 @@ class InProcessWire final : public Port {
 
   std::string name_;
   bool fd_;
+  WireFacts facts_;
   SimulatedWire wire_;
   target::Device device_;
   FdPacker packer_;            // of the device's frames

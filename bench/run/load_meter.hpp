@@ -1,8 +1,12 @@
 // How busy the frames of a run keep the bus.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bench/run/link.hpp"
 #include "dbc/ports/fd_groups.hpp"
@@ -41,15 +45,23 @@ class LoadMeter final : public Observer {
   }
   /// Of each second from time 0 on.
   [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }
+  /// Why nobody is heard, in a phrase, on a bus that has had more to carry until now than it can; empty: it
+  /// is another reason.
+  [[nodiscard]] std::string full_wire(std::int64_t now_ns, const wire::BitRates& rates) const {
+    constexpr double full = 0.9;
+    if (rates.nominal == 0 || now_ns <= 0) return {};
+    wire::BitLength all;
+    for (const wire::BitLength& length : lengths_) all += length;
+    const double load = wire::bus_load(all, static_cast<double>(now_ns) * 1e-9, rates);
+    if (load < full) return {};
+    return fmt::format(" (the wire of {:g} kbit/s is full: load {:.0f} %)",
+                       static_cast<double>(rates.nominal) * 1e-3, load * 100);
+  }
 
  private:
   void take(const Frame& frame, FdPacker& packer) {
     if (format_ == BusFormat::classic || frame.fd) return add(frame);
-    if (const auto due = packer.due_before(frame)) {
-      add(*due);
-      packer.clear();
-    }
-    if (const auto full = packer.put(frame)) add(*full);
+    packer.pack(frame, [&](const Frame& on_wire) { add(on_wire); });
   }
   void add(const Frame& frame) {
     if (lengths_.size() <= second_) lengths_.resize(second_ + 1);

@@ -10,8 +10,6 @@
 namespace canhil::run {
 namespace {
 
-std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
-
 // The end of a step as the target sees it.
 class StepWatch final : public Observer {
  public:
@@ -72,7 +70,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
       }
       if (watch.done()) break;
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
-      const std::int64_t now = now_ns();
+      const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
       if (deadline_ns == 0) deadline_ns = now + step_limit_ns;
       if (now > deadline_ns) {
         return {Ending::Kind::target_silent, t_us,

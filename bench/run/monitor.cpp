@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "bench/run/heard.hpp"
 #include "bench/world/units.hpp"
-#include "dbc/wire/routes.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::run {
@@ -14,10 +14,6 @@ using world::Vector3;
 using world::units::deg;
 using world::units::degph;
 using world::units::ug;
-
-constexpr Routes target_messages([](const MessageInfo& info) {
-  return info.sender == TargetHeartbeat::info.sender;
-});
 
 // The groups of answers, and which of them each message belongs to.
 enum class AnswerGroup : std::uint8_t { none, align_nav, align_filter, fix_nav, fix_filter, los_rate, wind };

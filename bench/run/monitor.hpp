@@ -17,9 +17,9 @@ namespace canhil::run {
 class Monitor final : public Observer {
  public:
   /// Takes no times: those of virtual time say nothing, and a campaign flies thousands of runs in it.
-  Monitor() = default;
+  Monitor() {}  // not defaulted: Monitor() would then clear the large place of the stopwatch, too
   /// Takes times, also within the windows.
-  explicit Monitor(std::vector<checks::TimedWindow> windows, const checks::WireFacts& wire = {}) {
+  explicit Monitor(std::vector<checks::TimedWindow> windows, const WireFacts& wire = {}) {
     seen_.timing.windows = std::move(windows);
     seen_.timing.wire = wire;
     stopwatch_.emplace(seen_.timing);

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "bench/run/bus_watch.hpp"
+#include "bench/run/heard.hpp"
 #include "bench/run/heartbeat_errors.hpp"
 #include "bench/run/second_target.hpp"
-#include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::run {
@@ -18,10 +18,6 @@ constexpr std::int64_t lead_ns = 20'000'000;             // from here to the fir
 constexpr std::int64_t last_answers_ns = 150'000'000;    // longer than a heartbeat period
 constexpr std::int64_t outage_limit_ns = 5'000'000'000;  // an interface down and up, a restart after bus-off
 constexpr std::int64_t progress_period_us = 100'000;
-
-constexpr Routes target_messages([](const MessageInfo& info) {
-  return info.sender == messages::TargetHeartbeat::info.sender;
-});
 
 // A bus that carried much all the while is full, and by whom is worth knowing.
 std::string took_none(const Link& link, std::int64_t due_us) {

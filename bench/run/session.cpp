@@ -2,28 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/run/bus_watch.hpp"
-#include "bench/run/ears.hpp"
-#include "bench/run/flight.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/host_watch.hpp"
-#include "bench/run/in_process_port.hpp"
-#include "bench/run/in_process_wire.hpp"
 #include "bench/run/intruders.hpp"
 #include "bench/run/load_meter.hpp"
 #include "bench/run/lockstep.hpp"
 #include "bench/run/monitor.hpp"
 #include "bench/run/recorder.hpp"
 #include "bench/run/target_process.hpp"
-#include "dbc/ports/local_bus.hpp"
-#include "dbc/ports/several.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::run {
 namespace {
@@ -32,240 +23,276 @@ constexpr std::int64_t silence_limit_ns =
     400'000'000;  // four heartbeats; a dead target is named within 0.5 s
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
 
-static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
-
-// Without a wire there is no bus, and frames travel as they are in both contracts.
-Result<std::unique_ptr<Port>> open_in_process(const std::string& bus, BusFormat format) {
-  if (bus == in_process_bus || bus == unrounded_bus) return std::make_unique<InProcessPort>(rounding_of(bus));
-  const auto wire = wire_settings(bus);
-  if (!wire) return tl::unexpected(wire.error());
-  auto port = std::make_unique<InProcessWire>(bus, *wire, format);
-  if (format == BusFormat::fd) return in_fd_groups(std::move(port));
-  return port;
+Capabilities known_of(const Port& port, const WireFacts& controller) {
+  Capabilities bus = port.capabilities();
+  if (bus.wire.rates.nominal == 0) bus.wire = controller;
+  return bus;
 }
 
-// A local bus is hosted by the bench, unless somebody does already. `notes`: whom the bench as a host turns
-// away; must outlive the port.
-Result<std::unique_ptr<Port>> open(const std::string& bus, BusFormat format,
-                                   std::vector<std::string>& notes) {
-  if (is_in_process(bus)) return open_in_process(bus, format);
-  PortOptions options;
-  options.own_echo = true;
-  options.foreign = true;
-  options.node_name = "hil-bench";
-  auto joined = open_bus(bus, options, format);
-  if (joined || !bus.starts_with("local:")) return joined;
-  options.fd = format == BusFormat::fd;
-  HubRules rules;
-  rules.on_turned_away = [&notes](const std::string& line) { notes.push_back(line); };
-  auto hosted = host_local_bus(bus, options, std::move(rules));
-  // Where somebody hosts it after all, why it could not be joined says more.
-  if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
-  if (!hosted) return joined;
-  return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
+LoadBy load_by(const Capabilities& bus, ClockKind clock) {
+  if (clock == ClockKind::lockstep) return bus.in_process ? LoadBy::time_base_alone : LoadBy::time_base;
+  return bus.wire.rates.nominal > 0 ? LoadBy::stamps : LoadBy::time_base;
 }
 
-// Whether a bus tells of what goes wrong on it: one with a controller, or a simulated wire.
-bool reports_errors(const std::string& bus) {
-  const bool embedded = is_in_process(bus) || bus.starts_with("local:");
-  const auto wire = wire_settings(bus);
-  return !embedded || (wire && wire->rates.nominal > 0);
+Monitor monitor_of(const scenario::Scenario& scenario, const Options& options, WireFacts wire) {
+  if (!options.for_verdict) return Monitor();
+  wire.fd = options.format == BusFormat::fd;
+  return Monitor(checks::timed_windows(scenario.checks), wire);
 }
 
-// The bus of each node that has one of its own, each once, after the first.
-std::vector<std::string> buses_of(const Options& options) {
-  std::vector<std::string> buses{options.bus};
-  for (const auto& [node, bus] : options.bus_of) {
-    if (std::ranges::find(buses, bus) == buses.end()) buses.push_back(bus);
+// Hands every frame of somebody else to the nodes that listen.
+class Ears final : public Observer {
+ public:
+  explicit Ears(Schedule& schedule) : schedule_(schedule) {}
+  void received(const Received& received) override {
+    if (!received.own && !received.frame.error) schedule_.hear(received.frame);
   }
-  return buses;
-}
 
-LoadBy load_by(const Options& options) {
-  if (options.clock == ClockKind::lockstep)
-    return is_in_process(options.bus) ? LoadBy::time_base_alone : LoadBy::time_base;
-  return options.wire.rates.nominal > 0 ? LoadBy::stamps : LoadBy::time_base;
-}
+ private:
+  Schedule& schedule_;
+};
 
-// One port over all of them; a frame goes to the bus of its sender.
-Result<std::unique_ptr<Port>> open_all(const Options& options, std::vector<std::string>& notes) {
-  const std::vector<std::string> buses = buses_of(options);
-  std::vector<std::unique_ptr<Port>> ports;
-  for (const std::string& bus : buses) {
-    auto opened = open(bus, options.format, notes);
-    if (!opened) return opened;
-    ports.push_back(std::move(*opened));
+// One run, stage by stage: open, configure, drive, collect.
+class Session {
+ public:
+  // Enters real time, opens bus and log, starts the target: what the options ask for. All but the flight must
+  // outlive the session.
+  static Result<std::unique_ptr<Session>> open(const scenario::Scenario& scenario,
+                                               const world::FlightRecord& truth, Flight flight,
+                                               const Options& options) {
+    const std::vector<int> cpus = options.target_cpu ? std::vector{*options.target_cpu}
+                                  : options.target   ? realtime::cpus()
+                                                     : std::vector<int>{};
+    if (options.realtime) {
+      if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
+    }
+    auto buses = open_buses(options.bus, options.bus_of, options.format);
+    if (!buses) return tl::unexpected(buses.error());
+    auto session = std::make_unique<Session>(scenario, truth, std::move(flight), options, std::move(*buses));
+    if (auto logged = session->open_log(); !logged) return tl::unexpected(logged.error());
+    if (auto started = session->start_target(cpus); !started) return tl::unexpected(started.error());
+    return session;
   }
-  return join_ports(std::move(ports), [&options, buses](const Frame& frame) {
-    const MessageInfo* info = messages::find_message(frame.id);
-    const auto own = std::ranges::find_if(
-        options.bus_of, [&](const auto& entry) { return info != nullptr && info->sender == entry.first; });
-    const std::string& bus = own == options.bus_of.end() ? options.bus : own->second;
-    return static_cast<std::size_t>(std::ranges::find(buses, bus) - buses.begin());
-  });
-}
 
-// Why nobody is heard on a bus that has more to carry than it can; empty: it is another reason.
-std::string full_wire(const std::vector<wire::BitLength>& by_second, std::int64_t time_ns,
-                      const wire::BitRates& rates) {
-  constexpr double full = 0.9;
-  if (rates.nominal == 0 || time_ns <= 0) return {};
-  wire::BitLength all;
-  for (const wire::BitLength& length : by_second) all += length;
-  const double load = wire::bus_load(all, static_cast<double>(time_ns) * 1e-9, rates);
-  if (load < full) return {};
-  return fmt::format(" (the wire of {:g} kbit/s is full: load {:.0f} %)",
-                     static_cast<double>(rates.nominal) * 1e-3, load * 100);
+  Session(const scenario::Scenario& scenario, const world::FlightRecord& truth, Flight flight,
+          const Options& options, OpenBuses buses)
+      : scenario_(scenario),
+        options_(options),
+        flight_(std::move(flight)),
+        notes_(std::move(buses.notes)),
+        port_(std::move(buses.port)),
+        bus_(known_of(*port_, options.controller)),
+        clock_(clock_of(bus_.time, options.lockstep)),
+        link_(*port_),
+        schedule_(make_schedule(scenario, truth, flight_.own_truth, options.run_index,
+                                clock_ == ClockKind::lockstep, bus_.rounding)),
+        monitor_(monitor_of(scenario, options, bus_.wire)),
+        bus_watch_(*port_),
+        load_(options.format, load_by(bus_, clock_)) {
+    if (!options.for_verdict) return;
+    link_.attach(bus_watch_);
+    link_.attach(intruders_);
+  }
+
+  // Makes the target ready and starts its estimators.
+  Result<void> configure(const std::atomic<bool>& stop) {
+    const auto gone = [&]() -> std::optional<std::string> {
+      if (stop) return "interrupted";
+      const auto why = target_ ? target_->ended() : std::nullopt;
+      return why ? std::optional("target: " + *why) : std::nullopt;
+    };
+    auto ready =
+        run::configure(link_, schedule_.outbox(), scenario_.targets, flight_.initial, gone, options_.format);
+    if (!ready) return failure(explained(ready.error().message));
+    return ready;
+  }
+
+  // Flies to the end, or as far as it goes.
+  void drive(const std::atomic<bool>& stop, const Progress& progress) {
+    const Attached monitored(link_, monitor_);
+    std::optional<Attached> load_watched, host_watched;
+    if (options_.for_verdict) {
+      load_watched.emplace(link_, load_);
+      host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
+    }
+    Ears ears(schedule_);
+    const Attached listening(link_, ears);
+    if (options_.realtime && target_)
+      static_cast<void>(realtime::own_memory_again());  // permitted: it entered
+    ending_ = clock_ == ClockKind::lockstep
+                  ? run_lockstep(link_, schedule_, step_limit_ns, stop, progress)
+                  : run_real_time(link_, schedule_, silence_limit_ns, stop, progress, options_.spin_ns);
+  }
+
+  // Stops the target and closes the log.
+  Collected collect() {
+    if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
+    if (options_.for_verdict) stop(link_, schedule_.outbox(), scenario_.targets);
+    const auto logged = log_ ? log_->close() : Result<void>{};
+    checks::Observations seen = monitor_.finish();
+    if (options_.for_verdict) add_watched(seen);
+    if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
+    return Collected{.ending = std::move(ending_),
+                     .seen = std::move(seen),
+                     .own_truth = std::move(flight_.own_truth),
+                     .log_error = logged ? std::nullopt : std::optional(logged.error())};
+  }
+
+  [[nodiscard]] const Capabilities& bus() const { return bus_; }
+  [[nodiscard]] ClockKind clock() const { return clock_; }
+  [[nodiscard]] const std::optional<ProgramFile>& target_file() const { return target_file_; }
+  // What went wrong, and who flooded the bus, or was turned away from it: that may be why.
+  [[nodiscard]] std::string explained(const std::string& what) const {
+    if (link_.flood()) return fmt::format("{}; {}", what, words(*link_.flood()));
+    return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
+  }
+  // Why no timing can be judged; empty: it can.
+  [[nodiscard]] std::string timing_unfit(const checks::Observations& seen) const {
+    if (clock_ == ClockKind::lockstep) return "virtual time";
+    return link_.flood() ? words(*link_.flood()) : checks::unfit_for_timing(seen);
+  }
+
+ private:
+  Result<void> open_log() {
+    if (!options_.log_path) return {};
+    return Recorder::open(*options_.log_path, *port_).map([&](std::unique_ptr<Recorder> log) {
+      log_ = std::move(log);
+      link_.attach(*log_);
+    });
+  }
+
+  Result<void> start_target(const std::vector<int>& cpus) {
+    if (!options_.target || bus_.in_process) return {};
+    target_file_ = look_at_program(*options_.target);
+    return TargetProcess::start(*options_.target, options_.bus.text, options_.target_arguments, cpus)
+        .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
+  }
+
+  std::string why_silent() {
+    if (target_) {
+      if (const auto why = target_->ended()) return fmt::format(" (its process {})", *why);
+      if (target_->stopped()) return " (its process is stopped by a signal)";
+    }
+    if (clock_ == ClockKind::lockstep) return {};
+    return load_.full_wire(ending_.t_us * 1000 + silence_limit_ns, bus_.wire.rates);
+  }
+
+  // Who else is on the bus comes first of what is noted.
+  void add_watched(checks::Observations& seen) {
+    seen.bus = bus_watch_.record();
+    seen.bus.intruded = intruders_.frames();
+    if (const std::string others = checks::other_senders(seen); !others.empty())
+      notes_->insert(notes_->begin(), others);
+    // What the host did has no part in the times of a simulated wire.
+    if (clock_ != ClockKind::simulated_wire) seen.host = host_->record();
+    seen.bit_rates = bus_.wire.rates;
+    seen.length_by_second = load_.lengths();
+    seen.bus.reports_errors = bus_.reports_errors;
+    seen.bus.late_in_queue = link_.late_in_queue();
+    seen.bus.foreign = port_->counters().foreign;
+    seen.bus.notes = *notes_;
+    if (link_.flood()) seen.bus.notes.push_back(words(*link_.flood()));
+    seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
+  }
+
+  const scenario::Scenario& scenario_;
+  const Options& options_;
+  Flight flight_;
+  std::shared_ptr<std::vector<std::string>> notes_;
+  std::unique_ptr<Port> port_;
+  Capabilities bus_;
+  ClockKind clock_;
+  Link link_;
+  Schedule schedule_;
+  Monitor monitor_;
+  BusWatch bus_watch_;
+  Intruders intruders_;
+  LoadMeter load_;
+  std::optional<HostWatch> host_;  // watches from its construction on
+  std::unique_ptr<Recorder> log_;
+  std::optional<ProgramFile> target_file_;
+  std::optional<TargetProcess> target_;
+  Ending ending_;
+};
+
+checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                           const Session& session, const Collected& flown, const std::string& timing_unfit) {
+  const OwnTruth& own = flown.own_truth;
+  checks::Verdict verdict =
+      checks::judge(scenario, {.seen = flown.seen,
+                               .truth = truth,
+                               .glide = own.glide ? &*own.glide : nullptr,
+                               .engagement = own.engagement ? &*own.engagement : nullptr,
+                               .duration_us = scenario.duration_us,
+                               .ended_early = flown.ending.detail,
+                               .timing_unfit = timing_unfit});
+  if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)
+    verdict.reason = session.explained(verdict.reason);
+  if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
+  return verdict;
 }
 
 }  // namespace
 
-ClockKind clock_of(std::string_view bus, bool lockstep) {
-  const bool has_wire = bus != in_process_bus && bus != unrounded_bus;
-  if (is_in_process(bus)) return has_wire ? ClockKind::simulated_wire : ClockKind::lockstep;
-  return lockstep ? ClockKind::lockstep : ClockKind::real_time;
+ClockKind clock_of(BusTime time, bool lockstep) {
+  if (time == BusTime::waits) return ClockKind::simulated_wire;
+  return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
 }
 
-Result<Run> run(const scenario::Scenario& scenario, const Options& options,
-                const std::atomic<bool>& stop_requested, const Progress& progress) {
-  const bool lockstep = options.clock == ClockKind::lockstep;
+Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
+                const Progress& progress) {
   const auto in_file = [&](const Error& error) {
     return failure(fmt::format("{}: {}", scenario.file, error.message));
   };
   auto truth = make_truth(scenario);
   if (!truth) return in_file(truth.error());
-  auto own_truth = make_own_truth(scenario, options.run_index);
-  if (!own_truth) return in_file(own_truth.error());
-  const auto initial = make_initial_states(scenario, *truth, *own_truth, options.run_index);
-  if (!initial) return in_file(initial.error());
-
-  const std::vector<int> target_cpus =
-      options.target_cpu ? std::vector{*options.target_cpu} : realtime::cpus();
-  const bool starts_target = options.target && !is_in_process(options.bus);
-  const auto target_file = starts_target ? look_at_program(*options.target) : std::nullopt;
-  if (options.realtime) {
-    if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
-  }
-  std::vector<std::string> notes;
-  auto port = open_all(options, notes);
-  if (!port) return tl::unexpected(port.error());
-  Link link(**port);
-  // Who floods the bus, or was turned away from it, may be why.
-  const auto explained = [&](const std::string& why) {
-    if (link.flood()) return fmt::format("{}; {}", why, words(*link.flood()));
-    return notes.empty() ? why : fmt::format("{}; {}", why, notes.front());
-  };
-  BusWatch bus(**port);
-  link.attach(bus);
-  Intruders intruders;
-  link.attach(intruders);
-  std::unique_ptr<Recorder> recorder;
-  if (options.log_path) {
-    auto opened = Recorder::open(*options.log_path, **port);
-    if (!opened) return tl::unexpected(opened.error());
-    recorder = std::move(*opened);
-    link.attach(*recorder);
-  }
-  std::optional<TargetProcess> target;
-  if (starts_target) {
-    auto started = TargetProcess::start(*options.target, options.bus, options.target_arguments, target_cpus);
-    if (!started) return tl::unexpected(started.error());
-    target.emplace(std::move(*started));
-  }
-  const auto ended = [&]() -> std::optional<std::string> { return target ? target->ended() : std::nullopt; };
-  const auto gone = [&]() -> std::optional<std::string> {
-    if (stop_requested) return "interrupted";
-    const auto why = ended();
-    return why ? std::optional("target: " + *why) : std::nullopt;
-  };
-
-  Schedule schedule =
-      make_schedule(scenario, *truth, *own_truth, options.run_index, lockstep, rounding_of(options.bus));
-  if (auto configured = configure(link, schedule.outbox(), scenario.targets, *initial, gone, options.format);
-      !configured) {
-    return failure(explained(configured.error().message));
-  }
-
-  checks::WireFacts wire = options.wire;
-  wire.fd = options.format == BusFormat::fd;
-  Monitor monitor(checks::timed_windows(scenario.checks), wire);
-  link.attach(monitor);
-  LoadMeter meter(options.format, load_by(options));
-  link.attach(meter);
-  HostWatch host((*port)->stamp_clock());
-  link.attach(host);
-  Ears ears(schedule);
-  link.attach(ears);
-  if (options.realtime && target) static_cast<void>(realtime::own_memory_again());  // permitted: it entered
+  auto flight = make_flight(scenario, *truth, options.run_index);
+  if (!flight) return in_file(flight.error());
+  const auto opened = Session::open(scenario, *truth, std::move(*flight), options);
+  if (!opened) return tl::unexpected(opened.error());
+  Session& session = **opened;
+  if (auto ready = session.configure(stop); !ready) return tl::unexpected(ready.error());
   const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
   const std::int64_t started_s = clock_ns(CLOCK_REALTIME) / 1'000'000'000;
-  Ending ending =
-      lockstep ? run_lockstep(link, schedule, step_limit_ns, stop_requested, progress)
-               : run_real_time(link, schedule, silence_limit_ns, stop_requested, progress, options.spin_ns);
+  session.drive(stop, progress);
   const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
-  link.detach(ears);
-  link.detach(host);
-  link.detach(meter);
-  link.detach(monitor);
-  if (ending.kind == Ending::Kind::target_silent) {
-    if (const auto why = ended())
-      ending.detail += fmt::format(" (its process {})", *why);
-    else if (target && target->stopped())
-      ending.detail += " (its process is stopped by a signal)";
-    else if (!lockstep)
-      ending.detail += full_wire(meter.lengths(), ending.t_us * 1000 + silence_limit_ns, options.wire.rates);
-  }
-  stop(link, schedule.outbox(), scenario.targets);
-  std::optional<Error> log_error;
-  if (recorder) {
-    link.detach(*recorder);
-    if (auto closed = recorder->close(); !closed) log_error = closed.error();
-  }
+  Collected flown = session.collect();
 
-  checks::Observations seen = monitor.finish();
-  seen.bus = bus.record();
-  seen.bus.intruded = intruders.frames();
-  if (const std::string others = checks::other_senders(seen); !others.empty())
-    notes.insert(notes.begin(), others);
-  if (ending.kind != Ending::Kind::completed) ending.detail = explained(ending.detail);
+  std::string timing_unfit = session.timing_unfit(flown.seen);
+  const ClockKind clock = session.clock();
+  return Run{.verdict = verdict_of(scenario, *truth, session, flown, timing_unfit),
+             .ending = std::move(flown.ending),
+             .seen = std::move(flown.seen),
+             .truth = std::move(*truth),
+             .own_truth = std::move(flown.own_truth),
+             .options = options,
+             .clock = clock,
+             .in_process = session.bus().in_process,
+             .timing_unfit = std::move(timing_unfit),
+             .host = clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
+             .target_file = session.target_file(),
+             .wall_s = wall_s,
+             .started_s = started_s,
+             .log_error = std::move(flown.log_error)};
+}
 
-  // What the host did has no part in the times of a simulated wire.
-  if (options.clock != ClockKind::simulated_wire) seen.host = host.record();
-  seen.bit_rates = options.wire.rates;
-  seen.length_by_second = meter.lengths();
-  seen.bus.reports_errors = std::ranges::all_of(buses_of(options), reports_errors);
-  seen.bus.late_in_queue = link.late_in_queue();
-  seen.bus.foreign = (*port)->counters().foreign;
-  seen.bus.notes = notes;
-  if (link.flood()) seen.bus.notes.push_back(words(*link.flood()));
-  seen.receive_overflows = static_cast<std::uint32_t>((*port)->counters().overflowed);
-  std::string timing_unfit = lockstep       ? "virtual time"
-                             : link.flood() ? words(*link.flood())
-                                            : checks::unfit_for_timing(seen);
-  const checks::Evidence evidence{.seen = seen,
-                                  .truth = *truth,
-                                  .glide = own_truth->glide ? &*own_truth->glide : nullptr,
-                                  .engagement = own_truth->engagement ? &*own_truth->engagement : nullptr,
-                                  .duration_us = scenario.duration_us,
-                                  .ended_early = ending.detail,
-                                  .timing_unfit = timing_unfit};
-  checks::Verdict verdict = judge(scenario, evidence);
-  if (evidence.ended_early.empty() && verdict.outcome != checks::Outcome::pass)
-    verdict.reason = explained(verdict.reason);
-  if (ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
-  return Run{
-      .verdict = std::move(verdict),
-      .ending = std::move(ending),
-      .seen = std::move(seen),
-      .truth = std::move(*truth),
-      .own_truth = std::move(*own_truth),
-      .options = options,
-      .timing_unfit = std::move(timing_unfit),
-      .host = options.clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
-      .target_file = target_file,
-      .wall_s = wall_s,
-      .started_s = started_s,
-      .log_error = std::move(log_error)};
+Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                 std::uint64_t run_index, Rounding rounding) {
+  static const std::atomic<bool> never = false;
+  auto flight = make_flight(scenario, truth, run_index);
+  if (!flight) {
+    return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
+                     .seen = {}};
+  }
+  Options options;
+  options.bus = BusName(std::string(rounding == Rounding::none ? unrounded_bus : in_process_bus));
+  options.run_index = run_index;
+  options.for_verdict = false;
+  const auto session = Session::open(scenario, truth, std::move(*flight), options);
+  if (!session) return tl::unexpected(session.error());
+  if (auto ready = (*session)->configure(never); !ready) return tl::unexpected(ready.error());
+  (*session)->drive(never, [](std::int64_t) {});
+  return (*session)->collect();
 }
 
 }  // namespace canhil::run

@@ -1,57 +1,52 @@
-// One run of a scenario, from the opening of the bus to the verdict.
+// One run of a scenario, stage by stage: its bus is opened, its target configured, its schedule driven, what
+// was seen collected. For a verdict, or for a campaign.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bench/checks/judge.hpp"
-#include "bench/run/bus_name.hpp"
+#include "bench/run/buses.hpp"
 #include "bench/run/ending.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/program_file.hpp"
 #include "bench/run/real_time.hpp"
 #include "bench/scenario/scenario.hpp"
-#include "dbc/ports/fd_groups.hpp"
 #include "dbc/realtime/process.hpp"
-#include "dbc/wire/result.hpp"
 
 namespace canhil::run {
 
 /// simulated_wire: virtual time too, in which the frames take the time of a wire.
 enum class ClockKind : std::uint8_t { real_time, lockstep, simulated_wire };
-constexpr std::string_view name(ClockKind clock) {
-  switch (clock) {
-    case ClockKind::real_time:
-      return "real time";
-    case ClockKind::lockstep:
-      return "lockstep";
-    case ClockKind::simulated_wire:
-      return "virtual, simulated wire";
-  }
-  return "?";
-}
+/// The clock of a run on a bus; `lockstep`: asked for.
+ClockKind clock_of(BusTime time, bool lockstep);
 
-/// The clock of a run on a bus.
-ClockKind clock_of(std::string_view bus, bool lockstep);
-
-/// What the command line decides.
+/// What the command line decides, or a campaign.
 struct Options {
-  std::string bus;  ///< "local:NAME", a SocketCAN interface, or is_in_process()
-  std::vector<std::pair<std::string, std::string>> bus_of;  ///< node of the DBC, bus of its own
+  BusName bus{};
+  BusOf bus_of{};
   std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
   BusFormat format = BusFormat::classic;
-  checks::WireFacts wire{};                   ///< of the bus, where they are known
-  ClockKind clock = ClockKind::real_time;     ///< clock_of(bus, ...)
+  WireFacts controller{};                     ///< of an interface, where the kernel tells
+  bool lockstep = false;                      ///< rather than real time
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments
   std::vector<std::string> target_arguments;  ///< besides --bus
   std::optional<int> target_cpu;              ///< none: those of the bench before it was pinned
   std::int64_t spin_ns = 0;                   ///< before each deadline the bench polls instead of sleeping
   std::uint64_t run_index = 0;  ///< of a campaign: selects the random numbers together with the seed
+  bool for_verdict = true;  ///< false: only what the target says is observed, not times, load, bus and host
+};
+
+/// What a session has seen.
+struct Collected {
+  Ending ending;
+  checks::Observations seen;
+  OwnTruth own_truth{};
+  std::optional<Error> log_error{};  ///< why Options::log_path does not hold every frame
 };
 
 /// A finished run.
@@ -62,17 +57,26 @@ struct Run {
   world::FlightRecord truth;
   OwnTruth own_truth{};
   Options options;
+  ClockKind clock = ClockKind::real_time;
+  bool in_process = false;                   ///< the target was the bench's own device
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: it is
   std::optional<realtime::Standing> host{};  ///< of the bench, in real time
   std::optional<ProgramFile> target_file{};  ///< of Options::target when it was started; none: it was not
   double wall_s = 0;                         ///< from the start of the estimator to the end
   std::int64_t started_s = 0;                ///< since 1970, UTC; 0: unknown
-  std::optional<Error> log_error{};          ///< why Options::log_path does not hold every frame
+  std::optional<Error> log_error{};          ///< see Collected
 };
 
 /// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a
 /// verdict.
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress);
+
+/// Runs a scenario for a campaign: against a Device in this process, in virtual time, with the random numbers
+/// of (seed, run_index). A pure function: same arguments, same bits, on any thread. Error: the scenario
+/// cannot be run (configuration). A target that gives up is an ending, and so is what this run drew that
+/// cannot be flown.
+Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                 std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus);
 
 }  // namespace canhil::run

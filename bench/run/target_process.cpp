@@ -68,12 +68,6 @@ Result<TargetProcess> TargetProcess::start(const std::string& program, const std
 TargetProcess::TargetProcess(TargetProcess&& other) noexcept
     : pid_(std::exchange(other.pid_, -1)), ended_(std::move(other.ended_)) {}
 
-TargetProcess& TargetProcess::operator=(TargetProcess&& other) noexcept {
-  std::swap(pid_, other.pid_);
-  std::swap(ended_, other.ended_);
-  return *this;
-}
-
 TargetProcess::~TargetProcess() {
   if (pid_ < 0 || ended()) return;
   kill(pid_, SIGTERM);

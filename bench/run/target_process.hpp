@@ -20,7 +20,6 @@ class TargetProcess {
                                      const std::vector<int>& cpus = {});
 
   TargetProcess(TargetProcess&& other) noexcept;
-  TargetProcess& operator=(TargetProcess&& other) noexcept;
   TargetProcess(const TargetProcess&) = delete;
   TargetProcess& operator=(const TargetProcess&) = delete;
   ~TargetProcess();
@@ -29,7 +28,6 @@ class TargetProcess {
   std::optional<std::string> ended();
   /// True while a signal holds it, as SIGSTOP does.
   [[nodiscard]] bool stopped() const;
-  [[nodiscard]] pid_t pid() const { return pid_; }
 
  private:
   explicit TargetProcess(pid_t pid) : pid_(pid) {}

@@ -79,6 +79,7 @@ class FdGroups final : public Port {
     counters.foreign += foreign_;
     return counters;
   }
+  [[nodiscard]] Capabilities capabilities() const override { return inner_->capabilities(); }
   [[nodiscard]] int stamp_clock() const override { return inner_->stamp_clock(); }
   [[nodiscard]] std::int64_t now_ns() const override { return inner_->now_ns(); }
   [[nodiscard]] std::int64_t monotonic_ns() const override { return inner_->monotonic_ns(); }
@@ -162,6 +163,18 @@ Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options
   auto port = open_port(bus, options);
   if (!port || format == BusFormat::classic) return port;
   return in_fd_groups(std::move(*port));
+}
+
+Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions options, BusFormat format,
+                                           HubRules rules) {
+  auto joined = open_bus(bus, options, format);
+  if (joined || !is_local(bus)) return joined;
+  options.fd = format == BusFormat::fd;
+  auto hosted = host_local_bus(bus, options, std::move(rules));
+  // Where somebody hosts it after all, why it could not be joined says more.
+  if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
+  if (!hosted) return joined;
+  return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
 }
 
 Result<BusFormat> named_contract(const std::string& name_or_file) {

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "dbc/ports/candump_log.hpp"
+#include "dbc/ports/local_bus.hpp"
 #include "dbc/ports/port.hpp"
 #include "dbc/wire/fd_container.hpp"
 
@@ -40,6 +41,15 @@ class FdPacker {
   /// Takes a frame that nothing is due before; gives what goes on the bus with it: the container that it
   /// completes, itself as an FD frame if it belongs to none, or nothing yet.
   std::optional<Frame> put(const Frame& frame);
+  /// All of it: gives what goes on the bus before the frame, and with it, to `out`.
+  template <class Out>
+  void pack(const Frame& frame, const Out& out) {
+    if (const auto due = due_before(frame)) {
+      out(*due);
+      clear();
+    }
+    if (const auto full = put(frame)) out(*full);
+  }
 
  private:
   static constexpr std::uint8_t none = wire::FdPlace::nowhere;
@@ -85,6 +95,10 @@ class ClassicLogReader {
 
 /// open_port() for a contract.
 Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options, BusFormat format);
+
+/// open_bus(); an embedded bus that nobody hosts is hosted here, by these rules.
+Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions options, BusFormat format,
+                                           HubRules rules = {});
 
 /// The contract that `--dbc` names: canhil, canhil-fd, or a file that holds the text of one of the two as
 /// this program was built with. Error: one line.

@@ -7,7 +7,7 @@
 
 namespace canhil::local {
 HubWire::HubWire(const WireSettings& settings)
-    : order_(settings.order),
+    : settings_(settings),
       frame_ns_(wire::duration_ns(wire::worst_case_length(8, false), settings.rates)),
       wire_(settings.rates, {{.order = settings.order, .told = true}, {}}, disturbance(settings)) {}
 

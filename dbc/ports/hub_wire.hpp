@@ -15,7 +15,8 @@ class HubWire {
   explicit HubWire(const WireSettings& settings);
 
   static constexpr std::size_t host = 0;
-  std::size_t add_node() { return wire_.add_node({.order = order_, .told = true}); }
+  std::size_t add_node() { return wire_.add_node({.order = settings_.order, .told = true}); }
+  [[nodiscard]] WireFacts facts() const { return settings_.facts(); }
   /// False while the queue of a node is full, or the node is off the bus.
   [[nodiscard]] bool has_room(std::size_t node) const;
   /// How long a full classic frame lasts at most.
@@ -34,7 +35,7 @@ class HubWire {
   void stop_alarm();
 
  private:
-  QueueOrder order_;
+  WireSettings settings_;
   std::int64_t frame_ns_;
   SimulatedWire wire_;
   Timer timer_;

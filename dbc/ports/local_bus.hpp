@@ -18,10 +18,18 @@
 #pragma once
 
 #include <functional>
+#include <string>
+#include <string_view>
 
 #include "dbc/ports/port.hpp"
 
 namespace canhil {
+
+/// What the name of every embedded bus begins with.
+inline constexpr std::string_view local_prefix = "local:";
+constexpr bool is_local(std::string_view bus) { return bus.starts_with(local_prefix); }
+/// Gives `local:` and `local:?bitrate=500000`, which stand for a bus without a name, this one; others stay.
+std::string named_local(std::string bus, std::string_view name);
 
 class LocalHub : public Port {
  public:

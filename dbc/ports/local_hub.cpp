@@ -114,6 +114,9 @@ class Hub final : public LocalHub {
   }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
+  [[nodiscard]] Capabilities capabilities() const override {
+    return wire_ ? Capabilities{.reports_errors = true, .wire = wire_->facts()} : Capabilities{};
+  }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 

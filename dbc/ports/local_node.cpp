@@ -23,8 +23,8 @@ using local::Place;
 
 class LocalNode final : public Port {
  public:
-  LocalNode(Descriptor socket, std::string name, bool fd)
-      : socket_(std::move(socket)), name_(std::move(name)), fd_(fd) {}
+  LocalNode(Descriptor socket, std::string name, bool fd, WireFacts wire)
+      : socket_(std::move(socket)), name_(std::move(name)), fd_(fd), wire_(wire) {}
 
   SendOutcome send(const Frame& frame) override {
     if (!can_carry(frame, fd_)) return SendOutcome::refused;
@@ -64,6 +64,9 @@ class LocalNode final : public Port {
   [[nodiscard]] RoomWait room_wait() const override { return {.events = POLLOUT}; }
   [[nodiscard]] bool closed() const override { return closed_; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
+  [[nodiscard]] Capabilities capabilities() const override {
+    return {.reports_errors = wire_.rates.nominal > 0, .wire = wire_};
+  }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 
@@ -71,6 +74,7 @@ class LocalNode final : public Port {
   Descriptor socket_;
   std::string name_;
   bool fd_;
+  WireFacts wire_;  // as the name says: the hub tells nothing of it
   bool closed_ = false;
   PortCounters counters_;
 };
@@ -120,7 +124,7 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   if (::send(socket.get(), &hello, sizeof hello, MSG_NOSIGNAL) < 0) {
     return failure(fmt::format("bus '{}': its host went away while this node joined", bus));
   }
-  return std::make_unique<LocalNode>(std::move(socket), std::string(bus), options.fd);
+  return std::make_unique<LocalNode>(std::move(socket), std::string(bus), options.fd, name->wire.facts());
 }
 
 }  // namespace canhil

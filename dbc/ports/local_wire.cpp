@@ -7,6 +7,17 @@
 #include <cstring>
 
 #include "dbc/ports/frame_rules.hpp"
+#include "dbc/ports/local_bus.hpp"
+
+namespace canhil {
+
+std::string named_local(std::string bus, std::string_view name) {
+  const bool nameless = bus == local_prefix || (is_local(bus) && bus[local_prefix.size()] == '?');
+  if (nameless) bus.insert(local_prefix.size(), name);
+  return bus;
+}
+
+}  // namespace canhil
 
 namespace canhil::local {
 void encode(const Frame& frame, Datagram& datagram) {
@@ -44,8 +55,7 @@ Result<IdSet> id_set(const std::vector<std::uint32_t>& ids) {
 }
 
 Result<BusName> bus_name(std::string_view bus) {
-  constexpr std::string_view prefix = "local:";
-  const std::string_view rest = bus.starts_with(prefix) ? bus.substr(prefix.size()) : std::string_view{};
+  const std::string_view rest = is_local(bus) ? bus.substr(local_prefix.size()) : std::string_view{};
   BusName result{.name = std::string(rest.substr(0, rest.find('?')))};
   const auto allowed = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';

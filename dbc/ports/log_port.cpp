@@ -48,6 +48,7 @@ class LogPort final : public Port {
   [[nodiscard]] RoomWait room_wait() const override { return {}; }
   [[nodiscard]] bool closed() const override { return closed_; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
+  [[nodiscard]] Capabilities capabilities() const override { return {.reports_errors = true}; }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_REALTIME; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 

@@ -55,7 +55,7 @@ bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
 }
 
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options) {
-  if (bus.starts_with("local:")) return join_local_bus(bus, options);
+  if (is_local(bus)) return join_local_bus(bus, options);
   if (bus.starts_with("log:")) return open_log_port(bus, options);
   if (bus.empty() || bus.find_first_of(":/ ") != std::string_view::npos) {
     return failure(

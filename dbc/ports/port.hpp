@@ -11,8 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "dbc/wire/bit_length.hpp"
 #include "dbc/wire/frame.hpp"
 #include "dbc/wire/result.hpp"
+#include "dbc/wire/unrounded.hpp"
 
 namespace canhil {
 
@@ -60,6 +62,29 @@ struct PortOptions {
   int receive_buffer_bytes = 0;  ///< SocketCAN: size of the receive queue; 0: 4 MiB, or what is permitted
 };
 
+/// What is known of a wire: how long a frame takes, and which one a node sends first.
+struct WireFacts {
+  wire::BitRates rates{};     ///< nominal 0: not known, or a frame takes no time
+  bool urgent_first = false;  ///< false: the oldest first, as Linux does
+  bool fd = false;            ///< the contract on CAN FD: messages travel in wire::fd_carriers
+};
+
+/// Whose time passes on a bus.
+enum class BusTime : std::uint8_t {
+  host,  ///< the host's
+  told,  ///< virtual: what Port::tell_time() said last
+  waits  ///< virtual: it passes while somebody waits
+};
+
+/// What a bus can do and what is known of it: asked of its port, never read from its name.
+struct Capabilities {
+  bool reports_errors = false;  ///< of itself: where none was seen there was none
+  bool in_process = false;      ///< the port's other end is the device: nobody else can be there
+  BusTime time = BusTime::host;
+  WireFacts wire{};                             ///< as far as the port knows; of a controller the kernel does
+  Rounding rounding = Rounding::as_on_the_bus;  ///< of the frames that it carries
+};
+
 /// Now on a clock of clock_gettime() [ns].
 std::int64_t clock_ns(int clock);
 
@@ -84,6 +109,7 @@ class Port {
   /// the occasion.
   [[nodiscard]] virtual bool up() const { return true; }
   [[nodiscard]] virtual PortCounters counters() const = 0;
+  [[nodiscard]] virtual Capabilities capabilities() const { return {}; }
   /// The clock of Received::t_ns: CLOCK_REALTIME or CLOCK_MONOTONIC.
   [[nodiscard]] virtual int stamp_clock() const = 0;
   /// Now on that clock [ns].

@@ -60,6 +60,11 @@ class Several final : public Port {
     }
     return sum;
   }
+  /// No wire: each bus has its own.
+  [[nodiscard]] Capabilities capabilities() const override {
+    return {.reports_errors = std::ranges::all_of(
+                ports_, [](const auto& port) { return port->capabilities().reports_errors; })};
+  }
   [[nodiscard]] int stamp_clock() const override { return ports_.front()->stamp_clock(); }
   [[nodiscard]] const std::string& name() const override { return ports_.front()->name(); }
 
@@ -78,6 +83,18 @@ class Several final : public Port {
   Descriptor readable_;
 };
 
+template <class Open>
+Result<std::unique_ptr<Port>> open_each(const std::vector<std::string>& buses, const Open& open,
+                                        PortRoute route) {
+  std::vector<std::unique_ptr<Port>> ports;
+  for (const std::string& bus : buses) {
+    auto opened = open(bus);
+    if (!opened) return opened;
+    ports.push_back(std::move(*opened));
+  }
+  return join_ports(std::move(ports), std::move(route));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Port>> join_ports(std::vector<std::unique_ptr<Port>> ports, PortRoute route) {
@@ -94,14 +111,17 @@ Result<std::unique_ptr<Port>> join_ports(std::vector<std::unique_ptr<Port>> port
 }
 
 Result<std::unique_ptr<Port>> open_buses(const std::vector<std::string>& buses, const PortOptions& options,
+                                         BusFormat format, PortRoute route, const HubRules& rules) {
+  return open_each(
+      buses, [&](const std::string& bus) { return join_or_host(bus, options, format, rules); },
+      std::move(route));
+}
+
+Result<std::unique_ptr<Port>> open_buses(const std::vector<std::string>& buses, const PortOptions& options,
                                          BusFormat format) {
-  std::vector<std::unique_ptr<Port>> ports;
-  for (const std::string& bus : buses) {
-    auto opened = open_bus(bus, options, format);
-    if (!opened) return opened;
-    ports.push_back(std::move(*opened));
-  }
-  return join_ports(std::move(ports), [](const Frame&) { return std::size_t{0}; });
+  return open_each(
+      buses, [&](const std::string& bus) { return open_bus(bus, options, format); },
+      [](const Frame&) { return std::size_t{0}; });
 }
 
 }  // namespace canhil

@@ -19,6 +19,10 @@ using PortRoute = std::function<std::size_t(const Frame&)>;
 /// different clocks (an embedded bus beside SocketCAN).
 Result<std::unique_ptr<Port>> join_ports(std::vector<std::unique_ptr<Port>> ports, PortRoute route);
 
+/// join_or_host() for each name, joined.
+Result<std::unique_ptr<Port>> open_buses(const std::vector<std::string>& buses, const PortOptions& options,
+                                         BusFormat format, PortRoute route, const HubRules& rules);
+
 /// open_bus() for each name, joined; all that is sent goes to the first.
 Result<std::unique_ptr<Port>> open_buses(const std::vector<std::string>& buses, const PortOptions& options,
                                          BusFormat format = BusFormat::classic);

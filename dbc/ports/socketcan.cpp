@@ -152,6 +152,7 @@ class SocketCan final : public Port {
       counters.overflowed = memory[SK_MEMINFO_DROPS];
     return counters;
   }
+  [[nodiscard]] Capabilities capabilities() const override { return {.reports_errors = true}; }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_REALTIME; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 

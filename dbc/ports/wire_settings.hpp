@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "dbc/ports/port.hpp"
 #include "dbc/ports/simulated_wire.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -15,6 +16,10 @@ struct WireSettings {
   QueueOrder order = QueueOrder::fifo;  ///< of every node's queue
   double bit_error_rate = 0;            ///< see BitErrors
   std::uint64_t seed = 1;               ///< of the errors
+
+  [[nodiscard]] WireFacts facts() const {
+    return {.rates = rates, .urgent_first = order == QueueOrder::priority};
+  }
 };
 
 /// Reads what follows the first '?' of a bus's name; without one there is no wire. Error: the line that says

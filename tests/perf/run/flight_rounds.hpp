@@ -61,16 +61,14 @@ inline Result<std::vector<Round>> record_flight(const std::string& file, const s
   scenario->targets.front().algorithm = algorithm;
   const auto truth = run::make_truth(*scenario);
   if (!truth) return tl::unexpected(truth.error());
-  auto own_truth = run::make_own_truth(*scenario, run_index);
-  if (!own_truth) return tl::unexpected(own_truth.error());
-  const auto initial = run::make_initial_states(*scenario, *truth, *own_truth, run_index);
-  if (!initial) return tl::unexpected(initial.error());
+  auto flight = run::make_flight(*scenario, *truth, run_index);
+  if (!flight) return tl::unexpected(flight.error());
 
   RecordingPort port;
   run::Link link(port);
-  run::Schedule schedule = run::make_schedule(*scenario, *truth, *own_truth, run_index, false);
+  run::Schedule schedule = run::make_schedule(*scenario, *truth, flight->own_truth, run_index, false);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
-  auto ready = run::configure(link, schedule.outbox(), scenario->targets, *initial, gone);
+  auto ready = run::configure(link, schedule.outbox(), scenario->targets, flight->initial, gone);
   if (!ready) return tl::unexpected(ready.error());
   while (schedule.due_us() != nodes::never_us) {
     for (const Frame& frame : schedule.take()) port.send(frame);

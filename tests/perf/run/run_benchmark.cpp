@@ -3,7 +3,7 @@
 
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 
 namespace canhil {
 namespace {

@@ -78,7 +78,7 @@ TEST(Series, QuantitiesThatFollowFromOthers) {
 }
 
 TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
-  run::InProcessRun flown{.ending = {}, .seen = {}};
+  run::Collected flown{.ending = {}, .seen = {}};
   world::EngagementRecord record;
   // 100 Hz, 1000 m/s: two answers a sample; errors of 3 and 4 mrad/s in pitch, 1 in yaw.
   for (std::int64_t t_us = 10'000; t_us <= 90'000; t_us += 10'000) {
@@ -149,7 +149,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
 TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   const world::Position start{.latitude = 0.6, .longitude = 2, .height = 5};
   const world::FlightRecord truth({.start = start, .motion = world::Rest{}}, 3'000'000, 20'000);
-  run::InProcessRun flown{.ending = {}, .seen = {}};
+  run::Collected flown{.ending = {}, .seen = {}};
   for (const std::int64_t t_us : {1'000'000, 1'500'000, 2'000'000})
     flown.seen.fix_navigation.push_back(
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});

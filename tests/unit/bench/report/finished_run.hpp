@@ -27,7 +27,7 @@ inline run::Run run_of() {
       .options = {},
       .host = realtime::standing(),
       .wall_s = 2};
-  run.options.bus = "local:x";
+  run.options.bus.text = "local:x";
   checks::Observations& seen = run.seen;
   for (std::int64_t t_us = 10'000; t_us <= 2'000'000; t_us += 10'000) {
     seen.navigation.push_back({.cause_us = t_us, .angles = {.roll = 0.001, .pitch = 0, .heading = 0}});

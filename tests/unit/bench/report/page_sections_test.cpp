@@ -139,7 +139,7 @@ TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
 
 TEST(PageSections, TellInVirtualTimeTooWhatWasNeverAnswered) {
   run::Run run = run_of();
-  run.options.clock = run::ClockKind::lockstep;
+  run.clock = run::ClockKind::lockstep;
   EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("latency AlignVelocityD")));
   run.seen.timing.answers[message_index<messages::AlignVelocityD>()] = {};
   EXPECT_THAT(text(scenario_of(), run), ContainsRegex("latency AlignVelocityD +no answers"));

@@ -75,7 +75,7 @@ TEST(Page, IsTheSameFromTheFileAsFromTheRun) {
 
 TEST(Page, OfVirtualTimeHasNoLatency) {
   run::Run run = run_of();
-  run.options.clock = run::ClockKind::lockstep;
+  run.clock = run::ClockKind::lockstep;
   run.timing_unfit = "virtual time";
   EXPECT_THAT(page_of(run),
               AllOf(HasSubstr("Timing is not judged: virtual time."), Not(HasSubstr("Latency of"))));
@@ -186,7 +186,7 @@ TEST(Provenance, SaysWhatWasTested) {
   EXPECT_EQ(target().dump(), R"({"program":"./hil-target","file_hash":"00000000000000ab","file_bytes":1234,)"
                              R"("file_date":"1970-01-02T00:00:00Z"})");
   EXPECT_THAT(page_of(run), HasSubstr("target: file_hash"));
-  run.options.bus = "in-process";
+  run.in_process = true;
   EXPECT_EQ(target().dump(), R"({"program":"in hil-bench itself"})");
 }
 

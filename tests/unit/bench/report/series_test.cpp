@@ -39,7 +39,7 @@ run::Run run_of() {
                .truth = {{.start = {}, .motion = world::Rest{}}, duration_us, 10'000},
                .options = {},
                .wall_s = 2};
-  run.options.clock = run::ClockKind::lockstep;
+  run.clock = run::ClockKind::lockstep;
   for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
     const double heading = t_us <= 1'000'000 ? 0.2 : 0.001;
     run.seen.navigation.push_back({.cause_us = t_us, .angles = {.roll = 0, .pitch = 0, .heading = heading}});

@@ -25,7 +25,7 @@ TEST(WholeReport, OfARunAndOfVirtualTime) {
   EXPECT_EQ(why([](Json&) {}), "");
   EXPECT_EQ(why_not_whole(document(scenario_of(), run_on_a_wire())), "");
   run::Run run = run_of();
-  run.options.clock = run::ClockKind::lockstep;
+  run.clock = run::ClockKind::lockstep;
   run.timing_unfit = "virtual time";
   EXPECT_EQ(why_not_whole(document(scenario_of(), run)), "");
 }

@@ -6,6 +6,7 @@
 
 #include "bench/checks/wire_bounds.hpp"
 #include "bench/run/contract.hpp"
+#include "bench/run/in_process_port.hpp"
 #include "bench/run/session.hpp"
 #include "bench/schedulability/message_set.hpp"
 #include "dbc/parser/parse.hpp"
@@ -25,11 +26,8 @@ scenario::Scenario scenario_of(const std::string& name) {
 Flown fly(const scenario::Scenario& scenario, const std::string& bus, BusFormat format = BusFormat::classic) {
   static const std::atomic<bool> never = false;
   Options options;
-  options.bus = bus;
+  options.bus = BusName(bus);
   options.format = format;
-  if (const auto wire = wire_settings(bus))
-    options.wire = {.rates = wire->rates, .urgent_first = wire->order == QueueOrder::priority};
-  options.clock = clock_of(bus, false);
   auto flown = canhil::run::run(scenario, options, never, [](std::int64_t) {});
   EXPECT_TRUE(flown) << flown.error().message;
   EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
@@ -74,12 +72,15 @@ void expect_same_estimates(const Flown& a, const Flown& b) {
 constexpr std::string_view at_500k = "in-process?bitrate=500000";
 
 TEST(InProcessWire, WhichBusHasWhichClock) {
-  EXPECT_EQ(clock_of("in-process", false), ClockKind::lockstep);
-  EXPECT_EQ(clock_of(at_500k, false), ClockKind::simulated_wire);
-  EXPECT_EQ(clock_of(at_500k, true), ClockKind::simulated_wire);
-  EXPECT_EQ(clock_of("local:x?bitrate=500000", false), ClockKind::real_time);
-  EXPECT_EQ(clock_of("local:x?bitrate=500000", true), ClockKind::lockstep);
-  EXPECT_FALSE(is_in_process("in-processor"));
+  const InProcessPort without(Rounding::as_on_the_bus);
+  EXPECT_EQ(clock_of(without.capabilities().time, false), ClockKind::lockstep);
+  const InProcessWire wire("x", {.rates = {.nominal = 500'000}}, BusFormat::classic);
+  EXPECT_EQ(clock_of(wire.capabilities().time, false), ClockKind::simulated_wire);
+  EXPECT_EQ(clock_of(wire.capabilities().time, true), ClockKind::simulated_wire);
+  EXPECT_EQ(clock_of(BusTime::host, false), ClockKind::real_time);
+  EXPECT_EQ(clock_of(BusTime::host, true), ClockKind::lockstep);
+  EXPECT_TRUE(BusName(std::string(at_500k)).in_process);
+  EXPECT_FALSE(BusName("in-processor").in_process);
 }
 
 TEST(InProcessWire, TimingIsJudgedAndTheSameEachTime) {
@@ -246,8 +247,7 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
 TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   static const std::atomic<bool> never = false;
   Options options;
-  options.bus = "in-process?bitrate=20000";
-  options.clock = clock_of(options.bus, false);
+  options.bus = BusName("in-process?bitrate=20000");
   const auto run =
       canhil::run::run(scenario_of("transfer_alignment_quick"), options, never, [](std::int64_t) {});
   ASSERT_TRUE(run) << run.error().message;

@@ -8,7 +8,7 @@
 #include "bench/checks/judge.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 
 namespace canhil::run {
 namespace {

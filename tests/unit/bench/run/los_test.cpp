@@ -8,7 +8,7 @@
 #include "bench/checks/los.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 
 namespace canhil::run {
 namespace {
@@ -17,7 +17,7 @@ using checks::Outcome;
 using testing::HasSubstr;
 
 struct Flown {
-  InProcessRun run;
+  Collected run;
   checks::Verdict verdict;
 
   [[nodiscard]] const checks::CheckResult& check(std::string_view name) const {

@@ -408,8 +408,7 @@ TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
 class OnAWire : public Watched {
  protected:
   OnAWire()
-      : monitor_at_rate_(std::vector<checks::TimedWindow>{},
-                         checks::WireFacts{.rates = {.nominal = 1'000'000}}) {}
+      : monitor_at_rate_(std::vector<checks::TimedWindow>{}, WireFacts{.rates = {.nominal = 1'000'000}}) {}
   static std::int64_t ns(const Frame& frame) { return wire::bit_length(frame).nominal * 1000; }
 
   Monitor monitor_at_rate_;

@@ -3,13 +3,13 @@
 
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 
 namespace canhil::run {
 namespace {
 
 // In lockstep, so that the heartbeats of neighbours are the only difference.
-InProcessRun fly(const scenario::Scenario& scenario) {
+Collected fly(const scenario::Scenario& scenario) {
   const auto truth = make_truth(scenario);
   EXPECT_TRUE(truth) << truth.error().message;
   auto flown = run_in_process(scenario, *truth, 0);

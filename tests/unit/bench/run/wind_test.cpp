@@ -8,7 +8,7 @@
 #include "bench/checks/wind.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
-#include "bench/run/in_process.hpp"
+#include "bench/run/session.hpp"
 
 namespace canhil::run {
 namespace {
@@ -114,7 +114,7 @@ TEST(Wind, NavigationThatStaysAwayIsBridged) {
 
 TEST(Wind, AGlideThatEndsBeforeTheRunIsRefused) {
   const scenario::Scenario low = quick({set("glide.height_m", "100"), set("glide.speed_mps", "80")});
-  const auto own = make_own_truth(low, 7);
+  const auto own = make_flight(low, *make_truth(low), 7);
   ASSERT_FALSE(own);
   EXPECT_THAT(own.error().message, HasSubstr("key 'duration_s': the glide of run 7 ends"));
 }
