@@ -103,9 +103,9 @@ TEST(Execute, AScenarioOfWhichNoRunCanBeFlownEndsItWithOneLine) {
 
 TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
   // Some are drawn to fall faster than the 1048 m/s that the bus carries.
-  const auto campaign = parse(two_variants +
-                              "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = "
-                              "9000\nat_most = 0\n[sweep]\n\"initial_error.velocity_sigma_mps\" = [900.0]\n");
+  auto campaign = parse(two_variants +
+                        "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = "
+                        "9000\nat_most = 0\n[sweep]\n\"initial_error.velocity_sigma_mps\" = [900.0]\n");
   ASSERT_TRUE(campaign) << campaign.error().message;
   campaign->runs = 8;
   const auto file = scratch("fast.sqlite");
