@@ -15,8 +15,7 @@ using namespace canhil;
 [[gnu::noinline]] std::size_t one_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                       std::uint64_t index) {
   const auto finished = run::run_in_process(scenario, truth, index);
-  return finished ? campaign::series_of(index, *finished, truth, campaign::family_of(scenario)).samples.size()
-                  : 0;
+  return finished ? campaign::series_of(index, *finished, truth, estimators::of(scenario)).samples.size() : 0;
 }
 
 }  // namespace
