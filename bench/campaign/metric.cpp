@@ -22,6 +22,13 @@ struct Context {
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
+/// Whether campaigns keep a quantity: some of single runs they do not.
+bool is_sampled(const Quantity& quantity) {
+  return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
+    return quantities::tells(one->layout, quantity);
+  });
+}
+
 /// The quantity that `quantity` names, of those that are wanted; none of them: one that is harmless.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
@@ -29,15 +36,20 @@ const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   const auto known = estimators::every_quantity();
   std::vector<std::string> words;
   for (const Quantity* one : known) {
-    const bool sampled = std::ranges::any_of(
-        estimators::all(), [&](const auto* estimator) { return quantities::tells(estimator->layout, *one); });
-    if (sampled && wanted(*one)) words.emplace_back(one->name);
+    if (is_sampled(*one) && wanted(*one)) words.emplace_back(one->name);
   }
   if (section.has(key)) {
     const std::string word = section.text(key);
     const auto once = std::ranges::find(known, std::string_view(word), &Quantity::once);
-    if (!word.empty() && once != known.end())
+    const auto named = std::ranges::find(known, std::string_view(word), &Quantity::name);
+    const std::string others = fmt::format("one of: {}", fmt::join(words, ", "));
+    if (named != known.end() && !is_sampled(**named)) {
+      section.reject(key, fmt::format("'{}' is of single runs, which campaigns do not keep", word), others);
+    } else if (named != known.end() && !wanted(**named)) {
+      section.reject(key, fmt::format("'{}' is none that this kind asks for", word), others);
+    } else if (!word.empty() && once != known.end()) {
       section.reject(key, fmt::format("'{}' is a name of before", word), fmt::format("'{}'", (*once)->name));
+    }
   }
   const std::string word = section.one_of(key, words);
   const auto found = std::ranges::find(known, std::string_view(word), &Quantity::name);
