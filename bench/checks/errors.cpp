@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace canhil::checks {
 namespace {
@@ -12,8 +11,7 @@ namespace {
 using scenario::Aligner;
 using world::Matrix3;
 using world::Vector3;
-
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+using world::wrapped;
 
 }  // namespace
 

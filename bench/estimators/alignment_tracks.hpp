@@ -1,10 +1,9 @@
-// The tracks that estimators of attitude and velocity have in common.
+// What estimators of attitude and velocity have in common: what follows from their samples, and their tracks.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,9 +13,17 @@
 #include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/quantities/list.hpp"
+#include "bench/quantities/samples.hpp"
 #include "bench/quantities/track.hpp"
 
 namespace canhil::estimators {
+
+/// The error of the heading over the sigma that the target tells.
+inline double heading_over_its_sigma(const quantities::Samples& samples, std::size_t place) {
+  return samples.value(place, quantities::attitude_heading) / samples.value(place, quantities::heading_sigma);
+}
+inline constexpr std::array alignment_derived{
+    quantities::Derived{.quantity = &quantities::heading_over_sigma, .of = heading_over_its_sigma}};
 
 /// What is particular of one of them.
 struct AlignmentWords {
@@ -157,7 +164,7 @@ class AlignmentTracks {
         track,
         [&](const checks::NavigationError& e) {
           const double now = answer_of(e).angles.heading - e.angles.heading;
-          truth += std::remainder(now - truth, 2 * std::numbers::pi);
+          truth += world::wrapped(now - truth);
           return quantities::Told{
               .value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
         },

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/checks/bus_load.hpp"
 #include "bench/checks/timing_record.hpp"
 #include "bench/report/markup.hpp"
 #include "bench/report/page_parts.hpp"
@@ -128,10 +129,9 @@ std::string split_table(const Json& report) {
 std::string wire_table(const Json& report) {
   if (!report.contains("wire")) return "";
   const Json& wire = report.at("wire");
-  const double data_bitrate = wire.value("data_bitrate_bitps", 0.0);
-  std::string out = fmt::format("<h3>Over the bus at {:g}{} kbit/s, beside the bound</h3>\n",
-                                wire.at("bitrate_bitps").get<double>() / 1e3,
-                                data_bitrate > 0 ? fmt::format(" and {:g}", data_bitrate / 1e3) : "");
+  const canhil::wire::BitRates rates{.nominal = wire.at("bitrate_bitps").get<std::int64_t>(),
+                                     .data = wire.value("data_bitrate_bitps", std::int64_t{0})};
+  std::string out = fmt::format("<h3>Over the bus at {}, beside the bound</h3>\n", checks::words(rates));
   if (const std::string why = text_in(wire.at("no_bounds")); !why.empty())
     out += fmt::format("<p class=\"unknown\">? Bounds do not hold in this run: {}.</p>\n", why);
   std::vector<std::vector<std::string>> rows;

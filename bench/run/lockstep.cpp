@@ -39,7 +39,9 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
   StepWatch watch;
   const Attached attached(link, watch);
   SecondTarget second;
-  const Attached second_attached(link, second);
+  // With the device at the port's other end nobody else can be there: a campaign need not look for him.
+  std::optional<Attached> second_attached;
+  if (!link.port().capabilities().in_process) second_attached.emplace(link, second);
   std::int64_t progress_due_us = 0;
   std::int64_t t_us = 0;
   constexpr std::int64_t progress_period_us = 1'000'000;

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "bench/nodes/node.hpp"
+#include "bench/run/link.hpp"
 
 namespace canhil::run {
 
 /// The nodes of a bus in order of precedence: of those due at the same time the earlier one transmits first.
-class Schedule {
+class Schedule final : public Observer {
  public:
   /// `keeper` closes every step, so it comes last among equals.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
@@ -37,9 +38,10 @@ class Schedule {
     return out_.frames();
   }
 
-  /// Lets the nodes that listen hear a frame of the bus.
-  void hear(const Frame& frame) {
-    for (nodes::Node* node : listeners_) node->hear(frame);
+  /// The nodes that listen hear every frame of somebody else.
+  void received(const Received& received) override {
+    if (received.own || received.frame.error) return;
+    for (nodes::Node* node : listeners_) node->hear(received.frame);
   }
 
   /// Counters of the bench's own messages live in the same outbox.

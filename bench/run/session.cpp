@@ -40,18 +40,6 @@ Monitor monitor_of(const scenario::Scenario& scenario, const Options& options, W
   return Monitor(checks::timed_windows(scenario.checks), wire);
 }
 
-// Hands every frame of somebody else to the nodes that listen.
-class Ears final : public Observer {
- public:
-  explicit Ears(Schedule& schedule) : schedule_(schedule) {}
-  void received(const Received& received) override {
-    if (!received.own && !received.frame.error) schedule_.hear(received.frame);
-  }
-
- private:
-  Schedule& schedule_;
-};
-
 // One run, stage by stage: open, configure, drive, collect.
 class Session {
  public:
@@ -115,8 +103,7 @@ class Session {
       load_watched.emplace(link_, load_);
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
     }
-    Ears ears(schedule_);
-    const Attached listening(link_, ears);
+    const Attached listening(link_, schedule_);
     if (options_.realtime && target_)
       static_cast<void>(realtime::own_memory_again());  // permitted: it entered
     ending_ = clock_ == ClockKind::lockstep

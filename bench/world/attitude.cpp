@@ -3,8 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace canhil::world {
+
+double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 Matrix3 C_bn_from(const Euler& angles) {
   using Eigen::AngleAxisd;

@@ -16,6 +16,9 @@ struct Euler {
   double heading = 0;
 };
 
+/// The same angle from -pi to pi; one that lies there already keeps its bits.
+double wrapped(double angle);
+
 /// C_bn of Euler angles. Groves (2013), eq. (2.22), transposed.
 Matrix3 C_bn_from(const Euler& angles);
 

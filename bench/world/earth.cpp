@@ -3,8 +3,8 @@
 #include <GeographicLib/Constants.hpp>
 #include <GeographicLib/NormalGravity.hpp>
 #include <cmath>
-#include <numbers>
 
+#include "bench/world/attitude.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::world {
@@ -22,9 +22,6 @@ double radius_divisor(double latitude) {
   const double s = std::sin(latitude);
   return 1.0 - e2() * s * s;
 }
-
-// The same angle from -pi to pi; one that lies there already keeps its bits.
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
 
 }  // namespace
 

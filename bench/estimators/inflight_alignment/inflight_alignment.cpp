@@ -25,11 +25,6 @@ constexpr std::array<const Quantity*, 15> kept{
     &attitude_heading,   &velocity_north,    &velocity_east,     &velocity_down, &innovation_nis,
     &position_north,     &position_east,     &position_down,     &heading_sigma, &covariance_repairs};
 
-double over_sigma(const Samples& samples, std::size_t place) {
-  return samples.value(place, attitude_heading) / samples.value(place, heading_sigma);
-}
-constexpr std::array derived{Derived{.quantity = &heading_over_sigma, .of = over_sigma}};
-
 constexpr std::array<const Quantity*, 6> of_runs_alone{&velocity_norm,
                                                        &position_horizontal,
                                                        &position_norm,
@@ -37,7 +32,7 @@ constexpr std::array<const Quantity*, 6> of_runs_alone{&velocity_norm,
                                                        &position_innovation_east,
                                                        &position_innovation_down};
 
-constexpr Layout layout{.kept = kept, .derived = derived, .answers_untold = true};
+constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);

@@ -20,15 +20,10 @@ constexpr std::array<const Quantity*, 12> kept{&misalignment_north, &misalignmen
                                                &velocity_north,     &velocity_east,     &velocity_down,
                                                &attitude_nees,      &innovation_nis,    &heading_sigma};
 
-double over_sigma(const Samples& samples, std::size_t place) {
-  return samples.value(place, attitude_heading) / samples.value(place, heading_sigma);
-}
-constexpr std::array derived{Derived{.quantity = &heading_over_sigma, .of = over_sigma}};
-
 constexpr std::array<const Quantity*, 4> of_runs_alone{&velocity_norm, &velocity_innovation_north,
                                                        &velocity_innovation_east, &velocity_innovation_down};
 
-constexpr Layout layout{.kept = kept, .derived = derived, .answers_untold = true};
+constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
