@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "bench/checks/read_quantity.hpp"
 #include "bench/scenario/rule.hpp"
 #include "bench/world/units.hpp"
 
@@ -29,31 +30,15 @@ bool is_sampled(const Quantity& quantity) {
   });
 }
 
-/// The quantity that `quantity` names, of those that are wanted; none of them: one that is harmless.
+/// The quantity that `quantity` names, of those that campaigns keep and that are wanted.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
-  constexpr std::string_view key = "quantity";
-  const auto known = estimators::every_quantity();
-  std::vector<std::string> words;
-  for (const Quantity* one : known) {
-    if (is_sampled(*one) && wanted(*one)) words.emplace_back(one->name);
-  }
-  if (section.has(key)) {
-    const std::string word = section.text(key);
-    const auto once = std::ranges::find(known, std::string_view(word), &Quantity::once);
-    const auto named = std::ranges::find(known, std::string_view(word), &Quantity::name);
-    const std::string others = fmt::format("one of: {}", fmt::join(words, ", "));
-    if (named != known.end() && !is_sampled(**named)) {
-      section.reject(key, fmt::format("'{}' is of single runs, which campaigns do not keep", word), others);
-    } else if (named != known.end() && !wanted(**named)) {
-      section.reject(key, fmt::format("'{}' is none that this kind asks for", word), others);
-    } else if (!word.empty() && once != known.end()) {
-      section.reject(key, fmt::format("'{}' is a name of before", word), fmt::format("'{}'", (*once)->name));
-    }
-  }
-  const std::string word = section.one_of(key, words);
-  const auto found = std::ranges::find(known, std::string_view(word), &Quantity::name);
-  return found == known.end() ? known.front() : *found;
+  return checks::read_quantity(section, estimators::every_quantity(),
+                               [&](const Quantity& one) -> std::string {
+                                 if (!is_sampled(one))
+                                   return "is of single runs, which campaigns do not keep";
+                                 return wanted(one) ? "" : "is none that this kind asks for";
+                               });
 }
 
 const Quantity* read_error(Section& section) {

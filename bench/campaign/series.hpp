@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "bench/estimators/estimator.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/quantities/list.hpp"
 #include "bench/quantities/samples.hpp"
 #include "bench/run/session.hpp"

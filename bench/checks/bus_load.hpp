@@ -4,13 +4,12 @@
 #include <span>
 #include <string>
 
-#include "bench/checks/finding.hpp"
 #include "bench/checks/observations.hpp"
 
 namespace canhil::checks {
 
 /// Shares of the time for which the bus is busy: 1 is a full bus.
-struct BusLoad {
+struct Load {
   double mean = 0;
   double busiest = 0;  ///< of a second
 };
@@ -20,12 +19,9 @@ struct BusLoad {
 std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 
 /// Of the whole run at a bit rate [bit/s], in its whole_seconds().
-BusLoad bus_load(const Observations& seen, wire::BitRates rates);
+Load bus_load(const Observations& seen, wire::BitRates rates);
 
 /// "500 kbit/s", "500 and 2000 kbit/s".
 std::string words(const wire::BitRates& rates);
-
-/// On the bus that the rule is about, and on the run's own where that is faster or slower.
-Finding judge(const scenario::BusLoad& rule, const Observations& seen);
 
 }  // namespace canhil::checks

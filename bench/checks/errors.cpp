@@ -8,14 +8,13 @@
 namespace canhil::checks {
 namespace {
 
-using scenario::Aligner;
 using world::Matrix3;
 using world::Vector3;
 using world::wrapped;
 
 }  // namespace
 
-const std::vector<NavigationAnswer>& navigation_of(const Observations& seen, scenario::Aligner aligner) {
+const std::vector<NavigationAnswer>& navigation_of(const Observations& seen, Aligner aligner) {
   return aligner == Aligner::inflight_alignment ? seen.fix_navigation : seen.navigation;
 }
 

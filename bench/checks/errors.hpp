@@ -11,6 +11,9 @@
 
 namespace canhil::checks {
 
+/// The estimators of attitude and velocity.
+enum class Aligner : std::uint8_t { transfer_alignment, inflight_alignment };
+
 /// The errors (estimated - true) of one navigation answer, at the time of validity of its cause.
 struct NavigationError {
   std::int64_t t_us = 0;
@@ -20,7 +23,7 @@ struct NavigationError {
 };
 
 /// What an estimator said of attitude and velocity.
-const std::vector<NavigationAnswer>& navigation_of(const Observations& seen, scenario::Aligner aligner);
+const std::vector<NavigationAnswer>& navigation_of(const Observations& seen, Aligner aligner);
 
 /// Errors of all navigation answers whose cause lies within the truth.
 std::vector<NavigationError> navigation_errors(const std::vector<NavigationAnswer>& answers,
@@ -38,7 +41,7 @@ const NavigationError* first_after(const std::vector<NavigationError>& errors, s
                                    std::int64_t navigation_us);
 
 /// NIS (3 degrees of freedom) of each update: of velocity updates, or of the fixes that the filter used.
-std::vector<Normalised> nis(const Observations& seen, scenario::Aligner aligner);
+std::vector<Normalised> nis(const Observations& seen, Aligner aligner);
 
 /// error' P^-1 error, with P from the sigmas and correlations (north-east, north-down, east-down) that the
 /// bus carries. Infinite: P is not positive definite, as rounding may leave it, and explains no error at all.
@@ -49,7 +52,7 @@ std::vector<Normalised> attitude_nees(const Observations& seen, const std::vecto
 
 /// (error / sigma)^2 of the heading (1 degree of freedom) after each update, with the error from
 /// first_after().
-std::vector<Normalised> heading_nees(const Observations& seen, scenario::Aligner aligner,
+std::vector<Normalised> heading_nees(const Observations& seen, Aligner aligner,
                                      const std::vector<NavigationError>& errors);
 
 /// The error (estimated - true) of one position, at the time of validity of its fix.

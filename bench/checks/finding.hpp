@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "bench/checks/observations.hpp"
 #include "bench/checks/verdict.hpp"
 #include "bench/scenario/checks.hpp"
 

@@ -32,4 +32,23 @@ std::string unfit_for_timing(const Observations& seen) {
   return "";
 }
 
+std::string seconds(const scenario::Window& window) {
+  return fmt::format("from {:g} to {:g} s", static_cast<double>(window.from_us) * 1e-6,
+                     static_cast<double>(window.to_us) * 1e-6);
+}
+
+std::string quantile_name(double quantile) {
+  return quantile >= 1 ? "max" : fmt::format("{:g} % quantile", quantile * 100);
+}
+
+std::string unfit(const Evidence& evidence, double quantile, double bar_s) {
+  if (!evidence.timing_unfit.empty()) return evidence.timing_unfit;
+  const Histogram& lateness = evidence.seen.timing.lateness;
+  if (lateness.count() == 0) return "the bench sent nothing";
+  const double late_s = lateness.quantile_ns(quantile) * 1e-9;
+  if (late_s <= lateness_share * bar_s) return "";
+  return fmt::format("this host kept the bench itself {:.2f} ms late ({}), more than {:g} % of the bar",
+                     late_s * 1e3, quantile_name(quantile), lateness_share * 100);
+}
+
 }  // namespace canhil::checks

@@ -1,30 +1,26 @@
 // The checks of a scenario against what was seen.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
-#include "bench/checks/errors.hpp"
-#include "bench/checks/observations.hpp"
+#include "bench/checks/evidence.hpp"
 #include "bench/checks/verdict.hpp"
 #include "bench/scenario/scenario.hpp"
-#include "bench/world/engagement/engagement.hpp"
-#include "bench/world/glide/glide.hpp"
 
 namespace canhil::checks {
 
-/// What the judge may look at.
-struct Evidence {
-  const Observations& seen;
-  const world::FlightRecord& truth;
-  const world::GlideRecord* glide = nullptr;            ///< null: not in the scenario
-  const world::EngagementRecord* engagement = nullptr;  ///< null: not in the scenario
-  std::int64_t duration_us = 0;
-  std::string ended_early;   ///< why the run did not come to its end; empty: it did
-  std::string timing_unfit;  ///< why timing cannot be judged; empty: it can
-};
-
 /// Judges every check of the scenario. A run that ended early fails, whatever its checks say.
-Verdict judge(const scenario::Scenario& scenario, const Evidence& evidence);
+Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
+
+/// The windows, each once, for which the checks ask for the timing of a message: empty, to be filled.
+std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks);
+
+/// Every kind of check that a scenario may have: those of this folder and the estimators' own.
+std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators);
+/// Those of before, each with what is written in its place now.
+std::span<const scenario::FormerCheckKind> former_kinds();
 
 /// Why no timing of this run can be judged: frames of the target were lost on the way. Empty: it can, as far
 /// as the bench kept its own deadlines, which each check asks by its bar.

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "bench/checks/errors.hpp"
-#include "bench/checks/finding.hpp"
 #include "bench/world/engagement/engagement.hpp"
 
 namespace canhil::checks {
@@ -23,14 +22,8 @@ std::vector<LosError> los_errors(const Observations& seen, const world::Engageme
 /// NIS (2 degrees of freedom) of each answer that was an update.
 std::vector<Normalised> los_nis(const Observations& seen);
 
-/// Root of the mean square, over one plane or both, of the errors with time to go in [least, most); none: no
-/// errors there.
-std::optional<double> los_rms(const std::vector<LosError>& errors, double least, double most,
-                              scenario::LosPlane plane = scenario::LosPlane::both);
-
-/// Judges; `engagement` may be null, which fails.
-Finding judge(const scenario::LosRateError& rule, const Observations& seen,
-              const world::EngagementRecord* engagement);
-Finding judge(const scenario::MissDistance& rule, const world::EngagementRecord* engagement);
+/// Root of the mean square, over both planes, of the errors with time to go in [least, most); none: no errors
+/// there.
+std::optional<double> los_rms(const std::vector<LosError>& errors, double least, double most);
 
 }  // namespace canhil::checks

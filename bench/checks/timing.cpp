@@ -66,23 +66,6 @@ Distribution distribution_s(const Histogram& histogram) {
           .max = static_cast<double>(histogram.max_ns()) * 1e-9};
 }
 
-std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks) {
-  TimingRecord timing;
-  for (const scenario::Check& check : checks) {
-    const auto add = [&](const std::string& message, const scenario::Window& window) {
-      const MessageInfo* info = info_of(message);
-      if (info == nullptr || find_window(timing, message, window) != nullptr) return;
-      timing.windows.push_back(
-          {.message = static_cast<std::size_t>(info - messages::all_messages.data()), .window = window});
-    };
-    if (const auto* latency = std::get_if<scenario::Latency>(&check.rule))
-      add(latency->message, latency->window);
-    if (const auto* period = std::get_if<scenario::OutputPeriod>(&check.rule))
-      add(period->message, period->window);
-  }
-  return std::move(timing.windows);
-}
-
 const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
                                const scenario::Window& window) {
   const auto found = std::ranges::find_if(timing.windows, [&](const TimedWindow& timed) {

@@ -28,8 +28,6 @@ Distribution distribution_s(const Histogram& histogram);
 /// Nearest-rank quantile, 0 < q <= 1, of a non-empty sample.
 double quantile(std::vector<double> sample, double q);
 
-/// The windows, each once, for which the checks ask for the timing of a message: empty, to be filled.
-std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks);
 /// The timing of a message within a window; null: none was taken.
 const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
                                const scenario::Window& window);

@@ -1,11 +1,9 @@
 // Wind estimates against a glider's truth.
 #pragma once
 
-#include <string_view>
 #include <vector>
 
 #include "bench/checks/errors.hpp"
-#include "bench/checks/finding.hpp"
 #include "bench/world/glide/glide.hpp"
 
 namespace canhil::checks {
@@ -20,9 +18,6 @@ struct WindError {
   double cross_track = 0;                           ///< to the right [m/s]
 };
 
-/// A component of an error [m/s]; the norm is of all three.
-double component(const WindError& error, scenario::WindAxis axis);
-
 /// Errors of all answers of a running filter whose cause lies within the record.
 std::vector<WindError> wind_errors(const Observations& seen, const world::GlideRecord& glide);
 
@@ -30,12 +25,5 @@ std::vector<WindError> wind_errors(const Observations& seen, const world::GlideR
 std::vector<Normalised> wind_nis(const Observations& seen);
 /// NEES of the wind (3 degrees of freedom), with the covariance that the bus carries.
 std::vector<Normalised> wind_nees(const Observations& seen, const world::GlideRecord& glide);
-
-/// How many answers of a window had a flag, by the name it has in a check.
-std::int64_t count_flag(const Observations& seen, const scenario::Window& window, std::string_view flag);
-
-/// `glide`: null if the scenario has none, which its reader refuses.
-Finding judge(const scenario::WindError& rule, const Observations& seen, const world::GlideRecord* glide);
-Finding judge(const scenario::WindAnswers& rule, const Observations& seen);
 
 }  // namespace canhil::checks

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/checks/finding.hpp"
 #include "bench/checks/observations.hpp"
 
 namespace canhil::checks {
@@ -29,7 +28,5 @@ std::vector<WireBound> wire_bounds(const Observations& seen);
 
 /// Why bounds mean nothing in this run; empty: they do.
 std::string no_bounds(const Observations& seen);
-
-Finding judge(const scenario::WireResponse& rule, const Observations& seen);
 
 }  // namespace canhil::checks

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "bench/checks/errors.hpp"
 #include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/estimators/marks.hpp"
 #include "bench/quantities/list.hpp"
 #include "bench/quantities/samples.hpp"
 #include "bench/quantities/track.hpp"
@@ -32,16 +34,25 @@ struct AlignmentWords {
   std::array<const quantities::Quantity*, 3> innovation{};  ///< north, east, down
 };
 
-/// Gives attitude, velocity, innovations and NIS. `answers`: of the filter, with cause_us, velocity_sigma and
-/// innovation; `misalignment_sigma(answer, axis)` [rad]; `filter_wait_us`: from one to the next that is no
-/// silence.
+/// A normalised error squared after each update.
+struct AlignmentStatistic {
+  const quantities::Quantity* quantity = nullptr;
+  std::string_view title{};
+  std::vector<checks::Normalised> series{};
+  bool only_if_judged = false;
+};
+
+/// Gives attitude, velocity, innovations and normalised errors. `answers`: of the filter, with cause_us,
+/// velocity_sigma and innovation; `misalignment_sigma(answer, axis)` [rad]; `filter_wait_us`: from one to the
+/// next that is no silence; `unanswered`: of its tracks, see quantities::Track.
 template <class Answers, class MisalignmentSigma>
 class AlignmentTracks {
  public:
   AlignmentTracks(const AlignmentWords& words, const checks::Observations& seen,
                   const std::vector<checks::NavigationAnswer>& navigation, const world::FlightRecord& flight,
                   std::int64_t duration_us, const Answers& answers, double filter_wait_us,
-                  MisalignmentSigma misalignment_sigma)
+                  MisalignmentSigma misalignment_sigma,
+                  std::function<std::string(std::int64_t, std::int64_t)> unanswered = {})
       : words_(words),
         navigation_(navigation),
         errors_(checks::navigation_errors(navigation, flight)),
@@ -50,9 +61,12 @@ class AlignmentTracks {
         navigation_wait_us_(
             checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, words.navigation_closes))),
         filter_wait_us_(filter_wait_us),
-        misalignment_sigma_(misalignment_sigma) {}
+        misalignment_sigma_(misalignment_sigma),
+        unanswered_(std::move(unanswered)) {}
 
-  void give(const quantities::TrackSink& give, const std::vector<checks::Normalised>& nis) const {
+  [[nodiscard]] const std::vector<checks::NavigationError>& errors() const { return errors_; }
+
+  void give(const quantities::TrackSink& give, const std::vector<AlignmentStatistic>& statistics) const {
     using namespace quantities;
     using checks::NavigationError;
     give(heading());
@@ -93,9 +107,13 @@ class AlignmentTracks {
       for (const auto& a : answers_) track.told.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
       give(std::move(track));
     }
-    Track statistic = of_filter(innovation_nis, Track::Kind::statistic, "normalised innovation squared");
-    for (const checks::Normalised& n : nis) statistic.told.push_back({.t_us = n.t_us, .value = n.value});
-    give(std::move(statistic));
+    for (const AlignmentStatistic& one : statistics) {
+      Track statistic = of_filter(*one.quantity, Track::Kind::statistic, std::string(one.title));
+      statistic.only_if_judged = one.only_if_judged;
+      for (const checks::Normalised& n : one.series)
+        statistic.told.push_back({.t_us = n.t_us, .value = n.value});
+      give(std::move(statistic));
+    }
   }
 
  private:
@@ -115,6 +133,7 @@ class AlignmentTracks {
     quantities::Track track = of(quantity, quantity.unit, std::move(title));
     track.kind = kind;
     track.longest_wait_us = filter_wait_us_;
+    track.unanswered = unanswered_;
     return track;
   }
 
@@ -180,6 +199,7 @@ class AlignmentTracks {
   double navigation_wait_us_;
   double filter_wait_us_;
   MisalignmentSigma misalignment_sigma_;
+  std::function<std::string(std::int64_t, std::int64_t)> unanswered_;  // of the filter: see Track
 };
 
 }  // namespace canhil::estimators

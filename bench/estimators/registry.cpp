@@ -3,12 +3,13 @@
 #include <array>
 #include <vector>
 
-#include "bench/estimators/estimator.hpp"
 #include "bench/estimators/inflight_alignment/inflight_alignment.hpp"
 #include "bench/estimators/los_rate/los_rate.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
 #include "bench/estimators/wind/wind.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::estimators {
 namespace {
@@ -24,14 +25,21 @@ constexpr std::array<const Estimator*, 4> registered{
 
 std::span<const Estimator* const> all() { return registered; }
 
-const Estimator* find(std::string_view name) {
-  const auto found = std::ranges::find(registered, name, [](const Estimator* one) { return one->name; });
-  return found == registered.end() ? nullptr : *found;
-}
+const Estimator* find(std::string_view name) { return find(registered, name); }
 
 const Estimator* telling(std::string_view columns) {
   const auto found = std::ranges::find_if(
       registered, [&](const Estimator* one) { return quantities::names(one->layout) == columns; });
+  return found == registered.end() ? nullptr : *found;
+}
+
+const Estimator* sending(const MessageInfo& message) {
+  const auto of_its_group = [&](std::string_view closing) {
+    const MessageInfo& last = *std::ranges::find(messages::all_messages, closing, &MessageInfo::name);
+    return last.sample_group.empty() ? last.name == message.name : last.sample_group == message.sample_group;
+  };
+  const auto found = std::ranges::find_if(
+      registered, [&](const Estimator* one) { return std::ranges::any_of(one->closing, of_its_group); });
   return found == registered.end() ? nullptr : *found;
 }
 
@@ -44,18 +52,7 @@ const Estimator& of(const scenario::Scenario& scenario) {
 }
 
 std::span<const quantities::Quantity* const> every_quantity() {
-  static const std::vector<const quantities::Quantity*> each = [] {
-    std::vector<const quantities::Quantity*> found;
-    const auto add = [&](const quantities::Quantity* quantity) {
-      if (std::ranges::find(found, quantity) == found.end()) found.push_back(quantity);
-    };
-    for (const Estimator* one : registered) {
-      for (const quantities::Quantity* kept : one->layout.kept) add(kept);
-      for (const quantities::Derived& derived : one->layout.derived) add(derived.quantity);
-      for (const quantities::Quantity* quantity : one->of_runs_alone) add(quantity);
-    }
-    return found;
-  }();
+  static const std::vector<const quantities::Quantity*> each = quantities_of(registered);
   return each;
 }
 

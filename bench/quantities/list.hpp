@@ -41,6 +41,15 @@ inline constexpr Quantity heading_over_sigma{
     .unit = plain,
     .once = "heading_over_sigma"};
 
+/// After each update, of the first navigation answer that knew of it.
+inline constexpr Quantity heading_nees{
+    .name = "attitude.heading.nees",
+    .meaning = "error of the heading over the sigma that the target tells, squared",
+    .unit = plain,
+    .degrees_of_freedom = 1,
+    .may_be_untold = true,
+    .once = "heading_nees"};
+
 /// Velocity of the body over the earth, NED.
 inline constexpr Quantity velocity_north{
     .name = "velocity.north", .meaning = "error of the velocity north", .unit = mps, .once = "v_north"};
@@ -55,6 +64,7 @@ inline constexpr Quantity innovation_nis{
     .meaning = "normalised innovation squared of a velocity or a position",
     .unit = plain,
     .degrees_of_freedom = 3,
+    .white = true,
     .may_be_untold = true,
     .once = "nis"};
 

@@ -27,14 +27,24 @@ struct Track {
 
   const Quantity* quantity = nullptr;
   Kind kind = Kind::error;
-  Unit unit{};                      ///< that pictures have
-  std::string title{};              ///< of a picture of the values: "attitude error about north"
-  std::string estimate_title{};     ///< of a picture of estimate and truth; empty: none is drawn
-  Unit estimate_unit{};             ///< that this picture has
-  bool only_if_judged = false;      ///< the values are of no interest without a bar
-  std::vector<Told> told{};         ///< in order of time
+  Unit unit{};                   ///< that pictures have
+  std::string title{};           ///< of a picture of the values: "attitude error about north"
+  std::string estimate_title{};  ///< of a picture of estimate and truth; empty: none is drawn
+  Unit estimate_unit{};          ///< that this picture has
+  bool only_if_judged = false;   ///< the values are of no interest without a bar
+  std::vector<Told> told{};      ///< in order of time
+  /// Where answers that were owed are missing from one time to another, ends included [us], in words; empty:
+  /// nowhere. Not set: wherever one waits longer than longest_wait_us.
+  std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
   double longest_wait_us = 0;       ///< from one to the next that is no silence
   std::int64_t answers_end_us = 0;  ///< after which nobody answers
+  /// When the flight had which time to go, sample by sample of what the answers are to; empty: it goes to no
+  /// end.
+  struct ToGo {
+    std::int64_t t_us = 0;
+    double to_go_s = 0;
+  };
+  std::vector<ToGo> to_go{};
   /// Values after it are beyond any picture.
   std::int64_t drawn_until_us = std::numeric_limits<std::int64_t>::max();
 };

@@ -23,56 +23,19 @@ double rounded(double value, int digits = 5) {
   return std::round(value / unit) * unit;
 }
 
-Json object(const EngagementSummary& engagement) {
-  Json json{{"miss_m", engagement.miss_m ? Json(*engagement.miss_m) : Json(nullptr)},
-            {"passage_s", engagement.passage_s},
-            {"late_commands", engagement.late_commands}};
-  for (const LosRms& window : engagement.rms) {
-    json["los_rate_rms"].push_back(
-        {{"most_to_go_s", window.most_to_go_s},
-         {"least_to_go_s", window.least_to_go_s},
-         {"rms_radps", window.rms_radps ? Json(*window.rms_radps) : Json(nullptr)}});
-  }
-  for (const auto& [outcome, count] : engagement.outcomes) json["outcomes"][outcome] = count;
-  return json;
-}
-
-Json object(const WindSummary& wind) {
-  const auto or_null = [](const std::optional<double>& value) {
-    return value ? Json(*value) : Json(nullptr);
-  };
-  Json json{{"from_s", wind.from_s},
-            {"mean_error_mps",
-             {{"norm", or_null(wind.norm_mps)},
-              {"along_track", or_null(wind.along_mps)},
-              {"cross_track", or_null(wind.cross_mps)},
-              {"down", or_null(wind.down_mps)}}},
-            {"along_track_sigma_mps", wind.along_sigma_mps}};
-  for (const auto& [name, count] : wind.outcomes) json["outcomes"][name] = count;
-  return json;
-}
-
-Json object(const AlignmentSummary& summary) {
-  Json json{{"estimator", name(summary.estimator)},
-            {"angle_unit", angle_unit(summary.estimator).name},
-            {"heading_convergence", Json::array()}};
-  for (const BandEntry& entry : summary.heading_entries) {
-    json["heading_convergence"].push_back({{"within_mrad", entry.within_rad / world::units::mrad},
-                                           {"t_s", entry.t_s ? Json(*entry.t_s) : Json(nullptr)}});
-  }
-  if (summary.final_error_rad) {
-    json["final_error"] = {{"roll_rad", summary.final_error_rad->roll},
-                           {"pitch_rad", summary.final_error_rad->pitch},
-                           {"heading_rad", summary.final_error_rad->heading},
-                           {"velocity_mps", summary.final_velocity_error_mps}};
-  }
-  if (summary.fixes) {
-    json["fixes"] = {{"repairs", summary.fixes->repairs}};
-    if (summary.fixes->hands_over)
-      json["fixes"]["resolved_s"] =
-          summary.fixes->resolved_s ? Json(*summary.fixes->resolved_s) : Json(nullptr);
-    json["fixes"]["heading_sigma_rad"] = summary.fixes->heading_sigma_rad;
-    for (const auto& [outcome, count] : summary.fixes->outcomes) json["fixes"]["outcomes"][outcome] = count;
+Json object(const std::vector<estimators::ResultLine>& lines) {
+  Json json = Json::object();
+  for (const estimators::ResultLine& line : lines) {
+    Json figures = Json::object();
+    for (const estimators::Figure& figure : line.figures) {
+      const auto count = static_cast<std::int64_t>(figure.value.value_or(0.5));
+      const bool whole = figure.value && static_cast<double>(count) == *figure.value;
+      figures[figure.name] = {{"value", !figure.value ? Json(nullptr)
+                                        : whole       ? Json(count)
+                                                      : Json(*figure.value)},
+                              {"words", figure.words}};
+    }
+    json[line.name] = {{"what", line.what}, {"figures", std::move(figures)}};
   }
   return json;
 }
@@ -137,9 +100,9 @@ constexpr std::string_view kind_name(Series::Kind kind) {
 }
 
 Json object(const Series& series) {
-  Json json{{"estimator", series.estimator},  {"quantity", series.quantity}, {"unit", series.unit},
-            {"kind", kind_name(series.kind)}, {"t_s", Json::array()},        {"low", Json::array()},
-            {"high", Json::array()}};
+  Json json{{"estimator", series.estimator}, {"name", series.about->name},     {"quantity", series.quantity},
+            {"unit", series.unit},           {"kind", kind_name(series.kind)}, {"t_s", Json::array()},
+            {"low", Json::array()},          {"high", Json::array()}};
   // An estimate is looked at beside a truth that differs in its last digits.
   const int digits = series.kind == Series::Kind::estimate ? 8 : 5;
   const auto or_null = [&](const std::optional<double>& value) {
@@ -265,10 +228,8 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
                               {"measured", check.measured},
                               {"expected", check.expected}});
   }
-  for (const AlignmentSummary& alignment : summary.alignments)
-    page["alignments"].push_back(object(alignment));
-  if (summary.engagement) page["engagement"] = object(*summary.engagement);
-  if (summary.wind) page["wind"] = object(*summary.wind);
+  for (const EstimatorResults& one : summary.results)
+    page["results"][std::string(one.estimator)] = object(one.lines);
   page["timing"] = timing_judged(run);
   if (run.clock != run::ClockKind::lockstep) add_timing(page, scenario, run);
   if (run.seen.target_timing_seen)
@@ -281,17 +242,13 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
                                {"late", run.seen.counters->late}};
   }
   for (const wire::BitRates& rates : load_rates(run)) {
-    const checks::BusLoad load = checks::bus_load(run.seen, rates);
+    const checks::Load load = checks::bus_load(run.seen, rates);
     page["bus_load"].push_back({{"bitrate_bitps", rates.nominal},
                                 {"data_bitrate_bitps", rates.data},
                                 {"mean", load.mean},
                                 {"busiest_second", load.busiest}});
   }
-  page["from_target"] = {{"navigation_answers", summary.navigation_answers},
-                         {"filter_answers", summary.filter_answers},
-                         {"los_answers", summary.los_answers},
-                         {"wind_answers", summary.wind_answers},
-                         {"frames_lost", run.seen.target_frames_lost},
+  page["from_target"] = {{"frames_lost", run.seen.target_frames_lost},
                          {"bad_crc", run.seen.target_bad_crc},
                          {"bench_overflows", run.seen.receive_overflows}};
   page["bus"] = object(run.seen.bus, run.seen.first_ns);

@@ -245,10 +245,7 @@ std::string bus_section(const Json& report) {
           stretch_s));
   out += "</div>\n" + wire_table(report) + "<h3>Lost and broken</h3>\n";
   std::vector<std::vector<std::string>> rows = incidents(report.at("bus"), "bus");
-  Json from_target = report.at("from_target");
-  for (const char* fine : {"navigation_answers", "filter_answers", "los_answers", "wind_answers"})
-    from_target.erase(fine);
-  for (auto& row : incidents(from_target, "from the target")) rows.push_back(std::move(row));
+  for (auto& row : incidents(report.at("from_target"), "from the target")) rows.push_back(std::move(row));
   if (report.contains("target_counters")) {
     for (auto& row : incidents(report.at("target_counters"), "to the target")) rows.push_back(std::move(row));
   }

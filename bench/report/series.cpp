@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "bench/checks/probability.hpp"
-#include "bench/estimators/estimator.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/report/series_bars.hpp"
 #include "bench/report/thinned.hpp"
 
@@ -48,6 +48,7 @@ class Pictures {
     Series series = empty(track, track.title, track.unit);
     series.kind = kind_of(track);
     series.only_if_judged = track.only_if_judged;
+    series.to_go = track.to_go;
     if (series.kind == Series::Kind::statistic) {
       for (const double probability : {0.025, 0.975})
         series.between.push_back(
@@ -90,11 +91,7 @@ class Pictures {
 }  // namespace
 
 void give_tracks(const scenario::Scenario& scenario, const run::Run& run, const TrackOf& give) {
-  const auto& [engagement, glide] = run.own_truth;
-  const estimators::Truth truth{.flight = run.truth,
-                                .duration_us = scenario.duration_us,
-                                .engagement = engagement ? &*engagement : nullptr,
-                                .glide = glide ? &*glide : nullptr};
+  const estimators::Truth truth = run::truth_of(run.truth, run.own_truth, scenario.duration_us);
   for (const estimators::Estimator* one : estimators::all()) {
     if (!scenario.runs(one->name)) continue;
     one->tracks(run.seen, truth, [&](const Track& track) { give(one->name, track); });
@@ -113,7 +110,7 @@ std::vector<Series> series(const scenario::Scenario& scenario, const run::Run& r
     pictures->add(track);
   });
   if (pictures) pictures->move_to(all);
-  add_bars(all, scenario, run);
+  add_bars(all, scenario);
   std::erase_if(
       all, [](const Series& one) { return one.points.empty() || (one.only_if_judged && one.bars.empty()); });
   return all;

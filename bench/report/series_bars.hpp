@@ -8,6 +8,6 @@
 namespace canhil::report {
 
 /// Gives each series the bars of the checks that judge it.
-void add_bars(std::vector<Series>& all, const scenario::Scenario& scenario, const run::Run& run);
+void add_bars(std::vector<Series>& all, const scenario::Scenario& scenario);
 
 }  // namespace canhil::report

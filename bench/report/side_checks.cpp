@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/verdict.hpp"
-#include "bench/scenario/checks.hpp"
 
 namespace canhil::report {
 namespace {
@@ -79,8 +79,8 @@ struct Tally {
 
 Tally tally_of(const std::vector<std::vector<Judged>>& side, const Key& key) {
   // The bus and who sends on it are judged unasked too; their checks are there when they do not pass.
-  const bool implied = key.name == key.kind &&
-                       (key.kind == scenario::BusErrorLimits::kind || key.kind == checks::senders_kind);
+  const bool implied =
+      key.name == key.kind && (key.kind == checks::BusErrorLimits::kind || key.kind == checks::senders_kind);
   Tally tally;
   for (const auto& run : side) {
     const auto found = std::ranges::find(run, key, &Judged::key);

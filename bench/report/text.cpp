@@ -8,12 +8,9 @@
 #include "bench/checks/wire_bounds.hpp"
 #include "bench/report/split.hpp"
 #include "bench/report/summary.hpp"
-#include "bench/world/units.hpp"
 
 namespace canhil::report {
 namespace {
-
-using world::units::mrad;
 
 std::string_view label(checks::Outcome outcome) {
   switch (outcome) {
@@ -27,73 +24,12 @@ std::string_view label(checks::Outcome outcome) {
   return "?";
 }
 
-std::string words(const FixSummary& fixes) {
-  std::string outcomes;
-  for (const auto& [outcome, count] : fixes.outcomes)
-    outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", outcome, count);
-  std::string handover;
-  if (fixes.hands_over)
-    handover = fixes.resolved_s ? fmt::format("fed back to the INS at {:g} s, ", *fixes.resolved_s)
-                                : "not fed back to the INS by the end, ";
-  return fmt::format("{}; repairs {}; heading {}sigma {:.3f} deg at the end", outcomes, fixes.repairs,
-                     handover, fixes.heading_sigma_rad / world::units::deg);
-}
-
-std::string words(const AlignmentSummary& summary) {
-  std::string lines = "  heading error for good within";
-  for (const BandEntry& entry : summary.heading_entries) {
-    lines += fmt::format("  {:g} {}: {}", entry.within_rad / entry.unit.factor, entry.unit.name,
-                         entry.t_s ? fmt::format("{:.2f} s", *entry.t_s) : "never");
+std::string words(const estimators::ResultLine& line) {
+  std::string text;
+  for (const estimators::Figure& figure : line.figures) {
+    if (!figure.words.empty()) text += (text.empty() ? "" : ", ") + figure.words;
   }
-  if (summary.final_error_rad) {
-    lines += fmt::format(
-        "\n  error at the end              roll {:+.3f}  pitch {:+.3f}  heading {:+.3f} mrad  "
-        "velocity {:.4f} m/s\n",
-        summary.final_error_rad->roll / mrad, summary.final_error_rad->pitch / mrad,
-        summary.final_error_rad->heading / mrad, summary.final_velocity_error_mps);
-  } else {
-    lines += "\n  the target gave no navigation answers\n";
-  }
-  if (summary.fixes) lines += fmt::format("  fixes                         {}\n", words(*summary.fixes));
-  return lines;
-}
-
-std::string words(const EngagementSummary& engagement) {
-  std::string lines = engagement.miss_m
-                          ? fmt::format("  miss                          {:.3f} m at {:.3f} s",
-                                        *engagement.miss_m, engagement.passage_s)
-                          : std::string("  miss                          the target was not passed");
-  if (engagement.late_commands > 0)
-    lines += fmt::format("; {} answers too late to guide", engagement.late_commands);
-  lines += "\n  LOS rate error by s to go, RMS";
-  for (const LosRms& window : engagement.rms) {
-    lines += fmt::format("{} {:g}-{:g}: {}", &window == engagement.rms.data() ? "" : " ", window.most_to_go_s,
-                         window.least_to_go_s,
-                         window.rms_radps ? fmt::format("{:.2f}", *window.rms_radps / mrad) : "-");
-  }
-  lines += " mrad/s\n  LOS rate answers              ";
-  for (const auto& [outcome, count] : engagement.outcomes) lines += fmt::format("{} {}  ", outcome, count);
-  while (lines.ends_with(' ')) lines.pop_back();
-  return lines + '\n';
-}
-
-std::string words(const WindSummary& wind) {
-  std::string lines =
-      wind.outcomes.empty()
-          ? "  the target gave no wind answers\n"
-          : fmt::format("  wind error                    none judged before {:g} s\n", wind.from_s);
-  if (wind.norm_mps) {
-    lines = fmt::format(
-        "  wind error from {:g} s on        mean {:.3f} m/s: along track {:.3f} (sigma told {:.3f}), across "
-        "{:.3f}, "
-        "down {:.3f}\n",
-        wind.from_s, *wind.norm_mps, *wind.along_mps, wind.along_sigma_mps, *wind.cross_mps, *wind.down_mps);
-  }
-  if (wind.outcomes.empty()) return lines;
-  lines += "  wind answers                  ";
-  for (const auto& [name, count] : wind.outcomes) lines += fmt::format("{} {}  ", name, count);
-  while (lines.ends_with(' ')) lines.pop_back();
-  return lines + '\n';
+  return fmt::format("  {:<29} {}\n", line.what, text.empty() ? "none" : text);
 }
 
 // When, by the bench's first transmission; in the units of the events' own words.
@@ -129,7 +65,7 @@ std::string told_us(std::uint16_t us) {
 std::string load_words(const run::Run& run) {
   std::string lines;
   for (const wire::BitRates& rates : load_rates(run)) {
-    const checks::BusLoad load = checks::bus_load(run.seen, rates);
+    const checks::Load load = checks::bus_load(run.seen, rates);
     lines += fmt::format("  bus load at {:<17} mean {:.1f} %, busiest second {:.1f} %\n",
                          checks::words(rates), load.mean * 100, load.busiest * 100);
   }
@@ -225,20 +161,9 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
   }
 
   page += '\n';
-  const auto head = [&](std::string_view estimator) {
-    if (scenario.targets.size() > 1) page += fmt::format("  {}\n", estimator);
-  };
-  if (summary.engagement) {
-    head("los_rate");
-    page += words(*summary.engagement);
-  }
-  if (summary.wind) {
-    head("wind");
-    page += words(*summary.wind);
-  }
-  for (const AlignmentSummary& alignment : summary.alignments) {
-    head(name(alignment.estimator));
-    page += words(alignment);
+  for (const EstimatorResults& results : summary.results) {
+    if (scenario.targets.size() > 1) page += fmt::format("  {}\n", results.estimator);
+    for (const estimators::ResultLine& line : results.lines) page += words(line);
   }
   const bool virtual_time = run.clock == run::ClockKind::lockstep;
   for (const MessageLatency& row : summary.latencies) {

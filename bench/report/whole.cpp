@@ -128,6 +128,14 @@ std::string why_not_whole(const Json& report) {
     all["checks"].each([](const At& check) {
       for (const char* key : {"name", "kind", "outcome", "measured", "expected"}) text(check[key]);
     });
+    if (all.has("results")) {
+      all["results"].each_key([](const At& estimator) {
+        estimator.each_key([](const At& line) {
+          text(line["what"]);
+          line["figures"].each_key([](const At& figure) { text(figure["words"]); });
+        });
+      });
+    }
     timing(all);
     all["series"].each([](const At& series) {
       for (const char* key : {"estimator", "quantity", "unit", "kind"}) text(series[key]);

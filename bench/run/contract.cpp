@@ -1,5 +1,7 @@
 #include "bench/run/contract.hpp"
 
+#include "bench/checks/judge.hpp"
+#include "bench/estimators/registry.hpp"
 #include "messages/canhil.hpp"
 #include "target/device/device.hpp"
 
@@ -27,37 +29,22 @@ std::map<std::string, std::vector<std::string>, std::less<>> parameters_by_estim
   return all;
 }
 
-/// The DBC names the groups of an estimator's messages after it.
-std::map<std::string, std::string, std::less<>> estimator_by_message() {
-  constexpr std::pair<std::string_view, messages::Estimator> groups[] = {
-      {"Align", messages::Estimator::transfer_alignment},
-      {"Fix", messages::Estimator::inflight_alignment},
-      {"LosRate", messages::Estimator::los_rate},
-      {"Wind", messages::Estimator::wind}};
-  std::map<std::string, std::string, std::less<>> all;
-  for (const MessageInfo& info : messages::all_messages) {
-    for (const auto& [group, estimator] : groups) {
-      if (!info.answers.empty() && info.sample_group.starts_with(group))
-        all[std::string(info.name)] = name_of(estimator);
-    }
-  }
-  return all;
-}
-
 scenario::Contract make_contract() {
   scenario::Contract contract{.estimators = names<messages::Estimator>(),
                               .algorithms = names<messages::Algorithm>(),
                               .parameters = names<messages::Parameter>(),
                               .messages = {},
-                              .fix_outcomes = names<messages::FixOutcome>(),
                               .answers = {},
-                              .wind_outcomes = names<messages::WindOutcome>()};
+                              .check_kinds = checks::kinds(estimators::all()),
+                              .known = estimators::all(),
+                              .former_check_kinds = checks::former_kinds()};
   contract.parameters_of = parameters_by_estimator();
-  contract.sent_by = estimator_by_message();
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);
     if (!info.answers.empty()) contract.answers.emplace_back(info.name);
+    if (const estimators::Estimator* sender = estimators::sending(info))
+      contract.sent_by[contract.messages.back()] = sender->name;
   }
   return contract;
 }

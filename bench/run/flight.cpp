@@ -53,6 +53,13 @@ Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_
 
 }  // namespace
 
+estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us) {
+  return {.flight = flight,
+          .duration_us = duration_us,
+          .engagement = own.engagement ? &*own.engagement : nullptr,
+          .glide = own.glide ? &*own.glide : nullptr};
+}
+
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
   const std::int64_t cycle_us = messages::SlaveImuStatus::info.cycle_time_us;
   const std::int64_t period_us =

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "bench/checks/estimator.hpp"
 #include "bench/run/initial_state.hpp"
 #include "bench/run/schedule.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -24,6 +25,9 @@ struct OwnTruth {
   std::optional<world::EngagementRecord> engagement{};  ///< none: not in the scenario; filled as it goes on
   std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
 };
+
+/// All of it, as answers are held against it. `duration_us`: of the run.
+estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us);
 
 /// What one run draws before it begins.
 struct Flight {

@@ -6,6 +6,7 @@
 
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/run/bus_watch.hpp"
 #include "bench/run/handshake.hpp"
 #include "bench/run/host_watch.hpp"
@@ -204,13 +205,10 @@ class Session {
 
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            const Session& session, const Collected& flown, const std::string& timing_unfit) {
-  const OwnTruth& own = flown.own_truth;
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
-                               .truth = truth,
-                               .glide = own.glide ? &*own.glide : nullptr,
-                               .engagement = own.engagement ? &*own.engagement : nullptr,
-                               .duration_us = scenario.duration_us,
+                               .truth = truth_of(truth, flown.own_truth, scenario.duration_us),
+                               .estimators = estimators::all(),
                                .ended_early = flown.ending.detail,
                                .timing_unfit = timing_unfit});
   if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)

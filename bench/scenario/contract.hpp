@@ -4,19 +4,27 @@
 
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "bench/scenario/checks.hpp"
+
+namespace canhil::estimators {
+struct Estimator;
+}
 
 namespace canhil::scenario {
 
 struct Contract {
-  std::vector<std::string> estimators;       ///< value table Estimator, without "none"
-  std::vector<std::string> algorithms;       ///< value table Algorithm
-  std::vector<std::string> parameters;       ///< value table Parameter
-  std::vector<std::string> messages;         ///< names of all messages
-  std::vector<std::string> fix_outcomes;     ///< value table FixOutcome
-  std::vector<std::string> answers;          ///< of those that answer a sample group
-  std::vector<std::string> wind_outcomes{};  ///< value table WindOutcome
+  std::vector<std::string> estimators;  ///< value table Estimator, without "none"
+  std::vector<std::string> algorithms;  ///< value table Algorithm
+  std::vector<std::string> parameters;  ///< value table Parameter
+  std::vector<std::string> messages;    ///< names of all messages
+  std::vector<std::string> answers;     ///< of those that answer a sample group
+  std::vector<CheckKind> check_kinds{};
+  std::span<const estimators::Estimator* const> known{};  ///< what the bench knows of estimators
+  std::span<const FormerCheckKind> former_check_kinds{};
   /// By message, the estimator that sends it. Not there: sent whoever runs, or not by the target.
   std::map<std::string, std::string, std::less<>> sent_by{};
   /// By estimator, those of `parameters` that it has: what a misspelt one may mean. Not there: any.

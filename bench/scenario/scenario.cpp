@@ -46,11 +46,19 @@ std::optional<bool> read_fd(Section& root) {
   return root.one_of("dbc", names) == "canhil-fd";
 }
 
-std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Contract& contract,
-                               const Truths& truths) {
+std::vector<std::string> estimators_of(const Scenario& scenario) {
+  std::vector<std::string> estimators;
+  for (const TargetSetup& target : scenario.targets) estimators.push_back(target.estimator);
+  return estimators;
+}
+
+std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Contract& contract) {
+  const std::vector<std::string> estimators = estimators_of(scenario);
+  const CheckContext context{
+      .duration_us = scenario.duration_us, .contract = contract, .estimators = estimators};
   std::vector<Check> checks;
   for (Section& section : root.tables("check")) {
-    Check check = read_check(section, duration_us, contract, truths);
+    Check check = read_check(section, context);
     const auto same = std::ranges::find(checks, check.name, &Check::name);
     if (same != checks.end()) {
       section.reject("name",
@@ -62,38 +70,18 @@ std::vector<Check> read_checks(Section& root, std::int64_t duration_us, const Co
   return checks;
 }
 
-std::vector<Aligner> aligners_of(const Scenario& scenario) {
-  std::vector<Aligner> aligners;
-  for (const Aligner one : {Aligner::transfer_alignment, Aligner::inflight_alignment}) {
-    if (scenario.runs(name(one))) aligners.push_back(one);
-  }
-  return aligners;
-}
-
-std::vector<std::string> estimators_of(const Scenario& scenario) {
-  std::vector<std::string> estimators;
-  for (const TargetSetup& target : scenario.targets) estimators.push_back(target.estimator);
-  return estimators;
-}
-
 /// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
 /// may be.
-Truths read_navigation(Section& root, Scenario& scenario) {
-  const Truths truths{.navigation = root.has("truth") || !(scenario.engagement || scenario.glide),
-                      .engagement = scenario.engagement.has_value(),
-                      .glide = scenario.glide.has_value(),
-                      .aligners = aligners_of(scenario),
-                      .estimators = estimators_of(scenario)};
-  if (truths.navigation) {
+void read_navigation(Section& root, Scenario& scenario) {
+  if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth);
-    return truths;
+    return;
   }
   root.optional("truth");
   for (const std::string_view key : {"initial_error", "master_ins", "slave_imu", "ssbl", "gps"}) {
     if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
   }
-  return truths;
 }
 
 /// In-flight alignment takes the fixes of one aid and refuses the other's; nobody else takes any.
@@ -141,7 +129,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
     scenario.engagement = read_engagement(*engagement);
   }
   read_glider(root, scenario);
-  const Truths truths = read_navigation(root, scenario);
+  read_navigation(root, scenario);
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);
   }
@@ -156,7 +144,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
       read_node<Seeker>(root, "seeker", scenario.engagement || scenario.runs("los_rate"), read_seeker);
   if (scenario.seeker && !scenario.engagement)
     root.reject("engagement", "is missing", "a table beside [seeker]");
-  scenario.checks = read_checks(root, scenario.duration_us, contract, truths);
+  scenario.checks = read_checks(root, scenario, contract);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
   return scenario;

@@ -119,7 +119,7 @@ struct Section::State {
   std::vector<std::pair<std::string, std::string>> missing;  // key, what was expected
 
   const toml::node* ask(std::string_view key) {
-    asked.emplace_back(key);
+    if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
   }
   [[nodiscard]] std::string path_of(std::string_view key) const {

@@ -1,14 +1,20 @@
 #include "bench/estimators/inflight_alignment/inflight_alignment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/checks/errors.hpp"
+#include "bench/checks/fixes.hpp"
+#include "bench/estimators/alignment_results.hpp"
 #include "bench/estimators/alignment_tracks.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/inflight_alignment/quantities.hpp"
@@ -25,12 +31,26 @@ constexpr std::array<const Quantity*, 15> kept{
     &attitude_heading,   &velocity_north,    &velocity_east,     &velocity_down, &innovation_nis,
     &position_north,     &position_east,     &position_down,     &heading_sigma, &covariance_repairs};
 
-constexpr std::array<const Quantity*, 6> of_runs_alone{&velocity_norm,
-                                                       &position_horizontal,
-                                                       &position_norm,
-                                                       &position_innovation_north,
-                                                       &position_innovation_east,
-                                                       &position_innovation_down};
+constexpr std::array<const Quantity*, 20> of_runs{&attitude_heading,
+                                                  &misalignment_north,
+                                                  &misalignment_east,
+                                                  &misalignment_down,
+                                                  &attitude_roll,
+                                                  &attitude_pitch,
+                                                  &velocity_north,
+                                                  &velocity_east,
+                                                  &velocity_down,
+                                                  &velocity_norm,
+                                                  &position_north,
+                                                  &position_east,
+                                                  &position_down,
+                                                  &position_horizontal,
+                                                  &position_norm,
+                                                  &position_innovation_north,
+                                                  &position_innovation_east,
+                                                  &position_innovation_down,
+                                                  &innovation_nis,
+                                                  &heading_nees};
 
 constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
 
@@ -94,6 +114,13 @@ double misalignment_sigma(const checks::FixAnswer& answer, int axis) {
   return axis == 0 ? answer.tilt_sigma_north : axis == 1 ? answer.tilt_sigma_east : answer.heading_sigma;
 }
 
+// The bench may keep fixes back on purpose: those that it did not send need no answer.
+std::function<std::string(std::int64_t, std::int64_t)> owed_to(const checks::Observations& seen) {
+  return [&seen](std::int64_t from_us, std::int64_t to_us) {
+    return checks::unanswered_fixes(seen, {.from_us = from_us, .to_us = to_us});
+  };
+}
+
 void give_position(const checks::Observations& seen, const Truth& truth, double wait_us,
                    const TrackSink& give) {
   const auto add = [&](const Quantity& quantity, std::string title, bool only_if_judged, auto told) {
@@ -101,6 +128,7 @@ void give_position(const checks::Observations& seen, const Truth& truth, double 
                 .unit = metres,
                 .title = "position error " + std::move(title),
                 .only_if_judged = only_if_judged,
+                .unanswered = owed_to(seen),
                 .longest_wait_us = wait_us,
                 .answers_end_us = truth.duration_us};
     for (const checks::FixAnswer& fix : seen.fixes) {
@@ -126,11 +154,64 @@ void give_position(const checks::Observations& seen, const Truth& truth, double 
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const double wait_us = longest_wait_us(seen);
-  AlignmentTracks(words, seen, seen.fix_navigation, truth.flight, truth.duration_us, seen.fixes, wait_us,
-                  misalignment_sigma)
-      .give(give, checks::nis(seen, scenario::Aligner::inflight_alignment));
+  const AlignmentTracks tracks(words, seen, seen.fix_navigation, truth.flight, truth.duration_us, seen.fixes,
+                               wait_us, misalignment_sigma, owed_to(seen));
+  using enum checks::Aligner;
+  tracks.give(give, {{.quantity = &innovation_nis,
+                      .title = "normalised innovation squared",
+                      .series = checks::nis(seen, inflight_alignment)},
+                     {.quantity = &heading_nees,
+                      .title = "normalised error squared of the heading",
+                      .series = checks::heading_nees(seen, inflight_alignment, tracks.errors()),
+                      .only_if_judged = true}});
   give_position(seen, truth, wait_us, give);
 }
+
+// Navigation answers that bridged lost input; fixes by what became of them, whose answers after which the
+// covariance had been repaired, and those after which the heading was resolved and fed back.
+std::vector<Mark> marks_of(const checks::Observations& seen) {
+  std::vector<Mark> marks{
+      {.name = "answers", .t_us = times_of(seen.fix_navigation, every_answer)},
+      {.name = "coasting", .t_us = times_of(seen.fix_navigation, &checks::NavigationAnswer::coasting)}};
+  add_marks(marks, seen.fixes, &checks::FixAnswer::outcome, messages::enumerators<messages::FixOutcome>);
+  std::uint32_t repairs = 0;
+  marks.push_back({.name = "repaired", .t_us = times_of(seen.fixes, [&](const checks::FixAnswer& fix) {
+                                         return std::exchange(repairs, fix.repairs) != fix.repairs;
+                                       })});
+  marks.push_back({.name = "handed_over", .t_us = times_of(seen.fixes, &checks::FixAnswer::handed_over)});
+  return marks;
+}
+
+std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
+                                   std::string_view algorithm) {
+  constexpr std::array bands_deg{30.0, 10.0, 3.0, 1.0};
+  auto lines =
+      alignment_results(checks::navigation_errors(seen.fix_navigation, truth.flight), bands_deg, degrees);
+  if (seen.fixes.empty()) return lines;
+  const checks::FixAnswer& last = seen.fixes.back();
+  ResultLine filter{.name = "filter", .what = "filter"};
+  filter.figures.push_back({.name = "repairs",
+                            .value = last.repairs,
+                            .words = fmt::format("repairs of the covariance {}", last.repairs)});
+  // The algorithm keeps the heading apart from the INS until it is resolved.
+  const auto resolved = std::ranges::find(seen.fixes, true, &checks::FixAnswer::handed_over);
+  if (resolved != seen.fixes.end()) {
+    const double t_s = static_cast<double>(resolved->cause_us) / 1e6;
+    filter.figures.push_back({.name = "resolved",
+                              .value = t_s,
+                              .words = fmt::format("heading fed back to the INS at {:g} s", t_s)});
+  } else if (algorithm == name_of(messages::Algorithm::sin_cos)) {
+    filter.figures.push_back({.name = "resolved", .words = "heading not fed back to the INS by the end"});
+  }
+  filter.figures.push_back({.name = "heading_sigma",
+                            .value = last.heading_sigma,
+                            .words = fmt::format("heading sigma told at the end {:.3f} deg",
+                                                 last.heading_sigma / degrees.factor)});
+  lines.push_back(std::move(filter));
+  return lines;
+}
+
+constexpr std::array closing{messages::FixVelocityD::info.name, messages::FixUpdate::info.name};
 
 // Where there are two sources, that which is heard least: the filter may use it alone.
 Freshness freshness_of(const scenario::Scenario& scenario) {
@@ -152,9 +233,12 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 
 constinit const Estimator inflight_alignment{.name = "inflight_alignment",
                                              .layout = layout,
-                                             .of_runs_alone = of_runs_alone,
+                                             .of_runs = of_runs,
                                              .samples = samples_of,
                                              .tracks = tracks_of,
+                                             .marks = marks_of,
+                                             .results = results_of,
+                                             .closing = closing,
                                              .freshness = freshness_of};
 
 }  // namespace canhil::estimators

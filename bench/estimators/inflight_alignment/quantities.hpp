@@ -30,11 +30,13 @@ inline constexpr Quantity position_horizontal{.name = "position.horizontal",
 inline constexpr Quantity position_norm{
     .name = "position.norm", .meaning = "magnitude of the error of the position", .unit = metres};
 /// Of a fix, NED.
-inline constexpr Quantity position_innovation_north{
-    .name = "innovation.position.north", .meaning = "innovation of a fix north", .unit = metres};
+inline constexpr Quantity position_innovation_north{.name = "innovation.position.north",
+                                                    .meaning = "innovation of a fix north",
+                                                    .unit = metres,
+                                                    .white = true};
 inline constexpr Quantity position_innovation_east{
-    .name = "innovation.position.east", .meaning = "innovation of a fix east", .unit = metres};
+    .name = "innovation.position.east", .meaning = "innovation of a fix east", .unit = metres, .white = true};
 inline constexpr Quantity position_innovation_down{
-    .name = "innovation.position.down", .meaning = "innovation of a fix down", .unit = metres};
+    .name = "innovation.position.down", .meaning = "innovation of a fix down", .unit = metres, .white = true};
 
 }  // namespace canhil::quantities

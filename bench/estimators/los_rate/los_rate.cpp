@@ -1,5 +1,7 @@
 #include "bench/estimators/los_rate/los_rate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,9 @@
 #include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/freshness.hpp"
+#include "bench/estimators/los_rate/miss_distance.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
+#include "bench/estimators/marks.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -35,7 +39,7 @@ constexpr std::array derived{Derived{.quantity = &los_rate_both, .of = both_plan
                              Derived{.quantity = &miss_distance, .of = miss_of}};
 
 constexpr std::int64_t stretch_us = 20'000;
-constexpr std::array<const Quantity*, 1> of_runs_alone{&los_nis};
+constexpr std::array<const Quantity*, 4> of_runs{&los_rate_pitch, &los_rate_yaw, &los_rate_both, &los_nis};
 
 constexpr Layout layout{
     .kept = kept, .derived = derived, .to_go_stretch_us = stretch_us, .end_known_by = &miss_distance};
@@ -103,6 +107,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     track.title = "LOS rate error, " + name;
     track.estimate_title = "LOS rate, " + name;
     track.estimate_unit = mradps;
+    for (const world::EngagementTruth& epoch : engagement.epochs)
+      track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
     for (const checks::LosError& e : errors) {
       const auto& answer = *std::ranges::lower_bound(seen.los, e.t_us, {}, &checks::LosAnswer::cause_us);
       track.told.push_back({.t_us = e.t_us,
@@ -123,6 +129,52 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   give(std::move(statistic));
 }
 
+std::vector<Mark> marks_of(const checks::Observations& seen) {
+  using checks::LosAnswer;
+  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.los, every_answer)}};
+  add_marks(marks, seen.los, &LosAnswer::outcome, messages::enumerators<messages::LosRateOutcome>);
+  marks.push_back({.name = "blind", .t_us = times_of(seen.los, &LosAnswer::blind)});
+  return marks;
+}
+
+std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
+                                   std::string_view /*algorithm*/) {
+  if (truth.engagement == nullptr) return {};
+  const world::EngagementRecord& engagement = *truth.engagement;
+  const double passage_s = static_cast<double>(engagement.passage_us) * 1e-6;
+  ResultLine end{.name = "end", .what = "end of the flight"};
+  if (engagement.miss_n) {
+    const double miss = engagement.miss_n->norm();
+    end.figures.push_back({.name = "miss", .value = miss, .words = fmt::format("miss {:.3f} m", miss)});
+    end.figures.push_back(
+        {.name = "passage", .value = passage_s, .words = fmt::format("at {:.3f} s", passage_s)});
+  } else {
+    end.figures.push_back({.name = "miss", .words = "the target was not passed"});
+  }
+  if (engagement.late_commands > 0) {
+    end.figures.push_back({.name = "late_commands",
+                           .value = static_cast<double>(engagement.late_commands),
+                           .words = fmt::format("{} answers too late to guide", engagement.late_commands)});
+  }
+  ResultLine rms{.name = "rms", .what = "RMS [mrad/s] by s to go"};
+  constexpr std::array<std::pair<double, double>, 6> windows{
+      {{4.5, 3}, {3, 2}, {2, 1}, {1, 0.5}, {0.5, 0.2}, {0.2, 0.08}}};
+  const auto errors = checks::los_errors(seen, engagement);
+  for (const auto& [most, least] : windows) {
+    const std::optional<double> value = checks::los_rms(errors, least, most);
+    const std::string name = fmt::format("{:g} to {:g}", most, least);
+    rms.figures.push_back(
+        {.name = name,
+         .value = value,
+         .words = name + (value ? fmt::format(": {:.2f}", *value / mradps.factor) : ": no answers")});
+  }
+  return {std::move(end), std::move(rms)};
+}
+
+constexpr std::array closing{messages::LosRateTarget::info.name};
+
+constexpr std::array check_kinds{checks::check_kind<MissDistance>};
+
 Freshness freshness_of(const scenario::Scenario& scenario) {
   if (!scenario.engagement || !scenario.seeker) return {};
   const world::EngagementPlan& plan = *scenario.engagement;
@@ -139,9 +191,13 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 
 constinit const Estimator los_rate{.name = "los_rate",
                                    .layout = layout,
-                                   .of_runs_alone = of_runs_alone,
+                                   .of_runs = of_runs,
                                    .samples = samples_of,
                                    .tracks = tracks_of,
+                                   .marks = marks_of,
+                                   .results = results_of,
+                                   .closing = closing,
+                                   .check_kinds = check_kinds,
                                    .freshness = freshness_of};
 
 }  // namespace canhil::estimators

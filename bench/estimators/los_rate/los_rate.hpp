@@ -1,7 +1,7 @@
 // Line-of-sight rate of a seeker: a sample is 20 ms of the time to go.
 #pragma once
 
-#include "bench/estimators/estimator.hpp"
+#include "bench/checks/estimator.hpp"
 
 namespace canhil::estimators {
 

@@ -1,6 +1,8 @@
 // What the LOS rate of a seeker tells.
 #pragma once
 
+#include <array>
+
 #include "bench/quantities/list.hpp"
 
 namespace canhil::quantities {
@@ -16,11 +18,13 @@ inline constexpr Quantity los_rate_yaw{
     .meaning = "error of the LOS rate in yaw, antenna axes; in campaigns RMS of 20 ms of the time to go",
     .unit = mradps,
     .once = "los_yaw"};
+inline constexpr std::array<const Quantity*, 2> los_rate_planes{&los_rate_pitch, &los_rate_yaw};
 inline constexpr Quantity los_rate_both{
     .name = "los.rate",
     .meaning = "error of the LOS rate: RMS of both planes and 20 ms of the time to go",
     .unit = mradps,
-    .once = "los_rate"};
+    .once = "los_rate",
+    .parts = los_rate_planes};
 /// Mean over the updates of a stretch, of 2 degrees of freedom each; NaN without an update.
 inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",
@@ -50,6 +54,7 @@ inline constexpr Quantity los_nis{.name = "los.nis",
                                   .meaning = "normalised innovation squared of an update",
                                   .unit = plain,
                                   .degrees_of_freedom = 2,
+                                  .white = true,
                                   .may_be_untold = true};
 
 }  // namespace canhil::quantities

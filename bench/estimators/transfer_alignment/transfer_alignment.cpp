@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/checks/errors.hpp"
+#include "bench/estimators/alignment_results.hpp"
 #include "bench/estimators/alignment_tracks.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/transfer_alignment/quantities.hpp"
@@ -20,8 +21,22 @@ constexpr std::array<const Quantity*, 12> kept{&misalignment_north, &misalignmen
                                                &velocity_north,     &velocity_east,     &velocity_down,
                                                &attitude_nees,      &innovation_nis,    &heading_sigma};
 
-constexpr std::array<const Quantity*, 4> of_runs_alone{&velocity_norm, &velocity_innovation_north,
-                                                       &velocity_innovation_east, &velocity_innovation_down};
+constexpr std::array<const Quantity*, 16> of_runs{&attitude_heading,
+                                                  &misalignment_north,
+                                                  &misalignment_east,
+                                                  &misalignment_down,
+                                                  &attitude_roll,
+                                                  &attitude_pitch,
+                                                  &velocity_north,
+                                                  &velocity_east,
+                                                  &velocity_down,
+                                                  &velocity_norm,
+                                                  &velocity_innovation_north,
+                                                  &velocity_innovation_east,
+                                                  &velocity_innovation_down,
+                                                  &innovation_nis,
+                                                  &attitude_nees,
+                                                  &heading_nees};
 
 constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
 
@@ -51,10 +66,36 @@ constexpr AlignmentWords words{
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const double wait_us =
       checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::AlignUpdate::info.name));
-  AlignmentTracks(words, seen, seen.navigation, truth.flight, truth.duration_us, seen.filter, wait_us,
-                  [](const checks::FilterAnswer& a, int axis) { return a.attitude_sigma(axis); })
-      .give(give, checks::nis(seen, scenario::Aligner::transfer_alignment));
+  const AlignmentTracks tracks(
+      words, seen, seen.navigation, truth.flight, truth.duration_us, seen.filter, wait_us,
+      [](const checks::FilterAnswer& a, int axis) { return a.attitude_sigma(axis); });
+  using enum checks::Aligner;
+  tracks.give(give, {{.quantity = &innovation_nis,
+                      .title = "normalised innovation squared",
+                      .series = checks::nis(seen, transfer_alignment)},
+                     {.quantity = &attitude_nees,
+                      .title = "normalised error squared of the attitude",
+                      .series = checks::attitude_nees(seen, tracks.errors()),
+                      .only_if_judged = true},
+                     {.quantity = &heading_nees,
+                      .title = "normalised error squared of the heading",
+                      .series = checks::heading_nees(seen, transfer_alignment, tracks.errors()),
+                      .only_if_judged = true}});
 }
+
+std::vector<Mark> marks_of(const checks::Observations& seen) {
+  return {{.name = "answers", .t_us = times_of(seen.navigation, every_answer)},
+          {.name = "coasting", .t_us = times_of(seen.navigation, &checks::NavigationAnswer::coasting)},
+          {.name = "updates", .t_us = times_of(seen.filter, every_answer)}};
+}
+
+std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
+                                   std::string_view /*algorithm*/) {
+  constexpr std::array bands_mrad{10.0, 3.0, 2.0, 1.0};
+  return alignment_results(checks::navigation_errors(seen.navigation, truth.flight), bands_mrad, mrad);
+}
+
+constexpr std::array closing{messages::AlignVelocityD::info.name, messages::AlignUpdate::info.name};
 
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
@@ -71,9 +112,12 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 
 constinit const Estimator transfer_alignment{.name = "transfer_alignment",
                                              .layout = layout,
-                                             .of_runs_alone = of_runs_alone,
+                                             .of_runs = of_runs,
                                              .samples = samples_of,
                                              .tracks = tracks_of,
+                                             .marks = marks_of,
+                                             .results = results_of,
+                                             .closing = closing,
                                              .freshness = freshness_of};
 
 }  // namespace canhil::estimators

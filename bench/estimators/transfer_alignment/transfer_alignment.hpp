@@ -2,7 +2,7 @@
 // the errors of the first navigation answer that knew of it.
 #pragma once
 
-#include "bench/estimators/estimator.hpp"
+#include "bench/checks/estimator.hpp"
 
 namespace canhil::estimators {
 

@@ -26,6 +26,7 @@ inline constexpr Quantity wind_nis{.name = "wind.nis",
                                    .meaning = "normalised innovation squared of an update",
                                    .unit = plain,
                                    .degrees_of_freedom = 9,
+                                   .white = true,
                                    .may_be_untold = true,
                                    .once = "wind_nis"};
 inline constexpr Quantity wind_nees{

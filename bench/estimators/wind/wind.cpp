@@ -1,5 +1,7 @@
 #include "bench/estimators/wind/wind.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wind.hpp"
 #include "bench/estimators/freshness.hpp"
+#include "bench/estimators/marks.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
@@ -29,7 +32,8 @@ double of_all_three(const Samples& samples, std::size_t place) {
 }
 constexpr std::array derived{Derived{.quantity = &wind_norm, .of = of_all_three}};
 
-constexpr std::array<const Quantity*, 2> of_runs_alone{&wind_north, &wind_east};
+constexpr std::array<const Quantity*, 8> of_runs{&wind_north, &wind_east, &wind_down, &wind_along,
+                                                 &wind_cross, &wind_norm, &wind_nis,  &wind_nees};
 
 constexpr Layout layout{.kept = kept, .derived = derived};
 
@@ -100,13 +104,62 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   });
   fill(judged(wind_norm, "wind error norm"),
        [](const auto&, const checks::WindError& e) { return Told{.value = e.error_n.norm()}; });
-  Track statistic = empty(wind_nis, "normalised innovation squared");
-  statistic.kind = Track::Kind::statistic;
-  statistic.unit = plain;
-  for (const checks::Normalised& n : checks::wind_nis(seen))
-    statistic.told.push_back({.t_us = n.t_us, .value = n.value});
-  give(std::move(statistic));
+  const auto statistic = [&](Track track, const std::vector<checks::Normalised>& series) {
+    track.kind = Track::Kind::statistic;
+    track.unit = plain;
+    for (const checks::Normalised& n : series) track.told.push_back({.t_us = n.t_us, .value = n.value});
+    give(std::move(track));
+  };
+  statistic(empty(wind_nis, "normalised innovation squared"), checks::wind_nis(seen));
+  statistic(judged(wind_nees, "normalised error squared"), checks::wind_nees(seen, *truth.glide));
 }
+
+std::vector<Mark> marks_of(const checks::Observations& seen) {
+  using checks::WindAnswer;
+  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.wind, every_answer)}};
+  add_marks(marks, seen.wind, &WindAnswer::outcome, messages::enumerators<messages::WindOutcome>);
+  for (const auto& [name, flag] :
+       {std::pair{"outside", &WindAnswer::outside}, std::pair{"fins_late", &WindAnswer::fins_late},
+        std::pair{"fins_missing", &WindAnswer::fins_missing},
+        std::pair{"fins_not_physical", &WindAnswer::fins_not_physical},
+        std::pair{"theta_capped", &WindAnswer::theta_capped}})
+    marks.push_back({.name = name, .t_us = times_of(seen.wind, flag)});
+  return marks;
+}
+
+std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
+                                   std::string_view /*algorithm*/) {
+  if (truth.glide == nullptr) return {};
+  constexpr std::int64_t from_us = 10'000'000;  // until then the filter settles
+  std::vector<checks::WindError> errors = checks::wind_errors(seen, *truth.glide);
+  std::erase_if(errors, [](const checks::WindError& error) { return error.t_us < from_us; });
+  ResultLine mean{.name = "mean_error", .what = "mean |error| from 10 s on"};
+  const auto add = [&](const char* name, const char* words, auto component) {
+    double sum = 0;
+    for (const checks::WindError& error : errors) sum += std::abs(component(error));
+    if (errors.empty()) {
+      mean.figures.push_back({.name = name, .words = std::string(words) + " none judged"});
+    } else {
+      const double value = sum / static_cast<double>(errors.size());
+      mean.figures.push_back(
+          {.name = name, .value = value, .words = fmt::format("{} {:.3f} m/s", words, value)});
+    }
+  };
+  add("norm", "of the vector", [](const checks::WindError& error) { return error.error_n.norm(); });
+  add("along_track", "along track", [](const checks::WindError& error) { return error.along_track; });
+  add("cross_track", "across", [](const checks::WindError& error) { return error.cross_track; });
+  add("down", "down", [](const checks::WindError& error) { return error.error_n.z(); });
+  ResultLine told{.name = "told", .what = "told at the end"};
+  if (!seen.wind.empty()) {
+    const double sigma = seen.wind.back().along_track_sigma;
+    told.figures.push_back({.name = "along_track_sigma",
+                            .value = sigma,
+                            .words = fmt::format("sigma along track {:.3f} m/s", sigma)});
+  }
+  return {std::move(mean), std::move(told)};
+}
+
+constexpr std::array closing{messages::WindUpdate::info.name};
 
 // The filter may answer less often than it is told of the navigation.
 Freshness freshness_of(const scenario::Scenario& scenario) {
@@ -124,9 +177,12 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 
 constinit const Estimator wind{.name = "wind",
                                .layout = layout,
-                               .of_runs_alone = of_runs_alone,
+                               .of_runs = of_runs,
                                .samples = samples_of,
                                .tracks = tracks_of,
+                               .marks = marks_of,
+                               .results = results_of,
+                               .closing = closing,
                                .freshness = freshness_of};
 
 }  // namespace canhil::estimators

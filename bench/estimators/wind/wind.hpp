@@ -1,7 +1,7 @@
 // Wind velocity of a glider: a sample is an answer of a filter that runs.
 #pragma once
 
-#include "bench/estimators/estimator.hpp"
+#include "bench/checks/estimator.hpp"
 
 namespace canhil::estimators {
 

@@ -89,8 +89,8 @@ TEST(Bits, AnAlignmentInFlightPassesInRealTimeAndAgreesWithInProcess) {
   EXPECT_TRUE(in_process == real_time);
   const auto report = read_json(scratch("inflight.real_time.log.json"));
   expect_outputs_passed(ended, report);
-  EXPECT_EQ(report["from_target"]["navigation_answers"], 1500);
-  EXPECT_EQ(report["alignments"][0]["fixes"]["outcomes"]["accepted"], 29);
+  EXPECT_EQ(figure(report, "inflight_alignment", "answers", "answers"), 1500);
+  EXPECT_EQ(figure(report, "inflight_alignment", "answers", "accepted"), 29);
 }
 
 TEST(Bits, LosRateInProcessAndRealTimeAgree) {

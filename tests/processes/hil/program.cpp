@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -33,6 +34,14 @@ std::string read(const std::string& path) {
 
 nlohmann::json json_of(const std::string& text) { return nlohmann::json::parse(text); }
 nlohmann::json read_json(const std::string& path) { return json_of(read(path)); }
+
+double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name) {
+  const nlohmann::json::json_pointer place(
+      fmt::format("/results/{}/{}/figures/{}/value", estimator, line, name));
+  if (report.contains(place)) return report.at(place).get<double>();
+  ADD_FAILURE() << "the report has no " << place.to_string();
+  return std::nan("");
+}
 
 Ended shell(const std::string& command) {
   const std::string out = scratch("stdout");

@@ -28,6 +28,8 @@ std::string scenario(const std::string& name);
 std::string scratch(const std::string& name);
 std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
+/// The value of a figure in the results of a report.
+double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name);
 /// Here for all: a parser costs each unit that makes one over a second.
 nlohmann::json json_of(const std::string& text);
 

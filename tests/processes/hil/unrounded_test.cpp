@@ -26,9 +26,9 @@ TEST(Unrounded, TheRunPassesAndItsErrorsDifferByALittle) {
     judged += check["outcome"] == "pass" ? 1 : 0;
   }
   EXPECT_GE(judged, 5);
-  for (const char* axis : {"roll_rad", "pitch_rad", "heading_rad"}) {
-    const double difference = exact["alignments"][0]["final_error"][axis].get<double>() -
-                              rounded["alignments"][0]["final_error"][axis].get<double>();
+  for (const char* axis : {"roll", "pitch", "heading"}) {
+    const double difference = figure(exact, "transfer_alignment", "final_error", axis) -
+                              figure(rounded, "transfer_alignment", "final_error", axis);
     EXPECT_NE(difference, 0.0) << axis;
     // Attitude travels in steps of 0.003 deg = 52 urad: half a step on the way out, and what rounding of the
     // measurements does to the estimate. The errors themselves are up to 2.4 mrad here.

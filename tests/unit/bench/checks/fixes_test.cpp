@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 
-#include "bench/checks/judge.hpp"
-#include "bench/world/motion/rest.hpp"
+#include "bench/checks/kinds/answers.hpp"
+#include "bench/checks/kinds/consistency.hpp"
+#include "bench/estimators/inflight_alignment/quantities.hpp"
+#include "bench/world/units.hpp"
 #include "dbc/wire/transmit.hpp"
+#include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -31,15 +34,12 @@ class Fixed : public testing::Test {
     }
   }
   template <class Rule>
-  CheckResult judge(Rule rule) {
-    if constexpr (requires { rule.of; }) rule.of = scenario::Aligner::inflight_alignment;
+  CheckResult judge(const Rule& rule) {
     scenario::Scenario scenario;
-    scenario.checks.push_back({.name = "it", .requirement = "", .rule = rule});
+    scenario.checks.push_back(check_of(rule));
     return checks::judge(scenario, {.seen = seen_,
-                                    .truth = truth_,
-                                    .duration_us = duration_us,
-                                    .ended_early = "",
-                                    .timing_unfit = ""})
+                                    .truth = {.flight = truth_, .duration_us = duration_us},
+                                    .estimators = estimators::all()})
         .checks.at(0);
   }
   void unanswered(std::size_t place, std::size_t count) {
@@ -53,18 +53,34 @@ class Fixed : public testing::Test {
   Observations seen_;
 };
 
-TEST_F(Fixed, PositionErrorByItsAxis) {
+constexpr const char* estimator = "inflight_alignment";
+
+Error position(double below = 1, const scenario::Window& window = whole) {
+  return error_of(estimator, quantities::position_norm, window, below);
+}
+Consistency consistency(const quantities::Quantity& quantity, double low, double high) {
+  return {.of = {.estimator = estimator, .quantity = &quantity},
+          .window = whole,
+          .bound = MeanBetween{low, high}};
+}
+Answers counted(Answers::Count count, const scenario::Window& window = whole) {
+  return {.estimator = estimator, .window = window, .counts = {std::move(count)}};
+}
+
+TEST_F(Fixed, PositionErrorByItsComponent) {
   seen_.fixes[10].position = displaced(start, {3, 4, -12});
-  const auto outcome = [&](scenario::PositionAxis axis, double below) {
-    return judge(scenario::PositionError{.axis = axis, .window = whole, .below = below}).outcome;
-  };
-  using enum scenario::PositionAxis;
-  for (const auto& [axis, size] :
-       {std::pair{north, 3.0}, {east, 4.0}, {down, 12.0}, {horizontal, 5.0}, {norm, 13.0}}) {
-    EXPECT_EQ(outcome(axis, size + 0.01), Outcome::pass) << scenario::name(axis);
-    EXPECT_EQ(outcome(axis, size - 0.01), Outcome::fail) << scenario::name(axis);
+  using namespace quantities;
+  for (const auto& [quantity, size] : {std::pair{&position_north, 3.0},
+                                       {&position_east, 4.0},
+                                       {&position_down, 12.0},
+                                       {&position_horizontal, 5.0},
+                                       {&position_norm, 13.0}}) {
+    EXPECT_EQ(judge(error_of(estimator, *quantity, whole, size + 0.01)).outcome, Outcome::pass)
+        << quantity->name;
+    EXPECT_EQ(judge(error_of(estimator, *quantity, whole, size - 0.01)).outcome, Outcome::fail)
+        << quantity->name;
   }
-  EXPECT_EQ(judge(scenario::PositionError{.window = {0, 10 * second_us}, .below = 1}).outcome, Outcome::pass);
+  EXPECT_EQ(judge(position(1, {0, 10 * second_us})).outcome, Outcome::pass);
 }
 
 TEST_F(Fixed, APositionWithoutAKnownTimeIsNotJudged) {
@@ -72,35 +88,33 @@ TEST_F(Fixed, APositionWithoutAKnownTimeIsNotJudged) {
   for (const FixOutcome outcome : {FixOutcome::late, FixOutcome::future, FixOutcome::out_of_order,
                                    FixOutcome::wrong_source, FixOutcome::invalid, FixOutcome::before_start}) {
     seen_.fixes[10].outcome = outcome;
-    EXPECT_EQ(judge(scenario::PositionError{.window = whole, .below = 1}).outcome, Outcome::pass);
+    EXPECT_EQ(judge(position()).outcome, Outcome::pass);
   }
   seen_.fixes[10].outcome = FixOutcome::gated;
-  EXPECT_EQ(judge(scenario::PositionError{.window = whole, .below = 1}).outcome, Outcome::fail);
+  EXPECT_EQ(judge(position()).outcome, Outcome::fail);
 }
 
 TEST_F(Fixed, FixesThatAreNotAnsweredFail) {
-  const scenario::PositionError position{.window = whole, .below = 1};
-  const scenario::Consistency consistency{.window = whole, .bound = scenario::MeanBetween{2, 4}};
+  const Consistency nis = consistency(quantities::innovation_nis, 2, 4);
   unanswered(5, 2);
-  EXPECT_EQ(judge(position).outcome, Outcome::pass) << "two in a row may be";
-  EXPECT_EQ(judge(consistency).outcome, Outcome::pass);
+  EXPECT_EQ(judge(position()).outcome, Outcome::pass) << "two in a row may be";
+  EXPECT_EQ(judge(nis).outcome, Outcome::pass);
   unanswered(5, 1);
-  EXPECT_EQ(judge(position).outcome, Outcome::fail);
-  EXPECT_EQ(judge(position).measured, "no answers to Ssbl before 8 s");
-  EXPECT_EQ(judge(consistency).outcome, Outcome::fail);
+  EXPECT_EQ(judge(position()).outcome, Outcome::fail);
+  EXPECT_EQ(judge(position()).measured, "no answers to Ssbl before 8 s");
+  EXPECT_EQ(judge(nis).outcome, Outcome::fail);
 }
 
 TEST_F(Fixed, FixesThatWereNotSentNeedNoAnswer) {
   unanswered(5, 8);
   auto& sent = seen_.sent_fixes;
   sent.erase(sent.begin() + 5, sent.begin() + 13);
-  EXPECT_EQ(judge(scenario::PositionError{.window = whole, .below = 1}).outcome, Outcome::pass);
-  EXPECT_EQ(judge(scenario::Consistency{.window = whole, .bound = scenario::MeanBetween{2, 4}}).outcome,
-            Outcome::pass);
+  EXPECT_EQ(judge(position()).outcome, Outcome::pass);
+  EXPECT_EQ(judge(consistency(quantities::innovation_nis, 2, 4)).outcome, Outcome::pass);
 }
 
 TEST_F(Fixed, NisIsOfTheFixesThatWereUsed) {
-  scenario::Consistency rule{.window = whole, .bound = scenario::MeanBetween{2.9, 3.1}};
+  const Consistency rule = consistency(quantities::innovation_nis, 2.9, 3.1);
   seen_.fixes[3].nis = 600;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   seen_.fixes[3].outcome = FixOutcome::gated;
@@ -110,9 +124,7 @@ TEST_F(Fixed, NisIsOfTheFixesThatWereUsed) {
 }
 
 TEST_F(Fixed, HeadingNeesFailsAnOverconfidentFilter) {
-  const scenario::Consistency rule{.statistic = scenario::Statistic::heading_nees,
-                                   .window = whole,
-                                   .bound = scenario::MeanBetween{0, 1.5}};
+  const Consistency rule = consistency(quantities::heading_nees, 0, 1.5);
   for (NavigationAnswer& answer : seen_.fix_navigation) answer.angles.heading = 0.1;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).measured, "mean 1.000 of 19");
@@ -122,66 +134,55 @@ TEST_F(Fixed, HeadingNeesFailsAnOverconfidentFilter) {
 
 TEST_F(Fixed, WhatBecameOfFixesIsCounted) {
   for (const std::size_t place : {3, 7, 8}) seen_.fixes[place].outcome = FixOutcome::gated;
-  scenario::Fixes rule{.window = whole,
-                       .counts = {{.outcome = "gated", .at_least = 3, .at_most = 3}},
-                       .repairs_at_most = {},
-                       .handed_over_before_us = {}};
-  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  EXPECT_EQ(judge(rule).measured, "gated 3");
-  EXPECT_EQ(judge(rule).expected, "gated >= 3, gated <= 3");
-  rule.counts[0].at_least = 4;
-  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule.counts[0] = {.outcome = "gated", .at_least = {}, .at_most = 2};
-  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule.window.to_us = 8 * second_us;  // one of them is later
-  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  rule.counts[0] = {.outcome = "accepted", .at_least = 6, .at_most = 6};
-  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).outcome, Outcome::pass);
+  EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).measured, "gated 3");
+  EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).expected,
+            "gated >= 3, gated <= 3 from 0 to 20 s");
+  EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 4, .at_most = 3})).outcome, Outcome::fail);
+  const Answers::Count two{.mark = "gated", .at_most = 2};
+  EXPECT_EQ(judge(counted(two)).outcome, Outcome::fail);
+  const scenario::Window early{.from_us = 0, .to_us = 8 * second_us};
+  EXPECT_EQ(judge(counted(two, early)).outcome, Outcome::pass) << "one of them is later";
+  EXPECT_EQ(judge(counted({.mark = "accepted", .at_least = 6, .at_most = 6}, early)).outcome, Outcome::pass);
 }
 
-TEST_F(Fixed, RepairsAndHandoverAreThoseOfTheWholeRun) {
-  scenario::Fixes rule{.window = whole, .counts = {}, .repairs_at_most = 2, .handed_over_before_us = {}};
-  seen_.fixes.back().repairs = 2;
-  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  seen_.fixes.back().repairs = 3;
-  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule = {.window = whole, .counts = {}, .repairs_at_most = {}, .handed_over_before_us = 6 * second_us};
-  EXPECT_EQ(judge(rule).measured, "heading never resolved");
-  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  seen_.fixes[5].handed_over = true;  // at 6 s
-  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+TEST_F(Fixed, ARepairIsCountedWhereItCameAndTheHandoverWhereItFirstWas) {
+  const Answers::Count none{.mark = "repaired", .at_most = 0};
+  EXPECT_EQ(judge(counted(none)).outcome, Outcome::pass);
+  for (std::size_t place = 15; place < 20; ++place) seen_.fixes[place].repairs = 2;  // after the fix of 16 s
+  EXPECT_EQ(judge(counted(none)).measured, "repaired 1");
+  EXPECT_EQ(judge(counted(none)).outcome, Outcome::fail);
+  EXPECT_EQ(judge(counted(none, {.from_us = 0, .to_us = 15 * second_us})).outcome, Outcome::pass);
+  const Answers::Count resolved{.mark = "handed_over", .before_us = 6 * second_us};
+  EXPECT_EQ(judge(counted(resolved)).measured, "never handed_over");
+  EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::fail);
+  for (std::size_t place = 5; place < 20; ++place) seen_.fixes[place].handed_over = true;  // from 6 s on
+  EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::fail);
   seen_.fixes[4].handed_over = true;
-  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::pass);
+  EXPECT_EQ(judge(counted(resolved)).measured, "handed_over at 5 s");
 }
 
 TEST_F(Fixed, SilenceNeverPasses) {
   seen_.fixes.clear();
   seen_.fix_navigation.clear();
-  EXPECT_EQ(judge(scenario::PositionError{.window = whole, .below = 1}).measured, "no answers");
-  EXPECT_EQ(judge(scenario::Fixes{.window = whole,
-                                  .counts = {{.outcome = "gated", .at_least = {}, .at_most = 3}},
-                                  .repairs_at_most = 0,
-                                  .handed_over_before_us = {}})
-                .outcome,
-            Outcome::fail);
-  EXPECT_EQ(judge(scenario::Coasting{.window = whole, .at_least = {}, .at_most = 0}).outcome, Outcome::fail);
+  EXPECT_EQ(judge(position()).measured, "no answers");
+  EXPECT_EQ(judge(counted({.mark = "gated", .at_most = 3})).outcome, Outcome::fail);
+  EXPECT_EQ(judge(counted({.mark = "coasting", .at_most = 0})).measured, "no answers");
 }
 
 TEST_F(Fixed, CoastingAnswersAreCounted) {
   for (const std::size_t place : {3, 7}) seen_.fix_navigation[place].coasting = true;
-  EXPECT_EQ(judge(scenario::Coasting{.window = whole, .at_least = 2, .at_most = 2}).outcome, Outcome::pass);
-  EXPECT_EQ(judge(scenario::Coasting{.window = whole, .at_least = 3, .at_most = {}}).outcome, Outcome::fail);
-  EXPECT_EQ(judge(scenario::Coasting{.window = whole, .at_least = {}, .at_most = 1}).outcome, Outcome::fail);
-  EXPECT_EQ(judge(scenario::Coasting{.window = {0, 5 * second_us}, .at_least = {}, .at_most = 1}).outcome,
-            Outcome::pass);
+  EXPECT_EQ(judge(counted({.mark = "coasting", .at_least = 2, .at_most = 2})).outcome, Outcome::pass);
+  EXPECT_EQ(judge(counted({.mark = "coasting", .at_least = 3})).outcome, Outcome::fail);
+  EXPECT_EQ(judge(counted({.mark = "coasting", .at_most = 1})).outcome, Outcome::fail);
+  EXPECT_EQ(judge(counted({.mark = "coasting", .at_most = 1}, {0, 5 * second_us})).outcome, Outcome::pass);
 }
 
 TEST_F(Fixed, BarsInDegreesAreReportedInDegrees) {
   seen_.fix_navigation[5].angles.heading = 0.0349066;  // 2 deg
-  const scenario::AttitudeError rule{.axis = scenario::AttitudeAxis::heading,
-                                     .window = whole,
-                                     .below = 3 * world::units::deg,
-                                     .unit = scenario::degrees};
+  Error rule = error_of(estimator, quantities::attitude_heading, whole, 3 * world::units::deg);
+  rule.unit = quantities::degrees;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_THAT(judge(rule).measured, HasSubstr("max 2.000 deg"));
   EXPECT_THAT(judge(rule).expected, HasSubstr("< 3 deg"));

@@ -3,10 +3,20 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
+#include "bench/checks/kinds/bus_errors.hpp"
+#include "bench/checks/kinds/consistency.hpp"
+#include "bench/checks/kinds/convergence.hpp"
+#include "bench/checks/kinds/counters.hpp"
+#include "bench/checks/kinds/heartbeat.hpp"
+#include "bench/checks/kinds/latency.hpp"
+#include "bench/checks/kinds/output_period.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/estimators/transfer_alignment/quantities.hpp"
 #include "bench/run/stopwatch.hpp"
-#include "bench/world/motion/rest.hpp"
 #include "dbc/wire/transmit.hpp"
+#include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -77,15 +87,14 @@ class Judged : public testing::Test {
   template <class Rule>
   CheckResult judge(const Rule& rule, const std::string& unfit = "") {
     scenario::Scenario scenario;
-    scenario.checks.push_back({.name = "it", .requirement = "R1", .rule = rule});
+    scenario.checks.push_back(check_of(rule));
     const Observations seen = timed(scenario.checks);
-    const Verdict verdict = checks::judge(scenario, {.seen = seen,
-                                                     .truth = truth_,
-                                                     .duration_us = duration_us,
-                                                     .ended_early = ended_early_,
-                                                     .timing_unfit = unfit});
-    verdict_ = verdict;
-    return verdict.checks.at(0);
+    verdict_ = checks::judge(scenario, {.seen = seen,
+                                        .truth = {.flight = truth_, .duration_us = duration_us},
+                                        .estimators = estimators::all(),
+                                        .ended_early = ended_early_,
+                                        .timing_unfit = unfit});
+    return verdict_.checks.at(0);
   }
 
   world::FlightRecord truth_{{.start = {}, .motion = world::Rest{}}, duration_us, 10'000};
@@ -96,9 +105,24 @@ class Judged : public testing::Test {
   Verdict verdict_;
 };
 
-constexpr scenario::AttitudeError attitude{.axis = scenario::AttitudeAxis::pitch,
-                                           .window = {.from_us = 2 * second_us, .to_us = duration_us},
-                                           .below = 0.01};
+Error error(const quantities::Quantity& quantity, double below, const scenario::Window& window = whole,
+            Error::Statistic statistic = Error::Statistic::max) {
+  return error_of("transfer_alignment", quantity, window, below, statistic);
+}
+const Error attitude =
+    error(quantities::attitude_pitch, 0.01, {.from_us = 2 * second_us, .to_us = duration_us});
+
+Consistency consistency(const quantities::Quantity& quantity, std::variant<MeanBetween, Probability> bound) {
+  return {.of = {.estimator = "transfer_alignment", .quantity = &quantity}, .window = whole, .bound = bound};
+}
+
+Convergence convergence(double within, std::int64_t before_us) {
+  return {.of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+          .within = within,
+          .unit = quantities::mrad,
+          .before_us = before_us,
+          .end_us = duration_us};
+}
 
 TEST_F(Judged, AttitudeErrorByTheWorstInItsWindow) {
   seen_.navigation[100].angles.pitch = 0.5;  // at 1.01 s: outside the window
@@ -111,17 +135,39 @@ TEST_F(Judged, AttitudeErrorByTheWorstInItsWindow) {
 
 TEST_F(Judged, VelocityErrorByAxisOrNorm) {
   seen_.navigation[300].v_eb_n = {0.3, 0, -0.4};
-  scenario::VelocityError rule{.axis = scenario::VelocityAxis::norm, .window = whole, .below = 0.45};
+  Error rule = error(quantities::velocity_norm, 0.45);
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule.axis = scenario::VelocityAxis::down;
+  rule.of.quantity = &quantities::velocity_down;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   rule.below = 0.4;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "the bar itself is not below it";
 }
 
+TEST_F(Judged, AnErrorByItsStatistic) {
+  using enum Error::Statistic;
+  for (auto& answer : seen_.navigation) answer.angles.roll = 0.003;
+  seen_.navigation[100].angles.roll = -0.103;
+  const auto measured = [&](Error::Statistic statistic) {
+    return judge(error(quantities::attitude_roll, 0.05, whole, statistic)).measured;
+  };
+  EXPECT_EQ(measured(max), "max 103.000 mrad of 400");
+  EXPECT_EQ(measured(rms), "RMS 5.958 mrad of 400") << "sqrt((399 * 9 + 10609) / 400)";
+  EXPECT_EQ(measured(mean), "mean 3.250, max 103.000 mrad of 400");
+  EXPECT_EQ(measured(final), "final 3.000 mrad of 400");
+  EXPECT_EQ(judge(error(quantities::attitude_roll, 0.05, whole, final)).outcome, Outcome::pass);
+  EXPECT_EQ(judge(error(quantities::attitude_roll, 0.05)).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, AnErrorThatIsNoNumberNeverPasses) {
+  using enum Error::Statistic;
+  seen_.navigation[100].angles.roll = std::numeric_limits<double>::quiet_NaN();
+  for (const auto statistic : {max, rms, mean, final})
+    EXPECT_EQ(judge(error(quantities::attitude_roll, 9, whole, statistic)).outcome, Outcome::fail);
+}
+
 TEST_F(Judged, ConvergenceBeforeATime) {
   for (int k = 0; k < 100; ++k) seen_.navigation[static_cast<std::size_t>(k)].angles.heading = 0.1;
-  scenario::Convergence rule{.axis = scenario::AttitudeAxis::heading, .within = 0.01, .before_us = 1'020'000};
+  Convergence rule = convergence(0.01, 1'020'000);
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).measured, "1.01 s");
   rule.before_us = 1'010'000;
@@ -132,29 +178,27 @@ TEST_F(Judged, ConvergenceBeforeATime) {
 
 TEST_F(Judged, AnswersThatCeaseNeverPass) {
   silence_from(2 * second_us + 500'000);
-  const scenario::AttitudeError angle{.axis = scenario::AttitudeAxis::roll, .window = whole, .below = 1};
+  const Error angle = error(quantities::attitude_roll, 1);
   EXPECT_EQ(judge(angle).outcome, Outcome::fail);
   EXPECT_EQ(judge(angle).measured, "no answers from 2.49 to 4 s");
-  EXPECT_EQ(judge(scenario::VelocityError{.window = whole, .below = 1}).outcome, Outcome::fail);
-  EXPECT_EQ(judge(scenario::Convergence{.within = 1, .before_us = second_us}).outcome, Outcome::fail);
-  EXPECT_EQ(judge(scenario::Consistency{.window = whole, .bound = scenario::MeanBetween{0, 9}}).outcome,
-            Outcome::fail);
+  EXPECT_EQ(judge(error(quantities::velocity_norm, 1)).outcome, Outcome::fail);
+  EXPECT_EQ(judge(convergence(1, second_us)).outcome, Outcome::fail);
+  EXPECT_EQ(judge(consistency(quantities::innovation_nis, MeanBetween{0, 9})).outcome, Outcome::fail);
 }
 
 TEST_F(Judged, NoAnswersAtAllFail) {
   silence_from(0);
   EXPECT_EQ(judge(attitude).measured, "no answers");
   EXPECT_EQ(judge(attitude).outcome, Outcome::fail);
-  EXPECT_EQ(judge(scenario::Convergence{.within = 1, .before_us = second_us}).outcome, Outcome::fail);
-  EXPECT_EQ(judge(scenario::Latency{.message = "AlignAttitude", .window = whole, .below_us = 5000}).outcome,
+  EXPECT_EQ(judge(convergence(1, second_us)).outcome, Outcome::fail);
+  EXPECT_EQ(judge(Latency{.message = "AlignAttitude", .window = whole, .below_us = 5000}).outcome,
             Outcome::fail);
-  EXPECT_EQ(judge(scenario::OutputPeriod{.message = "AlignAttitude", .window = whole, .within = 0.5}).outcome,
+  EXPECT_EQ(judge(OutputPeriod{.message = "AlignAttitude", .window = whole, .within = 0.5}).outcome,
             Outcome::fail);
 }
 
 TEST_F(Judged, ConsistencyByTheMeanInTheChiSquareInterval) {
-  scenario::Consistency rule{
-      .statistic = scenario::Statistic::nis, .window = whole, .bound = scenario::Probability{0.95}};
+  Consistency rule = consistency(quantities::innovation_nis, Probability{0.95});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   // 40 values of 3 degrees of freedom: chi-square of 120, 95 %: 91.573 to 152.211.
   EXPECT_THAT(judge(rule).expected, HasSubstr("between 2.29 and 3.81"));
@@ -162,21 +206,20 @@ TEST_F(Judged, ConsistencyByTheMeanInTheChiSquareInterval) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   for (auto& answer : seen_.filter) answer.nis = 2.2;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule.bound = scenario::MeanBetween{2, 2.5};
+  rule.bound = MeanBetween{2, 2.5};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
 }
 
 TEST_F(Judged, NeesFailsAnOverconfidentFilter) {
   for (auto& answer : seen_.navigation) answer.angles.heading = 0.1;
-  scenario::Consistency rule{
-      .statistic = scenario::Statistic::attitude_nees, .window = whole, .bound = scenario::MeanBetween{0, 9}};
+  const Consistency rule = consistency(quantities::attitude_nees, MeanBetween{0, 9});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   for (auto& answer : seen_.filter) answer.attitude_sigma *= 0.01;  // 10 sigma
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
 TEST_F(Judged, LatencyAtItsQuantile) {
-  scenario::Latency rule{.message = "AlignAttitude", .window = whole, .below_us = 1000, .quantile = 0.99};
+  Latency rule{.message = "AlignAttitude", .window = whole, .below_us = 1000, .quantile = 0.99};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_THAT(judge(rule).expected, testing::StartsWith("AlignAttitude 99 % quantile < 1 ms from 0 to "));
   for (std::size_t k = 0; k < 4; ++k) came<messages::AlignAttitude>()[k * 50].t_ns += 5'000'000;
@@ -186,7 +229,7 @@ TEST_F(Judged, LatencyAtItsQuantile) {
 }
 
 TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
-  scenario::OutputPeriod rule{.message = "AlignAttitude", .window = whole, .within = 0.2, .quantile = 0.99};
+  OutputPeriod rule{.message = "AlignAttitude", .window = whole, .within = 0.2, .quantile = 0.99};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).expected, "AlignAttitude every 10 ms +- 20 % (99 % quantile) from 0 to 4 s");
   auto& all = came<messages::AlignAttitude>();
@@ -199,7 +242,7 @@ TEST_F(Judged, OutputPeriodCountsEveryMissingMessage) {
 }
 
 TEST_F(Judged, OutputPeriodOfAMessageThatAnswersNothing) {
-  const scenario::OutputPeriod rule{.message = "TargetHeartbeat", .window = whole, .within = 0.2};
+  const OutputPeriod rule{.message = "TargetHeartbeat", .window = whole, .within = 0.2};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   came<messages::TargetHeartbeat>().pop_back();
   came<messages::TargetHeartbeat>().pop_back();
@@ -207,7 +250,7 @@ TEST_F(Judged, OutputPeriodOfAMessageThatAnswersNothing) {
 }
 
 TEST_F(Judged, HeartbeatUpToTheEndOfTheRun) {
-  const scenario::Heartbeat rule{.silent_at_most_us = 500'000};
+  const Heartbeat rule{.silent_at_most_us = 500'000};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   auto& beats = came<messages::TargetHeartbeat>();
   const auto kept = beats;
@@ -221,7 +264,7 @@ TEST_F(Judged, HeartbeatUpToTheEndOfTheRun) {
 }
 
 TEST_F(Judged, CountersByEachBar) {
-  scenario::Counters rule;
+  Counters rule;
   rule.frames_lost_at_most = 0;
   rule.late_at_most = 2;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
@@ -237,8 +280,7 @@ TEST_F(Judged, CountersByEachBar) {
 
 // Stalled for 5 of 400 stimuli: as many late frames pass its p99, and the answers' periods would not.
 TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
-  const scenario::OutputPeriod period{
-      .message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
+  const OutputPeriod period{.message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
   ASSERT_EQ(judge(period).outcome, Outcome::pass);
   auto& stimuli = stimuli_["SlaveImu"];
   auto& answers = came<messages::AlignAttitude>();
@@ -252,17 +294,16 @@ TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
 }
 
 TEST_F(Judged, TheBusByEachBar) {
-  scenario::BusErrorLimits rule;
+  BusErrorLimits rule;
   seen_.bus.reports_errors = true;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   seen_.bus.errors = {.frames = 9, .warning = 9, .passive = 9};
   seen_.bus.late_in_queue = 9;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "not asked for";
   EXPECT_EQ(judge(rule).measured, "bus off 0, interface down 0");
-  for (auto bar :
-       {&scenario::BusErrorLimits::passive_at_most, &scenario::BusErrorLimits::warning_at_most,
-        &scenario::BusErrorLimits::error_frames_at_most, &scenario::BusErrorLimits::late_in_queue_at_most}) {
-    scenario::BusErrorLimits one;
+  for (auto bar : {&BusErrorLimits::passive_at_most, &BusErrorLimits::warning_at_most,
+                   &BusErrorLimits::error_frames_at_most, &BusErrorLimits::late_in_queue_at_most}) {
+    BusErrorLimits one;
     one.*bar = 9;
     EXPECT_EQ(judge(one).outcome, Outcome::pass);
     one.*bar = 8;
@@ -277,7 +318,7 @@ TEST_F(Judged, TheBusByEachBar) {
 }
 
 TEST_F(Judged, ABusThatReportsNoErrorsProvesNothing) {
-  const scenario::BusErrorLimits rule;
+  const BusErrorLimits rule;
   EXPECT_EQ(judge(rule).outcome, Outcome::not_measured);
   EXPECT_THAT(judge(rule).measured, HasSubstr("this bus reports no errors"));
   EXPECT_EQ(judge(rule).expected, "bus off <= 0, interface down <= 0");
@@ -300,7 +341,7 @@ TEST_F(Judged, ABusThatFailedFailsARunThatSaysNothingOfIt) {
   EXPECT_EQ(verdict_.checks[1].outcome, Outcome::fail);
   EXPECT_EQ(verdict_.outcome, Outcome::fail);
   seen_.bus.reports_errors = true;
-  scenario::BusErrorLimits allowed;
+  BusErrorLimits allowed;
   allowed.bus_off_at_most = 1;
   judge(allowed);
   EXPECT_EQ(verdict_.checks.size(), 1U) << "the scenario says something";
@@ -325,10 +366,7 @@ TEST_F(Judged, WithOthersWhoSendInTheBenchsOrTheTargetsNameNothingIsShown) {
 }
 
 TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
-  const std::vector<scenario::Check> checks{
-      {.name = "it",
-       .requirement = "",
-       .rule = scenario::Latency{.message = "AlignAttitude", .window = whole}}};
+  const std::vector<scenario::Check> checks{check_of(Latency{.message = "AlignAttitude", .window = whole})};
   const auto window = [&] { return timed(checks).timing.windows.at(0); };
   EXPECT_FALSE(stamped_by_hardware(timed(checks).timing));
   for (auto& [group, stimuli] : stimuli_)
@@ -348,7 +386,7 @@ TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {
 }
 
 TEST_F(Judged, AWindowTakesTheTimesOfItsPartOfTheRun) {
-  scenario::Latency rule{
+  Latency rule{
       .message = "AlignAttitude", .window = {.from_us = second_us, .to_us = 2 * second_us}, .below_us = 1000};
   came<messages::AlignAttitude>()[98].t_ns += 5'000'000;   // at 0.99 s
   came<messages::AlignAttitude>()[200].t_ns += 5'000'000;  // at 2.01 s
@@ -363,20 +401,15 @@ TEST_F(Judged, AWindowTakesTheTimesOfItsPartOfTheRun) {
 TEST(TimedWindows, AreTakenOnceForAllThatAskForThem) {
   const scenario::Window half{.from_us = 0, .to_us = second_us};
   const std::vector<scenario::Check> checks{
-      {.name = "a",
-       .requirement = "",
-       .rule = scenario::Latency{.message = "AlignAttitude", .window = whole}},
-      {.name = "b", .requirement = "", .rule = scenario::Latency{.message = "AlignAttitude", .window = half}},
-      {.name = "c",
-       .requirement = "",
-       .rule = scenario::OutputPeriod{.message = "AlignAttitude", .window = half}},
-      {.name = "d", .requirement = "", .rule = attitude}};
+      check_of(Latency{.message = "AlignAttitude", .window = whole}, "a"),
+      check_of(Latency{.message = "AlignAttitude", .window = half}, "b"),
+      check_of(OutputPeriod{.message = "AlignAttitude", .window = half}, "c"), check_of(attitude, "d")};
   EXPECT_EQ(timed_windows(checks).size(), 2U);
 }
 
 TEST_F(Judged, TimingIsNotMeasuredByALateBenchWhateverTheTargetDid) {
-  const scenario::Latency latency{.message = "AlignAttitude", .window = whole, .below_us = 1000};
-  const scenario::Heartbeat heartbeat{.silent_at_most_us = 500'000};
+  const Latency latency{.message = "AlignAttitude", .window = whole, .below_us = 1000};
+  const Heartbeat heartbeat{.silent_at_most_us = 500'000};
   seen_.timing.lateness.add(501'000);  // more than half of 1 ms
   EXPECT_EQ(judge(latency).outcome, Outcome::not_measured);
   EXPECT_EQ(verdict_.outcome, Outcome::not_measured);

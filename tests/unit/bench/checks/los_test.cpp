@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
-#include "bench/checks/judge.hpp"
-#include "bench/world/motion/rest.hpp"
+#include "bench/checks/kinds/answers.hpp"
+#include "bench/checks/kinds/consistency.hpp"
+#include "bench/estimators/los_rate/miss_distance.hpp"
+#include "bench/estimators/los_rate/quantities.hpp"
+#include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -40,13 +43,12 @@ class Engaged : public testing::Test {
   template <class Rule>
   CheckResult judge(const Rule& rule) {
     scenario::Scenario scenario;
-    scenario.checks.push_back({.name = "it", .requirement = "", .rule = rule});
+    scenario.checks.push_back(check_of(rule));
     return checks::judge(scenario, {.seen = seen_,
-                                    .truth = truth_,
-                                    .engagement = present_ ? &engagement_ : nullptr,
-                                    .duration_us = duration_us,
-                                    .ended_early = "",
-                                    .timing_unfit = ""})
+                                    .truth = {.flight = truth_,
+                                              .duration_us = duration_us,
+                                              .engagement = present_ ? &engagement_ : nullptr},
+                                    .estimators = estimators::all()})
         .checks.at(0);
   }
   LosAnswer& answer_at(double to_go) {
@@ -59,34 +61,38 @@ class Engaged : public testing::Test {
   Observations seen_;
 };
 
-scenario::LosRateError error_rule(scenario::LosPlane plane, scenario::LosStatistic statistic) {
-  return {.plane = plane, .statistic = statistic, .least_to_go = 1, .most_to_go = 2, .below = 2e-3};
+using enum Error::Statistic;
+using estimators::MissDistance;
+using quantities::los_rate_both;
+using quantities::los_rate_pitch;
+using quantities::los_rate_yaw;
+
+Error error_rule(const quantities::Quantity& quantity, Error::Statistic statistic) {
+  Error rule = error_of("los_rate", quantity, {.from_us = 0, .to_us = duration_us}, 2e-3, statistic);
+  rule.stretch.to_go_s = {1, 2};
+  return rule;
 }
 
 TEST_F(Engaged, LosRateErrorByPlaneAndStatistic) {
-  using enum scenario::LosPlane;
-  using enum scenario::LosStatistic;
   answer_at(1.5).rate.yaw += 3e-3;
-  EXPECT_EQ(judge(error_rule(yaw, max)).outcome, Outcome::fail);
-  EXPECT_EQ(judge(error_rule(both, max)).measured, "max 3.000 mrad/s of 100");
-  EXPECT_EQ(judge(error_rule(pitch, max)).outcome, Outcome::pass);
-  EXPECT_EQ(judge(error_rule(yaw, rms)).measured, "RMS 0.300 mrad/s of 100") << "one of 100";
+  EXPECT_EQ(judge(error_rule(los_rate_yaw, max)).outcome, Outcome::fail);
+  EXPECT_EQ(judge(error_rule(los_rate_both, max)).measured, "max 3.000 mrad/s of 100");
+  EXPECT_EQ(judge(error_rule(los_rate_pitch, max)).outcome, Outcome::pass);
+  EXPECT_EQ(judge(error_rule(los_rate_yaw, rms)).measured, "RMS 0.300 mrad/s of 100") << "one of 100";
   for (LosAnswer& answer : seen_.los) answer.rate.pitch += 2.1e-3;
-  EXPECT_EQ(judge(error_rule(pitch, rms)).outcome, Outcome::fail);
+  EXPECT_EQ(judge(error_rule(los_rate_pitch, rms)).outcome, Outcome::fail);
 }
 
 TEST_F(Engaged, TheWindowIsOfTheTimeToGo) {
-  using enum scenario::LosPlane;
-  using enum scenario::LosStatistic;
   answer_at(2.5).rate.yaw += 1;
   answer_at(0.5).rate.yaw += 1;
-  EXPECT_EQ(judge(error_rule(both, max)).outcome, Outcome::pass);
+  EXPECT_EQ(judge(error_rule(los_rate_both, max)).outcome, Outcome::pass);
   answer_at(1.0).rate.yaw += 1;
-  EXPECT_EQ(judge(error_rule(both, max)).outcome, Outcome::fail) << "its end is in";
+  EXPECT_EQ(judge(error_rule(los_rate_both, max)).outcome, Outcome::fail) << "its end is in";
 }
 
 TEST_F(Engaged, MissingAnswersFail) {
-  const auto rule = error_rule(scenario::LosPlane::both, scenario::LosStatistic::rms);
+  const auto rule = error_rule(los_rate_both, rms);
   std::erase_if(seen_.los, [](const LosAnswer& answer) { return answer.cause_us % 20'000 == 0; });
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "half of the samples may be lost";
   std::erase_if(seen_.los, [](const LosAnswer& answer) { return answer.cause_us == 3'510'000; });
@@ -99,23 +105,22 @@ TEST_F(Engaged, MissingAnswersFail) {
 
 TEST_F(Engaged, AnswersThatAreNoEstimateTellNoRate) {
   for (LosAnswer& answer : seen_.los) answer.outcome = LosRateOutcome::waiting;
-  EXPECT_THAT(judge(error_rule(scenario::LosPlane::both, scenario::LosStatistic::max)).measured,
-              HasSubstr("no answers"));
+  EXPECT_THAT(judge(error_rule(los_rate_both, max)).measured, HasSubstr("no answers"));
 }
 
 TEST_F(Engaged, Miss) {
-  EXPECT_EQ(judge(scenario::MissDistance{.below = 0.51}).outcome, Outcome::pass);
-  EXPECT_EQ(judge(scenario::MissDistance{.below = 0.5}).outcome, Outcome::fail);
+  EXPECT_EQ(judge(MissDistance{.below = 0.51}).outcome, Outcome::pass);
+  EXPECT_EQ(judge(MissDistance{.below = 0.5}).outcome, Outcome::fail);
   engagement_.miss_n.reset();
-  EXPECT_THAT(judge(scenario::MissDistance{.below = 1}).measured, HasSubstr("did not pass"));
+  EXPECT_THAT(judge(MissDistance{.below = 1}).measured, HasSubstr("did not pass"));
   present_ = false;
-  EXPECT_EQ(judge(scenario::MissDistance{.below = 1}).outcome, Outcome::fail);
+  EXPECT_EQ(judge(MissDistance{.below = 1}).outcome, Outcome::fail);
 }
 
 TEST_F(Engaged, ConsistencyIsOfTwoDegreesOfFreedomUntilThePassage) {
-  scenario::Consistency rule{.statistic = scenario::Statistic::los_nis,
-                             .window = {.from_us = 0, .to_us = duration_us},
-                             .bound = scenario::Probability{.value = 0.99}};
+  const Consistency rule{.of = {.estimator = "los_rate", .quantity = &quantities::los_nis},
+                         .window = {.from_us = 0, .to_us = duration_us},
+                         .bound = Probability{.value = 0.99}};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   for (LosAnswer& answer : seen_.los) answer.nis = 3;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "consistent with three";
@@ -127,7 +132,9 @@ TEST_F(Engaged, ConsistencyIsOfTwoDegreesOfFreedomUntilThePassage) {
 }
 
 TEST_F(Engaged, Coasting) {
-  scenario::Coasting rule{.window = {.from_us = 0, .to_us = duration_us}, .at_least = {}, .at_most = 0};
+  const Answers rule{.estimator = "los_rate",
+                     .window = {.from_us = 0, .to_us = duration_us},
+                     .counts = {{.mark = "coasting", .at_most = 0}}};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   answer_at(2).outcome = LosRateOutcome::coasting;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);

@@ -6,16 +6,20 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/checks/judge.hpp"
-#include "bench/world/motion/rest.hpp"
+#include "bench/checks/kinds/answers.hpp"
+#include "bench/checks/kinds/consistency.hpp"
+#include "bench/estimators/wind/quantities.hpp"
 #include "dbc/wire/transmit.hpp"
+#include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::checks {
 namespace {
 
 using messages::WindOutcome;
-using scenario::WindAxis;
-using scenario::WindStatistic;
+using enum Error::Statistic;
+using quantities::wind_cross;
+using quantities::wind_down;
+using quantities::wind_norm;
 using testing::HasSubstr;
 using world::Vector3;
 
@@ -44,17 +48,19 @@ class Winds : public testing::Test {
   template <class Rule>
   CheckResult judge(const Rule& rule) {
     scenario::Scenario scenario;
-    scenario.checks.push_back({.name = "it", .requirement = "", .rule = rule});
+    scenario.checks.push_back(check_of(rule));
     return checks::judge(scenario, {.seen = seen_,
-                                    .truth = rest_,
-                                    .glide = &glide_,
-                                    .duration_us = duration_us,
-                                    .ended_early = "",
-                                    .timing_unfit = ""})
+                                    .truth = {.flight = rest_, .duration_us = duration_us, .glide = &glide_},
+                                    .estimators = estimators::all()})
         .checks.at(0);
   }
-  CheckResult error(WindAxis axis, WindStatistic statistic, double below) {
-    return judge(scenario::WindError{.axis = axis, .statistic = statistic, .window = whole, .below = below});
+  CheckResult error(const quantities::Quantity& quantity, Error::Statistic statistic, double below) {
+    return judge(error_of("wind", quantity, whole, below, statistic));
+  }
+  CheckResult consistency(const quantities::Quantity& quantity,
+                          std::variant<MeanBetween, Probability> bound) {
+    return judge(
+        Consistency{.of = {.estimator = "wind", .quantity = &quantity}, .window = whole, .bound = bound});
   }
 
   world::GlideRecord glide_{heading_east(), duration_us, world::Stream(1, 0, "c"), world::Stream(1, 0, "g")};
@@ -70,29 +76,28 @@ TEST_F(Winds, ErrorsAreAlongAndAcrossTheAirVelocity) {
   EXPECT_NEAR(errors[100].along_track, 3, 0.01);  // it weathercocks by a fraction of a degree
   EXPECT_NEAR(errors[100].cross_track, 0, 0.1);
   EXPECT_NEAR(errors[200].cross_track, 2, 0.01);
-  EXPECT_NEAR(component(errors[300], WindAxis::down), -1, 1e-12);
-  EXPECT_NEAR(component(errors[300], WindAxis::norm), 1, 1e-12);
+  EXPECT_NEAR(errors[300].error_n.z(), -1, 1e-12);
 }
 
 TEST_F(Winds, TheLargestAndTheMeanErrorAreJudged) {
-  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1e-6).outcome, Outcome::pass);
+  EXPECT_EQ(error(wind_norm, max, 1e-6).outcome, Outcome::pass);
   seen_.wind[100].wind_n.z() -= 5;
-  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 4.9).outcome, Outcome::fail);
-  EXPECT_EQ(error(WindAxis::down, WindStatistic::max, 5.1).outcome, Outcome::pass);
-  EXPECT_EQ(error(WindAxis::down, WindStatistic::mean, 0.009).outcome, Outcome::fail);  // 5 / 500
-  EXPECT_EQ(error(WindAxis::down, WindStatistic::mean, 0.011).outcome, Outcome::pass);
-  EXPECT_EQ(error(WindAxis::cross_track, WindStatistic::max, 1e-6).outcome, Outcome::pass);
+  EXPECT_EQ(error(wind_norm, max, 4.9).outcome, Outcome::fail);
+  EXPECT_EQ(error(wind_down, max, 5.1).outcome, Outcome::pass);
+  EXPECT_EQ(error(wind_down, mean, 0.009).outcome, Outcome::fail);  // 5 / 500
+  EXPECT_EQ(error(wind_down, mean, 0.011).outcome, Outcome::pass);
+  EXPECT_EQ(error(wind_cross, max, 1e-6).outcome, Outcome::pass);
 }
 
 TEST_F(Winds, SilenceAndNansNeverPass) {
   seen_.wind[100].wind_n.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(error(WindAxis::norm, WindStatistic::mean, 1e9).outcome, Outcome::fail);
-  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1e9).outcome, Outcome::fail);
+  EXPECT_EQ(error(wind_norm, mean, 1e9).outcome, Outcome::fail);
+  EXPECT_EQ(error(wind_norm, max, 1e9).outcome, Outcome::fail);
   seen_.wind.erase(seen_.wind.begin() + 90, seen_.wind.begin() + 150);  // 1.2 s
-  EXPECT_THAT(error(WindAxis::norm, WindStatistic::max, 1).measured, HasSubstr("no answers for 1.2"));
+  EXPECT_THAT(error(wind_norm, max, 1).measured, HasSubstr("no answers from 1.8 to 3.02 s"));
   seen_.wind.clear();
-  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1).measured, "no answers");
-  EXPECT_EQ(judge(scenario::WindAnswers{.window = whole, .counts = {}}).outcome, Outcome::fail);
+  EXPECT_EQ(error(wind_norm, max, 1).measured, "no answers");
+  EXPECT_EQ(judge(Answers{.estimator = "wind", .window = whole, .counts = {}}).outcome, Outcome::fail);
 }
 
 TEST_F(Winds, AFilterThatWaitsHasNoError) {
@@ -112,11 +117,7 @@ TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {
   seen_.wind[0].wind_n += Vector3(1, -1, 0);
   seen_.wind[0].correlation = {0.9, 0.9, -0.9};  // as no three numbers are correlated
   EXPECT_TRUE(std::isinf(wind_nees(seen_, glide_)[0].value));
-  EXPECT_EQ(judge(scenario::Consistency{.statistic = scenario::Statistic::wind_nees,
-                                        .window = whole,
-                                        .bound = scenario::MeanBetween{.low = 0, .high = 1e9}})
-                .outcome,
-            Outcome::fail);
+  EXPECT_EQ(consistency(quantities::wind_nees, MeanBetween{.low = 0, .high = 1e9}).outcome, Outcome::fail);
 }
 
 TEST_F(Winds, SilenceIsTwoPeriodsOfTheNavigationIfThatIsLonger) {
@@ -124,17 +125,14 @@ TEST_F(Winds, SilenceIsTwoPeriodsOfTheNavigationIfThatIsLonger) {
   for (std::int64_t t_us = 0; t_us <= duration_us; t_us += 1'000'000) seen_.stimuli["GliderNav"].add(t_us);
   std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us % 1'000'000 != 0; });
   std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us == 3'000'000; });
-  EXPECT_EQ(error(WindAxis::norm, WindStatistic::max, 1).outcome, Outcome::pass) << "one was lost";
+  EXPECT_EQ(error(wind_norm, max, 1).outcome, Outcome::pass) << "one was lost";
   std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us == 4'000'000; });
-  EXPECT_THAT(error(WindAxis::norm, WindStatistic::max, 1).measured, HasSubstr("no answers for 3.00 s"));
+  EXPECT_THAT(error(wind_norm, max, 1).measured, HasSubstr("no answers from 2 to 5 s"));
 }
 
 TEST_F(Winds, NisIsOfNineDegreesOfFreedom) {
   const auto consistent = [&] {
-    return judge(scenario::Consistency{.statistic = scenario::Statistic::wind_nis,
-                                       .window = whole,
-                                       .bound = scenario::Probability{.value = 0.999}})
-        .outcome;
+    return consistency(quantities::wind_nis, Probability{.value = 0.999}).outcome;
   };
   EXPECT_EQ(consistent(), Outcome::pass);
   for (WindAnswer& answer : seen_.wind) answer.nis = 3;
@@ -146,17 +144,17 @@ TEST_F(Winds, NisIsOfNineDegreesOfFreedom) {
 TEST_F(Winds, AnswersAreCountedByOutcomeAndFlag) {
   for (std::size_t i = 0; i < 7; ++i) seen_.wind[i].fins_late = true;
   for (std::size_t i = 0; i < 3; ++i) seen_.wind[i].outcome = WindOutcome::coasting;
-  const auto counted = [&](const char* name, bool is_flag, std::int64_t least, std::int64_t most) {
-    return judge(scenario::WindAnswers{
-                     .window = whole,
-                     .counts = {{.name = name, .is_flag = is_flag, .at_least = least, .at_most = most}}})
+  const auto counted = [&](const char* mark, std::int64_t least, std::int64_t most) {
+    return judge(Answers{.estimator = "wind",
+                         .window = whole,
+                         .counts = {{.mark = mark, .at_least = least, .at_most = most}}})
         .outcome;
   };
-  EXPECT_EQ(counted("coasting", false, 3, 3), Outcome::pass);
-  EXPECT_EQ(counted("coasting", false, 0, 2), Outcome::fail);
-  EXPECT_EQ(counted("updated", false, 498, 600), Outcome::fail);
-  EXPECT_EQ(counted("fins_late", true, 7, 7), Outcome::pass);
-  EXPECT_EQ(counted("outside", true, 1, 7), Outcome::fail);
+  EXPECT_EQ(counted("coasting", 3, 3), Outcome::pass);
+  EXPECT_EQ(counted("coasting", 0, 2), Outcome::fail);
+  EXPECT_EQ(counted("updated", 498, 600), Outcome::fail);
+  EXPECT_EQ(counted("fins_late", 7, 7), Outcome::pass);
+  EXPECT_EQ(counted("outside", 1, 7), Outcome::fail);
 }
 
 }  // namespace

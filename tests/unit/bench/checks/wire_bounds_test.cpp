@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "bench/checks/kinds/wire_response.hpp"
 #include "dbc/wire/transmit.hpp"
+#include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -23,6 +25,7 @@ class OnTheWire : public testing::Test {
     seen_.timing.wire.rates = {.nominal = 1'000'000};
     seen_.transmit_stamps_echoed = true;
     seen_.last_ns = 1'000'000'000;
+    seen_.timing.lateness.add(1);
     for (std::int64_t t_us = 10'000; t_us <= 1'000'000; t_us += 10'000) {
       seen_.stimuli["SlaveImu"].add(t_us);
       seen_.timing.transmit[message_index<SlaveImuStatus>()].handed_over.add(0);
@@ -64,16 +67,16 @@ TEST_F(OnTheWire, TheBoundIsThatOfTheOrderInWhichNodesSend) {
 }
 
 TEST_F(OnTheWire, ACheckHoldsEveryMessageAgainstItsBound) {
-  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::pass);
-  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).measured,
+  EXPECT_EQ(found(WireResponseRule{}, seen_).outcome, Outcome::pass);
+  EXPECT_EQ(found(WireResponseRule{}, seen_).measured,
             "SlaveImuStatus: 0.200 of 0.270 ms, the most of 2 messages");
   seen_.timing.responses[message_index<AlignAttitude>()].max_ns = 3 * frame_ns + 1;
-  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::fail);
-  EXPECT_THAT(judge(scenario::WireResponse{}, seen_).measured, HasSubstr("AlignAttitude: 0.405 of 0.405 ms"));
+  EXPECT_EQ(found(WireResponseRule{}, seen_).outcome, Outcome::fail);
+  EXPECT_THAT(found(WireResponseRule{}, seen_).measured, HasSubstr("AlignAttitude: 0.405 of 0.405 ms"));
 }
 
 TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
-  const auto judged = [&] { return judge(scenario::WireResponse{}, seen_); };
+  const auto judged = [&] { return found(WireResponseRule{}, seen_); };
   seen_.bus.errors.frames = 3;
   EXPECT_EQ(judged().outcome, Outcome::not_measured);
   EXPECT_EQ(judged().measured, "3 errors on the bus");
@@ -103,13 +106,13 @@ TEST_F(OnTheWire, OnCanFdTheBoundIsThatOfTheContainer) {
   EXPECT_EQ(wire_bounds(seen_).size(), 2U);
   EXPECT_EQ(bound_of("SlaveImu"), 2 * container_ns);
   EXPECT_EQ(bound_of("AlignNav"), 2 * container_ns + heartbeat_ns);
-  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::pass);
-  EXPECT_THAT(judge(scenario::WireResponse{}, seen_).measured, HasSubstr("SlaveImu: 0.150 of 0.20"));
+  EXPECT_EQ(found(WireResponseRule{}, seen_).outcome, Outcome::pass);
+  EXPECT_THAT(found(WireResponseRule{}, seen_).measured, HasSubstr("SlaveImu: 0.150 of 0.20"));
   sent.max_ns = 2 * container_ns + 1;  // held back by a frame more than there can be
-  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::fail);
+  EXPECT_EQ(found(WireResponseRule{}, seen_).outcome, Outcome::fail);
   sent.max_ns = 150'000;
   answered.max_ns = 2 * container_ns + heartbeat_ns + 1;
-  EXPECT_EQ(judge(scenario::WireResponse{}, seen_).outcome, Outcome::fail);
+  EXPECT_EQ(found(WireResponseRule{}, seen_).outcome, Outcome::fail);
 }
 
 TEST_F(OnTheWire, WhatIsSentFasterThanTheContractSaysCountsAsOften) {

@@ -97,27 +97,19 @@ TEST(PageSections, ShowsEachMessageBesideItsBound) {
 TEST(PageSections, ShowsTheResultsOfAnAlignment) {
   const std::string page = page_of(run_of());
   EXPECT_THAT(page, AllOf(HasSubstr("<h2>Results</h2>"), HasSubstr("href=\"#results\""),
-                          HasSubstr("3 mrad</td><td data-label=\"from\">0.01 s"),
-                          HasSubstr("roll error at the end</td><td data-label=\"value\">+1.000 mrad"),
-                          HasSubstr("velocity error at the end")));
+                          HasSubstr("<h3>transfer_alignment</h3>"), HasSubstr("3 mrad from 0.01 s"),
+                          HasSubstr("error at the end</td><td data-label=\"value\">roll +1.000 mrad, pitch"),
+                          HasSubstr("answers 200, updates 20</td>")));
 }
 
-TEST(PageSections, ShowsTheResultsOfAnEngagementAndAWind) {
+TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
   Json report = document(scenario_of(), run_of());
-  report.erase("alignments");
-  report["engagement"] = Json::parse(
-      R"({"miss_m": 0.25, "passage_s": 5.5, "late_commands": 3, "outcomes": {"updated": 7},
-          "los_rate_rms": [{"most_to_go_s": 3, "least_to_go_s": 2, "rms_radps": 0.00164},
-                           {"most_to_go_s": 2, "least_to_go_s": 1, "rms_radps": null}]})");
-  report["wind"] = Json::parse(
-      R"({"from_s": 10, "along_track_sigma_mps": 1.5, "outcomes": {"updated": 9},
-          "mean_error_mps": {"norm": 2.7, "along_track": 2.5, "cross_track": null, "down": 0.5}})");
-  EXPECT_THAT(
-      html(report).value(),
-      AllOf(HasSubstr("0.250 m at 5.500 s"), HasSubstr("3 to 2 s"), HasSubstr("1.64 mrad/s"),
-            HasSubstr("no answers</td>"), HasSubstr("answers too late to guide</td>"),
-            HasSubstr("of the vector</td><td data-label=\"value\">2.700 m/s"),
-            HasSubstr("across track</td><td data-label=\"value\">none judged"), HasSubstr("1.500 m/s")));
+  report["results"] = Json::parse(
+      R"({"wind": {"mean": {"what": "mean <error>", "figures": {"norm": {"value": 1, "words": "of the vector 1 m/s"},
+          "none": {"value": 0, "words": ""}, "down": {"value": null, "words": "down none judged"}}}}})");
+  EXPECT_THAT(html(report).value(),
+              HasSubstr("mean &lt;error&gt;</td><td data-label=\"value\">of the vector 1 m/s, "
+                        "down none judged</td>"));
 }
 
 // 200 stimuli, and of the answers of a group of an estimator in use not one.

@@ -131,24 +131,29 @@ TEST(Reports, TellWhatBecameOfFixes) {
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "sin_cos", .initial_sigma = {}, .parameters = {}}};
-  EXPECT_THAT(text(scenario, run), Not(HasSubstr("fixes")));
+  EXPECT_THAT(text(scenario, run), AllOf(HasSubstr("answers 0\n"), Not(HasSubstr("accepted"))));
   checks::FixAnswer fix{.cause_us = 100'000};
   fix.heading_sigma = 0.01;
   run.seen.fixes = {fix, fix, fix};
   EXPECT_THAT(
       text(scenario, run),
-      HasSubstr(
-          "accepted 3; repairs 0; heading not fed back to the INS by the end, sigma 0.573 deg at the end"));
+      AllOf(
+          HasSubstr("repairs of the covariance 0, heading not fed back to the INS by the end, heading sigma "
+                    "told at the end 0.573 deg\n"),
+          HasSubstr("answers 0, accepted 3\n")));
   run.seen.fixes[1].outcome = messages::FixOutcome::gated;
   run.seen.fixes[1].cause_us = 200'000;
   run.seen.fixes[1].handed_over = run.seen.fixes[2].handed_over = true;
   run.seen.fixes[2].repairs = 4;
-  EXPECT_THAT(text(scenario, run),
-              HasSubstr("accepted 2, gated 1; repairs 4; heading fed back to the INS at 0.2 s, sigma"));
-  const auto page = nlohmann::json::parse(json(scenario, run));
-  EXPECT_EQ(page["alignments"][0]["fixes"]["outcomes"]["gated"], 1);
-  EXPECT_EQ(page["alignments"][0]["fixes"]["resolved_s"], 0.2);
-  EXPECT_EQ(page["alignments"][0]["fixes"]["repairs"], 4);
+  EXPECT_THAT(
+      text(scenario, run),
+      AllOf(HasSubstr("repairs of the covariance 4, heading fed back to the INS at 0.2 s, heading sigma"),
+            HasSubstr("accepted 2, gated 1, repaired 1, handed_over 2\n")));
+  const auto results = nlohmann::json::parse(json(scenario, run))["results"]["inflight_alignment"];
+  EXPECT_EQ(results["answers"]["figures"]["gated"]["value"], 1);
+  EXPECT_EQ(results["answers"]["figures"]["late"]["value"], 0) << "programs are told of none, too";
+  EXPECT_EQ(results["filter"]["figures"]["resolved"]["value"], 0.2);
+  EXPECT_EQ(results["filter"]["figures"]["repairs"]["value"], 4);
 }
 
 TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
@@ -157,8 +162,10 @@ TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "ukf", .initial_sigma = {}, .parameters = {}}};
-  EXPECT_THAT(text(scenario, run), HasSubstr("accepted 1; repairs 0; heading sigma 0.573 deg at the end\n"));
-  EXPECT_FALSE(nlohmann::json::parse(json(scenario, run))["alignments"][0]["fixes"].contains("resolved_s"));
+  EXPECT_THAT(text(scenario, run),
+              HasSubstr("repairs of the covariance 0, heading sigma told at the end 0.573 deg\n"));
+  const auto page = nlohmann::json::parse(json(scenario, run));
+  EXPECT_FALSE(page["results"]["inflight_alignment"]["filter"]["figures"].contains("resolved"));
 }
 
 TEST(Reports, TellTheLoadAtTheRateOfTheWire) {

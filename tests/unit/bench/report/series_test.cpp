@@ -8,9 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "bench/checks/kinds/convergence.hpp"
+#include "bench/quantities/list.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/page.hpp"
 #include "bench/world/motion/rest.hpp"
+#include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::report {
 namespace {
@@ -56,18 +59,21 @@ const Series* find(const std::vector<Series>& all, std::string_view quantity) {
 }
 
 scenario::Check heading_below_2_mrad() {
-  return {.name = "heading at the end",
-          .requirement = "",
-          .rule = scenario::AttitudeError{.window = {.from_us = 10'000'000, .to_us = duration_us},
-                                          .below = 0.002}};
+  return checks::check_of(checks::error_of("transfer_alignment", quantities::attitude_heading,
+                                           {.from_us = 10'000'000, .to_us = duration_us}, 0.002),
+                          "heading at the end");
 }
 
 TEST(Series, CarryTheBarsOfTheChecksThatJudgeThem) {
   const run::Run run = run_of();
   EXPECT_EQ(find(series(scenario_of(), run), "heading error"), nullptr) << "nobody judges it";
-  const scenario::Check convergence{.name = "converges",
-                                    .requirement = "",
-                                    .rule = scenario::Convergence{.within = 0.003, .before_us = 5'000'000}};
+  const scenario::Check convergence = checks::check_of(
+      checks::Convergence{
+          .of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+          .within = 0.003,
+          .before_us = 5'000'000,
+          .end_us = duration_us},
+      "converges");
   const auto all = series(scenario_of({heading_below_2_mrad(), convergence}), run);
   const Series* heading = find(all, "heading error");
   ASSERT_NE(heading, nullptr);

@@ -1,5 +1,6 @@
 // Runs in virtual time over a simulated wire: exact, the same each time, and within what theory bounds.
 #include "bench/run/in_process_wire.hpp"
+#include "bench/checks/kinds/bus_errors.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "bench/schedulability/message_set.hpp"
 #include "dbc/parser/parse.hpp"
 #include "dbc/wire/transmit.hpp"
+#include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::run {
 namespace {
@@ -233,13 +235,13 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   ASSERT_NE(find_check(run, "bus_errors"), nullptr);  // also where the scenario has none
   EXPECT_EQ(find_check(run, "bus_errors")->outcome, checks::Outcome::fail);
 
-  scenario::BusErrorLimits limits;
+  checks::BusErrorLimits limits;
   limits.bus_off_at_most = 100;
   limits.passive_at_most = static_cast<std::int64_t>(bus.errors.passive) - 1;
-  scenario.checks = {{.name = "bus", .requirement = "", .rule = limits}};
+  scenario.checks = {checks::check_of(limits, "bus")};
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::fail);
   limits.passive_at_most = static_cast<std::int64_t>(bus.errors.passive);
-  scenario.checks = {{.name = "bus", .requirement = "", .rule = limits}};
+  scenario.checks = {checks::check_of(limits, "bus")};
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::pass);
 }
 

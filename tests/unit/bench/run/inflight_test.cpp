@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "bench/checks/judge.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/session.hpp"
@@ -40,11 +41,12 @@ Flown fly(const std::vector<scenario::Setting>& settings = {}) {
   auto flown = run_in_process(*scenario, *truth, 0);
   EXPECT_TRUE(flown) << flown.error().message;
   EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
-  checks::Verdict verdict = checks::judge(*scenario, {.seen = flown->seen,
-                                                      .truth = *truth,
-                                                      .duration_us = scenario->duration_us,
-                                                      .ended_early = flown->ending.detail,
-                                                      .timing_unfit = "virtual time"});
+  checks::Verdict verdict =
+      checks::judge(*scenario, {.seen = flown->seen,
+                                .truth = truth_of(*truth, flown->own_truth, scenario->duration_us),
+                                .estimators = estimators::all(),
+                                .ended_early = flown->ending.detail,
+                                .timing_unfit = "virtual time"});
   return {*scenario, std::move(flown->seen), std::move(verdict)};
 }
 
@@ -53,14 +55,14 @@ scenario::Setting set(std::string key, std::string value) {
 }
 
 void expect_aligned(const Flown& flown) {
-  EXPECT_EQ(flown.outcome("attitude_error heading"), checks::Outcome::pass);
-  EXPECT_EQ(flown.outcome("position_error norm"), checks::Outcome::pass);
+  EXPECT_EQ(flown.outcome("error attitude.heading"), checks::Outcome::pass);
+  EXPECT_EQ(flown.outcome("error position.norm"), checks::Outcome::pass);
 }
 
 TEST(InFlight, AlignsFromNinetyDegreesOff) {
   const Flown flown = fly();
   expect_aligned(flown);
-  EXPECT_EQ(flown.outcome("consistency nis"), checks::Outcome::pass);
+  EXPECT_EQ(flown.outcome("consistency innovation.nis"), checks::Outcome::pass);
   EXPECT_EQ(flown.outcome("counters"), checks::Outcome::pass);
   EXPECT_EQ(flown.count(FixOutcome::accepted), 29) << "of the 30, the last one would arrive after the end";
   EXPECT_EQ(std::ranges::count(flown.seen.fix_navigation, true, &checks::NavigationAnswer::coasting), 0);
@@ -76,7 +78,7 @@ TEST(InFlight, GoesOnAcrossTheDateLineAsAnywhereElse) {
     const Flown here = at("129.0"), across = at("179.9999");
     EXPECT_EQ(across.count(FixOutcome::invalid), 0) << aiding;
     EXPECT_EQ(across.count(FixOutcome::accepted), here.count(FixOutcome::accepted)) << aiding;
-    EXPECT_EQ(across.outcome("position_error norm"), checks::Outcome::pass) << aiding;
+    EXPECT_EQ(across.outcome("error position.norm"), checks::Outcome::pass) << aiding;
     EXPECT_LT(across.seen.fixes.back().position.longitude, 0) << aiding;
     EXPECT_NEAR(across.seen.fixes.back().nis, here.seen.fixes.back().nis, 0.1) << aiding;
   }

@@ -1,6 +1,10 @@
 // [engagement] and [seeker]: values, defaults, and what is refused.
 #include <gtest/gtest.h>
 
+#include "bench/checks/kinds/error.hpp"
+#include "bench/estimators/los_rate/miss_distance.hpp"
+#include "bench/quantities/quantity.hpp"
+
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
@@ -136,20 +140,16 @@ TEST(SeekerFields, EveryKey) {
 }
 
 TEST(LosChecks, EveryKey) {
-  const auto rate =
-      std::get<LosRateError>(parsed(with("kind = \"miss_distance\"\nbelow_m = 1.0",
-                                         "kind = \"los_rate_error\"\nplane = \"pitch\"\nstatistic = \"max\"\n"
-                                         "time_to_go_s = [0.5, 2]\nbelow_mradps = 3",
-                                         los))
-                                 .checks[0]
-                                 .rule);
-  EXPECT_EQ(rate.plane, LosPlane::pitch);
-  EXPECT_EQ(rate.statistic, LosStatistic::max);
-  EXPECT_EQ(rate.least_to_go, 0.5);
-  EXPECT_EQ(rate.most_to_go, 2);
+  const auto rate = rule_of<checks::Error>(parsed(with("kind = \"miss_distance\"\nbelow_m = 1.0",
+                                                       "kind = 'error'\nquantity = 'los.rate.pitch'\n"
+                                                       "time_to_go_s = [0.5, 2]\nbelow_mradps = 3",
+                                                       los))
+                                               .checks[0]);
+  EXPECT_EQ(rate.of.quantity->name, "los.rate.pitch");
+  EXPECT_EQ(rate.stretch.to_go_s, std::pair(0.5, 2.0));
   EXPECT_DOUBLE_EQ(rate.below, 3e-3);
   const Scenario s = parsed(los);
-  EXPECT_EQ(std::get<MissDistance>(s.checks[0].rule).below, 1.0);
+  EXPECT_EQ(rule_of<estimators::MissDistance>(s.checks[0]).below, 1.0);
   EXPECT_EQ(s.checks[0].name, "miss_distance");
 }
 
@@ -180,19 +180,16 @@ TEST(EngagementErrors, WhatBelongsTogether) {
 }
 
 TEST(EngagementErrors, NothingIsJudgedAgainstATruthThatIsNotThere) {
-  EXPECT_EQ(error_of(with("kind = \"heartbeat\"\nsilent_at_most_s = 0.5",
-                          "kind = \"miss_distance\"\nbelow_m = 1", valid)),
-            "s.toml:17: key 'check[1].kind': has nothing to be judged against, expected a table [engagement] "
-            "in the scenario");
-  EXPECT_EQ(error_of(with("kind = \"miss_distance\"\nbelow_m = 1.0",
-                          "kind = \"velocity_error\"\nbelow_mps = 1", los)),
-            "s.toml:11: key 'check[1].kind': has nothing to be judged against, expected a table [truth] in "
-            "the scenario");
   EXPECT_EQ(
-      error_of(with("kind = \"miss_distance\"\nbelow_m = 1.0",
-                    "kind = \"consistency\"\nstatistic = \"heading_nees\"\nmean_between = [0, 2]", los)),
-      "s.toml:11: key 'check[1].kind': has nothing to be judged against, expected a table [truth] in "
-      "the scenario");
+      error_of(with("kind = \"heartbeat\"\nsilent_at_most_s = 0.5", "kind = \"miss_distance\"\nbelow_m = 1",
+                    valid)),
+      "s.toml:17: key 'check[1].kind': has nothing to be judged against, expected estimator los_rate in the "
+      "scenario");
+  EXPECT_EQ(error_of(with("kind = \"miss_distance\"\nbelow_m = 1.0",
+                          "kind = 'error'\nquantity = 'velocity.norm'\nbelow_mps = 1", los)),
+            "s.toml:12: key 'check[1].quantity': 'velocity.norm' is told by no estimator of this scenario, "
+            "expected "
+            "one of: los.rate.pitch, los.rate.yaw, los.rate");
 }
 
 }  // namespace

@@ -155,20 +155,25 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"\"heartbeat\"", "\"hartbeat\"",
               "17: key 'check[1].kind': 'hartbeat' is unknown, expected 'heartbeat'"},
-        Wrong{"\"heartbeat\"", "\"banana\"",
-              "17: key 'check[1].kind': 'banana' is unknown, expected one of: attitude_error, convergence, "
-              "velocity_error, "
-              "consistency, output_period, latency, counters, heartbeat, position_error, fixes, coasting, "
-              "los_rate_error, miss_distance, wind_error, wind_answers, bus_load, bus_errors, wire_response"},
-        Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'yaw'\nbelow_mrad = 1"),
-              "18: key 'check[1].axis': 'yaw' is unknown, expected one of: roll, pitch, heading"},
-        Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),
-              "18: key 'check[1].from_s': is not before the end of the window, expected less than 4"},
-        Wrong{"[[check]]", check("kind = 'velocity_error'\nfrom_s = 20\nbelow_mps = 1"),
-              "18: key 'check[1].from_s': is not before the end of the window, expected less than 20"},
-        Wrong{"[[check]]", check("kind = 'velocity_error'\nto_s = 21\nbelow_mps = 1"),
-              "18: key 'check[1].to_s': is after the end of the run, expected at most duration_s = 20"},
-        Wrong{"[[check]]", check("kind = 'convergence'\naxis = 'roll'\nwithin_mrad = 1\nbefore_s = 21"),
+        Wrong{
+            "\"heartbeat\"", "\"banana\"",
+            "17: key 'check[1].kind': 'banana' is unknown, expected one of: error, convergence, consistency, "
+            "answers, latency, output_period, heartbeat, counters, bus_load, bus_errors, wire_response, "
+            "miss_distance"},
+        Wrong{
+            "[[check]]", check("kind = 'error'\nquantity = 'yaw.of.the.body'\nbelow_mrad = 1"),
+            "18: key 'check[1].quantity': 'yaw.of.the.body' is unknown, expected one of: misalignment.north, "
+            "misalignment.east, misalignment.down, attitude.roll, attitude.pitch, attitude.heading, "
+            "velocity.north, velocity.east, velocity.down, velocity.norm"},
+        Wrong{"[[check]]",
+              check("kind = 'error'\nquantity = 'velocity.norm'\nfrom_s = 5\nto_s = 4\nbelow_mps = 1"),
+              "19: key 'check[1].from_s': is not before the end of the window, expected less than 4"},
+        Wrong{"[[check]]", check("kind = 'error'\nquantity = 'velocity.norm'\nfrom_s = 20\nbelow_mps = 1"),
+              "19: key 'check[1].from_s': is not before the end of the window, expected less than 20"},
+        Wrong{"[[check]]", check("kind = 'error'\nquantity = 'velocity.norm'\nto_s = 21\nbelow_mps = 1"),
+              "19: key 'check[1].to_s': is after the end of the run, expected at most duration_s = 20"},
+        Wrong{"[[check]]",
+              check("kind = 'convergence'\nquantity = 'attitude.roll'\nwithin_mrad = 1\nbefore_s = 21"),
               "20: key 'check[1].before_s': is after the end of the run, expected at most duration_s = 20"},
         Wrong{"[[check]]", check("kind = 'latency'\nmessage = 'AlignAtitude'\nbelow_ms = 1"),
               "18: key 'check[1].message': 'AlignAtitude' is unknown, expected 'AlignAttitude'"},
@@ -179,17 +184,17 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[check]]", check("kind = 'latency'\nmessage = 'AlignUpdate'\nbelow_ms = 1\nquantile = 99"),
               "20: key 'check[1].quantile': 99 is out of range, expected a number above 0, at most 1"},
         Wrong{
-            "[[check]]", check("kind = 'consistency'\nstatistic = 'nis'"),
+            "[[check]]", check("kind = 'consistency'\nquantity = 'innovation.nis'"),
             "16: key 'check[1].mean_between': is missing, expected an array [low, high], each of at least 0"},
-        Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'nis'\nmean_between = [4, 2]"),
+        Wrong{"[[check]]", check("kind = 'consistency'\nquantity = 'innovation.nis'\nmean_between = [4, 2]"),
               "19: key 'check[1].mean_between': is descending, expected an array [low, high], each of at "
               "least 0"},
         Wrong{"[[check]]",
-              check("kind = 'consistency'\nstatistic = 'nis'\nmean_between = [1, 2]\nprobability = 0.9"),
+              check("kind = 'consistency'\nquantity = 'innovation.nis'\nmean_between = [1, 2]\nprobability = "
+                    "0.9"),
               "19: key 'check[1].mean_between': is given beside probability, expected one of the two"},
-        Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'attitude_nees'\nprobability = 0.9"),
-              "19: key 'check[1].probability': is for nis, los_nis and wind_nis only, expected mean_between "
-              "= [low, "
+        Wrong{"[[check]]", check("kind = 'consistency'\nquantity = 'attitude.nees'\nprobability = 0.9"),
+              "19: key 'check[1].probability': is for innovations (NIS) only, expected mean_between = [low, "
               "high]"},
         Wrong{"[[check]]", check("kind = 'counters'"),
               "16: key 'check[1].frames_lost_at_most': is missing, as are all its like, expected at least "
@@ -230,21 +235,20 @@ INSTANTIATE_TEST_SUITE_P(
               "13: key 'truth.dive_depth_m': is too deep for the speed and dive_period_s, expected at most "
               "40.51, a "
               "dive of 45 degrees"},
-        Wrong{"[[check]]", check("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 1\nbelow_deg = 1"),
+        Wrong{"[[check]]", check("kind = 'error'\nquantity = 'attitude.roll'\nbelow_mrad = 1\nbelow_deg = 1"),
               "19: key 'check[1].below_mrad': is given beside below_deg, expected one of the two"},
-        Wrong{"[[check]]", check("kind = 'fixes'"),
-              "16: key 'check[1].accepted_at_least': is missing, as are all its like, expected at least one "
+        Wrong{"[[check]]", check("kind = 'answers'"),
+              "16: key 'check[1].answers_at_least': is missing, as are all its like, expected at least one "
               "limit"},
         Wrong{
-            "[[check]]", check("kind = 'fixes'\nlost_at_most = 1\ngated_at_most = 1"),
-            "18: key 'check[1].lost_at_most': is unknown, expected one of: kind, requirement, from_s, to_s, "
-            "accepted_at_least, accepted_at_most, gated_at_least, gated_at_most, repairs_at_most, "
-            "handed_over_before_s, name"},
-        Wrong{"[[check]]", check("kind = 'coasting'"),
-              "16: key 'check[1].at_least': is missing, as is 'at_most', expected at least one limit"},
-        Wrong{"[[check]]", check("kind = 'consistency'\nstatistic = 'heading_nees'\nprobability = 0.9"),
-              "19: key 'check[1].probability': is for nis, los_nis and wind_nis only, expected mean_between "
-              "= [low, "
+            "[[check]]", check("kind = 'answers'\ngated_fixes = 1\nupdates_at_most = 1"),
+            "18: key 'check[1].gated_fixes': is unknown, expected one of: kind, requirement, estimator, "
+            "from_s, "
+            "to_s, answers_at_least, answers_at_most, answers_before_s, coasting_at_least, coasting_at_most, "
+            "coasting_before_s, updates_at_least, updates_at_most, updates_before_s, name"},
+        Wrong{"[[check]]",
+              check("kind = 'consistency'\nquantity = 'attitude.heading.nees'\nprobability = 0.9"),
+              "19: key 'check[1].probability': is for innovations (NIS) only, expected mean_between = [low, "
               "high]"},
         Wrong{"[[check]]", "[ssbl]\noutlier_percent = 5\n[[check]]",
               "17: key 'ssbl.outlier_percent': is given alone, expected outlier_percent and outlier_m, both "

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <regex>
 
+#include "bench/checks/judge.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/world/units.hpp"
 
@@ -42,9 +44,9 @@ Contract of_the_dbc() {
           .algorithms = value_table(text, "Algorithm"),
           .parameters = value_table(text, "Parameter"),
           .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):"),
-          .fix_outcomes = value_table(text, "FixOutcome"),
           .answers = answers(text),
-          .wind_outcomes = value_table(text, "WindOutcome")};
+          .check_kinds = checks::kinds(estimators::all()),
+          .known = estimators::all()};
 }
 
 TEST(ScenarioFiles, AreAllValid) {

@@ -1,6 +1,11 @@
 // The sections of a glider: what they say in SI, and every way they can be wrong in one line.
 #include <gtest/gtest.h>
 
+#include "bench/checks/kinds/answers.hpp"
+#include "bench/checks/kinds/consistency.hpp"
+#include "bench/checks/kinds/error.hpp"
+#include "bench/quantities/quantity.hpp"
+
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
@@ -14,9 +19,9 @@ const Contract glider_contract{.estimators = {"transfer_alignment", "wind"},
                                .algorithms = {"ekf", "h_infinity"},
                                .parameters = {"theta_per_s"},
                                .messages = {"WindVector"},
-                               .fix_outcomes = {"accepted"},
                                .answers = {"WindVector"},
-                               .wind_outcomes = {"updated", "coasting"}};
+                               .check_kinds = checks::kinds(estimators::all()),
+                               .known = estimators::all()};
 
 constexpr std::string_view glider = R"(title = "A glider"
 duration_s = 20.0
@@ -130,25 +135,24 @@ TEST(GlideSections, OutagesAreTheEndOfTheirPeriod) {
 TEST(GlideSections, ChecksOfTheWind) {
   const Scenario s =
       glides(with("[[check]]",
-                  "[[check]]\nkind = \"wind_error\"\naxis = \"along_track\"\nstatistic = \"mean\"\nfrom_s "
-                  "= 10\nbelow_mps = 2\n[[check]]\nkind = \"wind_answers\"\nupdated_at_least = "
-                  "5\nfins_late_at_most = 1\n[[check]]\nkind = \"consistency\"\nstatistic = "
-                  "\"wind_nis\"\nprobability = 0.99\n[[check]]",
+                  "[[check]]\nkind = 'error'\nquantity = 'wind.along'\nstatistic = 'mean'\n"
+                  "from_s = 10\nbelow_mps = 2\n[[check]]\nkind = 'answers'\nupdated_at_least = 5\n"
+                  "fins_late_at_most = 1\n[[check]]\nkind = 'consistency'\nquantity = 'wind.nis'\n"
+                  "probability = 0.99\n[[check]]",
                   glider));
-  const auto& error = std::get<WindError>(s.checks.at(0).rule);
-  EXPECT_EQ(s.checks.at(0).name, "wind_error along_track mean");
-  EXPECT_EQ(error.axis, WindAxis::along_track);
-  EXPECT_EQ(error.statistic, WindStatistic::mean);
-  EXPECT_EQ(error.window.from_us, 10'000'000);
+  const auto error = rule_of<checks::Error>(s.checks.at(0));
+  EXPECT_EQ(s.checks.at(0).name, "error wind.along mean");
+  EXPECT_EQ(error.of.estimator, "wind");
+  EXPECT_EQ(error.of.quantity->name, "wind.along");
+  EXPECT_EQ(error.statistic, checks::Error::Statistic::mean);
+  EXPECT_EQ(error.stretch.window.from_us, 10'000'000);
   EXPECT_EQ(error.below, 2);
-  const auto& answers = std::get<WindAnswers>(s.checks.at(1).rule);
+  const auto answers = rule_of<checks::Answers>(s.checks.at(1));
   ASSERT_EQ(answers.counts.size(), 2U);
-  EXPECT_EQ(answers.counts[0].name, "updated");
+  EXPECT_EQ(answers.counts[0].mark, "updated");
   EXPECT_EQ(answers.counts[0].at_least, 5);
-  EXPECT_FALSE(answers.counts[0].is_flag);
-  EXPECT_EQ(answers.counts[1].name, "fins_late");
-  EXPECT_TRUE(answers.counts[1].is_flag);
-  EXPECT_EQ(std::get<Consistency>(s.checks.at(2).rule).statistic, Statistic::wind_nis);
+  EXPECT_EQ(answers.counts[1].mark, "fins_late");
+  EXPECT_EQ(rule_of<checks::Consistency>(s.checks.at(2)).of.quantity->degrees_of_freedom, 9);
 }
 
 TEST(GlideSections, WrongOnesGiveOneLine) {
@@ -182,19 +186,9 @@ TEST(GlideSections, WrongOnesGiveOneLine) {
             ": key 'airframe.markov_time_s': has no effect here, expected coefficient_error = \"markov\" "
             "beside it");
   }
-  EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"wind_answers\"\n[[check]]"),
-            "g.toml:16: key 'check[1].updated_at_least': is missing, as are all its like, expected at least "
+  EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"answers\"\n[[check]]"),
+            "g.toml:16: key 'check[1].answers_at_least': is missing, as are all its like, expected at least "
             "one limit");
-}
-
-TEST(GlideSections, WhatHasNoTruthIsNotJudged) {
-  EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"velocity_error\"\nbelow_mps = 1\n[[check]]"),
-            "g.toml:17: key 'check[1].kind': has nothing to be judged against, expected a table [truth] in "
-            "the scenario");
-  EXPECT_EQ(
-      error_of(inside("[[check]]", "kind = \"wind_error\"\nbelow_mps = 1\n[[check]]")),
-      "s.toml:17: key 'check[1].kind': has nothing to be judged against, expected a table [glide] in the "
-      "scenario");
 }
 
 }  // namespace

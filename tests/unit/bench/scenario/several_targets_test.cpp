@@ -1,6 +1,9 @@
 // [[target]]: several estimators on one target.
 #include <gmock/gmock.h>
 
+#include "bench/checks/kinds/bus_load.hpp"
+#include "bench/checks/kinds/error.hpp"
+
 #include "tests/unit/bench/scenario/texts.hpp"
 
 namespace canhil::scenario {
@@ -63,28 +66,28 @@ TEST(SeveralTargets, ErrorsNameWhichOne) {
 }
 
 TEST(SeveralTargets, ACheckSaysWhoseAnswersItIsAbout) {
-  const std::string check = "[[check]]\nkind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 5\n";
+  const std::string check = "[[check]]\nkind = 'error'\nquantity = 'attitude.roll'\nbelow_mrad = 5\n";
   EXPECT_THAT(
       refusal(two(second, check)),
       HasSubstr(
           "key 'check[1].estimator': is missing, expected one of: transfer_alignment, inflight_alignment"));
   const Scenario s = parsed(two(second, check + "estimator = 'inflight_alignment'\n"));
-  EXPECT_EQ(std::get<AttitudeError>(s.checks.at(0).rule).of, Aligner::inflight_alignment);
-  EXPECT_EQ(s.checks.at(0).name, "attitude_error roll of inflight_alignment");
+  EXPECT_EQ(rule_of<checks::Error>(s.checks.at(0)).of.estimator, "inflight_alignment");
+  EXPECT_EQ(s.checks.at(0).name, "error attitude.roll of inflight_alignment");
 }
 
 TEST(SeveralTargets, WhereOneAlignsItIsTheOneThatIsMeant) {
-  const std::string check = "[[check]]\nkind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 5\n";
+  const std::string check = "[[check]]\nkind = 'error'\nquantity = 'attitude.roll'\nbelow_mrad = 5\n";
   const Scenario s = parsed(with("[[check]]", check + "[[check]]"));
-  EXPECT_EQ(std::get<AttitudeError>(s.checks.at(0).rule).of, Aligner::transfer_alignment);
+  EXPECT_EQ(rule_of<checks::Error>(s.checks.at(0)).of.estimator, "transfer_alignment");
   EXPECT_THAT(refusal(with("[[check]]", check + "estimator = 'inflight_alignment'\n[[check]]")),
-              HasSubstr("'inflight_alignment' is not run in this scenario, expected transfer_alignment"));
+              HasSubstr("'inflight_alignment' is unknown, expected one of: transfer_alignment"));
 }
 
 TEST(BusLoadCheck, HasABitrateAndABar) {
   const Scenario s = parsed(
       with("[[check]]", "[[check]]\nkind = 'bus_load'\nbitrate_kbitps = 500\nbelow_percent = 40\n[[check]]"));
-  const auto rule = std::get<BusLoad>(s.checks.at(0).rule);
+  const auto rule = rule_of<checks::BusLoad>(s.checks.at(0));
   EXPECT_EQ(rule.bitrate, 500'000);
   EXPECT_EQ(rule.data_bitrate, 0);
   EXPECT_DOUBLE_EQ(rule.below, 0.4);

@@ -6,6 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "bench/checks/judge.hpp"
+#include "bench/checks/rule.hpp"
+#include "bench/estimators/registry.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::scenario {
@@ -14,8 +17,10 @@ inline const Contract contract{.estimators = {"transfer_alignment", "inflight_al
                                .algorithms = {"kalman", "robust_h2"},
                                .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
                                .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},
-                               .fix_outcomes = {"accepted", "gated"},
-                               .answers = {"AlignAttitude", "AlignUpdate"}};
+                               .answers = {"AlignAttitude", "AlignUpdate"},
+                               .check_kinds = checks::kinds(estimators::all()),
+                               .known = estimators::all(),
+                               .former_check_kinds = checks::former_kinds()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0
@@ -57,6 +62,15 @@ inline Scenario parsed(std::string_view text) {
   const Result<Scenario> result = parse(text, "s.toml", contract);
   if (result) return *result;
   ADD_FAILURE() << result.error().message;
+  return {};
+}
+
+/// The rule of a check, which is of this kind.
+template <class Kind>
+Kind rule_of(const Check& check) {
+  const auto* rule = dynamic_cast<const checks::RuleOf<Kind>*>(check.rule.get());
+  if (rule != nullptr) return rule->kind();
+  ADD_FAILURE() << "not the kind expected";
   return {};
 }
 

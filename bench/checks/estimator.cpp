@@ -1,0 +1,25 @@
+#include "bench/checks/estimator.hpp"
+
+#include <algorithm>
+
+namespace canhil::estimators {
+
+const Estimator* find(std::span<const Estimator* const> estimators, std::string_view name) {
+  const auto found = std::ranges::find(estimators, name, [](const Estimator* one) { return one->name; });
+  return found == estimators.end() ? nullptr : *found;
+}
+
+std::vector<const quantities::Quantity*> quantities_of(std::span<const Estimator* const> estimators) {
+  std::vector<const quantities::Quantity*> found;
+  const auto add = [&](const quantities::Quantity* quantity) {
+    if (std::ranges::find(found, quantity) == found.end()) found.push_back(quantity);
+  };
+  for (const Estimator* one : estimators) {
+    for (const quantities::Quantity* kept : one->layout.kept) add(kept);
+    for (const quantities::Derived& derived : one->layout.derived) add(derived.quantity);
+    for (const quantities::Quantity* quantity : one->of_runs) add(quantity);
+  }
+  return found;
+}
+
+}  // namespace canhil::estimators

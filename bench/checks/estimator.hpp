@@ -1,0 +1,70 @@
+// What the bench knows of an estimator. All of it stands in the estimator's folder (bench/estimators); the
+// rest of the bench asks the registry, or is given what it may ask, and knows quantities.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bench/checks/observations.hpp"
+#include "bench/checks/results.hpp"
+#include "bench/quantities/freshness.hpp"
+#include "bench/quantities/samples.hpp"
+#include "bench/quantities/track.hpp"
+#include "bench/scenario/checks.hpp"
+#include "bench/world/engagement/engagement.hpp"
+#include "bench/world/flight_record.hpp"
+#include "bench/world/glide/glide.hpp"
+
+namespace canhil::scenario {
+struct Scenario;
+}
+
+namespace canhil::estimators {
+
+/// What answers are held against.
+struct Truth {
+  const world::FlightRecord& flight;
+  std::int64_t duration_us = 0;                         ///< of the run
+  const world::EngagementRecord* engagement = nullptr;  ///< null: not flown
+  const world::GlideRecord* glide = nullptr;            ///< null: not flown
+};
+
+/// Answers that say the same of themselves: an outcome, a flag.
+struct Mark {
+  std::string_view name;
+  std::vector<std::int64_t> t_us{};  ///< times of their causes, ascending
+};
+
+/// A track, and whose it is.
+struct OwnTrack {
+  std::string_view estimator;
+  quantities::Track track;
+};
+
+struct Estimator {
+  std::string_view name;                                 ///< as in the DBC's value table Estimator
+  const quantities::Layout& layout;                      ///< of its samples
+  std::span<const quantities::Quantity* const> of_runs;  ///< what its tracks tell
+  /// The samples that a run leaves behind; none where it has no truth to be held against.
+  quantities::Samples (*samples)(const checks::Observations& seen, const Truth& truth) = nullptr;
+  /// Gives each quantity over a run that has a truth to hold the answers against.
+  void (*tracks)(const checks::Observations& seen, const Truth& truth,
+                 const quantities::TrackSink& give) = nullptr;
+  /// All its marks, with no times where there are none. The first, "answers", is of all answers.
+  std::vector<Mark> (*marks)(const checks::Observations& seen) = nullptr;
+  /// What people are told of a run. `algorithm`: that the target runs.
+  std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
+                                     std::string_view algorithm) = nullptr;
+  std::span<const std::string_view> closing;           ///< the last message of each group of its answers
+  std::span<const scenario::CheckKind> check_kinds{};  ///< that nobody else can have
+  /// How long they hold, by the rule of the checks (bench/checks/silence.hpp), in runs of a scenario.
+  quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
+};
+
+/// The one of this name; none: null.
+const Estimator* find(std::span<const Estimator* const> estimators, std::string_view name);
+/// Every quantity that any of these tells, each once, in their order.
+std::vector<const quantities::Quantity*> quantities_of(std::span<const Estimator* const> estimators);
+
+}  // namespace canhil::estimators

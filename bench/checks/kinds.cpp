@@ -1,0 +1,47 @@
+// A line a kind of check.
+#include <array>
+#include <vector>
+
+#include "bench/checks/judge.hpp"
+#include "bench/checks/kinds/answers.hpp"
+#include "bench/checks/kinds/bus_errors.hpp"
+#include "bench/checks/kinds/bus_load.hpp"
+#include "bench/checks/kinds/consistency.hpp"
+#include "bench/checks/kinds/convergence.hpp"
+#include "bench/checks/kinds/counters.hpp"
+#include "bench/checks/kinds/error.hpp"
+#include "bench/checks/kinds/heartbeat.hpp"
+#include "bench/checks/kinds/latency.hpp"
+#include "bench/checks/kinds/output_period.hpp"
+#include "bench/checks/kinds/wire_response.hpp"
+
+namespace canhil::checks {
+namespace {
+
+constexpr std::array of_any_estimator{
+    check_kind<Error>,   check_kind<Convergence>,    check_kind<Consistency>,     check_kind<Answers>,
+    check_kind<Latency>, check_kind<OutputPeriod>,   check_kind<Heartbeat>,       check_kind<Counters>,
+    check_kind<BusLoad>, check_kind<BusErrorLimits>, check_kind<WireResponseRule>};
+
+constexpr std::array<scenario::FormerCheckKind, 7> former{{
+    {"attitude_error", "kind 'error' with quantity 'attitude.heading', 'attitude.roll' or 'attitude.pitch'"},
+    {"velocity_error", "kind 'error' with quantity 'velocity.norm', or its component"},
+    {"position_error", "kind 'error' with quantity 'position.norm', or its component"},
+    {"los_rate_error", "kind 'error' with quantity 'los.rate', or its plane, and statistic 'rms'"},
+    {"wind_error", "kind 'error' with quantity 'wind.norm', or its component"},
+    {"fixes", "kind 'answers'"},
+    {"wind_answers", "kind 'answers'"},
+}};
+
+}  // namespace
+
+std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators) {
+  std::vector<scenario::CheckKind> all(of_any_estimator.begin(), of_any_estimator.end());
+  for (const estimators::Estimator* one : estimators)
+    all.insert(all.end(), one->check_kinds.begin(), one->check_kinds.end());
+  return all;
+}
+
+std::span<const scenario::FormerCheckKind> former_kinds() { return former; }
+
+}  // namespace canhil::checks

@@ -1,0 +1,81 @@
+#include "bench/checks/kinds/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/scenario/contract.hpp"
+#include "bench/scenario/rule.hpp"
+
+namespace canhil::checks {
+
+using scenario::Limits;
+
+Answers Answers::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Answers rule;
+  const std::vector<std::string> running(context.estimators.begin(), context.estimators.end());
+  rule.estimator = read_estimator(section, running);
+  rule.one_of_several = running.size() > 1;
+  rule.window = scenario::read_window(section, context.duration_us);
+  const estimators::Estimator* estimator = estimators::find(context.contract.known, rule.estimator);
+  if (estimator == nullptr) return rule;
+  for (const estimators::Mark& mark : estimator->marks(Observations{})) {
+    const auto key = [&](std::string_view ending) { return fmt::format("{}_{}", mark.name, ending); };
+    Count count{.mark = std::string(mark.name),
+                .at_least = section.optional_integer(key("at_least"), 0),
+                .at_most = section.optional_integer(key("at_most"), 0),
+                .before_us = section.optional_time_us(key("before_s"), Limits::above(0))};
+    scenario::expect_ordered(section, key("at_least"), count.at_least, key("at_most"), count.at_most);
+    if (count.before_us)
+      scenario::expect_within_run(section, key("before_s"), *count.before_us, context.duration_us);
+    if (count.at_least || count.at_most || count.before_us) rule.counts.push_back(std::move(count));
+  }
+  if (rule.counts.empty())
+    section.reject("answers_at_least", "is missing, as are all its like", "at least one limit");
+  return rule;
+}
+
+std::string Answers::subject() const {
+  std::string marks;
+  for (const Count& count : counts) marks += (marks.empty() ? "" : " ") + count.mark;
+  return one_of_several ? marks + " of " + estimator : marks;
+}
+
+Finding Answers::judge(const Evidence& evidence) const {
+  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
+  const auto add = [](std::string& text, const std::string& more) {
+    text += (text.empty() ? "" : ", ") + more;
+  };
+  const auto expect = [&](const std::string& what, bool holds) {
+    add(finding.expected, what);
+    if (!holds) finding.outcome = Outcome::fail;
+  };
+  const estimators::Estimator* told_by = estimators::find(evidence.estimators, estimator);
+  const auto marks = told_by == nullptr ? std::vector<estimators::Mark>() : told_by->marks(evidence.seen);
+  for (const Count& wanted : counts) {
+    const auto mark = std::ranges::find(marks, std::string_view(wanted.mark), &estimators::Mark::name);
+    const std::vector<std::int64_t> times = mark == marks.end() ? std::vector<std::int64_t>() : mark->t_us;
+    if (wanted.at_least || wanted.at_most) {
+      const auto count =
+          std::ranges::count_if(times, [&](std::int64_t t_us) { return within(window, t_us); });
+      add(finding.measured, fmt::format("{} {}", wanted.mark, count));
+      if (wanted.at_least)
+        expect(fmt::format("{} >= {}", wanted.mark, *wanted.at_least), count >= *wanted.at_least);
+      if (wanted.at_most)
+        expect(fmt::format("{} <= {}", wanted.mark, *wanted.at_most), count <= *wanted.at_most);
+    }
+    if (!wanted.before_us) continue;
+    const auto at_s = [](std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; };
+    add(finding.measured, times.empty() ? fmt::format("never {}", wanted.mark)
+                                        : fmt::format("{} at {:g} s", wanted.mark, at_s(times.front())));
+    expect(fmt::format("{} before {:g} s", wanted.mark, at_s(*wanted.before_us)),
+           !times.empty() && times.front() < *wanted.before_us);
+  }
+  finding.expected += fmt::format(" {}", seconds(window));
+  if (marks.empty() || marks.front().t_us.empty()) return {Outcome::fail, "no answers", finding.expected};
+  return finding;
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,25 @@
+// How many answers of a window an estimator marked, by outcome or flag, and when it first did.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+struct Answers {
+  static constexpr std::string_view kind = "answers";
+  struct Count {
+    std::string mark;  ///< a name of the estimator's marks
+    std::optional<std::int64_t> at_least{}, at_most{};
+    std::optional<std::int64_t> before_us{};  ///< the first of them is earlier than this
+  };
+  std::string estimator;
+  scenario::Window window;
+  std::vector<Count> counts;
+  bool one_of_several{};  ///< that run
+
+  static Answers read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const;
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

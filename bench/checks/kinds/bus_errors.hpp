@@ -1,0 +1,20 @@
+// What went wrong on the bus itself. Without such a check a bus-off or an outage fails every run.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+/// Absent: not judged.
+struct BusErrorLimits {
+  static constexpr std::string_view kind = "bus_errors";
+  std::int64_t bus_off_at_most = 0;
+  std::int64_t down_at_most = 0;  ///< of the bench's interface
+  std::optional<std::int64_t> passive_at_most{}, warning_at_most{}, error_frames_at_most{};
+  std::optional<std::int64_t> late_in_queue_at_most{};  ///< frames of the bench
+
+  static BusErrorLimits read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

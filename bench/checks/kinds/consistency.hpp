@@ -1,0 +1,34 @@
+// The mean of a normalised error squared (NEES, NIS) over a window lies where that of a consistent filter
+// does.
+#pragma once
+
+#include <variant>
+
+#include "bench/checks/rule.hpp"
+#include "bench/quantities/quantity.hpp"
+
+namespace canhil::checks {
+
+/// The mean lies between two values.
+struct MeanBetween {
+  double low = 0;
+  double high = 0;
+};
+/// The mean lies in the central chi-square interval that holds this probability: for white statistics (NIS).
+struct Probability {
+  double value = 0;
+};
+
+struct Consistency {
+  static constexpr std::string_view kind = "consistency";
+  Subject of;
+  scenario::Window window;
+  std::variant<MeanBetween, Probability> bound;
+
+  static Consistency read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

@@ -1,0 +1,56 @@
+#include "bench/checks/kinds/convergence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/scenario/rule.hpp"
+
+namespace canhil::checks {
+
+std::optional<std::int64_t> convergence_us(const quantities::Track& track, double within) {
+  const auto outside =
+      std::find_if(track.told.rbegin(), track.told.rend(), [&](const quantities::Told& told) {
+        return !(std::abs(told.value) <= within);  // NaN is outside
+      });
+  if (track.told.empty() || outside == track.told.rbegin()) return std::nullopt;
+  return outside.base()->t_us;
+}
+
+Convergence Convergence::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Convergence rule;
+  section.refuse("axis", "is a key of before", "quantity, such as 'attitude.heading'");
+  rule.of = read_subject(section, context, [](const quantities::Quantity& quantity) {
+    return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
+  });
+  std::tie(rule.within, rule.unit) = read_bar(section, "within", *rule.of.quantity);
+  rule.before_us = scenario::read_time(section, "before_s", scenario::Limits::above(0), context.duration_us);
+  rule.end_us = context.duration_us;
+  return rule;
+}
+
+std::optional<Bar> Convergence::bar() const {
+  return Bar{.of = {of},
+             .stretch = {.window = {.from_us = before_us, .to_us = end_us}},
+             .below = within,
+             .statistic = "max"};
+}
+
+Finding Convergence::judge(const Evidence& evidence) const {
+  const std::string expected = fmt::format("within {:g} {} for good before {:g} s", within / unit.factor,
+                                           unit.name, static_cast<double>(before_us) * 1e-6);
+  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
+  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  const quantities::Track& track = *tracks.front();
+  const Stretch to_the_end{.window = {before_us, evidence.truth.duration_us}};
+  if (auto gap = silence(track, to_the_end, inside(track, to_the_end)); !gap.empty())
+    return {Outcome::fail, std::move(gap), expected};
+  const auto t_us = convergence_us(track, within);
+  if (!t_us) return {Outcome::fail, "not within at the end", expected};
+  return {pass_if(*t_us < before_us), fmt::format("{:.2f} s", static_cast<double>(*t_us) * 1e-6), expected};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,27 @@
+// The error of a quantity enters a band before a time, and stays there to the end of the run.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+#include "bench/quantities/track.hpp"
+
+namespace canhil::checks {
+
+struct Convergence {
+  static constexpr std::string_view kind = "convergence";
+  Subject of;
+  double within = 0;  ///< [SI]
+  quantities::Unit unit{};
+  std::int64_t before_us = 0;
+  std::int64_t end_us = 0;  ///< of the run
+
+  static Convergence read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::optional<Bar> bar() const;
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+/// When |value| of a track enters a band [SI] for good [us]; none: it is outside at the end.
+std::optional<std::int64_t> convergence_us(const quantities::Track& track, double within);
+
+}  // namespace canhil::checks

@@ -1,0 +1,27 @@
+// The target's own counters at the end (TargetCounters).
+#pragma once
+
+#include <span>
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+/// Absent: not judged.
+struct Counters {
+  static constexpr std::string_view kind = "counters";
+  std::optional<std::int64_t> frames_lost_at_most{}, bad_crc_at_most{}, bad_group_at_most{}, late_at_most{};
+
+  static Counters read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+struct CountLimit {
+  std::string_view what;
+  std::optional<std::int64_t> at_most;  ///< none: not judged
+  std::uint64_t value = 0;
+};
+/// Passes if all are kept: "bad CRC 0, late 2", expected "bad CRC <= 0, late <= 3".
+Finding within_limits(std::span<const CountLimit> limits);
+
+}  // namespace canhil::checks

@@ -1,0 +1,84 @@
+#include "bench/checks/kinds/error.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/of_tracks.hpp"
+#include "bench/scenario/read_enum.hpp"
+#include "bench/scenario/rule.hpp"
+
+namespace canhil::checks {
+namespace {
+
+constexpr std::array<std::string_view, 4> statistics{"max", "rms", "mean", "final"};
+
+// In the order of the enumeration: what is below the bar, and how the figure is called.
+constexpr std::array<std::string_view, 4> asked{"|error|", "RMS", "mean |error|",
+                                                "|error| of the last answer"};
+
+}  // namespace
+
+std::string_view name(Error::Statistic statistic) { return statistics[static_cast<std::size_t>(statistic)]; }
+
+Error Error::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Error rule;
+  rule.of = read_subject(section, context, [](const quantities::Quantity& quantity) {
+    return quantity.degrees_of_freedom == 0 && !quantity.white;
+  });
+  rule.statistic = scenario::read_enum<Statistic>(section, "statistic", statistics, Statistic::max);
+  rule.stretch = read_stretch(section, context, rule.of);
+  std::tie(rule.below, rule.unit) = read_bar(section, "below", *rule.of.quantity);
+  return rule;
+}
+
+std::string Error::subject() const {
+  std::string text = of.words;
+  if (statistic != Statistic::max) text += fmt::format(" {}", name(statistic));
+  if (stretch.to_go_s)
+    text += fmt::format(" {:g} to {:g} s to go", stretch.to_go_s->second, stretch.to_go_s->first);
+  return text;
+}
+
+std::optional<Bar> Error::bar() const {
+  Bar bar{.of = {}, .stretch = stretch, .below = below, .statistic = name(statistic)};
+  if (of.quantity->parts.empty()) bar.of = {of};
+  for (const quantities::Quantity* part : of.quantity->parts)
+    bar.of.push_back({.estimator = of.estimator, .quantity = part});
+  return bar;
+}
+
+Finding Error::judge(const Evidence& evidence) const {
+  const std::string expected = fmt::format("{} < {:g} {} {}", asked[static_cast<std::size_t>(statistic)],
+                                           below / unit.factor, unit.name, words(stretch));
+  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
+  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  const std::vector<std::size_t> part = inside(*tracks.front(), stretch);
+  if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
+    return {Outcome::fail, std::move(gap), expected};
+  double worst = 0, sum = 0, squares = 0, last = 0;
+  bool finite = true;
+  for (const std::size_t place : part) {
+    for (const quantities::Track* track : tracks) {
+      const double error = track->told[place].value;
+      last = std::abs(error);
+      finite = finite && std::isfinite(error);
+      worst = std::max(worst, last);
+      sum += last;
+      squares += error * error;
+    }
+  }
+  const auto count = static_cast<double>(part.size() * tracks.size());
+  const std::array<double, 4> values{worst, std::sqrt(squares / count), sum / count, last};
+  const double value = values[static_cast<std::size_t>(statistic)];
+  const int digits = digits_of(unit);
+  std::string measured = fmt::format("{} {:.{}f}", statistic == Statistic::rms ? "RMS" : name(statistic),
+                                     value / unit.factor, digits);
+  if (statistic == Statistic::mean) measured += fmt::format(", max {:.{}f}", worst / unit.factor, digits);
+  return {pass_if(finite && value < below), fmt::format("{} {} of {}", measured, unit.name, part.size()),
+          expected};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,27 @@
+// |estimated - true| of a quantity, or a statistic of it, stays below a bar in a stretch of the run.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+#include "bench/quantities/quantity.hpp"
+
+namespace canhil::checks {
+
+struct Error {
+  static constexpr std::string_view kind = "error";
+  enum class Statistic : std::uint8_t { max, rms, mean, final };
+  Subject of;  ///< of a quantity that has parts, those together
+  Statistic statistic = Statistic::max;
+  Stretch stretch;
+  double below = 0;  ///< [SI]
+  quantities::Unit unit{};
+
+  static Error read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const;
+  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::optional<Bar> bar() const;
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+std::string_view name(Error::Statistic statistic);
+
+}  // namespace canhil::checks

@@ -1,0 +1,25 @@
+#include "bench/checks/kinds/heartbeat.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/scenario/section.hpp"
+
+namespace canhil::checks {
+
+Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
+  return {.silent_at_most_us = section.time_us("silent_at_most_s", scenario::Limits::above(0))};
+}
+
+Finding Heartbeat::judge(const Evidence& evidence) const {
+  const double most_s = static_cast<double>(silent_at_most_us) * 1e-6;
+  const std::string expected = fmt::format("never silent for more than {:g} s", most_s);
+  if (auto why = unfit(evidence, 1, most_s); !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
+  const double gap_s = longest_silence_s(evidence.seen, messages::TargetHeartbeat::info.name);
+  return {pass_if(gap_s * 1e6 <= static_cast<double>(silent_at_most_us)),
+          fmt::format("longest gap {:.3f} s", gap_s), expected};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,16 @@
+// No gap between heartbeats longer than this, up to the end of the run.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+struct Heartbeat {
+  static constexpr std::string_view kind = "heartbeat";
+  std::int64_t silent_at_most_us = 0;
+
+  static Heartbeat read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

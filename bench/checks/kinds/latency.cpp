@@ -1,0 +1,46 @@
+#include "bench/checks/kinds/latency.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/output_period.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/scenario/contract.hpp"
+#include "bench/scenario/rule.hpp"
+
+namespace canhil::checks {
+
+using scenario::Limits;
+
+Latency Latency::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Latency rule;
+  const std::vector<std::string>& answers = context.contract.answers;
+  rule.message = section.one_of("message", context.contract.messages);
+  if (std::ranges::find(answers, rule.message) == answers.end()) {
+    section.reject("message", fmt::format("'{}' answers nothing", rule.message),
+                   fmt::format("one of: {}", fmt::join(answers, ", ")));
+  }
+  expect_sent(section, context, rule.message);
+  rule.window = scenario::read_window(section, context.duration_us);
+  rule.below_us = section.time_us("below_ms", Limits::above(0));
+  rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
+  return rule;
+}
+
+Finding Latency::judge(const Evidence& evidence) const {
+  const double bar_s = static_cast<double>(below_us) * 1e-6;
+  const std::string expected =
+      fmt::format("{} {} < {:g} ms {}", message, quantile_name(quantile), bar_s * 1e3, seconds(window));
+  if (auto why = unfit(evidence, quantile, bar_s); !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
+  const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
+  if (timed == nullptr) return {Outcome::not_measured, "no times were taken", expected};
+  if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
+  const double value = timed->latency.quantile_ns(quantile) * 1e-9;
+  return {pass_if(value < bar_s), fmt::format("{:.3f} ms of {}", value * 1e3, timed->latency.count()),
+          expected};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,21 @@
+// Timing: from the last frame of the stimulus to the message that answers it.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+struct Latency {
+  static constexpr std::string_view kind = "latency";
+  std::string message;
+  scenario::Window window;
+  std::int64_t below_us = 0;
+  double quantile = 1;  ///< 1: every answer; 0.99: all but one in a hundred
+
+  static Latency read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const { return message; }
+  [[nodiscard]] std::optional<Timed> timed() const { return Timed{message, window}; }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

@@ -1,0 +1,135 @@
+#include "bench/checks/kinds/of_tracks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/checks/estimator.hpp"
+#include "bench/checks/read_quantity.hpp"
+#include "bench/checks/silence.hpp"
+#include "bench/quantities/list.hpp"
+#include "bench/scenario/contract.hpp"
+#include "bench/scenario/rule.hpp"
+
+namespace canhil::checks {
+namespace {
+
+using quantities::Quantity;
+using quantities::Track;
+
+bool runs(const scenario::CheckContext& context, std::string_view estimator) {
+  return std::ranges::find(context.estimators, estimator) != context.estimators.end();
+}
+
+bool tells(const estimators::Estimator& estimator, const Quantity& quantity) {
+  return std::ranges::find(estimator.of_runs, &quantity) != estimator.of_runs.end();
+}
+
+bool lies_in(const std::pair<double, double>& to_go_s, double value) {
+  return value >= to_go_s.first && value < to_go_s.second;
+}
+
+}  // namespace
+
+std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
+  if (candidates.size() == 1) return section.one_of("estimator", candidates, candidates.front());
+  return section.one_of("estimator", candidates);
+}
+
+Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
+                     const std::function<bool(const Quantity&)>& wanted) {
+  const auto told_by = [&](const Quantity& quantity) {
+    std::vector<std::string> names;
+    for (const estimators::Estimator* one : context.contract.known) {
+      if (runs(context, one->name) && tells(*one, quantity)) names.emplace_back(one->name);
+    }
+    return names;
+  };
+  const Quantity* quantity = read_quantity(
+      section, estimators::quantities_of(context.contract.known), [&](const Quantity& one) -> std::string {
+        if (!wanted(one)) return "is none that this kind asks for";
+        return told_by(one).empty() ? "is told by no estimator of this scenario" : "";
+      });
+  const std::vector<std::string> names = told_by(*quantity);
+  Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names),
+                  .quantity = quantity,
+                  .words = std::string(quantity->name)};
+  if (names.size() > 1) subject.words += " of " + subject.estimator;
+  return subject;
+}
+
+Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& context,
+                     const Subject& subject) {
+  const estimators::Estimator* estimator = estimators::find(context.contract.known, subject.estimator);
+  if (!section.has("time_to_go_s")) {
+    section.optional("time_to_go_s");
+    return {.window = scenario::read_window(section, context.duration_us)};
+  }
+  if (estimator != nullptr && estimator->layout.to_go_stretch_us == 0)
+    section.reject("time_to_go_s", "is of flights that go to a target", "from_s and to_s");
+  for (const std::string_view key : {"from_s", "to_s"})
+    section.refuse(key, "has no effect beside time_to_go_s", "one of the two");
+  return {.window = {.from_us = 0, .to_us = context.duration_us},
+          .to_go_s = section.interval("time_to_go_s", scenario::Limits::at_least(0))};
+}
+
+std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
+                                             const Quantity& quantity) {
+  const auto key = [&](const quantities::Unit& unit) { return fmt::format("{}{}", stem, unit.ending); };
+  const auto number = [&](const quantities::Unit& unit) {
+    return std::pair{section.number(key(unit), scenario::Limits::above(0)), unit};
+  };
+  const bool angle = quantity.unit.name == quantities::mrad.name;
+  if (!angle) return number(quantity.unit);
+  const bool in_degrees = section.has(key(quantities::degrees));
+  if (in_degrees && section.has(key(quantities::mrad)))
+    section.reject(key(quantities::mrad), fmt::format("is given beside {}", key(quantities::degrees)),
+                   "one of the two");
+  section.optional(key(in_degrees ? quantities::mrad : quantities::degrees));
+  return number(in_degrees ? quantities::degrees : quantities::mrad);
+}
+
+int digits_of(const quantities::Unit& unit) { return unit.name == "m" ? 2 : unit.name == "m/s" ? 4 : 3; }
+
+std::string words(const Stretch& stretch) {
+  if (!stretch.to_go_s) return seconds(stretch.window);
+  return fmt::format("from {:g} to {:g} s to go", stretch.to_go_s->second, stretch.to_go_s->first);
+}
+
+std::vector<std::size_t> inside(const Track& track, const Stretch& stretch) {
+  std::vector<std::size_t> places;
+  auto epoch = track.to_go.begin();
+  for (std::size_t place = 0; place < track.told.size(); ++place) {
+    const std::int64_t t_us = track.told[place].t_us;
+    if (stretch.to_go_s) {
+      while (epoch != track.to_go.end() && epoch->t_us < t_us) ++epoch;
+      if (epoch == track.to_go.end() || epoch->t_us != t_us || !lies_in(*stretch.to_go_s, epoch->to_go_s))
+        continue;
+    } else if (!within(stretch.window, t_us)) {
+      continue;
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+std::string silence(const Track& track, const Stretch& stretch, const std::vector<std::size_t>& part) {
+  if (stretch.to_go_s) {
+    const auto flown = std::ranges::count_if(
+        track.to_go, [&](const Track::ToGo& epoch) { return lies_in(*stretch.to_go_s, epoch.to_go_s); });
+    if (flown == 0) return "the flight has no samples there";
+    if (part.empty()) return "no answers";
+    if (static_cast<double>(part.size()) < least_answered * static_cast<double>(flown))
+      return fmt::format("answers to {} of {} samples", part.size(), flown);
+    return "";
+  }
+  if (part.empty()) return "no answers";
+  if (track.unanswered) return track.unanswered(stretch.window.from_us, stretch.window.to_us);
+  std::vector<std::int64_t> times;
+  for (const std::size_t place : part) times.push_back(track.told[place].t_us);
+  const auto silent = silent_stretch(times, stretch.window, track.answers_end_us, track.longest_wait_us);
+  return silent ? "no answers " + seconds(*silent) : std::string();
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,59 @@
+#include "bench/checks/kinds/output_period.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/scenario/contract.hpp"
+#include "bench/scenario/rule.hpp"
+
+namespace canhil::checks {
+
+using scenario::Limits;
+
+void expect_sent(scenario::Section& section, const scenario::CheckContext& context,
+                 const std::string& message) {
+  const auto sender = context.contract.sent_by.find(message);
+  if (sender == context.contract.sent_by.end()) return;
+  if (std::ranges::find(context.estimators, sender->second) != context.estimators.end()) return;
+  section.reject(
+      "message",
+      fmt::format("'{}' is sent by {}, which is not run in this scenario", message, sender->second),
+      fmt::format("a message of {}", fmt::join(context.estimators, ", ")));
+}
+
+OutputPeriod OutputPeriod::read(scenario::Section& section, const scenario::CheckContext& context) {
+  OutputPeriod rule;
+  rule.message = section.one_of("message", context.contract.messages);
+  expect_sent(section, context, rule.message);
+  rule.window = scenario::read_window(section, context.duration_us);
+  rule.within = section.number("within_percent", Limits::above(0));
+  rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
+  return rule;
+}
+
+Finding OutputPeriod::judge(const Evidence& evidence) const {
+  const double nominal = nominal_period_s(evidence.seen, message);
+  const std::string expected = fmt::format("{} every {:g} ms +- {:g} % ({}) {}", message, nominal * 1e3,
+                                           within * 100, quantile_name(quantile), seconds(window));
+  if (nominal <= 0) return {Outcome::not_measured, "the message has no period", expected};
+  if (auto why = unfit(evidence, quantile, nominal * within); !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
+  const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
+  if (timed == nullptr) return {Outcome::not_measured, "no times were taken", expected};
+  // A bench that would fail the check itself cannot fail the target by it.
+  if (const double off_s = timed->stimulus_deviation.quantile_ns(quantile) * 1e-9;
+      off_s > lateness_share * nominal * within) {
+    return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),
+            expected};
+  }
+  if (timed->period.count() == 0) return {Outcome::fail, "fewer than two arrivals", expected};
+  const PeriodDeviation off =
+      period_deviation(timed->period, nominal, ended_before_s(evidence.seen, *timed), quantile);
+  return {pass_if(off.off_s <= nominal * within),
+          fmt::format("{:.3f} ms off, of {}", off.off_s * 1e3, off.count), expected};
+}
+
+}  // namespace canhil::checks

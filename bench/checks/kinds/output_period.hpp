@@ -1,0 +1,25 @@
+// Timing: the time between successive frames of a message stays within a fraction of its period.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+struct OutputPeriod {
+  static constexpr std::string_view kind = "output_period";
+  std::string message;
+  scenario::Window window;
+  double within = 0;    ///< fraction of the period: 0.1 is 10 %
+  double quantile = 1;  ///< 1: every interval; 0.99: all but one in a hundred
+
+  static OutputPeriod read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const { return message; }
+  [[nodiscard]] std::optional<Timed> timed() const { return Timed{message, window}; }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+/// Rejects `message` where nobody that runs sends it: nothing is there to be timed.
+void expect_sent(scenario::Section& section, const scenario::CheckContext& context,
+                 const std::string& message);
+
+}  // namespace canhil::checks

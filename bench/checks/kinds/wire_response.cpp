@@ -1,0 +1,52 @@
+#include "bench/checks/kinds/wire_response.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/wire_bounds.hpp"
+
+namespace canhil::checks {
+namespace {
+
+Finding against_bounds(const Observations& seen) {
+  Finding finding{.outcome = Outcome::not_measured,
+                  .measured = no_bounds(seen),
+                  .expected = "no frame takes longer over the bus than its bound"};
+  if (!finding.measured.empty()) return finding;
+  const std::vector<WireBound> bounds = wire_bounds(seen);
+  const auto share = [](const WireBound& bound) {
+    return static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns);
+  };
+  const WireBound* worst = nullptr;
+  for (const WireBound& bound : bounds) {
+    if (!bound.bound_ns) {
+      finding.measured = fmt::format("{} has no bound that the analysis finds", bound.message);
+      return finding;
+    }
+    if (worst == nullptr || share(bound) > share(*worst)) worst = &bound;
+  }
+  if (worst == nullptr) {
+    finding.measured = "no frame was seen";
+    return finding;
+  }
+  finding.outcome = pass_if(worst->longest_ns <= *worst->bound_ns);
+  finding.measured =
+      fmt::format("{}: {:.3f} of {:.3f} ms, the most of {} message{}", worst->message,
+                  static_cast<double>(worst->longest_ns) * 1e-6, static_cast<double>(*worst->bound_ns) * 1e-6,
+                  bounds.size(), bounds.size() == 1 ? "" : "s");
+  return finding;
+}
+
+}  // namespace
+
+Finding WireResponseRule::judge(const Evidence& evidence) const {
+  constexpr double bar_s = 1e-3;
+  Finding finding = against_bounds(evidence.seen);
+  if (finding.outcome != Outcome::fail) return finding;
+  // A host that stops a program between two frames makes them late through no fault of the bus.
+  if (auto why = unfit(evidence, 1, bar_s); !why.empty())
+    return {Outcome::not_measured, std::move(why), std::move(finding.expected)};
+  return finding;
+}
+
+}  // namespace canhil::checks

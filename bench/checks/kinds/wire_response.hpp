@@ -1,0 +1,17 @@
+// No frame takes longer over the bus than its worst case by theory; needs a bus whose bit rate is known.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+struct WireResponseRule {
+  static constexpr std::string_view kind = "wire_response";
+
+  static WireResponseRule read(scenario::Section& /*section*/, const scenario::CheckContext& /*context*/) {
+    return {};
+  }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

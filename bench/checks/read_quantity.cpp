@@ -1,0 +1,38 @@
+#include "bench/checks/read_quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::checks {
+
+using quantities::Quantity;
+
+const Quantity* read_quantity(scenario::Section& section, std::span<const Quantity* const> known,
+                              const std::function<std::string(const Quantity&)>& refused) {
+  constexpr std::string_view key = "quantity";
+  std::vector<std::string> words;
+  for (const Quantity* one : known) {
+    if (refused(*one).empty()) words.emplace_back(one->name);
+  }
+  if (section.has(key)) {
+    const std::string word = section.text(key);
+    const auto named = std::ranges::find(known, std::string_view(word), &Quantity::name);
+    const auto once = std::ranges::find(known, std::string_view(word), &Quantity::once);
+    if (named != known.end()) {
+      if (const std::string why = refused(**named); !why.empty())
+        section.reject(key, fmt::format("'{}' {}", word, why),
+                       fmt::format("one of: {}", fmt::join(words, ", ")));
+    } else if (!word.empty() && once != known.end()) {
+      section.reject(key, fmt::format("'{}' is a name of before", word), fmt::format("'{}'", (*once)->name));
+    }
+  }
+  const std::string word = section.one_of(key, words);
+  const auto found = std::ranges::find(known, std::string_view(word), &Quantity::name);
+  return found == known.end() ? known.front() : *found;
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,22 @@
+// What people and programs are told of a run, apart from its checks: lines of figures.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace canhil::estimators {
+
+struct Figure {
+  std::string name;               ///< for programs: "heading"
+  std::optional<double> value{};  ///< [SI]; none: there is none
+  std::string words;              ///< for people, with its unit: "heading +1.234 mrad"; empty: not for them
+};
+
+struct ResultLine {
+  std::string name;  ///< for programs: "final_error"
+  std::string what;  ///< for people: "error at the end"
+  std::vector<Figure> figures{};
+};
+
+}  // namespace canhil::estimators

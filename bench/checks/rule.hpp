@@ -1,0 +1,105 @@
+// A rule of a scenario: what a kind of check is put together from.
+//
+// A kind is a struct with a constant `kind`, its fields, and
+//   static Kind read(scenario::Section&, const scenario::CheckContext&)
+//   Finding judge(const Evidence&) const         an absent answer is a failure of the target, never a pass
+// and, where they say something,
+//   std::string subject() const                  what tells one check of the kind from another
+//   std::vector<Subject> subjects() const        the quantities that it looks at
+//   std::optional<Bar> bar() const               what it asks of them, for pictures
+//   std::optional<Timed> timed() const           the message whose times it looks at
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bench/checks/finding.hpp"
+#include "bench/scenario/checks.hpp"
+
+namespace canhil::quantities {
+struct Quantity;
+}
+
+namespace canhil::checks {
+
+struct Evidence;
+
+/// A quantity that an estimator tells.
+struct Subject {
+  std::string estimator;
+  const quantities::Quantity* quantity = nullptr;
+  std::string words{};  ///< "attitude.heading", and whose it is where several tell it
+};
+
+/// Part of a run, by time of validity or, where the flight has an end that it goes to, by the time to go.
+struct Stretch {
+  scenario::Window window;
+  std::optional<std::pair<double, double>> to_go_s{};  ///< [least, most)
+};
+
+/// |quantity| is to be below a value.
+struct Bar {
+  std::vector<Subject> of;
+  Stretch stretch;
+  double below = 0;  ///< [SI]
+  std::string_view statistic{};
+};
+
+struct Timed {
+  std::string message;
+  scenario::Window window;
+};
+
+class Rule {
+ public:
+  Rule() = default;
+  Rule(const Rule&) = delete;
+  Rule& operator=(const Rule&) = delete;
+  virtual ~Rule() = default;
+
+  [[nodiscard]] virtual Finding judge(const Evidence& evidence) const = 0;
+  [[nodiscard]] virtual std::vector<Subject> subjects() const = 0;
+  [[nodiscard]] virtual std::optional<Bar> bar() const = 0;
+  [[nodiscard]] virtual std::optional<Timed> timed() const = 0;
+};
+
+template <class Kind>
+class RuleOf final : public Rule {
+ public:
+  explicit RuleOf(Kind kind) : kind_(std::move(kind)) {}
+  [[nodiscard]] Finding judge(const Evidence& evidence) const override { return kind_.judge(evidence); }
+  [[nodiscard]] std::vector<Subject> subjects() const override {
+    if constexpr (requires { kind_.subjects(); }) return kind_.subjects();
+    return {};
+  }
+  [[nodiscard]] std::optional<Bar> bar() const override {
+    if constexpr (requires { kind_.bar(); }) return kind_.bar();
+    return std::nullopt;
+  }
+  [[nodiscard]] std::optional<Timed> timed() const override {
+    if constexpr (requires { kind_.timed(); }) return kind_.timed();
+    return std::nullopt;
+  }
+  [[nodiscard]] const Kind& kind() const { return kind_; }
+
+ private:
+  Kind kind_;
+};
+
+template <class Kind>
+scenario::RuleRead read_rule(scenario::Section& section, const scenario::CheckContext& context) {
+  Kind rule = Kind::read(section, context);
+  std::string subject;
+  if constexpr (requires { rule.subject(); }) subject = rule.subject();
+  return {std::make_shared<RuleOf<Kind>>(std::move(rule)), std::move(subject)};
+}
+
+/// The line of a registry.
+template <class Kind>
+inline constexpr scenario::CheckKind check_kind{.name = Kind::kind, .read = read_rule<Kind>};
+
+}  // namespace canhil::checks

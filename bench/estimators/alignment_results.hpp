@@ -1,0 +1,17 @@
+// What estimators of attitude and velocity have in common in what people are told.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bench/checks/errors.hpp"
+#include "bench/checks/results.hpp"
+#include "bench/quantities/quantity.hpp"
+
+namespace canhil::estimators {
+
+/// When the heading error entered each band [angle] for good, and the errors of the last answer.
+std::vector<ResultLine> alignment_results(const std::vector<checks::NavigationError>& errors,
+                                          std::span<const double> bands, const quantities::Unit& angle);
+
+}  // namespace canhil::estimators

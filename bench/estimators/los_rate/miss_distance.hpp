@@ -1,0 +1,16 @@
+// The closest approach of missile and target stays below a bar.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::estimators {
+
+struct MissDistance {
+  static constexpr std::string_view kind = "miss_distance";
+  double below = 0;  ///< [m]
+
+  static MissDistance read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] checks::Finding judge(const checks::Evidence& evidence) const;
+};
+
+}  // namespace canhil::estimators

@@ -1,0 +1,31 @@
+// How an estimator's folder makes its marks of its answers.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace canhil::estimators {
+
+/// Times of the causes of those answers for which something holds.
+template <class Answers, class Holds>
+std::vector<std::int64_t> times_of(const Answers& answers, Holds holds) {
+  std::vector<std::int64_t> times;
+  for (const auto& answer : answers) {
+    if (std::invoke(holds, answer)) times.push_back(answer.cause_us);
+  }
+  return times;
+}
+inline constexpr auto every_answer = [](const auto&) { return true; };
+
+/// A mark for each value of an enumeration that the answers have as a member.
+template <class Mark, class Enumeration, class Answers, class Values>
+void add_marks(std::vector<Mark>& marks, const Answers& answers, Enumeration Answers::value_type::*member,
+               const Values& values) {
+  for (const Enumeration value : values) {
+    marks.push_back({.name = name_of(value),
+                     .t_us = times_of(answers, [&](const auto& answer) { return answer.*member == value; })});
+  }
+}
+
+}  // namespace canhil::estimators

@@ -1,0 +1,43 @@
+// Rules put to the judge without a file.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "bench/checks/judge.hpp"
+#include "bench/checks/kinds/error.hpp"
+#include "bench/checks/rule.hpp"
+#include "bench/estimators/registry.hpp"
+#include "bench/world/motion/rest.hpp"
+
+namespace canhil::checks {
+
+template <class Kind>
+scenario::Check check_of(Kind rule, std::string name = "it") {
+  return {.name = std::move(name),
+          .requirement = "R1",
+          .kind = std::string(Kind::kind),
+          .rule = std::make_shared<RuleOf<Kind>>(std::move(rule))};
+}
+
+/// An error in a window of the run.
+inline Error error_of(std::string estimator, const quantities::Quantity& quantity,
+                      const scenario::Window& window, double below,
+                      Error::Statistic statistic = Error::Statistic::max) {
+  return {.of = {.estimator = std::move(estimator), .quantity = &quantity},
+          .statistic = statistic,
+          .stretch = {.window = window},
+          .below = below,
+          .unit = quantity.unit};
+}
+
+/// What a rule that looks at nothing but what was seen finds.
+template <class Kind>
+Finding found(const Kind& rule, const Observations& seen) {
+  static const world::FlightRecord rest{{.start = {}, .motion = world::Rest{}}, 1'000'000, 10'000};
+  Evidence evidence{.seen = seen, .truth = {.flight = rest}};
+  return rule.judge(evidence);
+}
+
+}  // namespace canhil::checks
