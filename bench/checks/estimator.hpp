@@ -2,11 +2,13 @@
 // rest of the bench asks the registry, or is given what it may ask, and knows quantities.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "bench/checks/observations.hpp"
+#include "bench/checks/reception.hpp"
 #include "bench/checks/results.hpp"
 #include "bench/quantities/freshness.hpp"
 #include "bench/quantities/samples.hpp"
@@ -46,6 +48,8 @@ struct Estimator {
   std::string_view name;                                 ///< as in the DBC's value table Estimator
   const quantities::Layout& layout;                      ///< of its samples
   std::span<const quantities::Quantity* const> of_runs;  ///< what its tracks tell
+  /// Puts its answers together, for a run.
+  std::unique_ptr<Reception> (*reception)() = nullptr;
   /// The samples that a run leaves behind; none where it has no truth to be held against.
   quantities::Samples (*samples)(const checks::Observations& seen, const Truth& truth) = nullptr;
   /// Gives each quantity over a run that has a truth to hold the answers against.
@@ -56,7 +60,9 @@ struct Estimator {
   /// What people are told of a run. `algorithm`: that the target runs.
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
-  std::span<const std::string_view> closing;           ///< the last message of each group of its answers
+  std::span<const std::string_view> closing;  ///< the last message of each group of its answers
+  std::string_view
+      of_own_interval{};  ///< the group that keeps an interval of its own where its stimuli come faster
   std::span<const scenario::CheckKind> check_kinds{};  ///< that nobody else can have
   /// How long they hold, by the rule of the checks (bench/checks/silence.hpp), in runs of a scenario.
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;

@@ -142,10 +142,7 @@ double nominal_period_s(const Observations& seen, std::string_view message) {
   if (all.empty() || all[0].count < 2) return cycle_s;
   const double span_us = static_cast<double>(all[0].last_us - all[0].first_us);
   const double stimulus_s = span_us / static_cast<double>(all[0].count - 1) * 1e-6;
-  // Navigation answers keep an interval of their own where the IMU is faster.
-  const bool navigation = info->sample_group == messages::AlignVelocityD::info.sample_group ||
-                          info->sample_group == messages::FixVelocityD::info.sample_group;
-  return navigation ? std::max(cycle_s, stimulus_s) : stimulus_s;
+  return seen.of_own_interval.contains(info->sample_group) ? std::max(cycle_s, stimulus_s) : stimulus_s;
 }
 
 }  // namespace canhil::checks

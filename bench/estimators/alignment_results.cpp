@@ -4,12 +4,13 @@
 
 namespace canhil::estimators {
 
-std::vector<ResultLine> alignment_results(const std::vector<checks::NavigationError>& errors,
+std::vector<ResultLine> alignment_results(const std::vector<NavigationError>& errors,
                                           std::span<const double> bands, const quantities::Unit& angle) {
   ResultLine convergence{.name = "heading_convergence", .what = "heading error for good within"};
   for (const double band : bands) {
     const std::string name = fmt::format("{:g} {}", band, angle.name);
-    const auto t_us = checks::convergence_us(errors, &world::Euler::heading, band * angle.factor);
+    const auto t_us = quantities::entered_for_good_us(
+        errors, band * angle.factor, [](const NavigationError& error) { return error.angles.heading; });
     const std::optional<double> t_s = t_us ? std::optional(static_cast<double>(*t_us) * 1e-6) : std::nullopt;
     convergence.figures.push_back(
         {.name = name,
@@ -23,7 +24,7 @@ std::vector<ResultLine> alignment_results(const std::vector<checks::NavigationEr
                            .words = fmt::format("{} {:+.3f} {}", name, value / angle.factor, angle.name)});
   };
   if (!errors.empty()) {
-    const checks::NavigationError& last = errors.back();
+    const NavigationError& last = errors.back();
     add("roll", last.angles.roll);
     add("pitch", last.angles.pitch);
     add("heading", last.angles.heading);

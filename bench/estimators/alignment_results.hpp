@@ -4,14 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "bench/checks/errors.hpp"
 #include "bench/checks/results.hpp"
-#include "bench/quantities/quantity.hpp"
+#include "bench/estimators/navigation.hpp"
+#include "bench/quantities/track.hpp"
 
 namespace canhil::estimators {
 
 /// When the heading error entered each band [angle] for good, and the errors of the last answer.
-std::vector<ResultLine> alignment_results(const std::vector<checks::NavigationError>& errors,
+std::vector<ResultLine> alignment_results(const std::vector<NavigationError>& errors,
                                           std::span<const double> bands, const quantities::Unit& angle);
 
 }  // namespace canhil::estimators

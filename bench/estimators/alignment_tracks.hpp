@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "bench/checks/errors.hpp"
 #include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/marks.hpp"
+#include "bench/estimators/navigation.hpp"
 #include "bench/quantities/list.hpp"
 #include "bench/quantities/samples.hpp"
 #include "bench/quantities/track.hpp"
@@ -38,7 +38,7 @@ struct AlignmentWords {
 struct AlignmentStatistic {
   const quantities::Quantity* quantity = nullptr;
   std::string_view title{};
-  std::vector<checks::Normalised> series{};
+  std::vector<Normalised> series{};
   bool only_if_judged = false;
 };
 
@@ -49,13 +49,13 @@ template <class Answers, class MisalignmentSigma>
 class AlignmentTracks {
  public:
   AlignmentTracks(const AlignmentWords& words, const checks::Observations& seen,
-                  const std::vector<checks::NavigationAnswer>& navigation, const world::FlightRecord& flight,
+                  const std::vector<NavigationAnswer>& navigation, const world::FlightRecord& flight,
                   std::int64_t duration_us, const Answers& answers, double filter_wait_us,
                   MisalignmentSigma misalignment_sigma,
                   std::function<std::string(std::int64_t, std::int64_t)> unanswered = {})
       : words_(words),
         navigation_(navigation),
-        errors_(checks::navigation_errors(navigation, flight)),
+        errors_(navigation_errors(navigation, flight)),
         answers_(answers),
         duration_us_(duration_us),
         navigation_wait_us_(
@@ -64,11 +64,10 @@ class AlignmentTracks {
         misalignment_sigma_(misalignment_sigma),
         unanswered_(std::move(unanswered)) {}
 
-  [[nodiscard]] const std::vector<checks::NavigationError>& errors() const { return errors_; }
+  [[nodiscard]] const std::vector<NavigationError>& errors() const { return errors_; }
 
   void give(const quantities::TrackSink& give, const std::vector<AlignmentStatistic>& statistics) const {
     using namespace quantities;
-    using checks::NavigationError;
     give(heading());
     const std::array misalignment{&misalignment_north, &misalignment_east, &misalignment_down};
     for (int axis = 0; axis < 3; ++axis) {
@@ -110,8 +109,7 @@ class AlignmentTracks {
     for (const AlignmentStatistic& one : statistics) {
       Track statistic = of_filter(*one.quantity, Track::Kind::statistic, std::string(one.title));
       statistic.only_if_judged = one.only_if_judged;
-      for (const checks::Normalised& n : one.series)
-        statistic.told.push_back({.t_us = n.t_us, .value = n.value});
+      for (const Normalised& n : one.series) statistic.told.push_back({.t_us = n.t_us, .value = n.value});
       give(std::move(statistic));
     }
   }
@@ -137,15 +135,15 @@ class AlignmentTracks {
     return track;
   }
 
-  [[nodiscard]] const checks::NavigationAnswer& answer_of(const checks::NavigationError& error) const {
-    return *std::ranges::lower_bound(navigation_, error.t_us, {}, &checks::NavigationAnswer::cause_us);
+  [[nodiscard]] const NavigationAnswer& answer_of(const NavigationError& error) const {
+    return *std::ranges::lower_bound(navigation_, error.t_us, {}, &NavigationAnswer::cause_us);
   }
 
   // Errors with the sigma of the last filter answer before each, as long as that one is not stale.
   template <class Error, class Sigma>
   void fill(quantities::Track& track, Error error, Sigma sigma) const {
     auto next = answers_.begin();
-    for (const checks::NavigationError& e : errors_) {
+    for (const NavigationError& e : errors_) {
       while (next != answers_.end() && next->cause_us <= e.t_us) ++next;
       quantities::Told told = error(e);
       told.t_us = e.t_us;
@@ -163,7 +161,7 @@ class AlignmentTracks {
     track.only_if_judged = true;
     fill(
         track,
-        [=, this](const checks::NavigationError& e) {
+        [=, this](const NavigationError& e) {
           const double told = answer_of(e).angles.*member;
           return quantities::Told{
               .value = e.angles.*member, .estimate = told, .truth = told - e.angles.*member};
@@ -181,7 +179,7 @@ class AlignmentTracks {
     double truth = 0;
     fill(
         track,
-        [&](const checks::NavigationError& e) {
+        [&](const NavigationError& e) {
           const double now = answer_of(e).angles.heading - e.angles.heading;
           truth += world::wrapped(now - truth);
           return quantities::Told{
@@ -192,8 +190,8 @@ class AlignmentTracks {
   }
 
   const AlignmentWords& words_;
-  const std::vector<checks::NavigationAnswer>& navigation_;
-  std::vector<checks::NavigationError> errors_;
+  const std::vector<NavigationAnswer>& navigation_;
+  std::vector<NavigationError> errors_;
   const Answers& answers_;
   std::int64_t duration_us_;
   double navigation_wait_us_;

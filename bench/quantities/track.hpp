@@ -1,6 +1,8 @@
 // One quantity over a run, as an estimator told it: what pictures, tables and bars are made of.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -51,5 +53,16 @@ struct Track {
 
 /// Takes tracks one after the other, so that a long run needs the room of one.
 using TrackSink = std::function<void(Track track)>;
+
+/// When |value_of(item)| of a series in order of time (t_us) enters a band for good [us]; none: it is outside
+/// at the end.
+template <class Series, class ValueOf>
+std::optional<std::int64_t> entered_for_good_us(const Series& series, double within, ValueOf value_of) {
+  const auto outside = std::find_if(series.rbegin(), series.rend(), [&](const auto& item) {
+    return !(std::abs(value_of(item)) <= within);  // NaN is outside
+  });
+  if (series.empty() || outside == series.rbegin()) return std::nullopt;
+  return outside.base()->t_us;
+}
 
 }  // namespace canhil::quantities

@@ -2,23 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::checks {
-
-std::optional<std::int64_t> convergence_us(const quantities::Track& track, double within) {
-  const auto outside =
-      std::find_if(track.told.rbegin(), track.told.rend(), [&](const quantities::Told& told) {
-        return !(std::abs(told.value) <= within);  // NaN is outside
-      });
-  if (track.told.empty() || outside == track.told.rbegin()) return std::nullopt;
-  return outside.base()->t_us;
-}
 
 Convergence Convergence::read(scenario::Section& section, const scenario::CheckContext& context) {
   Convergence rule;
@@ -48,7 +36,8 @@ Finding Convergence::judge(const Evidence& evidence) const {
   const Stretch to_the_end{.window = {before_us, evidence.truth.duration_us}};
   if (auto gap = silence(track, to_the_end, inside(track, to_the_end)); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
-  const auto t_us = convergence_us(track, within);
+  const auto t_us =
+      entered_for_good_us(track.told, within, [](const quantities::Told& told) { return told.value; });
   if (!t_us) return {Outcome::fail, "not within at the end", expected};
   return {pass_if(*t_us < before_us), fmt::format("{:.2f} s", static_cast<double>(*t_us) * 1e-6), expected};
 }

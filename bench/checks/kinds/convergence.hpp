@@ -21,7 +21,4 @@ struct Convergence {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// When |value| of a track enters a band [SI] for good [us]; none: it is outside at the end.
-std::optional<std::int64_t> convergence_us(const quantities::Track& track, double within);
-
 }  // namespace canhil::checks

@@ -12,11 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "bench/checks/errors.hpp"
-#include "bench/checks/fixes.hpp"
 #include "bench/estimators/alignment_results.hpp"
 #include "bench/estimators/alignment_tracks.hpp"
 #include "bench/estimators/freshness.hpp"
+#include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/inflight_alignment/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
@@ -56,15 +55,14 @@ constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_unt
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
-  const auto errors = checks::navigation_errors(seen.fix_navigation, truth.flight);
-  for (const checks::FixAnswer& update : seen.fixes) {
-    if (!checks::tells_of_its_time(update, truth.flight)) continue;
-    const auto* after = checks::first_after(errors, update.cause_us, update.navigation_us);
+  const auto errors = navigation_errors(seen.of<InflightAnswers>().navigation, truth.flight);
+  for (const FixAnswer& update : seen.of<InflightAnswers>().fixes) {
+    if (!tells_of_its_time(update, truth.flight)) continue;
+    const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
-    const world::Vector3 p = checks::position_error(update, truth.flight);
-    const double nis =
-        checks::used(update.outcome) ? told(update.nis) : std::numeric_limits<double>::quiet_NaN();
+    const world::Vector3 p = position_error(update, truth.flight);
+    const double nis = used(update.outcome) ? told(update.nis) : std::numeric_limits<double>::quiet_NaN();
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -97,7 +95,7 @@ double longest_wait_us(const checks::Observations& seen) {
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {
     std::vector<std::int64_t> periods_us;
     std::optional<std::int64_t> before_us;
-    for (const checks::SentFix& fix : seen.sent_fixes) {
+    for (const SentFix& fix : seen.of<InflightAnswers>().sent) {
       if (fix.source != source) continue;
       if (before_us) periods_us.push_back(fix.valid_us - *before_us);
       before_us = fix.valid_us;
@@ -110,14 +108,14 @@ double longest_wait_us(const checks::Observations& seen) {
   return checks::longest_wait_us(period_us, checks::tolerated_fixes + 1);
 }
 
-double misalignment_sigma(const checks::FixAnswer& answer, int axis) {
+double misalignment_sigma(const FixAnswer& answer, int axis) {
   return axis == 0 ? answer.tilt_sigma_north : axis == 1 ? answer.tilt_sigma_east : answer.heading_sigma;
 }
 
 // The bench may keep fixes back on purpose: those that it did not send need no answer.
 std::function<std::string(std::int64_t, std::int64_t)> owed_to(const checks::Observations& seen) {
   return [&seen](std::int64_t from_us, std::int64_t to_us) {
-    return checks::unanswered_fixes(seen, {.from_us = from_us, .to_us = to_us});
+    return unanswered_fixes(seen.of<InflightAnswers>(), {.from_us = from_us, .to_us = to_us});
   };
 }
 
@@ -131,15 +129,15 @@ void give_position(const checks::Observations& seen, const Truth& truth, double 
                 .unanswered = owed_to(seen),
                 .longest_wait_us = wait_us,
                 .answers_end_us = truth.duration_us};
-    for (const checks::FixAnswer& fix : seen.fixes) {
-      if (!checks::tells_of_its_time(fix, truth.flight)) continue;
-      track.told.push_back(told(fix, checks::position_error(fix, truth.flight)));
+    for (const FixAnswer& fix : seen.of<InflightAnswers>().fixes) {
+      if (!tells_of_its_time(fix, truth.flight)) continue;
+      track.told.push_back(told(fix, position_error(fix, truth.flight)));
       track.told.back().t_us = fix.cause_us;
     }
     give(std::move(track));
   };
   const auto component = [](int axis) {
-    return [axis](const checks::FixAnswer& fix, const world::Vector3& error) {
+    return [axis](const FixAnswer& fix, const world::Vector3& error) {
       return Told{.value = error(axis), .sigma = fix.position_sigma(axis)};
     };
   };
@@ -154,16 +152,22 @@ void give_position(const checks::Observations& seen, const Truth& truth, double 
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const double wait_us = longest_wait_us(seen);
-  const AlignmentTracks tracks(words, seen, seen.fix_navigation, truth.flight, truth.duration_us, seen.fixes,
-                               wait_us, misalignment_sigma, owed_to(seen));
-  using enum checks::Aligner;
-  tracks.give(give, {{.quantity = &innovation_nis,
-                      .title = "normalised innovation squared",
-                      .series = checks::nis(seen, inflight_alignment)},
-                     {.quantity = &heading_nees,
-                      .title = "normalised error squared of the heading",
-                      .series = checks::heading_nees(seen, inflight_alignment, tracks.errors()),
-                      .only_if_judged = true}});
+  const AlignmentTracks tracks(words, seen, seen.of<InflightAnswers>().navigation, truth.flight,
+                               truth.duration_us, seen.of<InflightAnswers>().fixes, wait_us,
+                               misalignment_sigma, owed_to(seen));
+  std::vector<Normalised> nis, of_heading;
+  for (const FixAnswer& answer : seen.of<InflightAnswers>().fixes) {
+    if (!used(answer.outcome)) continue;
+    nis.push_back({answer.cause_us, answer.nis});
+    add_heading_nees(of_heading, tracks.errors(), answer, answer.heading_sigma);
+  }
+  tracks.give(
+      give,
+      {{.quantity = &innovation_nis, .title = "normalised innovation squared", .series = std::move(nis)},
+       {.quantity = &heading_nees,
+        .title = "normalised error squared of the heading",
+        .series = std::move(of_heading),
+        .only_if_judged = true}});
   give_position(seen, truth, wait_us, give);
 }
 
@@ -171,31 +175,35 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
 // covariance had been repaired, and those after which the heading was resolved and fed back.
 std::vector<Mark> marks_of(const checks::Observations& seen) {
   std::vector<Mark> marks{
-      {.name = "answers", .t_us = times_of(seen.fix_navigation, every_answer)},
-      {.name = "coasting", .t_us = times_of(seen.fix_navigation, &checks::NavigationAnswer::coasting)}};
-  add_marks(marks, seen.fixes, &checks::FixAnswer::outcome, messages::enumerators<messages::FixOutcome>);
+      {.name = "answers", .t_us = times_of(seen.of<InflightAnswers>().navigation, every_answer)},
+      {.name = "coasting",
+       .t_us = times_of(seen.of<InflightAnswers>().navigation, &NavigationAnswer::coasting)}};
+  add_marks(marks, seen.of<InflightAnswers>().fixes, &FixAnswer::outcome,
+            messages::enumerators<messages::FixOutcome>);
   std::uint32_t repairs = 0;
-  marks.push_back({.name = "repaired", .t_us = times_of(seen.fixes, [&](const checks::FixAnswer& fix) {
-                                         return std::exchange(repairs, fix.repairs) != fix.repairs;
-                                       })});
-  marks.push_back({.name = "handed_over", .t_us = times_of(seen.fixes, &checks::FixAnswer::handed_over)});
+  marks.push_back(
+      {.name = "repaired", .t_us = times_of(seen.of<InflightAnswers>().fixes, [&](const FixAnswer& fix) {
+                             return std::exchange(repairs, fix.repairs) != fix.repairs;
+                           })});
+  marks.push_back(
+      {.name = "handed_over", .t_us = times_of(seen.of<InflightAnswers>().fixes, &FixAnswer::handed_over)});
   return marks;
 }
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                    std::string_view algorithm) {
   constexpr std::array bands_deg{30.0, 10.0, 3.0, 1.0};
-  auto lines =
-      alignment_results(checks::navigation_errors(seen.fix_navigation, truth.flight), bands_deg, degrees);
-  if (seen.fixes.empty()) return lines;
-  const checks::FixAnswer& last = seen.fixes.back();
+  auto lines = alignment_results(navigation_errors(seen.of<InflightAnswers>().navigation, truth.flight),
+                                 bands_deg, degrees);
+  if (seen.of<InflightAnswers>().fixes.empty()) return lines;
+  const FixAnswer& last = seen.of<InflightAnswers>().fixes.back();
   ResultLine filter{.name = "filter", .what = "filter"};
   filter.figures.push_back({.name = "repairs",
                             .value = last.repairs,
                             .words = fmt::format("repairs of the covariance {}", last.repairs)});
   // The algorithm keeps the heading apart from the INS until it is resolved.
-  const auto resolved = std::ranges::find(seen.fixes, true, &checks::FixAnswer::handed_over);
-  if (resolved != seen.fixes.end()) {
+  const auto resolved = std::ranges::find(seen.of<InflightAnswers>().fixes, true, &FixAnswer::handed_over);
+  if (resolved != seen.of<InflightAnswers>().fixes.end()) {
     const double t_s = static_cast<double>(resolved->cause_us) / 1e6;
     filter.figures.push_back({.name = "resolved",
                               .value = t_s,
@@ -234,11 +242,13 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 constinit const Estimator inflight_alignment{.name = "inflight_alignment",
                                              .layout = layout,
                                              .of_runs = of_runs,
+                                             .reception = inflight_reception,
                                              .samples = samples_of,
                                              .tracks = tracks_of,
                                              .marks = marks_of,
                                              .results = results_of,
                                              .closing = closing,
+                                             .of_own_interval = messages::FixVelocityD::info.sample_group,
                                              .freshness = freshness_of};
 
 }  // namespace canhil::estimators

@@ -10,10 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "bench/checks/los.hpp"
 #include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/freshness.hpp"
+#include "bench/estimators/los_rate/answers.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
 #include "bench/estimators/marks.hpp"
@@ -60,13 +60,13 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     return stretches[-static_cast<std::int64_t>(
         std::floor(time_to_go * 1e6 / static_cast<double>(stretch_us)))];
   };
-  for (const checks::LosError& error : checks::los_errors(seen, engagement)) {
+  for (const LosError& error : los_errors(seen.of<LosAnswers>(), engagement)) {
     Stretch& stretch = at(error.time_to_go);
     stretch.pitch_squares += error.rate.pitch * error.rate.pitch;
     stretch.yaw_squares += error.rate.yaw * error.rate.yaw;
     ++stretch.rates;
   }
-  for (const checks::Normalised& update : checks::los_nis(seen)) {
+  for (const Normalised& update : nis_of(seen.of<LosAnswers>())) {
     const world::EngagementTruth* epoch = engagement.at(update.t_us);
     if (epoch == nullptr) continue;
     Stretch& stretch = at(epoch->time_to_go());
@@ -87,11 +87,11 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   if (truth.engagement == nullptr) return;
   const world::EngagementRecord& engagement = *truth.engagement;
-  const auto errors = checks::los_errors(seen, engagement);
+  const auto errors = los_errors(seen.of<LosAnswers>(), engagement);
   // In the last moments before the passage the rate itself grows beyond any picture.
   constexpr double least_to_go_s = 0.08;
   const auto last = std::find_if(errors.rbegin(), errors.rend(),
-                                 [](const checks::LosError& e) { return e.time_to_go >= least_to_go_s; });
+                                 [](const LosError& e) { return e.time_to_go >= least_to_go_s; });
   const auto empty = [&](const Quantity& quantity) {
     return Track{.quantity = &quantity,
                  .unit = quantity.unit,
@@ -109,8 +109,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     track.estimate_unit = mradps;
     for (const world::EngagementTruth& epoch : engagement.epochs)
       track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
-    for (const checks::LosError& e : errors) {
-      const auto& answer = *std::ranges::lower_bound(seen.los, e.t_us, {}, &checks::LosAnswer::cause_us);
+    for (const LosError& e : errors) {
+      const auto& answer = *std::ranges::lower_bound(seen.of<LosAnswers>(), e.t_us, {}, &LosAnswer::cause_us);
       track.told.push_back({.t_us = e.t_us,
                             .value = e.rate.*member,
                             .sigma = answer.rate_sigma.*member,
@@ -124,16 +124,16 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   Track statistic = empty(los_nis);
   statistic.kind = Track::Kind::statistic;
   statistic.title = "normalised innovation squared";
-  for (const checks::Normalised& n : checks::los_nis(seen))
+  for (const Normalised& n : nis_of(seen.of<LosAnswers>()))
     statistic.told.push_back({.t_us = n.t_us, .value = n.value});
   give(std::move(statistic));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
-  using checks::LosAnswer;
-  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.los, every_answer)}};
-  add_marks(marks, seen.los, &LosAnswer::outcome, messages::enumerators<messages::LosRateOutcome>);
-  marks.push_back({.name = "blind", .t_us = times_of(seen.los, &LosAnswer::blind)});
+  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.of<LosAnswers>(), every_answer)}};
+  add_marks(marks, seen.of<LosAnswers>(), &LosAnswer::outcome,
+            messages::enumerators<messages::LosRateOutcome>);
+  marks.push_back({.name = "blind", .t_us = times_of(seen.of<LosAnswers>(), &LosAnswer::blind)});
   return marks;
 }
 
@@ -159,9 +159,9 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   ResultLine rms{.name = "rms", .what = "RMS [mrad/s] by s to go"};
   constexpr std::array<std::pair<double, double>, 6> windows{
       {{4.5, 3}, {3, 2}, {2, 1}, {1, 0.5}, {0.5, 0.2}, {0.2, 0.08}}};
-  const auto errors = checks::los_errors(seen, engagement);
+  const auto errors = los_errors(seen.of<LosAnswers>(), engagement);
   for (const auto& [most, least] : windows) {
-    const std::optional<double> value = checks::los_rms(errors, least, most);
+    const std::optional<double> value = los_rms(errors, least, most);
     const std::string name = fmt::format("{:g} to {:g}", most, least);
     rms.figures.push_back(
         {.name = name,
@@ -192,6 +192,7 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 constinit const Estimator los_rate{.name = "los_rate",
                                    .layout = layout,
                                    .of_runs = of_runs,
+                                   .reception = los_reception,
                                    .samples = samples_of,
                                    .tracks = tracks_of,
                                    .marks = marks_of,

@@ -3,10 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "bench/checks/errors.hpp"
 #include "bench/estimators/alignment_results.hpp"
 #include "bench/estimators/alignment_tracks.hpp"
 #include "bench/estimators/freshness.hpp"
+#include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/estimators/transfer_alignment/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
@@ -42,12 +42,12 @@ constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_unt
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
-  const auto errors = checks::navigation_errors(seen.navigation, truth.flight);
+  const auto errors = navigation_errors(seen.of<TransferAnswers>().navigation, truth.flight);
   // One value an update, in order, up to the last one that a navigation answer follows.
-  const std::vector<checks::Normalised> nees = checks::attitude_nees(seen, errors);
+  const std::vector<Normalised> nees = nees_of(seen.of<TransferAnswers>().filter, errors);
   for (std::size_t i = 0; i < nees.size(); ++i) {
-    const checks::FilterAnswer& update = seen.filter[i];
-    const auto* after = checks::first_after(errors, update.cause_us, update.navigation_us);
+    const FilterAnswer& update = seen.of<TransferAnswers>().filter[i];
+    const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
     const std::array<double, kept.size()> values{
@@ -66,33 +66,39 @@ constexpr AlignmentWords words{
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const double wait_us =
       checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::AlignUpdate::info.name));
-  const AlignmentTracks tracks(
-      words, seen, seen.navigation, truth.flight, truth.duration_us, seen.filter, wait_us,
-      [](const checks::FilterAnswer& a, int axis) { return a.attitude_sigma(axis); });
-  using enum checks::Aligner;
-  tracks.give(give, {{.quantity = &innovation_nis,
-                      .title = "normalised innovation squared",
-                      .series = checks::nis(seen, transfer_alignment)},
-                     {.quantity = &attitude_nees,
-                      .title = "normalised error squared of the attitude",
-                      .series = checks::attitude_nees(seen, tracks.errors()),
-                      .only_if_judged = true},
-                     {.quantity = &heading_nees,
-                      .title = "normalised error squared of the heading",
-                      .series = checks::heading_nees(seen, transfer_alignment, tracks.errors()),
-                      .only_if_judged = true}});
+  const AlignmentTracks tracks(words, seen, seen.of<TransferAnswers>().navigation, truth.flight,
+                               truth.duration_us, seen.of<TransferAnswers>().filter, wait_us,
+                               [](const FilterAnswer& a, int axis) { return a.attitude_sigma(axis); });
+  std::vector<Normalised> nis, of_heading;
+  for (const FilterAnswer& answer : seen.of<TransferAnswers>().filter) {
+    nis.push_back({answer.cause_us, answer.nis});
+    add_heading_nees(of_heading, tracks.errors(), answer, answer.attitude_sigma.z());
+  }
+  tracks.give(
+      give,
+      {{.quantity = &innovation_nis, .title = "normalised innovation squared", .series = std::move(nis)},
+       {.quantity = &attitude_nees,
+        .title = "normalised error squared of the attitude",
+        .series = nees_of(seen.of<TransferAnswers>().filter, tracks.errors()),
+        .only_if_judged = true},
+       {.quantity = &heading_nees,
+        .title = "normalised error squared of the heading",
+        .series = std::move(of_heading),
+        .only_if_judged = true}});
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
-  return {{.name = "answers", .t_us = times_of(seen.navigation, every_answer)},
-          {.name = "coasting", .t_us = times_of(seen.navigation, &checks::NavigationAnswer::coasting)},
-          {.name = "updates", .t_us = times_of(seen.filter, every_answer)}};
+  return {{.name = "answers", .t_us = times_of(seen.of<TransferAnswers>().navigation, every_answer)},
+          {.name = "coasting",
+           .t_us = times_of(seen.of<TransferAnswers>().navigation, &NavigationAnswer::coasting)},
+          {.name = "updates", .t_us = times_of(seen.of<TransferAnswers>().filter, every_answer)}};
 }
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                    std::string_view /*algorithm*/) {
   constexpr std::array bands_mrad{10.0, 3.0, 2.0, 1.0};
-  return alignment_results(checks::navigation_errors(seen.navigation, truth.flight), bands_mrad, mrad);
+  return alignment_results(navigation_errors(seen.of<TransferAnswers>().navigation, truth.flight), bands_mrad,
+                           mrad);
 }
 
 constexpr std::array closing{messages::AlignVelocityD::info.name, messages::AlignUpdate::info.name};
@@ -113,11 +119,13 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 constinit const Estimator transfer_alignment{.name = "transfer_alignment",
                                              .layout = layout,
                                              .of_runs = of_runs,
+                                             .reception = transfer_reception,
                                              .samples = samples_of,
                                              .tracks = tracks_of,
                                              .marks = marks_of,
                                              .results = results_of,
                                              .closing = closing,
+                                             .of_own_interval = messages::AlignVelocityD::info.sample_group,
                                              .freshness = freshness_of};
 
 }  // namespace canhil::estimators

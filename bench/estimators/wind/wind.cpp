@@ -11,9 +11,9 @@
 
 #include "bench/checks/silence.hpp"
 #include "bench/checks/timing.hpp"
-#include "bench/checks/wind.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/marks.hpp"
+#include "bench/estimators/wind/answers.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
@@ -40,9 +40,9 @@ constexpr Layout layout{.kept = kept, .derived = derived};
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   if (truth.glide == nullptr) return samples;
-  const auto errors = checks::wind_errors(seen, *truth.glide);
-  const auto normalised = checks::wind_nees(seen, *truth.glide);  // one for each error
-  auto answer = seen.wind.begin();
+  const auto errors = wind_errors(seen.of<WindAnswers>(), *truth.glide);
+  const auto normalised = nees_of(seen.of<WindAnswers>(), *truth.glide);  // one for each error
+  auto answer = seen.of<WindAnswers>().begin();
   for (std::size_t i = 0; i < errors.size(); ++i) {
     while (!answer->started || answer->cause_us != errors[i].t_us) ++answer;
     const bool updated = answer->outcome == messages::WindOutcome::updated;
@@ -58,7 +58,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   if (truth.glide == nullptr) return;
-  const auto errors = checks::wind_errors(seen, *truth.glide);
+  const auto errors = wind_errors(seen.of<WindAnswers>(), *truth.glide);
   const double wait_us =
       checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::WindUpdate::info.name));
   const auto empty = [&](const Quantity& quantity, std::string title) {
@@ -69,9 +69,9 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
                  .answers_end_us = truth.glide->end_us()};
   };
   const auto fill = [&](Track track, auto told) {
-    for (const checks::WindError& e : errors) {
+    for (const WindError& e : errors) {
       track.told.push_back(
-          told(*std::ranges::lower_bound(seen.wind, e.t_us, {}, &checks::WindAnswer::cause_us), e));
+          told(*std::ranges::lower_bound(seen.of<WindAnswers>(), e.t_us, {}, &WindAnswer::cause_us), e));
       track.told.back().t_us = e.t_us;
     }
     give(std::move(track));
@@ -83,7 +83,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     Track track = empty(*quantity, std::string("wind error ") + name);
     track.estimate_title = std::string("wind ") + name;
     track.estimate_unit = mps;
-    fill(std::move(track), [=](const checks::WindAnswer& answer, const checks::WindError& e) {
+    fill(std::move(track), [=](const WindAnswer& answer, const WindError& e) {
       const double estimate = answer.wind_n(axis);
       return Told{.value = e.error_n(axis),
                   .sigma = answer.sigma(axis),
@@ -96,34 +96,34 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     track.only_if_judged = true;
     return track;
   };
-  fill(judged(wind_along, "wind error along track"), [](const auto& answer, const checks::WindError& e) {
+  fill(judged(wind_along, "wind error along track"), [](const auto& answer, const WindError& e) {
     return Told{.value = e.along_track, .sigma = answer.along_track_sigma};
   });
-  fill(judged(wind_cross, "wind error cross track"), [](const auto& answer, const checks::WindError& e) {
+  fill(judged(wind_cross, "wind error cross track"), [](const auto& answer, const WindError& e) {
     return Told{.value = e.cross_track, .sigma = answer.cross_track_sigma};
   });
   fill(judged(wind_norm, "wind error norm"),
-       [](const auto&, const checks::WindError& e) { return Told{.value = e.error_n.norm()}; });
-  const auto statistic = [&](Track track, const std::vector<checks::Normalised>& series) {
+       [](const auto&, const WindError& e) { return Told{.value = e.error_n.norm()}; });
+  const auto statistic = [&](Track track, const std::vector<Normalised>& series) {
     track.kind = Track::Kind::statistic;
     track.unit = plain;
-    for (const checks::Normalised& n : series) track.told.push_back({.t_us = n.t_us, .value = n.value});
+    for (const Normalised& n : series) track.told.push_back({.t_us = n.t_us, .value = n.value});
     give(std::move(track));
   };
-  statistic(empty(wind_nis, "normalised innovation squared"), checks::wind_nis(seen));
-  statistic(judged(wind_nees, "normalised error squared"), checks::wind_nees(seen, *truth.glide));
+  statistic(empty(wind_nis, "normalised innovation squared"), nis_of(seen.of<WindAnswers>()));
+  statistic(judged(wind_nees, "normalised error squared"), nees_of(seen.of<WindAnswers>(), *truth.glide));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
-  using checks::WindAnswer;
-  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.wind, every_answer)}};
-  add_marks(marks, seen.wind, &WindAnswer::outcome, messages::enumerators<messages::WindOutcome>);
+  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.of<WindAnswers>(), every_answer)}};
+  add_marks(marks, seen.of<WindAnswers>(), &WindAnswer::outcome,
+            messages::enumerators<messages::WindOutcome>);
   for (const auto& [name, flag] :
        {std::pair{"outside", &WindAnswer::outside}, std::pair{"fins_late", &WindAnswer::fins_late},
         std::pair{"fins_missing", &WindAnswer::fins_missing},
         std::pair{"fins_not_physical", &WindAnswer::fins_not_physical},
         std::pair{"theta_capped", &WindAnswer::theta_capped}})
-    marks.push_back({.name = name, .t_us = times_of(seen.wind, flag)});
+    marks.push_back({.name = name, .t_us = times_of(seen.of<WindAnswers>(), flag)});
   return marks;
 }
 
@@ -131,12 +131,12 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
                                    std::string_view /*algorithm*/) {
   if (truth.glide == nullptr) return {};
   constexpr std::int64_t from_us = 10'000'000;  // until then the filter settles
-  std::vector<checks::WindError> errors = checks::wind_errors(seen, *truth.glide);
-  std::erase_if(errors, [](const checks::WindError& error) { return error.t_us < from_us; });
+  std::vector<WindError> errors = wind_errors(seen.of<WindAnswers>(), *truth.glide);
+  std::erase_if(errors, [](const WindError& error) { return error.t_us < from_us; });
   ResultLine mean{.name = "mean_error", .what = "mean |error| from 10 s on"};
   const auto add = [&](const char* name, const char* words, auto component) {
     double sum = 0;
-    for (const checks::WindError& error : errors) sum += std::abs(component(error));
+    for (const WindError& error : errors) sum += std::abs(component(error));
     if (errors.empty()) {
       mean.figures.push_back({.name = name, .words = std::string(words) + " none judged"});
     } else {
@@ -145,13 +145,13 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
           {.name = name, .value = value, .words = fmt::format("{} {:.3f} m/s", words, value)});
     }
   };
-  add("norm", "of the vector", [](const checks::WindError& error) { return error.error_n.norm(); });
-  add("along_track", "along track", [](const checks::WindError& error) { return error.along_track; });
-  add("cross_track", "across", [](const checks::WindError& error) { return error.cross_track; });
-  add("down", "down", [](const checks::WindError& error) { return error.error_n.z(); });
+  add("norm", "of the vector", [](const WindError& error) { return error.error_n.norm(); });
+  add("along_track", "along track", [](const WindError& error) { return error.along_track; });
+  add("cross_track", "across", [](const WindError& error) { return error.cross_track; });
+  add("down", "down", [](const WindError& error) { return error.error_n.z(); });
   ResultLine told{.name = "told", .what = "told at the end"};
-  if (!seen.wind.empty()) {
-    const double sigma = seen.wind.back().along_track_sigma;
+  if (!seen.of<WindAnswers>().empty()) {
+    const double sigma = seen.of<WindAnswers>().back().along_track_sigma;
     told.figures.push_back({.name = "along_track_sigma",
                             .value = sigma,
                             .words = fmt::format("sigma along track {:.3f} m/s", sigma)});
@@ -178,6 +178,7 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
 constinit const Estimator wind{.name = "wind",
                                .layout = layout,
                                .of_runs = of_runs,
+                               .reception = wind_reception,
                                .samples = samples_of,
                                .tracks = tracks_of,
                                .marks = marks_of,

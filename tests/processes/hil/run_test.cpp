@@ -226,7 +226,9 @@ TEST(SimulatedWire, AFullWireFailsTheCheckOfItsLoad) {
 
 TEST(Run, OfSeveralEstimatorsTheTextSaysWhoseLinesTheyAre) {
   const std::string text = hil_bench(fmt::format("run {} --bus in-process", scenario("all_four"))).out;
-  EXPECT_THAT(text, ContainsRegex("\n  los_rate\n  end of the flight +the target was not passed\n  RMS .mrad/s. by s to go"));
+  EXPECT_THAT(text,
+              ContainsRegex(
+                  "\n  los_rate\n  end of the flight +the target was not passed\n  RMS .mrad/s. by s to go"));
   EXPECT_THAT(text, ContainsRegex("\n  wind\n  mean .error. from 10 s on"));
   EXPECT_THAT(text, ContainsRegex("\n  inflight_alignment\n  heading error"));
 }

@@ -1,11 +1,13 @@
 #include "bench/campaign/series.hpp"
+#include "bench/estimators/inflight_alignment/answers.hpp"
+#include "bench/estimators/los_rate/answers.hpp"
+#include "bench/estimators/transfer_alignment/answers.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "bench/checks/errors.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
@@ -88,18 +90,19 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
     epoch.closing_speed = 1000;
     epoch.velocity_n = {-1000, 0, 0};
     record.epochs.push_back(epoch);
-    checks::LosAnswer answer;
+    estimators::LosAnswer answer;
     answer.cause_us = t_us;
     answer.outcome = messages::LosRateOutcome::updated;
     answer.rate = {.pitch = t_us % 20'000 == 0 ? 4e-3 : -3e-3, .yaw = 1e-3};
     answer.nis = t_us % 20'000 == 0 ? 1 : 2;
-    flown.seen.los.push_back(answer);
+    flown.seen.of<estimators::LosAnswers>().push_back(answer);
   }
-  flown.seen.los[0].outcome = messages::LosRateOutcome::coasting;  // told, but no update
-  flown.seen.los[1].outcome = messages::LosRateOutcome::waiting;
+  flown.seen.of<estimators::LosAnswers>()[0].outcome =
+      messages::LosRateOutcome::coasting;  // told, but no update
+  flown.seen.of<estimators::LosAnswers>()[1].outcome = messages::LosRateOutcome::waiting;
   record.miss_n = world::Vector3(0, 0.3, -0.4);
   flown.own_truth.engagement = record;
-  flown.seen.navigation.emplace_back();
+  flown.seen.of<estimators::TransferAnswers>().navigation.emplace_back();
   const RunSeries series = series_of(
       7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), estimators::los_rate);
   ASSERT_EQ(&series.samples.layout(), &estimators::los_rate.layout)
@@ -128,7 +131,8 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   EXPECT_EQ(series.ending.kind, run::Ending::Kind::completed);
   // 10 Hz for 3 s; the last update is followed by no answer.
   ASSERT_EQ(series.samples.size(), 29U);
-  const auto errors = checks::navigation_errors(flown->seen.navigation, *truth);
+  const auto errors =
+      estimators::navigation_errors(flown->seen.of<estimators::TransferAnswers>().navigation, *truth);
   for (std::size_t i = 0; i < series.samples.size(); ++i) {
     const auto same_time = [&](const auto& error) {
       return error.t_us == series.samples.times()[i] + 10'000;
@@ -143,7 +147,8 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
     EXPECT_EQ(value(quantities::misalignment_north), after->misalignment.x());
     EXPECT_TRUE(std::isnan(value(quantities::position_north)));
   }
-  EXPECT_EQ(series.samples.value(4, quantities::innovation_nis), flown->seen.filter[4].nis);
+  EXPECT_EQ(series.samples.value(4, quantities::innovation_nis),
+            flown->seen.of<estimators::TransferAnswers>().filter[4].nis);
 }
 
 TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
@@ -151,19 +156,19 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   const world::FlightRecord truth({.start = start, .motion = world::Rest{}}, 3'000'000, 20'000);
   run::Collected flown{.ending = {}, .seen = {}};
   for (const std::int64_t t_us : {1'000'000, 1'500'000, 2'000'000})
-    flown.seen.fix_navigation.push_back(
+    flown.seen.of<estimators::InflightAnswers>().navigation.push_back(
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});
-  checks::FixAnswer fix{.cause_us = 500'000, .navigation_us = 1'000'000, .nis = 4};
+  estimators::FixAnswer fix{.cause_us = 500'000, .navigation_us = 1'000'000, .nis = 4};
   fix.position = displaced(start, {1, 2, 3});
   fix.heading_sigma = 0.5;
   fix.repairs = 6;
-  flown.seen.fixes.push_back(fix);
+  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;
-  flown.seen.fixes.push_back(fix);
+  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::gated;
   fix.cause_us = 1'500'000;
   fix.nis = 900;
-  flown.seen.fixes.push_back(fix);
+  flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   const RunSeries series = series_of(5, flown, truth, estimators::inflight_alignment);
   ASSERT_EQ(series.samples.size(), 2U) << "only of fixes that were considered";
   EXPECT_TRUE(std::isnan(series.samples.value(1, quantities::innovation_nis))) << "the filter did not use it";

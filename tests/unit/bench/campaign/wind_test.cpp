@@ -6,7 +6,7 @@
 
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/statistics.hpp"
-#include "bench/checks/wind.hpp"
+#include "bench/estimators/wind/answers.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
@@ -83,7 +83,8 @@ TEST(WindSeries, IsWhatTheChecksSee) {
   const auto flown = run::run_in_process(scenario, *truth, 2);
   ASSERT_TRUE(flown) << flown.error().message;
   const RunSeries series = series_of(2, *flown, *truth, estimators::of(scenario));
-  const auto errors = checks::wind_errors(flown->seen, *flown->own_truth.glide);
+  const auto errors =
+      estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *flown->own_truth.glide);
   ASSERT_EQ(&series.samples.layout(), &estimators::wind.layout);
   EXPECT_TRUE(series_of(2, *flown, *truth, estimators::los_rate).samples.empty()) << "flew no engagement";
   ASSERT_EQ(series.samples.size(), errors.size());
@@ -94,9 +95,10 @@ TEST(WindSeries, IsWhatTheChecksSee) {
   EXPECT_EQ(value(quantities::wind_cross), errors[last].cross_track);
   EXPECT_EQ(value(quantities::wind_down), errors[last].error_n.z());
   EXPECT_NEAR(value(quantities::wind_norm), errors[last].error_n.norm(), 1e-12);
-  EXPECT_EQ(value(quantities::wind_nis), flown->seen.wind.back().nis);
+  EXPECT_EQ(value(quantities::wind_nis), flown->seen.of<estimators::WindAnswers>().back().nis);
   EXPECT_GT(value(quantities::wind_nees), 0);
-  EXPECT_EQ(value(quantities::wind_along_sigma), flown->seen.wind.back().along_track_sigma);
+  EXPECT_EQ(value(quantities::wind_along_sigma),
+            flown->seen.of<estimators::WindAnswers>().back().along_track_sigma);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // Checks of what the target made of position fixes, and of what it bridged.
-#include "bench/checks/fixes.hpp"
 
 #include <gmock/gmock.h>
 
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
+#include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/inflight_alignment/quantities.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/transmit.hpp"
@@ -12,6 +12,8 @@
 
 namespace canhil::checks {
 namespace {
+
+using namespace estimators;
 
 using messages::FixOutcome;
 using testing::HasSubstr;
@@ -25,12 +27,12 @@ class Fixed : public testing::Test {
  protected:
   Fixed() {
     for (std::int64_t t_us = second_us; t_us <= duration_us; t_us += second_us) {
-      seen_.sent_fixes.push_back({.source = messages::FixSource::ssbl, .valid_us = t_us});
-      seen_.fix_navigation.push_back({.cause_us = t_us, .angles = {}});
+      seen_.of<InflightAnswers>().sent.push_back({.source = messages::FixSource::ssbl, .valid_us = t_us});
+      seen_.of<InflightAnswers>().navigation.push_back({.cause_us = t_us, .angles = {}});
       FixAnswer fix{.cause_us = t_us, .navigation_us = t_us, .nis = 3};
       fix.position = start;
       fix.heading_sigma = 0.1;
-      seen_.fixes.push_back(fix);
+      seen_.of<InflightAnswers>().fixes.push_back(fix);
     }
   }
   template <class Rule>
@@ -45,7 +47,8 @@ class Fixed : public testing::Test {
   void unanswered(std::size_t place, std::size_t count) {
     const auto from = static_cast<std::ptrdiff_t>(place);
     const auto to = static_cast<std::ptrdiff_t>(place + count);
-    seen_.fixes.erase(seen_.fixes.begin() + from, seen_.fixes.begin() + to);
+    seen_.of<InflightAnswers>().fixes.erase(seen_.of<InflightAnswers>().fixes.begin() + from,
+                                            seen_.of<InflightAnswers>().fixes.begin() + to);
   }
 
   static constexpr world::Position start{.latitude = 0.6, .longitude = 2, .height = 5};
@@ -68,7 +71,7 @@ Answers counted(Answers::Count count, const scenario::Window& window = whole) {
 }
 
 TEST_F(Fixed, PositionErrorByItsComponent) {
-  seen_.fixes[10].position = displaced(start, {3, 4, -12});
+  seen_.of<InflightAnswers>().fixes[10].position = displaced(start, {3, 4, -12});
   using namespace quantities;
   for (const auto& [quantity, size] : {std::pair{&position_north, 3.0},
                                        {&position_east, 4.0},
@@ -84,13 +87,13 @@ TEST_F(Fixed, PositionErrorByItsComponent) {
 }
 
 TEST_F(Fixed, APositionWithoutAKnownTimeIsNotJudged) {
-  seen_.fixes[10].position = displaced(start, {100, 0, 0});
+  seen_.of<InflightAnswers>().fixes[10].position = displaced(start, {100, 0, 0});
   for (const FixOutcome outcome : {FixOutcome::late, FixOutcome::future, FixOutcome::out_of_order,
                                    FixOutcome::wrong_source, FixOutcome::invalid, FixOutcome::before_start}) {
-    seen_.fixes[10].outcome = outcome;
+    seen_.of<InflightAnswers>().fixes[10].outcome = outcome;
     EXPECT_EQ(judge(position()).outcome, Outcome::pass);
   }
-  seen_.fixes[10].outcome = FixOutcome::gated;
+  seen_.of<InflightAnswers>().fixes[10].outcome = FixOutcome::gated;
   EXPECT_EQ(judge(position()).outcome, Outcome::fail);
 }
 
@@ -107,7 +110,7 @@ TEST_F(Fixed, FixesThatAreNotAnsweredFail) {
 
 TEST_F(Fixed, FixesThatWereNotSentNeedNoAnswer) {
   unanswered(5, 8);
-  auto& sent = seen_.sent_fixes;
+  auto& sent = seen_.of<InflightAnswers>().sent;
   sent.erase(sent.begin() + 5, sent.begin() + 13);
   EXPECT_EQ(judge(position()).outcome, Outcome::pass);
   EXPECT_EQ(judge(consistency(quantities::innovation_nis, 2, 4)).outcome, Outcome::pass);
@@ -115,25 +118,26 @@ TEST_F(Fixed, FixesThatWereNotSentNeedNoAnswer) {
 
 TEST_F(Fixed, NisIsOfTheFixesThatWereUsed) {
   const Consistency rule = consistency(quantities::innovation_nis, 2.9, 3.1);
-  seen_.fixes[3].nis = 600;
+  seen_.of<InflightAnswers>().fixes[3].nis = 600;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  seen_.fixes[3].outcome = FixOutcome::gated;
+  seen_.of<InflightAnswers>().fixes[3].outcome = FixOutcome::gated;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  seen_.fixes[3].outcome = FixOutcome::recovered;
+  seen_.of<InflightAnswers>().fixes[3].outcome = FixOutcome::recovered;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
 TEST_F(Fixed, HeadingNeesFailsAnOverconfidentFilter) {
   const Consistency rule = consistency(quantities::heading_nees, 0, 1.5);
-  for (NavigationAnswer& answer : seen_.fix_navigation) answer.angles.heading = 0.1;
+  for (NavigationAnswer& answer : seen_.of<InflightAnswers>().navigation) answer.angles.heading = 0.1;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).measured, "mean 1.000 of 19");
-  for (FixAnswer& fix : seen_.fixes) fix.heading_sigma = 0.05;
+  for (FixAnswer& fix : seen_.of<InflightAnswers>().fixes) fix.heading_sigma = 0.05;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
 TEST_F(Fixed, WhatBecameOfFixesIsCounted) {
-  for (const std::size_t place : {3, 7, 8}) seen_.fixes[place].outcome = FixOutcome::gated;
+  for (const std::size_t place : {3, 7, 8})
+    seen_.of<InflightAnswers>().fixes[place].outcome = FixOutcome::gated;
   EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).outcome, Outcome::pass);
   EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).measured, "gated 3");
   EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).expected,
@@ -149,30 +153,32 @@ TEST_F(Fixed, WhatBecameOfFixesIsCounted) {
 TEST_F(Fixed, ARepairIsCountedWhereItCameAndTheHandoverWhereItFirstWas) {
   const Answers::Count none{.mark = "repaired", .at_most = 0};
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::pass);
-  for (std::size_t place = 15; place < 20; ++place) seen_.fixes[place].repairs = 2;  // after the fix of 16 s
+  for (std::size_t place = 15; place < 20; ++place)
+    seen_.of<InflightAnswers>().fixes[place].repairs = 2;  // after the fix of 16 s
   EXPECT_EQ(judge(counted(none)).measured, "repaired 1");
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted(none, {.from_us = 0, .to_us = 15 * second_us})).outcome, Outcome::pass);
   const Answers::Count resolved{.mark = "handed_over", .before_us = 6 * second_us};
   EXPECT_EQ(judge(counted(resolved)).measured, "never handed_over");
   EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::fail);
-  for (std::size_t place = 5; place < 20; ++place) seen_.fixes[place].handed_over = true;  // from 6 s on
+  for (std::size_t place = 5; place < 20; ++place)
+    seen_.of<InflightAnswers>().fixes[place].handed_over = true;  // from 6 s on
   EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::fail);
-  seen_.fixes[4].handed_over = true;
+  seen_.of<InflightAnswers>().fixes[4].handed_over = true;
   EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::pass);
   EXPECT_EQ(judge(counted(resolved)).measured, "handed_over at 5 s");
 }
 
 TEST_F(Fixed, SilenceNeverPasses) {
-  seen_.fixes.clear();
-  seen_.fix_navigation.clear();
+  seen_.of<InflightAnswers>().fixes.clear();
+  seen_.of<InflightAnswers>().navigation.clear();
   EXPECT_EQ(judge(position()).measured, "no answers");
   EXPECT_EQ(judge(counted({.mark = "gated", .at_most = 3})).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_most = 0})).measured, "no answers");
 }
 
 TEST_F(Fixed, CoastingAnswersAreCounted) {
-  for (const std::size_t place : {3, 7}) seen_.fix_navigation[place].coasting = true;
+  for (const std::size_t place : {3, 7}) seen_.of<InflightAnswers>().navigation[place].coasting = true;
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_least = 2, .at_most = 2})).outcome, Outcome::pass);
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_least = 3})).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_most = 1})).outcome, Outcome::fail);
@@ -180,7 +186,7 @@ TEST_F(Fixed, CoastingAnswersAreCounted) {
 }
 
 TEST_F(Fixed, BarsInDegreesAreReportedInDegrees) {
-  seen_.fix_navigation[5].angles.heading = 0.0349066;  // 2 deg
+  seen_.of<InflightAnswers>().navigation[5].angles.heading = 0.0349066;  // 2 deg
   Error rule = error_of(estimator, quantities::attitude_heading, whole, 3 * world::units::deg);
   rule.unit = quantities::degrees;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);

@@ -1,5 +1,6 @@
 // Every kind of check: what passes, what fails, what cannot be measured, and that silence never passes.
 #include "bench/checks/judge.hpp"
+#include "bench/estimators/transfer_alignment/answers.hpp"
 
 #include <gmock/gmock.h>
 
@@ -21,6 +22,8 @@
 namespace canhil::checks {
 namespace {
 
+using namespace estimators;
+
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -41,12 +44,13 @@ class Judged : public testing::Test {
   Judged() {
     for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
       stimuli_["SlaveImu"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
-      seen_.navigation.push_back({.cause_us = t_us, .angles = {}});
+      seen_.of<TransferAnswers>().navigation.push_back({.cause_us = t_us, .angles = {}});
       came<messages::AlignAttitude>().push_back({.t_ns = t_us * 1000 + 200'000, .cause_us = t_us});
       seen_.timing.lateness.add(50'000);
       if (t_us % 100'000 != 0) continue;
       stimuli_["MasterIns"].push_back({.valid_us = t_us, .t_ns = t_us * 1000, .due_ns = t_us * 1000});
-      seen_.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
+      seen_.of<TransferAnswers>().filter.push_back(
+          {.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Ones()});
       came<messages::TargetHeartbeat>().push_back({.t_ns = t_us * 1000});
     }
     seen_.last_ns = duration_us * 1000;
@@ -57,8 +61,10 @@ class Judged : public testing::Test {
     return came_[message_index<Message>()];
   }
   void silence_from(std::int64_t t_us) {
-    std::erase_if(seen_.navigation, [&](const auto& answer) { return answer.cause_us >= t_us; });
-    std::erase_if(seen_.filter, [&](const auto& answer) { return answer.cause_us >= t_us; });
+    std::erase_if(seen_.of<TransferAnswers>().navigation,
+                  [&](const auto& answer) { return answer.cause_us >= t_us; });
+    std::erase_if(seen_.of<TransferAnswers>().filter,
+                  [&](const auto& answer) { return answer.cause_us >= t_us; });
     std::erase_if(came<messages::AlignAttitude>(), [&](const Came& one) { return one.cause_us >= t_us; });
   }
 
@@ -125,16 +131,16 @@ Convergence convergence(double within, std::int64_t before_us) {
 }
 
 TEST_F(Judged, AttitudeErrorByTheWorstInItsWindow) {
-  seen_.navigation[100].angles.pitch = 0.5;  // at 1.01 s: outside the window
-  seen_.navigation[300].angles.roll = 0.5;   // another axis
+  seen_.of<TransferAnswers>().navigation[100].angles.pitch = 0.5;  // at 1.01 s: outside the window
+  seen_.of<TransferAnswers>().navigation[300].angles.roll = 0.5;   // another axis
   EXPECT_EQ(judge(attitude).outcome, Outcome::pass);
-  seen_.navigation[300].angles.pitch = -0.02;
+  seen_.of<TransferAnswers>().navigation[300].angles.pitch = -0.02;
   EXPECT_EQ(judge(attitude).outcome, Outcome::fail);
   EXPECT_THAT(judge(attitude).measured, HasSubstr("max 20.000 mrad of 201"));
 }
 
 TEST_F(Judged, VelocityErrorByAxisOrNorm) {
-  seen_.navigation[300].v_eb_n = {0.3, 0, -0.4};
+  seen_.of<TransferAnswers>().navigation[300].v_eb_n = {0.3, 0, -0.4};
   Error rule = error(quantities::velocity_norm, 0.45);
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   rule.of.quantity = &quantities::velocity_down;
@@ -145,8 +151,8 @@ TEST_F(Judged, VelocityErrorByAxisOrNorm) {
 
 TEST_F(Judged, AnErrorByItsStatistic) {
   using enum Error::Statistic;
-  for (auto& answer : seen_.navigation) answer.angles.roll = 0.003;
-  seen_.navigation[100].angles.roll = -0.103;
+  for (auto& answer : seen_.of<TransferAnswers>().navigation) answer.angles.roll = 0.003;
+  seen_.of<TransferAnswers>().navigation[100].angles.roll = -0.103;
   const auto measured = [&](Error::Statistic statistic) {
     return judge(error(quantities::attitude_roll, 0.05, whole, statistic)).measured;
   };
@@ -160,19 +166,20 @@ TEST_F(Judged, AnErrorByItsStatistic) {
 
 TEST_F(Judged, AnErrorThatIsNoNumberNeverPasses) {
   using enum Error::Statistic;
-  seen_.navigation[100].angles.roll = std::numeric_limits<double>::quiet_NaN();
+  seen_.of<TransferAnswers>().navigation[100].angles.roll = std::numeric_limits<double>::quiet_NaN();
   for (const auto statistic : {max, rms, mean, final})
     EXPECT_EQ(judge(error(quantities::attitude_roll, 9, whole, statistic)).outcome, Outcome::fail);
 }
 
 TEST_F(Judged, ConvergenceBeforeATime) {
-  for (int k = 0; k < 100; ++k) seen_.navigation[static_cast<std::size_t>(k)].angles.heading = 0.1;
+  for (int k = 0; k < 100; ++k)
+    seen_.of<TransferAnswers>().navigation[static_cast<std::size_t>(k)].angles.heading = 0.1;
   Convergence rule = convergence(0.01, 1'020'000);
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).measured, "1.01 s");
   rule.before_us = 1'010'000;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  seen_.navigation.back().angles.heading = 0.1;
+  seen_.of<TransferAnswers>().navigation.back().angles.heading = 0.1;
   EXPECT_EQ(judge(rule).measured, "not within at the end");
 }
 
@@ -202,19 +209,19 @@ TEST_F(Judged, ConsistencyByTheMeanInTheChiSquareInterval) {
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   // 40 values of 3 degrees of freedom: chi-square of 120, 95 %: 91.573 to 152.211.
   EXPECT_THAT(judge(rule).expected, HasSubstr("between 2.29 and 3.81"));
-  for (auto& answer : seen_.filter) answer.nis = 3.9;
+  for (auto& answer : seen_.of<TransferAnswers>().filter) answer.nis = 3.9;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  for (auto& answer : seen_.filter) answer.nis = 2.2;
+  for (auto& answer : seen_.of<TransferAnswers>().filter) answer.nis = 2.2;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   rule.bound = MeanBetween{2, 2.5};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
 }
 
 TEST_F(Judged, NeesFailsAnOverconfidentFilter) {
-  for (auto& answer : seen_.navigation) answer.angles.heading = 0.1;
+  for (auto& answer : seen_.of<TransferAnswers>().navigation) answer.angles.heading = 0.1;
   const Consistency rule = consistency(quantities::attitude_nees, MeanBetween{0, 9});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  for (auto& answer : seen_.filter) answer.attitude_sigma *= 0.01;  // 10 sigma
+  for (auto& answer : seen_.of<TransferAnswers>().filter) answer.attitude_sigma *= 0.01;  // 10 sigma
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 

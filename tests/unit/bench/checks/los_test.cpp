@@ -1,16 +1,18 @@
 // LOS rates, their consistency and the miss against an engagement.
-#include "bench/checks/los.hpp"
 
 #include <gmock/gmock.h>
 
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
+#include "bench/estimators/los_rate/answers.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::checks {
 namespace {
+
+using namespace estimators;
 
 using messages::LosRateOutcome;
 using testing::HasSubstr;
@@ -34,7 +36,7 @@ class Engaged : public testing::Test {
       answer.outcome = LosRateOutcome::updated;
       answer.rate = epoch.los_rate;
       answer.nis = 2;
-      seen_.los.push_back(answer);
+      seen_.of<LosAnswers>().push_back(answer);
       seen_.stimuli["Seeker"].add(t_us);
     }
     engagement_.miss_n = world::Vector3(0, 0.3, 0.4);
@@ -52,7 +54,7 @@ class Engaged : public testing::Test {
         .checks.at(0);
   }
   LosAnswer& answer_at(double to_go) {
-    return seen_.los.at(static_cast<std::size_t>(std::lround((5 - to_go) * 100)) - 1);
+    return seen_.of<LosAnswers>().at(static_cast<std::size_t>(std::lround((5 - to_go) * 100)) - 1);
   }
 
   bool present_ = true;
@@ -79,7 +81,7 @@ TEST_F(Engaged, LosRateErrorByPlaneAndStatistic) {
   EXPECT_EQ(judge(error_rule(los_rate_both, max)).measured, "max 3.000 mrad/s of 100");
   EXPECT_EQ(judge(error_rule(los_rate_pitch, max)).outcome, Outcome::pass);
   EXPECT_EQ(judge(error_rule(los_rate_yaw, rms)).measured, "RMS 0.300 mrad/s of 100") << "one of 100";
-  for (LosAnswer& answer : seen_.los) answer.rate.pitch += 2.1e-3;
+  for (LosAnswer& answer : seen_.of<LosAnswers>()) answer.rate.pitch += 2.1e-3;
   EXPECT_EQ(judge(error_rule(los_rate_pitch, rms)).outcome, Outcome::fail);
 }
 
@@ -93,18 +95,19 @@ TEST_F(Engaged, TheWindowIsOfTheTimeToGo) {
 
 TEST_F(Engaged, MissingAnswersFail) {
   const auto rule = error_rule(los_rate_both, rms);
-  std::erase_if(seen_.los, [](const LosAnswer& answer) { return answer.cause_us % 20'000 == 0; });
+  std::erase_if(seen_.of<LosAnswers>(),
+                [](const LosAnswer& answer) { return answer.cause_us % 20'000 == 0; });
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "half of the samples may be lost";
-  std::erase_if(seen_.los, [](const LosAnswer& answer) { return answer.cause_us == 3'510'000; });
+  std::erase_if(seen_.of<LosAnswers>(), [](const LosAnswer& answer) { return answer.cause_us == 3'510'000; });
   EXPECT_THAT(judge(rule).measured, HasSubstr("answers to 49 of 100 samples"));
-  seen_.los.clear();
+  seen_.of<LosAnswers>().clear();
   EXPECT_THAT(judge(rule).measured, HasSubstr("no answers"));
   engagement_.epochs.clear();
   EXPECT_THAT(judge(rule).measured, HasSubstr("no samples there"));
 }
 
 TEST_F(Engaged, AnswersThatAreNoEstimateTellNoRate) {
-  for (LosAnswer& answer : seen_.los) answer.outcome = LosRateOutcome::waiting;
+  for (LosAnswer& answer : seen_.of<LosAnswers>()) answer.outcome = LosRateOutcome::waiting;
   EXPECT_THAT(judge(error_rule(los_rate_both, max)).measured, HasSubstr("no answers"));
 }
 
@@ -122,9 +125,9 @@ TEST_F(Engaged, ConsistencyIsOfTwoDegreesOfFreedomUntilThePassage) {
                          .window = {.from_us = 0, .to_us = duration_us},
                          .bound = Probability{.value = 0.99}};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
-  for (LosAnswer& answer : seen_.los) answer.nis = 3;
+  for (LosAnswer& answer : seen_.of<LosAnswers>()) answer.nis = 3;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "consistent with three";
-  for (LosAnswer& answer : seen_.los) {
+  for (LosAnswer& answer : seen_.of<LosAnswers>()) {
     answer.nis = answer.cause_us > 2'000'000 ? 0 : 2;
     if (answer.cause_us > 2'000'000) answer.outcome = LosRateOutcome::coasting;
   }

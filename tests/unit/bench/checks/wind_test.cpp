@@ -1,5 +1,4 @@
 // Wind answers against a glider's truth.
-#include "bench/checks/wind.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,12 +7,15 @@
 
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
+#include "bench/estimators/wind/answers.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
 
 namespace canhil::checks {
 namespace {
+
+using namespace estimators;
 
 using messages::WindOutcome;
 using enum Error::Statistic;
@@ -42,7 +44,7 @@ class Winds : public testing::Test {
       answer.wind_n = glide_.at(t_us).wind_n;
       answer.sigma = Vector3::Ones();
       answer.nis = 9;
-      seen_.wind.push_back(answer);
+      seen_.of<WindAnswers>().push_back(answer);
     }
   }
   template <class Rule>
@@ -69,10 +71,10 @@ class Winds : public testing::Test {
 };
 
 TEST_F(Winds, ErrorsAreAlongAndAcrossTheAirVelocity) {
-  seen_.wind[100].wind_n += Vector3(0, 3, 0);   // to the east: along
-  seen_.wind[200].wind_n += Vector3(-2, 0, 0);  // to the south: to the right
-  seen_.wind[300].wind_n += Vector3(0, 0, -1);
-  const auto errors = wind_errors(seen_, glide_);
+  seen_.of<WindAnswers>()[100].wind_n += Vector3(0, 3, 0);   // to the east: along
+  seen_.of<WindAnswers>()[200].wind_n += Vector3(-2, 0, 0);  // to the south: to the right
+  seen_.of<WindAnswers>()[300].wind_n += Vector3(0, 0, -1);
+  const auto errors = wind_errors(seen_.of<WindAnswers>(), glide_);
   EXPECT_NEAR(errors[100].along_track, 3, 0.01);  // it weathercocks by a fraction of a degree
   EXPECT_NEAR(errors[100].cross_track, 0, 0.1);
   EXPECT_NEAR(errors[200].cross_track, 2, 0.01);
@@ -81,7 +83,7 @@ TEST_F(Winds, ErrorsAreAlongAndAcrossTheAirVelocity) {
 
 TEST_F(Winds, TheLargestAndTheMeanErrorAreJudged) {
   EXPECT_EQ(error(wind_norm, max, 1e-6).outcome, Outcome::pass);
-  seen_.wind[100].wind_n.z() -= 5;
+  seen_.of<WindAnswers>()[100].wind_n.z() -= 5;
   EXPECT_EQ(error(wind_norm, max, 4.9).outcome, Outcome::fail);
   EXPECT_EQ(error(wind_down, max, 5.1).outcome, Outcome::pass);
   EXPECT_EQ(error(wind_down, mean, 0.009).outcome, Outcome::fail);  // 5 / 500
@@ -90,43 +92,48 @@ TEST_F(Winds, TheLargestAndTheMeanErrorAreJudged) {
 }
 
 TEST_F(Winds, SilenceAndNansNeverPass) {
-  seen_.wind[100].wind_n.x() = std::numeric_limits<double>::quiet_NaN();
+  seen_.of<WindAnswers>()[100].wind_n.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error(wind_norm, mean, 1e9).outcome, Outcome::fail);
   EXPECT_EQ(error(wind_norm, max, 1e9).outcome, Outcome::fail);
-  seen_.wind.erase(seen_.wind.begin() + 90, seen_.wind.begin() + 150);  // 1.2 s
+  seen_.of<WindAnswers>().erase(seen_.of<WindAnswers>().begin() + 90,
+                                seen_.of<WindAnswers>().begin() + 150);  // 1.2 s
   EXPECT_THAT(error(wind_norm, max, 1).measured, HasSubstr("no answers from 1.8 to 3.02 s"));
-  seen_.wind.clear();
+  seen_.of<WindAnswers>().clear();
   EXPECT_EQ(error(wind_norm, max, 1).measured, "no answers");
   EXPECT_EQ(judge(Answers{.estimator = "wind", .window = whole, .counts = {}}).outcome, Outcome::fail);
 }
 
 TEST_F(Winds, AFilterThatWaitsHasNoError) {
-  for (WindAnswer& answer : seen_.wind) answer.started = false;
-  EXPECT_TRUE(wind_errors(seen_, glide_).empty());
+  for (WindAnswer& answer : seen_.of<WindAnswers>()) answer.started = false;
+  EXPECT_TRUE(wind_errors(seen_.of<WindAnswers>(), glide_).empty());
 }
 
 TEST_F(Winds, NeesTakesTheCorrelationIn) {
-  seen_.wind[0].wind_n += Vector3(1, 2, 3);
-  seen_.wind[0].sigma = {1, 2, 3};
-  EXPECT_NEAR(wind_nees(seen_, glide_)[0].value, 3, 1e-9);
-  seen_.wind[0].correlation = {0.5, 0, 0};
-  EXPECT_NEAR(wind_nees(seen_, glide_)[0].value, 2.0 / 1.5 + 1, 1e-9);  // (1 + 1 - 2 r) / (1 - r^2) and 1
+  seen_.of<WindAnswers>()[0].wind_n += Vector3(1, 2, 3);
+  seen_.of<WindAnswers>()[0].sigma = {1, 2, 3};
+  EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), glide_)[0].value, 3, 1e-9);
+  seen_.of<WindAnswers>()[0].correlation = {0.5, 0, 0};
+  EXPECT_NEAR(nees_of(seen_.of<WindAnswers>(), glide_)[0].value, 2.0 / 1.5 + 1,
+              1e-9);  // (1 + 1 - 2 r) / (1 - r^2) and 1
 }
 
 TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {
-  seen_.wind[0].wind_n += Vector3(1, -1, 0);
-  seen_.wind[0].correlation = {0.9, 0.9, -0.9};  // as no three numbers are correlated
-  EXPECT_TRUE(std::isinf(wind_nees(seen_, glide_)[0].value));
+  seen_.of<WindAnswers>()[0].wind_n += Vector3(1, -1, 0);
+  seen_.of<WindAnswers>()[0].correlation = {0.9, 0.9, -0.9};  // as no three numbers are correlated
+  EXPECT_TRUE(std::isinf(nees_of(seen_.of<WindAnswers>(), glide_)[0].value));
   EXPECT_EQ(consistency(quantities::wind_nees, MeanBetween{.low = 0, .high = 1e9}).outcome, Outcome::fail);
 }
 
 TEST_F(Winds, SilenceIsTwoPeriodsOfTheNavigationIfThatIsLonger) {
   seen_.stimuli.clear();
   for (std::int64_t t_us = 0; t_us <= duration_us; t_us += 1'000'000) seen_.stimuli["GliderNav"].add(t_us);
-  std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us % 1'000'000 != 0; });
-  std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us == 3'000'000; });
+  std::erase_if(seen_.of<WindAnswers>(),
+                [](const WindAnswer& answer) { return answer.cause_us % 1'000'000 != 0; });
+  std::erase_if(seen_.of<WindAnswers>(),
+                [](const WindAnswer& answer) { return answer.cause_us == 3'000'000; });
   EXPECT_EQ(error(wind_norm, max, 1).outcome, Outcome::pass) << "one was lost";
-  std::erase_if(seen_.wind, [](const WindAnswer& answer) { return answer.cause_us == 4'000'000; });
+  std::erase_if(seen_.of<WindAnswers>(),
+                [](const WindAnswer& answer) { return answer.cause_us == 4'000'000; });
   EXPECT_THAT(error(wind_norm, max, 1).measured, HasSubstr("no answers from 2 to 5 s"));
 }
 
@@ -135,15 +142,15 @@ TEST_F(Winds, NisIsOfNineDegreesOfFreedom) {
     return consistency(quantities::wind_nis, Probability{.value = 0.999}).outcome;
   };
   EXPECT_EQ(consistent(), Outcome::pass);
-  for (WindAnswer& answer : seen_.wind) answer.nis = 3;
+  for (WindAnswer& answer : seen_.of<WindAnswers>()) answer.nis = 3;
   EXPECT_EQ(consistent(), Outcome::fail);
-  for (WindAnswer& answer : seen_.wind) answer.outcome = WindOutcome::coasting;
-  EXPECT_TRUE(wind_nis(seen_).empty());
+  for (WindAnswer& answer : seen_.of<WindAnswers>()) answer.outcome = WindOutcome::coasting;
+  EXPECT_TRUE(nis_of(seen_.of<WindAnswers>()).empty());
 }
 
 TEST_F(Winds, AnswersAreCountedByOutcomeAndFlag) {
-  for (std::size_t i = 0; i < 7; ++i) seen_.wind[i].fins_late = true;
-  for (std::size_t i = 0; i < 3; ++i) seen_.wind[i].outcome = WindOutcome::coasting;
+  for (std::size_t i = 0; i < 7; ++i) seen_.of<WindAnswers>()[i].fins_late = true;
+  for (std::size_t i = 0; i < 3; ++i) seen_.of<WindAnswers>()[i].outcome = WindOutcome::coasting;
   const auto counted = [&](const char* mark, std::int64_t least, std::int64_t most) {
     return judge(Answers{.estimator = "wind",
                          .window = whole,

@@ -1,6 +1,7 @@
 // A run as it is reported, for the tests of pages and JSON.
 #pragma once
 
+#include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/report/json.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "dbc/realtime/process.hpp"
@@ -30,7 +31,8 @@ inline run::Run run_of() {
   run.options.bus.text = "local:x";
   checks::Observations& seen = run.seen;
   for (std::int64_t t_us = 10'000; t_us <= 2'000'000; t_us += 10'000) {
-    seen.navigation.push_back({.cause_us = t_us, .angles = {.roll = 0.001, .pitch = 0, .heading = 0}});
+    seen.of<estimators::TransferAnswers>().navigation.push_back(
+        {.cause_us = t_us, .angles = {.roll = 0.001, .pitch = 0, .heading = 0}});
     auto& timing = seen.timing.answers[message_index<messages::AlignVelocityD>()];
     timing.latency.add(200'000 + t_us / 10);
     timing.latency_line.add(t_us * 1000, 200'000);
@@ -39,7 +41,8 @@ inline run::Run run_of() {
     seen.timing.lateness_line.add(t_us * 1000, 30'000);
     seen.timing.transmit[message_index<messages::Sync>()].handed_over.add(30'000);
     if (t_us % 100'000 == 0)
-      seen.filter.push_back({.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Constant(0.002)});
+      seen.of<estimators::TransferAnswers>().filter.push_back(
+          {.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Constant(0.002)});
   }
   seen.length_by_second.resize(2);
   return run;

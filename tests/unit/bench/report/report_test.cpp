@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
@@ -132,19 +133,20 @@ TEST(Reports, TellWhatBecameOfFixes) {
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "sin_cos", .initial_sigma = {}, .parameters = {}}};
   EXPECT_THAT(text(scenario, run), AllOf(HasSubstr("answers 0\n"), Not(HasSubstr("accepted"))));
-  checks::FixAnswer fix{.cause_us = 100'000};
+  estimators::FixAnswer fix{.cause_us = 100'000};
   fix.heading_sigma = 0.01;
-  run.seen.fixes = {fix, fix, fix};
+  run.seen.of<estimators::InflightAnswers>().fixes = {fix, fix, fix};
   EXPECT_THAT(
       text(scenario, run),
       AllOf(
           HasSubstr("repairs of the covariance 0, heading not fed back to the INS by the end, heading sigma "
                     "told at the end 0.573 deg\n"),
           HasSubstr("answers 0, accepted 3\n")));
-  run.seen.fixes[1].outcome = messages::FixOutcome::gated;
-  run.seen.fixes[1].cause_us = 200'000;
-  run.seen.fixes[1].handed_over = run.seen.fixes[2].handed_over = true;
-  run.seen.fixes[2].repairs = 4;
+  run.seen.of<estimators::InflightAnswers>().fixes[1].outcome = messages::FixOutcome::gated;
+  run.seen.of<estimators::InflightAnswers>().fixes[1].cause_us = 200'000;
+  run.seen.of<estimators::InflightAnswers>().fixes[1].handed_over =
+      run.seen.of<estimators::InflightAnswers>().fixes[2].handed_over = true;
+  run.seen.of<estimators::InflightAnswers>().fixes[2].repairs = 4;
   EXPECT_THAT(
       text(scenario, run),
       AllOf(HasSubstr("repairs of the covariance 4, heading fed back to the INS at 0.2 s, heading sigma"),
@@ -158,7 +160,7 @@ TEST(Reports, TellWhatBecameOfFixes) {
 
 TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
   run::Run run = run_of();
-  run.seen.fixes = {{.cause_us = 100'000, .heading_sigma = 0.01}};
+  run.seen.of<estimators::InflightAnswers>().fixes = {{.cause_us = 100'000, .heading_sigma = 0.01}};
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "ukf", .initial_sigma = {}, .parameters = {}}};

@@ -1,5 +1,7 @@
 // Courses over the run: what checks ask stands on what they judge, and what was not told is a gap.
 #include "bench/report/series.hpp"
+#include "bench/estimators/inflight_alignment/answers.hpp"
+#include "bench/estimators/transfer_alignment/answers.hpp"
 
 #include <gmock/gmock.h>
 
@@ -45,9 +47,10 @@ run::Run run_of() {
   run.clock = run::ClockKind::lockstep;
   for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
     const double heading = t_us <= 1'000'000 ? 0.2 : 0.001;
-    run.seen.navigation.push_back({.cause_us = t_us, .angles = {.roll = 0, .pitch = 0, .heading = heading}});
+    run.seen.of<estimators::TransferAnswers>().navigation.push_back(
+        {.cause_us = t_us, .angles = {.roll = 0, .pitch = 0, .heading = heading}});
     if (t_us % 100'000 == 0)
-      run.seen.filter.push_back(
+      run.seen.of<estimators::TransferAnswers>().filter.push_back(
           {.cause_us = t_us, .nis = 3, .attitude_sigma = world::Vector3::Constant(0.002)});
   }
   return run;
@@ -108,7 +111,7 @@ TEST(Series, ShowTheEstimateBesideTheTruthWithoutAJumpAtSouth) {
   run.truth = {{.start = {}, .motion = world::Rest{.angles = {.roll = 0, .pitch = 0, .heading = south}}},
                duration_us,
                10'000};
-  for (auto& answer : run.seen.navigation) {
+  for (auto& answer : run.seen.of<estimators::TransferAnswers>().navigation) {
     const double off = answer.cause_us % 20'000 == 0 ? 0.001 : -0.001;
     answer.angles.heading = std::remainder(south + off, 2 * std::numbers::pi);
   }
@@ -125,7 +128,7 @@ TEST(Series, ShowTheEstimateBesideTheTruthWithoutAJumpAtSouth) {
 
 TEST(Series, ASigmaThatIsStaleIsAGap) {
   run::Run run = run_of();
-  std::erase_if(run.seen.filter,
+  std::erase_if(run.seen.of<estimators::TransferAnswers>().filter,
                 [](const auto& a) { return a.cause_us > 5'000'000 && a.cause_us < 15'000'000; });
   const auto all = series(scenario_of(), run);
   for (const Series::Point& point : find(all, "attitude error about down")->points) {
@@ -141,11 +144,12 @@ TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
   run::Run run = run_of();
   scenario::Scenario scenario = scenario_of();
   scenario.targets[0].estimator = "inflight_alignment";
-  run.seen.fix_navigation = run.seen.navigation;
+  run.seen.of<estimators::InflightAnswers>().navigation =
+      run.seen.of<estimators::TransferAnswers>().navigation;
   for (std::int64_t t_us = 1'000'000; t_us <= duration_us; t_us += 1'000'000) {
     if (t_us > 5'000'000 && t_us < 15'000'000) continue;
-    run.seen.sent_fixes.push_back({.valid_us = t_us});
-    run.seen.fixes.push_back({.cause_us = t_us, .heading_sigma = 0.01});
+    run.seen.of<estimators::InflightAnswers>().sent.push_back({.valid_us = t_us});
+    run.seen.of<estimators::InflightAnswers>().fixes.push_back({.cause_us = t_us, .heading_sigma = 0.01});
   }
   const auto all = series(scenario, run);
   for (const Series::Point& point : find(all, "attitude error about down")->points) {
@@ -156,9 +160,10 @@ TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
 
 TEST(Series, SilenceIsAGapUpToTheEndOfTheRun) {
   run::Run run = run_of();
-  std::erase_if(run.seen.navigation,
+  std::erase_if(run.seen.of<estimators::TransferAnswers>().navigation,
                 [](const auto& a) { return a.cause_us > 5'000'000 && a.cause_us < 8'000'000; });
-  std::erase_if(run.seen.navigation, [](const auto& a) { return a.cause_us > 12'000'000; });
+  std::erase_if(run.seen.of<estimators::TransferAnswers>().navigation,
+                [](const auto& a) { return a.cause_us > 12'000'000; });
   const auto all = series(scenario_of(), run);
   const auto& points = find(all, "attitude error about down")->points;
   const auto silent = [&](double t_s) {

@@ -1,6 +1,7 @@
 // Runs in virtual time over a simulated wire: exact, the same each time, and within what theory bounds.
 #include "bench/run/in_process_wire.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
+#include "bench/estimators/transfer_alignment/answers.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -59,16 +60,22 @@ std::vector<std::int64_t> stamps(const Flown& run) {
 }
 
 void expect_same_estimates(const Flown& a, const Flown& b) {
-  ASSERT_EQ(a.seen.navigation.size(), b.seen.navigation.size());
-  ASSERT_GT(a.seen.navigation.size(), 200U);
-  for (std::size_t i = 0; i < a.seen.navigation.size(); ++i) {
-    ASSERT_EQ(a.seen.navigation[i].cause_us, b.seen.navigation[i].cause_us);
-    ASSERT_EQ(a.seen.navigation[i].v_eb_n, b.seen.navigation[i].v_eb_n);
-    ASSERT_EQ(a.seen.navigation[i].angles.heading, b.seen.navigation[i].angles.heading);
+  ASSERT_EQ(a.seen.of<estimators::TransferAnswers>().navigation.size(),
+            b.seen.of<estimators::TransferAnswers>().navigation.size());
+  ASSERT_GT(a.seen.of<estimators::TransferAnswers>().navigation.size(), 200U);
+  for (std::size_t i = 0; i < a.seen.of<estimators::TransferAnswers>().navigation.size(); ++i) {
+    ASSERT_EQ(a.seen.of<estimators::TransferAnswers>().navigation[i].cause_us,
+              b.seen.of<estimators::TransferAnswers>().navigation[i].cause_us);
+    ASSERT_EQ(a.seen.of<estimators::TransferAnswers>().navigation[i].v_eb_n,
+              b.seen.of<estimators::TransferAnswers>().navigation[i].v_eb_n);
+    ASSERT_EQ(a.seen.of<estimators::TransferAnswers>().navigation[i].angles.heading,
+              b.seen.of<estimators::TransferAnswers>().navigation[i].angles.heading);
   }
-  ASSERT_EQ(a.seen.filter.size(), b.seen.filter.size());
-  for (std::size_t i = 0; i < a.seen.filter.size(); ++i)
-    ASSERT_EQ(a.seen.filter[i].nis, b.seen.filter[i].nis);
+  ASSERT_EQ(a.seen.of<estimators::TransferAnswers>().filter.size(),
+            b.seen.of<estimators::TransferAnswers>().filter.size());
+  for (std::size_t i = 0; i < a.seen.of<estimators::TransferAnswers>().filter.size(); ++i)
+    ASSERT_EQ(a.seen.of<estimators::TransferAnswers>().filter[i].nis,
+              b.seen.of<estimators::TransferAnswers>().filter[i].nis);
 }
 
 constexpr std::string_view at_500k = "in-process?bitrate=500000";

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "bench/checks/judge.hpp"
+#include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
@@ -27,7 +28,8 @@ struct Flown {
     return found->outcome;
   }
   [[nodiscard]] std::int64_t count(FixOutcome outcome) const {
-    return std::ranges::count(seen.fixes, outcome, &checks::FixAnswer::outcome);
+    return std::ranges::count(seen.of<estimators::InflightAnswers>().fixes, outcome,
+                              &estimators::FixAnswer::outcome);
   }
 };
 
@@ -65,7 +67,9 @@ TEST(InFlight, AlignsFromNinetyDegreesOff) {
   EXPECT_EQ(flown.outcome("consistency innovation.nis"), checks::Outcome::pass);
   EXPECT_EQ(flown.outcome("counters"), checks::Outcome::pass);
   EXPECT_EQ(flown.count(FixOutcome::accepted), 29) << "of the 30, the last one would arrive after the end";
-  EXPECT_EQ(std::ranges::count(flown.seen.fix_navigation, true, &checks::NavigationAnswer::coasting), 0);
+  EXPECT_EQ(std::ranges::count(flown.seen.of<estimators::InflightAnswers>().navigation, true,
+                               &estimators::NavigationAnswer::coasting),
+            0);
 }
 
 // The S path goes east by some 60 m in 30 s: across the line within the first seconds.
@@ -79,8 +83,10 @@ TEST(InFlight, GoesOnAcrossTheDateLineAsAnywhereElse) {
     EXPECT_EQ(across.count(FixOutcome::invalid), 0) << aiding;
     EXPECT_EQ(across.count(FixOutcome::accepted), here.count(FixOutcome::accepted)) << aiding;
     EXPECT_EQ(across.outcome("error position.norm"), checks::Outcome::pass) << aiding;
-    EXPECT_LT(across.seen.fixes.back().position.longitude, 0) << aiding;
-    EXPECT_NEAR(across.seen.fixes.back().nis, here.seen.fixes.back().nis, 0.1) << aiding;
+    EXPECT_LT(across.seen.of<estimators::InflightAnswers>().fixes.back().position.longitude, 0) << aiding;
+    EXPECT_NEAR(across.seen.of<estimators::InflightAnswers>().fixes.back().nis,
+                here.seen.of<estimators::InflightAnswers>().fixes.back().nis, 0.1)
+        << aiding;
   }
 }
 
@@ -96,7 +102,7 @@ TEST(InFlight, FixesOfTheOtherSourceAreRefusedWithTheReason) {
   const Flown flown = fly({set("gps.noise_m", "10")});
   expect_aligned(flown);
   EXPECT_EQ(flown.count(FixOutcome::wrong_source), 30);
-  for (const checks::FixAnswer& fix : flown.seen.fixes)
+  for (const estimators::FixAnswer& fix : flown.seen.of<estimators::InflightAnswers>().fixes)
     EXPECT_EQ(fix.outcome == FixOutcome::wrong_source, fix.source == messages::FixSource::gps);
 }
 
@@ -111,8 +117,8 @@ TEST(InFlight, LostImuGroupsAreBridgedAndFlagged) {
   const Flown flown = fly({set("slave_imu.loss_percent", "5")});
   const auto lost = 1500 - static_cast<std::int64_t>(flown.seen.stimuli.at("SlaveImu").count);
   EXPECT_NEAR(static_cast<double>(lost), 75, 5 * 8.5);
-  const auto flagged =
-      std::ranges::count(flown.seen.fix_navigation, true, &checks::NavigationAnswer::coasting);
+  const auto flagged = std::ranges::count(flown.seen.of<estimators::InflightAnswers>().navigation, true,
+                                          &estimators::NavigationAnswer::coasting);
   EXPECT_LE(flagged, lost) << "two in a row are bridged by one answer";
   EXPECT_GE(flagged, lost * 8 / 10);
   expect_aligned(flown);
@@ -120,8 +126,8 @@ TEST(InFlight, LostImuGroupsAreBridgedAndFlagged) {
 
 TEST(InFlight, LostFixesNeedNoAnswer) {
   const Flown flown = fly({set("ssbl.loss_percent", "20")});
-  EXPECT_EQ(flown.seen.fixes.size(), flown.seen.stimuli.at("Ssbl").count);
-  EXPECT_LT(flown.seen.fixes.size(), 29U);
+  EXPECT_EQ(flown.seen.of<estimators::InflightAnswers>().fixes.size(), flown.seen.stimuli.at("Ssbl").count);
+  EXPECT_LT(flown.seen.of<estimators::InflightAnswers>().fixes.size(), 29U);
   expect_aligned(flown);
 }
 

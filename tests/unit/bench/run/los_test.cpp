@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "bench/checks/judge.hpp"
-#include "bench/checks/los.hpp"
+#include "bench/estimators/los_rate/answers.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
@@ -28,7 +28,9 @@ struct Flown {
   }
   [[nodiscard]] const world::EngagementRecord& engagement() const { return *run.own_truth.engagement; }
   [[nodiscard]] double rms(double least, double most) const {
-    return checks::los_rms(checks::los_errors(run.seen, engagement()), least, most).value();
+    return estimators::los_rms(estimators::los_errors(run.seen.of<estimators::LosAnswers>(), engagement()),
+                               least, most)
+        .value();
   }
   [[nodiscard]] double miss() const { return engagement().miss_n.value().norm(); }
 };
@@ -73,7 +75,7 @@ void expect_outputs_pass(const Flown& flown) {
 TEST(Los, EveryAlgorithmSeesTheSameFlight) {
   const Flown combined = fly("los_quick");
   expect_outputs_pass(combined);
-  EXPECT_EQ(combined.run.seen.los.size(), combined.engagement().epochs.size());
+  EXPECT_EQ(combined.run.seen.of<estimators::LosAnswers>().size(), combined.engagement().epochs.size());
   for (const char* algorithm : {"\"kalman\"", "\"switched_table\"", "\"low_pass\""}) {
     const Flown other = fly("los_quick", {set("target.algorithm", algorithm)});
     EXPECT_EQ(other.miss(), combined.miss()) << "guidance is on the truth";
@@ -108,7 +110,7 @@ TEST(Los, TheLoopIsClosedOverTheBus) {
 TEST(Los, LostSamplesAreBridgedAndSoIsABlackout) {
   const Flown lossy = fly("los_quick", {set("seeker.loss_percent", "5")});
   EXPECT_LT(lossy.rms(1, 2), 6e-3);
-  EXPECT_LT(lossy.run.seen.los.size(), lossy.engagement().epochs.size());
+  EXPECT_LT(lossy.run.seen.of<estimators::LosAnswers>().size(), lossy.engagement().epochs.size());
   const Flown black = fly("los_quick", {set("seeker.blackout_s", "[3.0, 3.2]")});
   EXPECT_EQ(black.check("answers coasting").outcome, Outcome::fail);
   EXPECT_EQ(black.check("answers coasting").measured, "coasting 41");

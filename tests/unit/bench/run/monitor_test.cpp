@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "bench/checks/timing.hpp"
+#include "bench/estimators/inflight_alignment/answers.hpp"
+#include "bench/estimators/los_rate/answers.hpp"
+#include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/run/link.hpp"
 #include "dbc/wire/time_base.hpp"
 
@@ -119,8 +122,8 @@ TEST_F(Watched, ALosRateGroupIsOneAnswerOfItsSeekerSample) {
       LosRateTarget{
           .target_acceleration_y_mps2 = 10, .target_acceleration_z_mps2 = -20, .cause_time_us = 5000},
       5'500'000);
-  ASSERT_EQ(seen().los.size(), 1U);
-  const checks::LosAnswer& answer = seen().los[0];
+  ASSERT_EQ(seen().of<estimators::LosAnswers>().size(), 1U);
+  const estimators::LosAnswer& answer = seen().of<estimators::LosAnswers>()[0];
   EXPECT_EQ(answer.cause_us, 5000);
   EXPECT_EQ(answer.outcome, LosRateOutcome::start_up);
   EXPECT_EQ(answer.fault, LosRateFault::range_invalid);
@@ -138,10 +141,11 @@ TEST_F(Watched, ALosRateGroupIsOneAnswerOfItsSeekerSample) {
 
 TEST_F(Watched, ANavigationGroupIsOneAnswerInSiUnits) {
   answer(10'000);
-  ASSERT_EQ(seen().navigation.size(), 1U);
-  EXPECT_EQ(seen().navigation[0].cause_us, 10'000);
-  EXPECT_NEAR(seen().navigation[0].angles.heading, 0.5235988, 1e-6);
-  EXPECT_TRUE(seen().navigation[0].v_eb_n.isApprox(world::Vector3(1, 2, 3), 1e-12));
+  ASSERT_EQ(seen().of<estimators::TransferAnswers>().navigation.size(), 1U);
+  EXPECT_EQ(seen().of<estimators::TransferAnswers>().navigation[0].cause_us, 10'000);
+  EXPECT_NEAR(seen().of<estimators::TransferAnswers>().navigation[0].angles.heading, 0.5235988, 1e-6);
+  EXPECT_TRUE(
+      seen().of<estimators::TransferAnswers>().navigation[0].v_eb_n.isApprox(world::Vector3(1, 2, 3), 1e-12));
 }
 
 TEST_F(Watched, AFilterGroupIsOneAnswerThatKnowsTheNavigationBeforeIt) {
@@ -149,31 +153,32 @@ TEST_F(Watched, AFilterGroupIsOneAnswerThatKnowsTheNavigationBeforeIt) {
   answer(100'000);
   answer_filter(60'000);
   answer(110'000);
-  ASSERT_EQ(seen().filter.size(), 1U);
-  EXPECT_EQ(seen().filter[0].cause_us, 60'000);
-  EXPECT_EQ(seen().filter[0].navigation_us, 100'000);
-  EXPECT_NEAR(seen().filter[0].nis, 2.5, 1e-12);
-  EXPECT_NEAR(seen().filter[0].attitude_sigma.y(), 0.01, 1e-12);
-  EXPECT_NEAR(seen().filter[0].attitude_correlation.y(), 0.25, 1e-12);
-  EXPECT_NEAR(seen().filter[0].gyro_bias.x(), 1.7453293e-5, 1e-12);
+  ASSERT_EQ(seen().of<estimators::TransferAnswers>().filter.size(), 1U);
+  EXPECT_EQ(seen().of<estimators::TransferAnswers>().filter[0].cause_us, 60'000);
+  EXPECT_EQ(seen().of<estimators::TransferAnswers>().filter[0].navigation_us, 100'000);
+  EXPECT_NEAR(seen().of<estimators::TransferAnswers>().filter[0].nis, 2.5, 1e-12);
+  EXPECT_NEAR(seen().of<estimators::TransferAnswers>().filter[0].attitude_sigma.y(), 0.01, 1e-12);
+  EXPECT_NEAR(seen().of<estimators::TransferAnswers>().filter[0].attitude_correlation.y(), 0.25, 1e-12);
+  EXPECT_NEAR(seen().of<estimators::TransferAnswers>().filter[0].gyro_bias.x(), 1.7453293e-5, 1e-12);
 }
 
 TEST_F(Watched, TheTwoAlignmentsAreKeptApart) {
   answer(100'000);
   answer_in_flight(100'000);
   answer_in_flight(200'000);
-  EXPECT_EQ(seen().navigation.size(), 1U);
-  ASSERT_EQ(seen().fix_navigation.size(), 2U);
-  EXPECT_NEAR(seen().fix_navigation[1].angles.heading, 0.7330383, 1e-6);
-  EXPECT_TRUE(seen().fix_navigation[1].v_eb_n.isApprox(world::Vector3(4, 5, 6), 1e-12));
-  EXPECT_EQ(seen().fix_navigation[1].cause_us, 200'000);
+  EXPECT_EQ(seen().of<estimators::TransferAnswers>().navigation.size(), 1U);
+  ASSERT_EQ(seen().of<estimators::InflightAnswers>().navigation.size(), 2U);
+  EXPECT_NEAR(seen().of<estimators::InflightAnswers>().navigation[1].angles.heading, 0.7330383, 1e-6);
+  EXPECT_TRUE(
+      seen().of<estimators::InflightAnswers>().navigation[1].v_eb_n.isApprox(world::Vector3(4, 5, 6), 1e-12));
+  EXPECT_EQ(seen().of<estimators::InflightAnswers>().navigation[1].cause_us, 200'000);
 }
 
 TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
   answer_in_flight(100'000);
   answer_fix(60'000, FixSource::gps);
-  ASSERT_EQ(seen().fixes.size(), 1U);
-  const checks::FixAnswer& fix = seen().fixes[0];
+  ASSERT_EQ(seen().of<estimators::InflightAnswers>().fixes.size(), 1U);
+  const estimators::FixAnswer& fix = seen().of<estimators::InflightAnswers>().fixes[0];
   EXPECT_EQ(fix.cause_us, 60'000);
   EXPECT_EQ(fix.navigation_us, 100'000);
   EXPECT_EQ(fix.source, FixSource::gps);
@@ -216,10 +221,10 @@ TEST_F(Watched, KeepsStimuliByTheGroupsThatAreAnswered) {
   EXPECT_EQ(seen().stimuli.at("MasterIns").last_us, 20'000);
   EXPECT_EQ(seen().stimuli.at("Ssbl").last_us, 30'000);
   EXPECT_EQ(seen().stimuli.at("Gps").last_us, 40'000);
-  ASSERT_EQ(seen().sent_fixes.size(), 2U);
-  EXPECT_EQ(seen().sent_fixes[0].source, FixSource::ssbl);
-  EXPECT_EQ(seen().sent_fixes[1].source, FixSource::gps);
-  EXPECT_EQ(seen().sent_fixes[1].valid_us, 40'000);
+  ASSERT_EQ(seen().of<estimators::InflightAnswers>().sent.size(), 2U);
+  EXPECT_EQ(seen().of<estimators::InflightAnswers>().sent[0].source, FixSource::ssbl);
+  EXPECT_EQ(seen().of<estimators::InflightAnswers>().sent[1].source, FixSource::gps);
+  EXPECT_EQ(seen().of<estimators::InflightAnswers>().sent[1].valid_us, 40'000);
 }
 
 TEST_F(Watched, AnAnswerToTwoRhythmsHasNoNominalPeriod) {
@@ -273,7 +278,7 @@ TEST_F(Watched, CausesUnwrapAroundTheTimeBase) {
   sync(late_us - 10'000);
   imu(late_us, 1'000);
   answer(late_us, 2'000);
-  EXPECT_EQ(seen().navigation.back().cause_us, late_us);
+  EXPECT_EQ(seen().of<estimators::TransferAnswers>().navigation.back().cause_us, late_us);
   EXPECT_EQ(latency<AlignVelocityD>().count(), 1U);
 }
 
@@ -289,10 +294,10 @@ TEST_F(Watched, AGroupThatMissesAFrameIsNoAnswer) {
   receive(AlignAttitude{});
   static_cast<void>(next(target_, AlignVelocityNE{}));
   receive(AlignVelocityD{.cause_time_us = 20'000});
-  EXPECT_EQ(seen().navigation.size(), 1U);
+  EXPECT_EQ(seen().of<estimators::TransferAnswers>().navigation.size(), 1U);
   EXPECT_EQ(seen().answers[message_index<AlignVelocityD>()], 1U);
   answer(30'000);
-  EXPECT_EQ(seen().navigation.size(), 2U);
+  EXPECT_EQ(seen().of<estimators::TransferAnswers>().navigation.size(), 2U);
   EXPECT_EQ(seen().target_frames_lost, 1U);
 }
 

@@ -1,6 +1,10 @@
 // All four estimators at once: each gives the answers that it gives alone.
 #include <gtest/gtest.h>
 
+#include "bench/estimators/inflight_alignment/answers.hpp"
+#include "bench/estimators/los_rate/answers.hpp"
+#include "bench/estimators/transfer_alignment/answers.hpp"
+#include "bench/estimators/wind/answers.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/session.hpp"
@@ -37,21 +41,27 @@ TEST(SeveralEstimators, AnswerAsTheyDoAlone) {
     one.targets = {target};
     const checks::Observations alone = fly(one).seen;
     if (target.estimator == "transfer_alignment") {
-      expect_same(together.navigation, alone.navigation, &checks::NavigationAnswer::cause_us,
-                  &checks::NavigationAnswer::v_eb_n);
-      expect_same(together.filter, alone.filter, &checks::FilterAnswer::cause_us, &checks::FilterAnswer::nis,
-                  &checks::FilterAnswer::attitude_sigma);
+      expect_same(together.of<estimators::TransferAnswers>().navigation,
+                  alone.of<estimators::TransferAnswers>().navigation, &estimators::NavigationAnswer::cause_us,
+                  &estimators::NavigationAnswer::v_eb_n);
+      expect_same(together.of<estimators::TransferAnswers>().filter,
+                  alone.of<estimators::TransferAnswers>().filter, &estimators::FilterAnswer::cause_us,
+                  &estimators::FilterAnswer::nis, &estimators::FilterAnswer::attitude_sigma);
     } else if (target.estimator == "inflight_alignment") {
-      expect_same(together.fix_navigation, alone.fix_navigation, &checks::NavigationAnswer::cause_us,
-                  &checks::NavigationAnswer::v_eb_n);
-      expect_same(together.fixes, alone.fixes, &checks::FixAnswer::cause_us, &checks::FixAnswer::nis,
-                  &checks::FixAnswer::heading_sigma);
+      expect_same(together.of<estimators::InflightAnswers>().navigation,
+                  alone.of<estimators::InflightAnswers>().navigation, &estimators::NavigationAnswer::cause_us,
+                  &estimators::NavigationAnswer::v_eb_n);
+      expect_same(together.of<estimators::InflightAnswers>().fixes,
+                  alone.of<estimators::InflightAnswers>().fixes, &estimators::FixAnswer::cause_us,
+                  &estimators::FixAnswer::nis, &estimators::FixAnswer::heading_sigma);
     } else if (target.estimator == "los_rate") {
-      expect_same(together.los, alone.los, &checks::LosAnswer::cause_us, &checks::LosAnswer::nis,
-                  &checks::LosAnswer::rate);
+      expect_same(together.of<estimators::LosAnswers>(), alone.of<estimators::LosAnswers>(),
+                  &estimators::LosAnswer::cause_us, &estimators::LosAnswer::nis,
+                  &estimators::LosAnswer::rate);
     } else {
-      expect_same(together.wind, alone.wind, &checks::WindAnswer::cause_us, &checks::WindAnswer::nis,
-                  &checks::WindAnswer::wind_n);
+      expect_same(together.of<estimators::WindAnswers>(), alone.of<estimators::WindAnswers>(),
+                  &estimators::WindAnswer::cause_us, &estimators::WindAnswer::nis,
+                  &estimators::WindAnswer::wind_n);
     }
   }
 }

@@ -5,8 +5,8 @@
 #include <iterator>
 
 #include "bench/checks/judge.hpp"
-#include "bench/checks/wind.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/estimators/wind/answers.hpp"
 #include "bench/run/contract.hpp"
 #include "bench/run/flight.hpp"
 #include "bench/run/session.hpp"
@@ -35,15 +35,16 @@ struct Flown {
   checks::Verdict verdict;
 
   [[nodiscard]] std::int64_t count(WindOutcome outcome) const {
-    return std::ranges::count(seen.wind, outcome, &checks::WindAnswer::outcome);
+    return std::ranges::count(seen.of<estimators::WindAnswers>(), outcome, &estimators::WindAnswer::outcome);
   }
-  [[nodiscard]] std::int64_t flagged(bool checks::WindAnswer::*flag) const {
-    return std::ranges::count(seen.wind, true, flag);
+  [[nodiscard]] std::int64_t flagged(bool estimators::WindAnswer::*flag) const {
+    return std::ranges::count(seen.of<estimators::WindAnswers>(), true, flag);
   }
-  [[nodiscard]] double mean_error(double (*component)(const checks::WindError&)) const {
+  [[nodiscard]] double mean_error(double (*component)(const estimators::WindError&)) const {
     double sum = 0;
     std::size_t count = 0;
-    for (const checks::WindError& error : checks::wind_errors(seen, *own_truth.glide)) {
+    for (const estimators::WindError& error :
+         estimators::wind_errors(seen.of<estimators::WindAnswers>(), *own_truth.glide)) {
       if (error.t_us < 10'000'000) continue;
       sum += std::abs(component(error));
       ++count;
@@ -52,9 +53,9 @@ struct Flown {
   }
 };
 
-double norm(const checks::WindError& error) { return error.error_n.norm(); }
-double along_track(const checks::WindError& error) { return error.along_track; }
-double cross_track(const checks::WindError& error) { return error.cross_track; }
+double norm(const estimators::WindError& error) { return error.error_n.norm(); }
+double along_track(const estimators::WindError& error) { return error.along_track; }
+double cross_track(const estimators::WindError& error) { return error.cross_track; }
 
 Flown fly(const std::vector<scenario::Setting>& settings = {}, std::uint64_t run = 0) {
   const scenario::Scenario scenario = quick(settings);
@@ -91,7 +92,9 @@ TEST(Wind, StartsFromWhatTheCarrierTells) {
           "glider_nav.attitude_noise_deg", "glider_nav.rate_noise_degps"})
       settings.push_back(set(quiet, "0"));
     const Flown flown = fly(settings);
-    return checks::wind_errors(flown.seen, *flown.own_truth.glide).front().error_n.norm();
+    return estimators::wind_errors(flown.seen.of<estimators::WindAnswers>(), *flown.own_truth.glide)
+        .front()
+        .error_n.norm();
   };
   EXPECT_LT(first_error("0"), 0.1);
   EXPECT_GT(first_error("10"), 1);
@@ -106,9 +109,9 @@ TEST(Wind, DenserAirIsAWindAlongTheTrack) {
 
 TEST(Wind, FinsThatStayAwayAreTold) {
   const Flown lost = fly({set("fins.outage_s", "1"), set("fins.outage_every_s", "5")});
-  EXPECT_GT(lost.flagged(&checks::WindAnswer::fins_missing), 4 * 40);
-  EXPECT_EQ(fly().flagged(&checks::WindAnswer::fins_missing), 0);
-  EXPECT_GT(fly({set("fins.latency_ms", "50")}).flagged(&checks::WindAnswer::fins_late), 900);
+  EXPECT_GT(lost.flagged(&estimators::WindAnswer::fins_missing), 4 * 40);
+  EXPECT_EQ(fly().flagged(&estimators::WindAnswer::fins_missing), 0);
+  EXPECT_GT(fly({set("fins.latency_ms", "50")}).flagged(&estimators::WindAnswer::fins_late), 900);
 }
 
 TEST(Wind, NavigationThatStaysAwayIsBridged) {
@@ -128,8 +131,10 @@ TEST(Wind, RunsAreDrawnApartAndAgain) {
   const Flown a = fly({}, 3);
   const Flown b = fly({}, 3);
   const Flown c = fly({}, 4);
-  EXPECT_EQ(a.seen.wind.back().wind_n, b.seen.wind.back().wind_n);
-  EXPECT_NE(a.seen.wind.back().wind_n, c.seen.wind.back().wind_n);
+  EXPECT_EQ(a.seen.of<estimators::WindAnswers>().back().wind_n,
+            b.seen.of<estimators::WindAnswers>().back().wind_n);
+  EXPECT_NE(a.seen.of<estimators::WindAnswers>().back().wind_n,
+            c.seen.of<estimators::WindAnswers>().back().wind_n);
   EXPECT_NE(a.own_truth.glide->epochs().back().v_a, c.own_truth.glide->epochs().back().v_a);
 }
 

@@ -1,0 +1,124 @@
+#include "bench/estimators/inflight_alignment/answers.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+
+#include "bench/checks/finding.hpp"
+#include "bench/checks/silence.hpp"
+
+namespace canhil::estimators {
+namespace {
+
+using namespace messages;
+using world::Vector3;
+using world::units::deg;
+using world::units::degph;
+using world::units::ug;
+
+using FixGroup = AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLongitude, FixAttitudeSigma,
+                             FixVelocitySigma, FixPositionSigma, FixGyroBias, FixGyroBiasSigma, FixAccelBias,
+                             FixAccelBiasSigma, FixBias, FixBiasSigma, FixStatus, FixUpdate>;
+using Navigation = NavigationGroup<FixAttitude, FixVelocityNE, FixVelocityD>;
+
+std::string_view group_of(FixSource source) {
+  return source == FixSource::gps ? messages::GpsTime::info.sample_group
+                                  : messages::SsblRelativeD::info.sample_group;
+}
+
+Whole add(const FixGroup& fix, std::int64_t now_us, InflightAnswers& answers) {
+  const auto& innovation = fix.get<FixInnovation>();
+  const auto& latitude = fix.get<FixPositionLatitude>();
+  const auto& attitude = fix.get<FixAttitudeSigma>();
+  const auto& velocity = fix.get<FixVelocitySigma>();
+  const auto& position = fix.get<FixPositionSigma>();
+  const auto& gyro = fix.get<FixGyroBias>();
+  const auto& accel = fix.get<FixAccelBias>();
+  const auto& bias = fix.get<FixBias>();
+  const auto& bias_sigma = fix.get<FixBiasSigma>();
+  const auto& status = fix.get<FixStatus>();
+  const auto& update = fix.get<FixUpdate>();
+  const std::int64_t cause_us = unwrap_us(update.cause_time_us, now_us);
+  answers.fixes.push_back(
+      {.cause_us = cause_us,
+       .navigation_us = answers.navigation.empty() ? -1 : answers.navigation.back().cause_us,
+       .source = status.source,
+       .outcome = status.outcome,
+       .nis = update.nis,
+       .innovation = {innovation.innovation_north_m, innovation.innovation_east_m,
+                      innovation.innovation_down_m},
+       .position = {.latitude = latitude.latitude_deg * deg,
+                    .longitude = fix.get<FixPositionLongitude>().longitude_deg * deg,
+                    .height = latitude.height_m},
+       .tilt_sigma_north = attitude.tilt_sigma_north_deg * deg,
+       .tilt_sigma_east = attitude.tilt_sigma_east_deg * deg,
+       .heading_sigma = attitude.heading_sigma_deg * deg,
+       .velocity_sigma = {velocity.velocity_sigma_north_mps, velocity.velocity_sigma_east_mps,
+                          velocity.velocity_sigma_down_mps},
+       .position_sigma = {position.position_sigma_north_m, position.position_sigma_east_m,
+                          position.position_sigma_down_m},
+       .gyro_bias = Vector3(gyro.gyro_bias_x_degph, gyro.gyro_bias_y_degph, gyro.gyro_bias_z_degph) * degph,
+       .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug,
+       .fix_bias = {bias.fix_bias_north_m, bias.fix_bias_east_m, bias.fix_bias_down_m},
+       .fix_bias_sigma = {bias_sigma.fix_bias_sigma_north_m, bias_sigma.fix_bias_sigma_east_m,
+                          bias_sigma.fix_bias_sigma_down_m},
+       .handed_over = status.handed_over != 0,
+       .repairs = status.repairs,
+       .gated = status.gated,
+       .refused = status.refused});
+  return {.messages = FixGroup::messages, .cause_us = cause_us, .cause_group = group_of(status.source)};
+}
+
+class InflightReception final : public Reception {
+ public:
+  [[nodiscard]] bool takes(std::size_t message) const override {
+    return Navigation::Group::has(message) || FixGroup::has(message);
+  }
+  std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
+                            checks::Observations& seen) override {
+    auto& answers = seen.of<InflightAnswers>();
+    if (Navigation::Group::has(message)) return navigation_.take(frame, now_us, answers.navigation);
+    return fix_.put(frame) ? std::optional(add(fix_, now_us, answers)) : std::nullopt;
+  }
+  void sent(std::string_view group, std::int64_t valid_us, checks::Observations& seen) override {
+    for (const FixSource source : {FixSource::ssbl, FixSource::gps}) {
+      if (group == group_of(source))
+        seen.of<InflightAnswers>().sent.push_back({.source = source, .valid_us = valid_us});
+    }
+  }
+
+ private:
+  Navigation navigation_;
+  FixGroup fix_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reception> inflight_reception() { return std::make_unique<InflightReception>(); }
+
+std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Window& window) {
+  std::set<std::pair<FixSource, std::int64_t>> answered;
+  for (const FixAnswer& fix : answers.fixes) answered.emplace(fix.source, fix.cause_us);
+  std::map<FixSource, int> in_a_row;
+  for (const auto& [source, valid_us] : answers.sent) {
+    if (!checks::within(window, valid_us)) continue;
+    int& missing = in_a_row[source];
+    missing = answered.contains({source, valid_us}) ? 0 : missing + 1;
+    if (missing > checks::tolerated_fixes)
+      return fmt::format("no answers to {} before {:g} s", group_of(source),
+                         static_cast<double>(valid_us) * 1e-6);
+  }
+  return "";
+}
+
+bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth) {
+  const bool considered = used(answer.outcome) || answer.outcome == messages::FixOutcome::gated;
+  return considered && answer.cause_us >= 0 && answer.cause_us <= truth.end_us();
+}
+
+Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth) {
+  return world::displacement_n(truth.at(answer.cause_us).position, answer.position);
+}
+
+}  // namespace canhil::estimators

@@ -1,0 +1,61 @@
+// What an in-flight alignment answers: its navigation, and what became of each fix.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/estimators/navigation.hpp"
+
+namespace canhil::estimators {
+
+/// Group FixFilter: what became of a fix of the SSBL or the GPS, and the filter after it. SI, rad.
+struct FixAnswer {
+  std::int64_t cause_us = 0;
+  std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
+  messages::FixSource source = messages::FixSource::ssbl;
+  messages::FixOutcome outcome = messages::FixOutcome::accepted;
+  double nis = 0;
+  world::Vector3 innovation = world::Vector3::Zero();  ///< NED [m]
+  world::Position position{};                          ///< at the time of validity of the fix
+  double tilt_sigma_north = 0, tilt_sigma_east = 0;    ///< of the misalignment
+  double heading_sigma = 0;
+  world::Vector3 velocity_sigma = world::Vector3::Zero();  ///< NED
+  world::Vector3 position_sigma = world::Vector3::Zero();  ///< NED [m]
+  world::Vector3 gyro_bias = world::Vector3::Zero();       ///< body
+  world::Vector3 accel_bias = world::Vector3::Zero();      ///< body
+  world::Vector3 fix_bias = world::Vector3::Zero();        ///< NED [m]
+  world::Vector3 fix_bias_sigma = world::Vector3::Zero();  ///< NED [m]
+  bool handed_over = false;                                ///< the heading is resolved and fed back
+  std::uint32_t repairs = 0;                               ///< of the covariance, since start
+  std::uint32_t gated = 0;                                 ///< fixes rejected by the gate, since start
+  std::uint32_t refused = 0;                               ///< fixes not used for another reason, since start
+};
+
+/// True if the filter made use of the fix.
+constexpr bool used(messages::FixOutcome outcome) {
+  return outcome == messages::FixOutcome::accepted || outcome == messages::FixOutcome::recovered;
+}
+
+/// A fix that the bench sent: it needs an answer.
+struct SentFix {
+  messages::FixSource source = messages::FixSource::ssbl;
+  std::int64_t valid_us = 0;
+};
+
+struct InflightAnswers {
+  std::vector<NavigationAnswer> navigation;
+  std::vector<FixAnswer> fixes;
+  std::vector<SentFix> sent;
+};
+
+/// Where more than two fixes in a row that the bench sent in a window were not answered; empty: nowhere.
+std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Window& window);
+
+/// Whether the position in an answer holds at a known time: that of a fix that the filter used or gated.
+bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth);
+/// Its error, NED [m].
+world::Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth);
+std::unique_ptr<Reception> inflight_reception();
+
+}  // namespace canhil::estimators

@@ -1,0 +1,82 @@
+#include "bench/estimators/los_rate/answers.hpp"
+
+namespace canhil::estimators {
+namespace {
+
+using namespace messages;
+
+using LosGroup = AnswerGroup<LosRateEstimate, LosRateSigma, LosRateTarget>;
+
+Whole add(const LosGroup& group, std::int64_t now_us, LosAnswers& answers) {
+  const auto& estimate = group.get<LosRateEstimate>();
+  const auto& sigma = group.get<LosRateSigma>();
+  const auto& target = group.get<LosRateTarget>();
+  const std::int64_t cause_us = unwrap_us(target.cause_time_us, now_us);
+  answers.push_back(
+      {.cause_us = cause_us,
+       .outcome = estimate.outcome,
+       .fault = estimate.fault,
+       .blind = estimate.blind != 0,
+       .rate = {.pitch = estimate.los_rate_pitch_radps, .yaw = estimate.los_rate_yaw_radps},
+       .rate_sigma = {.pitch = sigma.los_rate_sigma_pitch_radps, .yaw = sigma.los_rate_sigma_yaw_radps},
+       .target = {.pitch = target.target_acceleration_z_mps2, .yaw = target.target_acceleration_y_mps2},
+       .target_sigma = {.pitch = sigma.target_acceleration_sigma_z_mps2,
+                        .yaw = sigma.target_acceleration_sigma_y_mps2},
+       .nis = sigma.nis});
+  return {.messages = LosGroup::messages,
+          .cause_us = cause_us,
+          .cause_group = LosRateTarget::info.answers.front()};
+}
+
+class LosReception final : public Reception {
+ public:
+  [[nodiscard]] bool takes(std::size_t message) const override { return LosGroup::has(message); }
+  std::optional<Whole> take(const Frame& frame, std::size_t /*message*/, std::int64_t now_us,
+                            checks::Observations& seen) override {
+    return group_.put(frame) ? std::optional(add(group_, now_us, seen.of<LosAnswers>())) : std::nullopt;
+  }
+
+ private:
+  LosGroup group_;
+};
+
+}  // namespace
+
+std::unique_ptr<Reception> los_reception() { return std::make_unique<LosReception>(); }
+
+std::vector<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement) {
+  std::vector<LosError> errors;
+  errors.reserve(answers.size());
+  for (const LosAnswer& answer : answers) {
+    const world::EngagementTruth* truth = engagement.at(answer.cause_us);
+    if (truth == nullptr || !tells_rate(answer.outcome)) continue;
+    errors.push_back({.t_us = answer.cause_us,
+                      .time_to_go = truth->time_to_go(),
+                      .rate = {.pitch = answer.rate.pitch - truth->los_rate.pitch,
+                               .yaw = answer.rate.yaw - truth->los_rate.yaw}});
+  }
+  return errors;
+}
+
+std::vector<Normalised> nis_of(const LosAnswers& answers) {
+  std::vector<Normalised> series;
+  for (const LosAnswer& answer : answers) {
+    if (updated(answer.outcome)) series.push_back({answer.cause_us, answer.nis});
+  }
+  return series;
+}
+
+std::optional<double> los_rms(const std::vector<LosError>& errors, double least, double most) {
+  double squares = 0;
+  int count = 0;
+  for (const LosError& error : errors) {
+    if (error.time_to_go < least || error.time_to_go >= most) continue;
+    squares += error.rate.pitch * error.rate.pitch;
+    squares += error.rate.yaw * error.rate.yaw;
+    count += 2;
+  }
+  if (count == 0) return std::nullopt;
+  return std::sqrt(squares / count);
+}
+
+}  // namespace canhil::estimators

@@ -1,0 +1,56 @@
+// LOS rates as they are answered, against the engagement.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bench/estimators/navigation.hpp"
+#include "bench/world/engagement/engagement.hpp"
+
+namespace canhil::estimators {
+
+/// Group LosRate: the LOS rate at the time of a sample of the seeker, in its antenna's axes. SI, rad.
+struct LosAnswer {
+  std::int64_t cause_us = 0;
+  messages::LosRateOutcome outcome = messages::LosRateOutcome::waiting;
+  messages::LosRateFault fault = messages::LosRateFault::none;
+  bool blind = false;  ///< too near: guidance is to hold its command
+  world::Planes<double> rate{};
+  world::Planes<double> rate_sigma{};
+  world::Planes<double> target{};  ///< its acceleration along z (pitch) and y (yaw)
+  world::Planes<double> target_sigma{};
+  double nis = 0;  ///< of 2 degrees of freedom; 0 without an update
+};
+
+using LosAnswers = std::vector<LosAnswer>;
+
+/// True if the filter was corrected by the sample, and by nothing it was told in place of one.
+constexpr bool updated(messages::LosRateOutcome outcome) {
+  return outcome == messages::LosRateOutcome::updated || outcome == messages::LosRateOutcome::start_up;
+}
+/// True if there is an estimate at all.
+constexpr bool tells_rate(messages::LosRateOutcome outcome) {
+  return updated(outcome) || outcome == messages::LosRateOutcome::coasting;
+}
+
+/// The error (estimated - true) of one LOS rate, at the time of validity of its sample.
+struct LosError {
+  std::int64_t t_us = 0;
+  double time_to_go = 0;         ///< true range over closing speed [s]
+  world::Planes<double> rate{};  ///< [rad/s]
+};
+
+/// Errors of all answers that tell a rate, whose cause is an epoch of the engagement.
+std::vector<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
+
+/// NIS (2 degrees of freedom) of each answer that was an update.
+std::vector<Normalised> nis_of(const LosAnswers& answers);
+
+/// Root of the mean square, over both planes, of the errors with time to go in [least, most); none: no errors
+/// there.
+std::optional<double> los_rms(const std::vector<LosError>& errors, double least, double most);
+
+std::unique_ptr<Reception> los_reception();
+
+}  // namespace canhil::estimators

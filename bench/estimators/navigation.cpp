@@ -1,0 +1,50 @@
+#include "bench/estimators/navigation.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+
+namespace canhil::estimators {
+
+using world::Matrix3;
+using world::Vector3;
+using world::wrapped;
+
+std::vector<NavigationError> navigation_errors(const std::vector<NavigationAnswer>& answers,
+                                               const world::FlightRecord& truth) {
+  std::vector<NavigationError> errors;
+  errors.reserve(answers.size());
+  for (const NavigationAnswer& answer : answers) {
+    if (answer.cause_us < 0 || answer.cause_us > truth.end_us()) continue;
+    const world::Truth at = truth.at(answer.cause_us);
+    const world::Euler angles = world::euler_from(at.C_bn);
+    errors.push_back(
+        {.t_us = answer.cause_us,
+         .angles = {wrapped(answer.angles.roll - angles.roll), wrapped(answer.angles.pitch - angles.pitch),
+                    wrapped(answer.angles.heading - angles.heading)},
+         .v_eb_n = answer.v_eb_n - at.v_eb_n,
+         .misalignment = world::misalignment(world::C_bn_from(answer.angles), at.C_bn)});
+  }
+  return errors;
+}
+
+const NavigationError* first_after(const std::vector<NavigationError>& errors, std::int64_t cause_us,
+                                   std::int64_t navigation_us) {
+  const auto after =
+      std::ranges::upper_bound(errors, std::max(cause_us, navigation_us), {}, &NavigationError::t_us);
+  return after == errors.end() ? nullptr : &*after;
+}
+
+double nees(const Vector3& error, const Vector3& sigma, const Vector3& correlation) {
+  const Vector3& s = sigma;
+  const Vector3& r = correlation;
+  Matrix3 P;
+  P << s.x() * s.x(), r.x() * s.x() * s.y(), r.y() * s.x() * s.z(),  //
+      r.x() * s.x() * s.y(), s.y() * s.y(), r.z() * s.y() * s.z(),   //
+      r.y() * s.x() * s.z(), r.z() * s.y() * s.z(), s.z() * s.z();
+  const Eigen::LDLT<Matrix3> factor(P);
+  const bool positive = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
+  return positive ? error.dot(factor.solve(error)) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace canhil::estimators

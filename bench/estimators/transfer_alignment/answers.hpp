@@ -1,0 +1,35 @@
+// What a transfer alignment answers: its navigation, and its filter after each velocity update.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bench/estimators/navigation.hpp"
+
+namespace canhil::estimators {
+
+/// Group AlignFilter: the filter after the velocity update at the time of a master INS sample. SI, rad.
+struct FilterAnswer {
+  std::int64_t cause_us = 0;
+  std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
+  double nis = 0;
+  world::Vector3 innovation = world::Vector3::Zero();
+  world::Vector3 attitude_sigma = world::Vector3::Zero();        ///< of the misalignment, NED
+  world::Vector3 attitude_correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down
+  world::Vector3 velocity_sigma = world::Vector3::Zero();
+  world::Vector3 gyro_bias = world::Vector3::Zero();   ///< body
+  world::Vector3 accel_bias = world::Vector3::Zero();  ///< body
+};
+
+struct TransferAnswers {
+  std::vector<NavigationAnswer> navigation;
+  std::vector<FilterAnswer> filter;
+};
+
+/// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of phi from first_after().
+std::vector<Normalised> nees_of(const std::vector<FilterAnswer>& filter,
+                                const std::vector<NavigationError>& errors);
+
+std::unique_ptr<Reception> transfer_reception();
+
+}  // namespace canhil::estimators

@@ -1,0 +1,109 @@
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bench/estimators/transfer_alignment/answers.hpp"
+#include "bench/quantities/track.hpp"
+#include "bench/world/motion/rest.hpp"
+
+namespace canhil::estimators {
+namespace {
+
+using testing::SizeIs;
+using world::Vector3;
+
+world::FlightRecord at_rest(double heading = 0) {
+  return {
+      {.start = {}, .motion = world::Rest{{.roll = 0, .pitch = 0, .heading = heading}}}, 1'000'000, 10'000};
+}
+
+TEST(NavigationErrors, AreEstimatedLessTrueAndWrapped) {
+  const auto truth = at_rest(std::numbers::pi - 0.01);
+  checks::Observations seen;
+  seen.of<TransferAnswers>().navigation.push_back(
+      {.cause_us = 10'000,
+       .angles = {.roll = 0.02, .pitch = 0, .heading = -std::numbers::pi + 0.01},
+       .v_eb_n = Vector3(0, 3, 0)});
+  seen.of<TransferAnswers>().navigation.push_back(
+      {.cause_us = 1'010'000, .angles = {}});  // after the end of the truth
+  const auto errors = navigation_errors(seen.of<TransferAnswers>().navigation, truth);
+  ASSERT_THAT(errors, SizeIs(1));
+  EXPECT_NEAR(errors[0].angles.heading, 0.02, 1e-12);
+  EXPECT_NEAR(errors[0].angles.roll, 0.02, 1e-12);
+  EXPECT_NEAR(errors[0].v_eb_n.y(), 3, 1e-12);
+}
+
+NavigationError erring(std::int64_t t_us, const Vector3& phi) {
+  return {.t_us = t_us, .angles = {}, .misalignment = phi};
+}
+
+TEST(AttitudeNees, IsTheSquareOfTheErrorInUnitsOfItsCovariance) {
+  checks::Observations seen;
+  seen.of<TransferAnswers>().filter.push_back({.cause_us = 100, .attitude_sigma = Vector3(0.01, 0.02, 0.05)});
+  const auto series = nees_of(seen.of<TransferAnswers>().filter, {erring(110, {0.01, -0.04, 0.15})});
+  ASSERT_THAT(series, SizeIs(1));
+  EXPECT_EQ(series[0].t_us, 100);
+  EXPECT_NEAR(series[0].value, 1 + 4 + 9, 1e-9);
+}
+
+TEST(AttitudeNees, KnowsWhichCorrelationIsWhich) {
+  // phi along the principal axis of a strongly correlated pair is likely, across it is not.
+  const double r = 0.96;
+  for (int pair = 0; pair < 3; ++pair) {
+    checks::Observations seen;
+    FilterAnswer answer{.cause_us = 100, .attitude_sigma = Vector3(1, 1, 1)};
+    answer.attitude_correlation(pair) = r;  // north-east, north-down, east-down
+    seen.of<TransferAnswers>().filter.push_back(answer);
+    const int i = pair == 2 ? 1 : 0;
+    const int j = pair == 0 ? 1 : 2;
+    Vector3 along = Vector3::Zero();
+    along(i) = along(j) = 1;
+    Vector3 across = along;
+    across(j) = -1;
+    EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, {erring(110, along)})[0].value, 2 / (1 + r), 1e-9);
+    EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, {erring(110, across)})[0].value, 2 / (1 - r),
+                1e-9);
+  }
+}
+
+TEST(AttitudeNees, TakesTheFirstAnswerThatKnewOfTheUpdate) {
+  const std::vector<NavigationError> errors{erring(100, {9, 0, 0}), erring(110, {5, 0, 0}),
+                                            erring(120, {2, 0, 0}), erring(130, {1, 0, 0})};
+  checks::Observations seen;
+  seen.of<TransferAnswers>().filter.push_back(
+      {.cause_us = 100, .navigation_us = 100, .attitude_sigma = Vector3::Ones()});
+  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors).at(0).value, 25, 1e-9);
+  seen.of<TransferAnswers>().filter[0].navigation_us =
+      120;  // the fix was 20 us late: those before knew nothing of it
+  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors).at(0).value, 1, 1e-9);
+  seen.of<TransferAnswers>().filter[0].navigation_us = 130;
+  EXPECT_THAT(nees_of(seen.of<TransferAnswers>().filter, errors), SizeIs(0));
+}
+
+TEST(AttitudeNees, ACovarianceThatIsNoneExplainsNothing) {
+  checks::Observations seen;
+  seen.of<TransferAnswers>().filter.push_back({.cause_us = 100, .attitude_sigma = Vector3(0.01, 0, 0.05)});
+  EXPECT_TRUE(std::isinf(nees_of(seen.of<TransferAnswers>().filter, {erring(110, {0, 0, 0})}).at(0).value));
+}
+
+std::optional<std::int64_t> entered(const std::vector<NavigationError>& errors, double within) {
+  return quantities::entered_for_good_us(errors, within,
+                                         [](const NavigationError& e) { return e.angles.heading; });
+}
+
+TEST(Convergence, IsWhenTheErrorEntersTheBandForGood) {
+  std::vector<NavigationError> errors;
+  for (const double heading : {0.5, 0.05, 0.2, -0.1, 0.05, -0.09})
+    errors.push_back({.t_us = static_cast<std::int64_t>(errors.size()), .angles = {.heading = heading}});
+  EXPECT_EQ(entered(errors, 0.1), 3);
+  EXPECT_EQ(entered(errors, 1), 0);
+  EXPECT_EQ(entered(errors, 0.08), std::nullopt);
+  EXPECT_EQ(entered({}, 1), std::nullopt);
+  errors.push_back({.t_us = 6, .angles = {.heading = std::nan("")}});
+  EXPECT_EQ(entered(errors, 1), std::nullopt);
+}
+
+}  // namespace
+}  // namespace canhil::estimators
