@@ -10,13 +10,16 @@
 namespace canhil::papers {
 namespace {
 
-const Names names{
-    {"runs", [](Words&) { return "300"; }},
-    {"sum", [](Words& words) { return std::string(words.next()) + "+" + std::string(words.next()); }},
-    {"all", [](Words& words) { return std::string(words.rest()); }},
-    {"few", [](Words&) { return true; }},
-    {"none", [](Words&) { return false; }},
-    {"empty", [](Words&) { return ""; }}};
+const Names names{{"runs", [](Words&) { return "300"; }},
+                  {"sum",
+                   [](Words& words) {
+                     const std::string first(words.next());
+                     return first + "+" + std::string(words.next());
+                   }},
+                  {"all", [](Words& words) { return std::string(words.rest()); }},
+                  {"few", [](Words&) { return true; }},
+                  {"none", [](Words&) { return false; }},
+                  {"empty", [](Words&) { return ""; }}};
 
 std::string filled(std::string_view page) {
   const std::array files{report::EmbeddedFile{"page", page}, report::EmbeddedFile{"note", "of {{runs}}\n"},
