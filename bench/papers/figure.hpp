@@ -12,8 +12,8 @@
 namespace canhil::papers {
 
 struct Curve {
-  std::string label;  ///< short: it stands beside the curve's end
-  std::vector<std::pair<double, double>> points;
+  std::string label{};  ///< short: it stands beside the curve's end
+  std::vector<std::pair<double, double>> points{};
   std::vector<std::pair<double, double>> ranges{};  ///< error bars, low and high; as many as points, or none
 };
 
@@ -22,12 +22,11 @@ struct Figure {
   std::string id;  ///< of the HTML element
   std::string title;
   std::string caption;  ///< axes' meaning, settings, run count
-  std::string y_label;
-  std::string x_label = "time [s]";
-  bool logarithmic = true;
-  std::pair<double, double> x_range{0, 20}, y_range{0.3, 300};
-  std::vector<double> thresholds;  ///< horizontal lines, labelled by their value
-  std::vector<Curve> curves;
+  std::string x_label{}, y_label{};
+  bool logarithmic = false;  ///< the axis of the values
+  std::pair<double, double> x_range{}, y_range{};
+  std::vector<double> thresholds{};  ///< horizontal lines, labelled by their value
+  std::vector<Curve> curves{};
 };
 
 /// Whether any of its curves has error bars.

@@ -18,20 +18,19 @@ namespace {
 }
 
 template <class Wanted>
-const campaign::Answer& find_answer(const Flown& flown, std::string_view variant, std::string_view point,
-                                    Wanted&& wanted) {
-  const std::string name = point.empty() ? std::string(variant) : fmt::format("{} {}", variant, point);
+const campaign::Answer& find_answer(const Flown& flown, std::string_view variant, Wanted&& wanted) {
   for (const campaign::Answer& answer : flown.evaluation.answers) {
-    if (answer.variant == name && wanted(answer)) return answer;
+    if (answer.variant == variant && wanted(answer)) return answer;
   }
-  no_such(flown.name, fmt::format("such answer for '{}'", name));
+  no_such(flown.name, fmt::format("such answer for '{}'", variant));
 }
 
-Result<campaign::Campaign> read_embedded(const EmbeddedFile& file, std::span<const EmbeddedFile> scenarios) {
+Result<campaign::Campaign> read_embedded(const report::EmbeddedFile& file, report::EmbeddedFiles scenarios) {
   return campaign::parse_campaign(
       file.text, fmt::format("{}.toml", file.name), [&](const std::string& name) -> Result<std::string> {
-        const auto found = std::ranges::find_if(
-            scenarios, [&](const EmbeddedFile& one) { return name == fmt::format("{}.toml", one.name); });
+        const auto found = std::ranges::find_if(scenarios, [&](const report::EmbeddedFile& one) {
+          return name == fmt::format("{}.toml", one.name);
+        });
         if (found == scenarios.end()) no_such(file.name, fmt::format("scenario '{}'", name));
         return std::string(found->text);
       });
@@ -39,25 +38,21 @@ Result<campaign::Campaign> read_embedded(const EmbeddedFile& file, std::span<con
 
 }  // namespace
 
-std::span<const campaign::CurvePoint> Flown::curve(std::string_view variant, std::string_view point,
+std::span<const campaign::CurvePoint> Flown::curve(std::string_view variant,
                                                    const campaign::Quantity& quantity) const {
-  return find_answer(*this, variant, point,
+  return find_answer(*this, variant,
                      [&](const campaign::Answer& answer) {
                        return answer.kind == campaign::RmsCurve::kind && answer.quantity == &quantity;
                      })
       .curve;
 }
 
-const campaign::Answer& Flown::answer(std::string_view metric, std::string_view variant,
-                                      std::string_view point) const {
-  return find_answer(*this, variant, point,
-                     [&](const campaign::Answer& answer) { return answer.metric == metric; });
+const campaign::Answer& Flown::answer(std::string_view metric, std::string_view variant) const {
+  return find_answer(*this, variant, [&](const campaign::Answer& answer) { return answer.metric == metric; });
 }
 
-const campaign::Answer& Flown::answer_of_kind(std::string_view kind, std::string_view variant,
-                                              std::string_view point) const {
-  return find_answer(*this, variant, point,
-                     [&](const campaign::Answer& answer) { return answer.kind == kind; });
+const campaign::Answer& Flown::answer_of_kind(std::string_view kind, std::string_view variant) const {
+  return find_answer(*this, variant, [&](const campaign::Answer& answer) { return answer.kind == kind; });
 }
 
 std::vector<const campaign::Answer*> Flown::answers(std::string_view requirement) const {
@@ -68,16 +63,21 @@ std::vector<const campaign::Answer*> Flown::answers(std::string_view requirement
   return found;
 }
 
-const Flown& of(const std::vector<Flown>& flown, std::string_view name) {
-  const auto found = std::ranges::find(flown, name, &Flown::name);
-  if (found == flown.end()) no_such(name, "results");
+bool passed(const Flown& flown, std::string_view requirement) {
+  const auto answers = flown.answers(requirement);
+  return !answers.empty() &&
+         std::ranges::all_of(answers, [](const auto* answer) { return answer->passed.value_or(false); });
+}
+
+const Flown& Results::of(std::string_view name) const {
+  const auto found = std::ranges::find(campaigns, name, &Flown::name);
+  if (found == campaigns.end()) no_such(name, "results");
   return *found;
 }
 
-std::size_t flights(const std::vector<Flown>& flown) {
-  std::size_t sum = 0;
-  for (const Flown& one : flown) sum += one.campaign.variants.size() * one.campaign.runs;
-  return sum;
+std::span<const campaign::CurvePoint> Results::curve(Words& words, const campaign::Quantity& quantity) const {
+  const Flown& flown = of(words.next());
+  return flown.curve(words.rest(), quantity);
 }
 
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit) {
@@ -89,17 +89,17 @@ void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double u
   curve.ranges.push_back(std::isfinite(times) ? std::pair(rms / times, rms * times) : std::pair(rms, rms));
 }
 
+Curve over_time(std::span<const campaign::CurvePoint> points, double unit, std::size_t step) {
+  Curve curve;
+  for (std::size_t i = 0; i < points.size(); i += step)
+    add_rms(curve, static_cast<double>(points[i].t_us) * 1e-6, points[i], unit);
+  return curve;
+}
+
 double figure(const campaign::Answer& answer, std::string_view name) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto found = std::ranges::find_if(answer.figures, [&](const auto& one) { return one.first == name; });
   return found == answer.figures.end() ? nan : found->second.value_or(nan);
-}
-
-Rounding rounding_of(const std::vector<Flown>& flown) { return flown.front().campaign.rounding; }
-
-std::string_view frames_flown(const std::vector<Flown>& flown) {
-  return rounding_of(flown) == Rounding::none ? "frames without the bus's rounding (--unrounded)"
-                                              : "frames quantised as on the bus";
 }
 
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store) {
@@ -113,11 +113,11 @@ std::filesystem::path results_file(const FlyOptions& options, std::string_view c
   return options.folder / fmt::format("{}.sqlite", campaign);
 }
 
-Result<std::optional<std::vector<Flown>>> fly(const Campaigns& files, const FlyOptions& options,
-                                              const std::atomic<bool>& stop) {
-  std::vector<Flown> all;
-  for (const EmbeddedFile& file : files.campaigns) {
-    auto campaign = read_embedded(file, files.scenarios);
+Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
+                                   const FlyOptions& options, const std::atomic<bool>& stop) {
+  Results results;
+  for (const report::EmbeddedFile& file : campaigns) {
+    auto campaign = read_embedded(file, scenarios);
     if (!campaign) return tl::unexpected(campaign.error());
     if (options.runs) campaign->runs = *options.runs;
     campaign->rounding = options.rounding;
@@ -135,9 +135,9 @@ Result<std::optional<std::vector<Flown>>> fly(const Campaigns& files, const FlyO
     if (!store) return tl::unexpected(store.error());
     auto flown = evaluated(std::string(file.name), std::move(*campaign), *store);
     if (!flown) return tl::unexpected(flown.error());
-    all.push_back(std::move(*flown));
+    results.campaigns.push_back(std::move(*flown));
   }
-  return all;
+  return results;
 }
 
 }  // namespace canhil::papers

@@ -15,20 +15,10 @@
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/papers/figure.hpp"
+#include "bench/papers/template.hpp"
+#include "bench/report/embedded_file.hpp"
 
 namespace canhil::papers {
-
-/// A TOML file of bench/campaigns/paper_NAME, built into the program: the reproduction needs no source tree.
-struct EmbeddedFile {
-  std::string_view name;  ///< without its ending
-  std::string_view text;
-};
-
-/// What a paper flies.
-struct Campaigns {
-  std::span<const EmbeddedFile> campaigns;
-  std::span<const EmbeddedFile> scenarios;  ///< that the campaigns name
-};
 
 struct FlyOptions {
   std::filesystem::path folder;       ///< for the results, NAME.sqlite; must exist
@@ -43,38 +33,40 @@ struct Flown {
   campaign::Campaign campaign;
   campaign::Evaluation evaluation;
 
-  /// RMS over runs of a variant, by its name in the file and its point of the sweep; they must exist.
+  /// RMS over runs of a variant, by its name in the file and, if any, its point of the sweep: "kf
+  /// master_ins.period_ms=20". As with all answers, one that is not there is a std::logic_error.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
-      std::string_view variant, std::string_view point = {},
-      const campaign::Quantity& quantity = quantities::attitude_heading) const;
-  /// The answer of a metric, by its name, for a variant; it must exist.
-  [[nodiscard]] const campaign::Answer& answer(std::string_view metric, std::string_view variant,
-                                               std::string_view point = {}) const;
-  /// The first answer of a kind of metric for a variant; it must exist.
-  [[nodiscard]] const campaign::Answer& answer_of_kind(std::string_view kind, std::string_view variant,
-                                                       std::string_view point = {}) const;
+      std::string_view variant, const campaign::Quantity& quantity = quantities::attitude_heading) const;
+  /// The answer of a metric, by its name, for a variant.
+  [[nodiscard]] const campaign::Answer& answer(std::string_view metric, std::string_view variant) const;
+  /// The first answer of a kind of metric for a variant.
+  [[nodiscard]] const campaign::Answer& answer_of_kind(std::string_view kind, std::string_view variant) const;
   /// Answers that carry a requirement.
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
 };
 
-/// The campaign of this name; it must exist.
-const Flown& of(const std::vector<Flown>& flown, std::string_view name);
+/// Whether there are answers that carry the requirement, and every one met its bars.
+bool passed(const Flown& flown, std::string_view requirement);
 
-/// Flights of all variants of all campaigns.
-std::size_t flights(const std::vector<Flown>& flown);
+/// The campaigns of a paper.
+struct Results {
+  std::vector<Flown> campaigns;
+
+  /// The campaign of this name; it must exist.
+  [[nodiscard]] const Flown& of(std::string_view name) const;
+  /// The curve of a campaign and a variant, both named by the words.
+  [[nodiscard]] std::span<const campaign::CurvePoint> curve(
+      Words& words, const campaign::Quantity& quantity = quantities::attitude_heading) const;
+};
 
 /// Adds a point of an RMS over runs to a curve at x, with the 95 % range that the scatter over the runs gives
 /// it; `unit` [SI] is that of the figure.
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit = 1);
+/// The RMS over time [s], each `step`-th point of it.
+Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
 
 /// A figure of an answer, by its name in the report; NaN: it has none.
 double figure(const campaign::Answer& answer, std::string_view name);
-
-/// How the campaigns of a paper were flown, all alike.
-Rounding rounding_of(const std::vector<Flown>& flown);
-
-/// "frames quantised as on the bus", or that they were not.
-std::string_view frames_flown(const std::vector<Flown>& flown);
 
 /// A campaign with the answers that its results give. Error: results cannot be read, or runs are missing.
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store);
@@ -83,7 +75,7 @@ Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const cam
 std::filesystem::path results_file(const FlyOptions& options, std::string_view campaign);
 
 /// Flies what the folder does not hold yet. None: stopped. Error: one line.
-Result<std::optional<std::vector<Flown>>> fly(const Campaigns& files, const FlyOptions& options,
-                                              const std::atomic<bool>& stop);
+Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
+                                   const FlyOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace canhil::papers

@@ -5,45 +5,13 @@
 #include <algorithm>
 #include <string_view>
 
+#include "bench/papers/styles.hpp"
 #include "bench/report/markup.hpp"
 
 namespace canhil::papers {
 namespace {
 
 using report::escaped;
-
-constexpr std::string_view style = R"(
-:root{color-scheme:light}
-*{box-sizing:border-box}
-body{margin:0 auto;padding:1.2rem 1rem 4rem;max-width:58rem;background:#fff;color:#1a1a1a;
- font:1rem/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"DejaVu Sans",sans-serif}
-h1{font-size:1.7rem;line-height:1.2;margin:.4rem 0}
-h2{font-size:1.25rem;margin:2.6rem 0 .6rem;padding-top:.7rem;border-top:1px solid #ccc}
-.sub{color:#555;margin:.2rem 0 1.4rem}
-p,li{max-width:46rem}
-table{border-collapse:collapse;width:100%;margin:.8rem 0 .3rem;font-size:.92rem;font-variant-numeric:tabular-nums}
-th,td{text-align:left;vertical-align:top;padding:.34rem .6rem .34rem 0;border-bottom:1px solid #e2e2e2}
-th{border-bottom:2px solid #888;font-weight:600;white-space:nowrap}
-.note,figcaption{color:#555;font-size:.88rem;margin:.2rem 0 1.2rem;max-width:46rem}
-td.yes{color:#00603e}td.no{color:#a32a00}td.partly{color:#6b5000}
-td.yes,td.no,td.partly{font-weight:600}
-figure{margin:1.6rem 0}
-figure h3{font-size:1rem;margin:0 0 .3rem}
-figure svg{display:block;width:100%;height:auto}
-.narrow{display:none}
-nav ul{padding-left:1.1rem;margin:.3rem 0}
-a{color:#0a58a6}
-@media (max-width:640px){
- .wide{display:none}.narrow{display:block}
- thead{display:none}
- tr{display:block;padding:.5rem 0;border-bottom:1px solid #bbb}
- td{display:flex;gap:.6rem;border:0;padding:.08rem 0}
- td::before{content:attr(data-label);flex:0 0 6.2rem;color:#555;font-weight:400}
- td:first-child{font-weight:600}
- td:first-child::before{content:none}
-}
-@media print{.narrow{display:none}.wide{display:block}}
-)";
 
 // Times "14.7 / 16.2 / never" stay on one line.
 std::string unbroken(std::string cell) {
@@ -52,50 +20,38 @@ std::string unbroken(std::string cell) {
   return cell;
 }
 
-std::string_view css_class(Mark mark) {
-  switch (mark) {
-    case Mark::yes:
-      return "yes";
-    case Mark::no:
-      return "no";
-    case Mark::partly:
-      return "partly";
-    case Mark::none:
-      break;
-  }
-  return "none";
+Result<std::string> html(const std::string& paragraph) {
+  return fmt::format("<p>{}</p>\n", escaped(paragraph));
 }
 
-std::string html(const Table& table) {
-  std::string out = "<table><thead><tr>";
-  for (const std::string& name : table.head) out += fmt::format("<th>{}</th>", escaped(name));
-  out += "</tr></thead><tbody>\n";
-  for (const Row& row : table.rows) {
-    out += "<tr>";
-    for (std::size_t i = 0; i < row.cells.size(); ++i)
-      out += fmt::format("<td data-label=\"{}\">{}</td>", escaped(table.head[i]),
-                         unbroken(escaped(row.cells[i])));
-    out += fmt::format("<td class=\"{}\" data-label=\"{}\">{}</td></tr>\n", css_class(row.mark),
-                       escaped(table.head.back()), escaped(row.verdict));
+Result<std::string> html(const Table& table) {
+  std::vector<std::string> head;
+  for (const std::string& name : table.head) head.push_back(escaped(name));
+  std::vector<std::vector<std::string>> rows;
+  for (const Table::Row& row : table.rows) {
+    std::vector<std::string>& cells = rows.emplace_back();
+    for (const std::string& cell : row.cells) cells.push_back(unbroken(escaped(cell)));
+    if (!row.mark.empty())
+      cells.back() = fmt::format("<span class=\"{}\">{}</span>", row.mark, escaped(row.cells.back()));
   }
-  out += "</tbody></table>\n";
-  if (!table.note.empty()) out += fmt::format("<p class=\"note\">{}</p>\n", escaped(table.note));
-  return out;
+  const std::string note =
+      table.note.empty() ? "" : fmt::format("<p class=\"note\">{}</p>\n", escaped(table.note));
+  return report::table(head, rows) + note;
 }
 
 Result<std::string> html(const Figure& figure) {
-  auto wide = draw(figure, Width::desktop);
-  if (!wide) return wide;
-  auto narrow = draw(figure, Width::phone);
-  if (!narrow) return narrow;
-  return fmt::format(
-      "<figure id=\"{}\"><h3>{}</h3>\n<div class=\"wide\" role=\"img\" aria-label=\"{}\">{}</div>\n"
-      "<div class=\"narrow\" role=\"img\" aria-label=\"{}\">{}</div>\n<figcaption>{}</figcaption></figure>\n",
-      figure.id, escaped(figure.title), escaped(figure.title), *wide, escaped(figure.title), *narrow,
-      escaped(figure.caption + (has_ranges(figure)
-                                    ? " Error bars: 95 % range of the RMS, by the scatter over "
-                                      "the runs."
-                                    : "")));
+  std::string drawings;
+  for (const auto& [width, name] : {std::pair{Width::desktop, "wide"}, std::pair{Width::phone, "narrow"}}) {
+    const auto drawn = draw(figure, width);
+    if (!drawn) return drawn;
+    drawings += fmt::format("\n<div class=\"{}\" role=\"img\" aria-label=\"{}\">{}</div>", name,
+                            escaped(figure.title), *drawn);
+  }
+  return report::figure(
+      figure.title, drawings + "\n",
+      figure.caption +
+          (has_ranges(figure) ? " Error bars: 95 % range of the RMS, by the scatter over the runs." : ""),
+      figure.id);
 }
 
 std::size_t width_of(std::string_view text) {  // in characters, not bytes, of UTF-8
@@ -104,55 +60,54 @@ std::size_t width_of(std::string_view text) {  // in characters, not bytes, of U
 }
 
 std::string text(const Table& table) {
-  std::vector<std::size_t> widths;
-  for (const std::string& name : table.head) widths.push_back(width_of(name));
-  for (const Row& row : table.rows) {
-    for (std::size_t i = 0; i < row.cells.size(); ++i)
-      widths[i] = std::max(widths[i], width_of(row.cells[i]));
-  }
-  const auto line = [&](const std::vector<std::string>& cells, const std::string& verdict) {
-    std::string out = " ";
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      out += " " + cells[i] + std::string(widths[i] - width_of(cells[i]) + 1, ' ');
-    return out + " " + verdict + "\n";
+  std::vector<std::size_t> widths(table.head.size(), 0);
+  const auto widen = [&](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i + 1 < cells.size(); ++i) widths[i] = std::max(widths[i], width_of(cells[i]));
   };
-  std::string out = line({table.head.begin(), table.head.end() - 1}, table.head.back());
-  for (const Row& row : table.rows) out += line(row.cells, row.verdict);
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string out = " ";
+    for (std::size_t i = 0; i + 1 < cells.size(); ++i)
+      out += " " + cells[i] + std::string(widths[i] - width_of(cells[i]) + 1, ' ');
+    return out + " " + cells.back() + "\n";
+  };
+  widen(table.head);
+  for (const Table::Row& row : table.rows) widen(row.cells);
+  std::string out = line(table.head);
+  for (const Table::Row& row : table.rows) out += line(row.cells);
   return out;
 }
 
 }  // namespace
 
 Result<std::string> html(const Page& page) {
-  std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>{0}</title>\n"
-      "<style>{1}</style></head><body>\n<h1>{0}</h1>\n<p class=\"sub\">{2}</p>\n<nav><ul>\n",
-      escaped(page.title), style, escaped(page.subtitle));
+  std::string out = fmt::format("<h1>{}</h1>\n<p class=\"sub\">{}</p>\n<nav><ul>\n", escaped(page.title),
+                                escaped(page.subtitle));
   for (const Section& section : page.sections)
     out += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", section.id, escaped(section.title));
   out += "</ul></nav>\n";
   for (const Section& section : page.sections) {
     out += fmt::format("<section id=\"{}\"><h2>{}</h2>\n", section.id, escaped(section.title));
-    for (const std::string& paragraph : section.paragraphs)
-      out += fmt::format("<p>{}</p>\n", escaped(paragraph));
-    for (const Table& table : section.tables) out += html(table);
-    for (const Figure& figure : section.figures) {
-      auto drawn = html(figure);
+    for (const auto& part : section.parts) {
+      const auto drawn = std::visit([](const auto& one) { return html(one); }, part);
       if (!drawn) return drawn;
       out += *drawn;
     }
     out += "</section>\n";
   }
-  return out + "</body></html>\n";
+  return report::whole_page(escaped(page.title), styles, out);
 }
 
 std::string text(const Page& page) {
   std::string out = page.title + "\n" + page.subtitle + "\n";
   for (const Section& section : page.sections) {
-    if (section.tables.empty()) continue;
-    out += "\n" + section.title + "\n";
-    for (const Table& table : section.tables) out += text(table);
+    bool named = false;
+    for (const auto& part : section.parts) {
+      const auto* table = std::get_if<Table>(&part);
+      if (table == nullptr) continue;
+      if (!named) out += "\n" + section.title + "\n";
+      named = true;
+      out += text(*table);
+    }
   }
   return out;
 }

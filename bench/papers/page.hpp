@@ -1,8 +1,8 @@
 // What a reproduction has to say, as data; as one self-contained HTML page, and as text.
 #pragma once
 
-#include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/papers/figure.hpp"
@@ -10,15 +10,11 @@
 
 namespace canhil::papers {
 
-enum class Mark : std::uint8_t { yes, no, partly, none };
-
-struct Row {
-  std::vector<std::string> cells;  ///< one less than the head: the last column is the verdict
-  Mark mark = Mark::none;
-  std::string verdict;
-};
-
 struct Table {
+  struct Row {
+    std::vector<std::string> cells;  ///< as many as the head: the last column is the verdict
+    std::string mark;                ///< of the verdict: yes, no, partly; empty: none
+  };
   std::vector<std::string> head;
   std::vector<Row> rows;
   std::string note;
@@ -27,9 +23,7 @@ struct Table {
 struct Section {
   std::string id;  ///< of the HTML element
   std::string title;
-  std::vector<std::string> paragraphs;
-  std::vector<Table> tables;
-  std::vector<Figure> figures;
+  std::vector<std::variant<std::string, Table, Figure>> parts;  ///< a paragraph is a string
 };
 
 struct Page {
@@ -38,18 +32,10 @@ struct Page {
   std::vector<Section> sections;
 };
 
-/// What became of a paper. None has a default: a paper that forgets one does not compile.
-struct Reproduction {
-  Page page;
-  bool bars_met;
-  std::uint64_t runs;    ///< flown of each variant of the campaign with the bars
-  std::uint64_t enough;  ///< that the bars are for: with fewer they may be missed by chance
-};
-
 /// One HTML file without anything outside it, for phone and desktop. Error: a figure cannot be drawn.
 Result<std::string> html(const Page& page);
 
-/// Titles, paragraphs and tables for a terminal.
+/// Titles and tables for a terminal.
 std::string text(const Page& page);
 
 }  // namespace canhil::papers

@@ -7,11 +7,8 @@
 
 #include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
-#include "bench/papers/inflight_alignment/reproduction.hpp"
-#include "bench/papers/los_rate/reproduction.hpp"
 #include "bench/papers/names.hpp"
-#include "bench/papers/transfer_alignment/reproduction.hpp"
-#include "bench/papers/wind/reproduction.hpp"
+#include "bench/papers/told.hpp"
 #include "bench/report/file.hpp"
 
 namespace canhil::papers {
@@ -20,16 +17,41 @@ namespace {
 // The papers: what a new one joins.
 struct Paper {
   std::string_view name;
-  Result<std::optional<Reproduction>> (*reproduce)(const FlyOptions& options,
-                                                   const std::filesystem::path& exact,
-                                                   const std::atomic<bool>& stop);
-  bool compares = false;  // with results without rounding
+  const report::EmbeddedFiles &campaigns, &scenarios, &templates;
+  Result<Told> (*tell)(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+  std::string_view judged;  // the campaign with the bars
+  std::uint64_t enough;     // runs that they are for
+  bool compares = false;    // with results without rounding
 };
-constexpr std::array papers{
-    Paper{.name = "transfer", .reproduce = transfer_alignment::reproduce, .compares = true},
-    Paper{.name = "inflight", .reproduce = inflight_alignment::reproduce},
-    Paper{.name = "los", .reproduce = los_rate::reproduce},
-    Paper{.name = "wind", .reproduce = wind::reproduce}};
+constexpr std::array papers{Paper{.name = "transfer",
+                                  .campaigns = transfer_alignment::campaigns,
+                                  .scenarios = transfer_alignment::scenarios,
+                                  .templates = transfer_alignment::templates,
+                                  .tell = transfer_alignment::tell,
+                                  .judged = "table2",
+                                  .enough = 300,
+                                  .compares = true},
+                            Paper{.name = "inflight",
+                                  .campaigns = inflight_alignment::campaigns,
+                                  .scenarios = inflight_alignment::scenarios,
+                                  .templates = inflight_alignment::templates,
+                                  .tell = inflight_alignment::tell,
+                                  .judged = "ssbl",
+                                  .enough = 400},
+                            Paper{.name = "los",
+                                  .campaigns = los_rate::campaigns,
+                                  .scenarios = los_rate::scenarios,
+                                  .templates = los_rate::templates,
+                                  .tell = los_rate::tell,
+                                  .judged = "open_loop",
+                                  .enough = 200},
+                            Paper{.name = "wind",
+                                  .campaigns = wind::campaigns,
+                                  .scenarios = wind::scenarios,
+                                  .templates = wind::templates,
+                                  .tell = wind::tell,
+                                  .judged = "table1",
+                                  .enough = 50}};
 static_assert(std::ranges::equal(papers, paper_names, {}, &Paper::name));
 
 Result<Paper> find_paper(std::string_view name) {
@@ -38,21 +60,11 @@ Result<Paper> find_paper(std::string_view name) {
   return failure(fmt::format("paper '{}' is unknown, expected {}", name, names()));
 }
 
-bool too_few_runs(const Reproduction& reproduction) { return reproduction.runs < reproduction.enough; }
-
-Page with_caveat(const Reproduction& reproduction) {
-  Page page = reproduction.page;
-  if (too_few_runs(reproduction))
-    page.subtitle +=
-        fmt::format(" The bars are for {} runs: with fewer they may fail by chance.", reproduction.enough);
-  return page;
-}
-
 }  // namespace
 
-Outcome outcome_of(const Reproduction& reproduction) {
-  if (reproduction.bars_met) return Outcome::bars_met;
-  return too_few_runs(reproduction) ? Outcome::too_few_runs : Outcome::bars_missed;
+Outcome outcome_of(bool bars_met, std::uint64_t runs, std::uint64_t enough) {
+  if (bars_met) return Outcome::bars_met;
+  return runs < enough ? Outcome::too_few_runs : Outcome::bars_missed;
 }
 
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop) {
@@ -81,21 +93,25 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
     if (auto there = campaign::Store::open(request.exact); !there) return tl::unexpected(there.error());
   }
 
-  const auto written = paper->reproduce({.folder = request.folder,
-                                         .runs = request.runs,
-                                         .rounding = request.rounding,
-                                         .progress = request.progress},
-                                        request.exact, stop);
-  if (!written) return tl::unexpected(written.error());
-  if (!*written) return reproduced;
-  const Reproduction& judged = **written;
-  const Page page = with_caveat(judged);
+  const FlyOptions options{.folder = request.folder,
+                           .runs = request.runs,
+                           .rounding = request.rounding,
+                           .progress = request.progress};
+  const auto flown = fly(paper->campaigns, paper->scenarios, options, stop);
+  if (!flown) return tl::unexpected(flown.error());
+  if (!*flown) return reproduced;
+  const Results& results = **flown;
+  auto told = paper->tell(results, options, request.exact);
+  if (!told) return tl::unexpected(told.error());
+  const std::uint64_t runs = results.of(paper->judged).campaign.runs;
+  add_shared_names(told->names, results, runs, paper->enough);
+  const Page page = page_of(filled(paper->templates, told->names), told->curves);
   const auto drawn = html(page);
   if (!drawn) return tl::unexpected(drawn.error());
   if (auto saved = report::write_file(reproduced.page.string(), *drawn); !saved)
     return tl::unexpected(saved.error());
   reproduced.text = text(page);
-  reproduced.outcome = outcome_of(judged);
+  reproduced.outcome = outcome_of(told->bars_met, runs, paper->enough);
   return reproduced;
 }
 

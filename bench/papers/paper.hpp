@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 
-#include "bench/papers/page.hpp"
 #include "dbc/wire/result.hpp"
 #include "dbc/wire/unrounded.hpp"
 
@@ -27,7 +26,8 @@ struct Request {
 /// Bars that so few runs miss say nothing: `too_few_runs`.
 enum class Outcome : std::uint8_t { bars_met, bars_missed, too_few_runs, interrupted };
 
-Outcome outcome_of(const Reproduction& reproduction);
+/// `runs`: flown of each variant of the campaign with the bars, which are for `enough`.
+Outcome outcome_of(bool bars_met, std::uint64_t runs, std::uint64_t enough);
 
 struct Reproduced {
   Outcome outcome = Outcome::interrupted;

@@ -1,34 +1,27 @@
-// Text that goes into HTML and XML.
+// What every page is put together from, the run's and the papers': escaping, tables, figures, the whole.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "bench/report/embedded_file.hpp"
 
 namespace canhil::report {
 
-/// UTF-8 text for an element or a quoted attribute. Control characters, most of which XML forbids, become
-/// blanks.
-inline std::string escaped(std::string_view plain) {
-  std::string safe;
-  for (const char c : plain) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return safe;
-}
+/// UTF-8 text for an element or a quoted attribute of HTML or XML. Control characters, most of which XML
+/// forbids, become blanks.
+std::string escaped(std::string_view plain);
+
+/// Rows of cells that are HTML already; on a phone each cell says which column it is of.
+std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
+                  std::string_view style = "");
+
+/// A drawing with its plain title and note; `id` of the element: empty, none.
+std::string figure(std::string_view title, std::string_view drawing, std::string_view note,
+                   std::string_view id = "");
+
+/// One HTML file that needs nothing outside itself; title and body are HTML already.
+std::string whole_page(std::string_view title, EmbeddedFiles styles, std::string_view body);
 
 }  // namespace canhil::report

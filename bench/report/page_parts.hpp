@@ -1,4 +1,4 @@
-// What the sections of a page are put together from.
+// Values of a report on its page.
 #pragma once
 
 #include <fmt/format.h>
@@ -6,8 +6,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "bench/report/markup.hpp"
 
@@ -21,14 +19,9 @@ inline std::string text_in(const nlohmann::ordered_json& value) {
   return escaped(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
-/// Rows of cells that are HTML already; on a phone each cell says which column it is of.
-std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
-                  std::string_view style = "");
-
-/// A drawing with its plain title and note.
-std::string figure(const std::string& title, const std::string& drawing, const std::string& note);
-
 /// A time of a distribution in ms.
-std::string ms(const nlohmann::ordered_json& distribution, const char* key);
+inline std::string ms(const nlohmann::ordered_json& distribution, const char* key) {
+  return fmt::format("{:.3f}", distribution.at(key).get<double>() * 1e3);
+}
 
 }  // namespace canhil::report

@@ -38,12 +38,9 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
 }
 
 TEST(PaperPage, BarsThatTooFewRunsMissSayNothing) {
-  const auto outcome = [](bool bars_met, std::uint64_t runs) {
-    return outcome_of({.page = {}, .bars_met = bars_met, .runs = runs, .enough = 50});
-  };
-  EXPECT_EQ(outcome(false, 49), Outcome::too_few_runs);
-  EXPECT_EQ(outcome(false, 50), Outcome::bars_missed);
-  EXPECT_EQ(outcome(true, 49), Outcome::bars_met);
+  EXPECT_EQ(outcome_of(false, 49, 50), Outcome::too_few_runs);
+  EXPECT_EQ(outcome_of(false, 50, 50), Outcome::bars_missed);
+  EXPECT_EQ(outcome_of(true, 49, 50), Outcome::bars_met);
 }
 
 TEST(PaperPage, NamesWhatIsWrongWithTheRequest) {

@@ -1,0 +1,46 @@
+// What a paper's campaigns tell its page: the figures that stand for the names of its templates, its curves,
+// and whether its bars are met. The prose is in page.mustache and the other templates of the paper's folder.
+#pragma once
+
+#include <filesystem>
+
+#include "bench/papers/document.hpp"
+#include "bench/papers/flown.hpp"
+
+namespace canhil::papers {
+
+struct Told {
+  Names names{};  ///< beside those that all papers have
+  Curves curves{};
+  bool bars_met = false;
+};
+
+/// Adds the names that all papers have: runs, enough, flights, frames, #too_few_runs, #unrounded;
+/// {{bars CAMPAIGN REQUIREMENT}}, a row for every answer that carries it; {{reproduces NAME}} and
+/// {{pass NAME}}, a verdict by a yes or no. `runs`: of the campaign with the bars, which are for `enough`.
+void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
+
+// Of each paper: the files that are built into the program, bench/campaigns/paper_NAME and its templates; and
+// what it tells, which keeps references to the results. `exact`: results of the transfer paper's table2
+// without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
+namespace transfer_alignment {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+}  // namespace transfer_alignment
+
+namespace inflight_alignment {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+}  // namespace inflight_alignment
+
+namespace los_rate {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+}  // namespace los_rate
+
+namespace wind {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+}  // namespace wind
+
+}  // namespace canhil::papers

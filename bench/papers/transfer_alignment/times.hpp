@@ -1,0 +1,43 @@
+// When the heading's RMS over runs enters 3, 2 and 1 mrad for good: what the transfer-alignment paper tells
+// of a filter.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+
+#include "bench/campaign/campaign.hpp"
+#include "bench/campaign/statistics.hpp"
+#include "bench/campaign/store.hpp"
+
+namespace canhil::papers::transfer_alignment {
+
+using campaign::CurvePoint;
+
+/// [s]
+inline constexpr double never = std::numeric_limits<double>::infinity();
+struct Times {
+  double within_3_mrad = never, within_2_mrad = never, within_1_mrad = never;
+  double end_mrad = 0;  ///< RMS at the last update; NaN: no run came there
+};
+Times times_of(std::span<const CurvePoint> curve);
+/// Of "14.7 / 16.2 / never", blanks or not, or "diverges". Throws std::logic_error.
+Times times_in(std::string text);
+/// "14.7 / 16.2 / never"; "diverges (71 mrad at the end)" where the heading is beyond 20 mrad then.
+std::string words_of(const Times& times);
+bool diverged(const Times& times);
+
+/// "14.7", or "never".
+std::string time_words(double t_s);
+
+/// Whether a curve over `runs` runs has the times of the reference, a simulation of 150 runs.
+bool agrees(std::span<const CurvePoint> curve, const Times& reference, std::uint64_t runs);
+
+/// What the sampling of runs does to the times of each variant: the smallest and largest of ten batches of a
+/// tenth of the runs, in words. No variant is there where there are fewer than ten runs.
+Result<std::map<std::string, std::string, std::less<>>> spreads_of(const campaign::Campaign& campaign,
+                                                                   const campaign::Store& store);
+
+}  // namespace canhil::papers::transfer_alignment

@@ -1,0 +1,169 @@
+// What the page on the wind shows: scores, the wind over the height, the nominal glide.
+#include "bench/papers/told.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/estimators/wind/quantities.hpp"
+#include "bench/world/glide/glide.hpp"
+#include "bench/world/units.hpp"
+
+namespace canhil::papers::wind {
+namespace {
+
+using world::units::deg;
+
+constexpr const char* requirement = "section 8";
+constexpr const char* lost_requirement = "section 8: lost";
+constexpr std::array judged{"table1", "sensitivity", "rates"};
+
+// Metrics: of all three components of the wind's error, and of each.
+constexpr const char* all = "wind error";
+constexpr std::array components{"along track", "cross track", "down"};
+
+// Mean over t >= 10 s of |error of the wind| of each run; of these, mean and standard deviation over the
+// runs [m/s].
+double mean(const campaign::Answer& answer) { return figure(answer, "mean_mps"); }
+std::string score(const campaign::Answer& answer) {
+  return fmt::format("{:.2f} ({:.2f})", mean(answer), figure(answer, "standard_deviation_mps"));
+}
+std::size_t lost(const campaign::Answer& answer) {
+  return static_cast<std::size_t>(figure(answer, "missing"));
+}
+
+std::string cells(const Flown& flown, std::string_view variant) {
+  std::string text;
+  for (const char* component : components)
+    text += (text.empty() ? "" : " | ") + score(flown.answer(component, variant));
+  return text;
+}
+
+void add_scores(Names& names, const Results& results) {
+  const auto of = [&results](Words& words, std::string_view metric) -> const campaign::Answer& {
+    const Flown& flown = results.of(words.next());
+    return flown.answer(metric, words.rest());
+  };
+  names["mean"] = [=](Words& words) { return fmt::format("{:.2f}", mean(of(words, all))); };
+  names["mean_along"] = [=](Words& words) { return fmt::format("{:.2f}", mean(of(words, components[0]))); };
+  names["mean_across"] = [=](Words& words) { return fmt::format("{:.2f}", mean(of(words, components[1]))); };
+  names["score"] = [=](Words& words) { return score(of(words, all)); };
+  names["lost"] = [=](Words& words) { return fmt::to_string(lost(of(words, all))); };
+  names["scores"] = [&results](Words& words) {
+    const Flown& flown = results.of(words.next());
+    const std::string_view variant = words.rest();
+    return score(flown.answer(all, variant)) + " | " + cells(flown, variant);
+  };
+  names["components"] = [&results](Words& words) {
+    const Flown& flown = results.of(words.next());
+    return cells(flown, words.rest());
+  };
+  names["lost_at_any_level"] = [&results](Words& words) {
+    const std::string_view filter = words.rest();
+    std::size_t sum = 0;
+    for (const int level : {0, 20, 40})
+      sum += lost(results.of("table1").answer(all, fmt::format("{}_{}", filter, level)));
+    return fmt::to_string(sum);
+  };
+}
+
+// What the paper claims, and how far it holds.
+void add_claims(Names& names, const Results& results) {
+  const auto at = [&](const char* filter, int level) {
+    return mean(results.of("table1").answer(all, fmt::format("{}_{}", filter, level)));
+  };
+  const auto claim = [&names](const char* name, bool holds) { names[name] = [=](Words&) { return holds; }; };
+  claim("h_infinity_ahead", at("hinf", 20) < 0.85 * at("low", 20));
+  claim("kf_diverges", lost(results.of("table1").answer(all, "low_40")) > 0);
+  claim("h_infinity_holds", at("hinf", 40) < 0.6 * at("low", 40));
+  claim("h_infinity_costs", at("hinf", 0) > at("low", 0));
+  claim("kf_grows", at("low", 0) < at("low", 20) && at("low", 20) < at("low", 40));
+  const auto text = [&names](const char* name, std::string words) {
+    names[name] = [=](Words&) { return words; };
+  };
+  text("h_infinity_less", fmt::format("{:.0f} %", 100 * (1 - at("hinf", 20) / at("low", 20))));
+  for (const int level : {20, 40})
+    text(level == 20 ? "times_better_at_20" : "times_better_at_40",
+         fmt::format("{:.1f}", at("hinf", level) / at("omega", level)));
+
+  const auto answers = results.of("table1").answers(lost_requirement);
+  const auto astray =
+      std::ranges::count_if(answers, [](const auto* answer) { return !answer->passed.value_or(false); });
+  claim("none_lost", astray == 0);
+  text("variants_that_lost", fmt::format("{} of {}", astray, answers.size()));
+}
+
+template <class Value>
+Curve profile(std::string_view season, Value value) {
+  using world::glide::Season;
+  static const std::map<std::string_view, Season> seasons{{"March", Season::march},
+                                                          {"June", Season::june},
+                                                          {"September", Season::september},
+                                                          {"December", Season::december}};
+  const world::glide::WindProfile wind(seasons.at(season));
+  Curve curve;
+  for (double km = 0; km <= 15; km += 0.25) curve.points.emplace_back(km, value(wind.at(1000 * km)));
+  return curve;
+}
+
+double from_deg(const world::Vector3& wind_n) {
+  const double from = std::atan2(-wind_n.y(), -wind_n.x()) / deg;
+  return from < 0 ? from + 360 : from;
+}
+
+// The nominal glide: no run of the target.
+const world::GlideRecord& nominal_glide() {
+  static const world::GlideRecord record({}, 100'000'000, world::Stream(0, 0, "none"),
+                                         world::Stream(0, 0, "none"));
+  return record;
+}
+
+Curve glide(std::string_view what) {
+  using Truth = world::GlideTruth;
+  static const std::map<std::string_view, double (*)(const Truth&)> values{
+      {"air_speed", [](const Truth& t) { return t.v_a.norm(); }},
+      {"north", [](const Truth& t) { return t.v_eb_n.x(); }},
+      {"east", [](const Truth& t) { return t.v_eb_n.y(); }},
+      {"down", [](const Truth& t) { return t.v_eb_n.z(); }},
+      {"roll", [](const Truth& t) { return world::euler_from(t.C_bn).roll / deg; }},
+      {"pitch", [](const Truth& t) { return world::euler_from(t.C_bn).pitch / deg; }},
+      {"heading", [](const Truth& t) { return world::euler_from(t.C_bn).heading / deg; }},
+      {"attack", [](const Truth& t) { return std::atan2(t.v_a.z(), t.v_a.x()) / deg; }}};
+  const auto value = values.at(what);
+  Curve curve;
+  const auto epochs = nominal_glide().epochs();
+  for (std::size_t k = 0; k < epochs.size(); k += 25)
+    curve.points.emplace_back(static_cast<double>(epochs[k].t_us) * 1e-6, value(epochs[k]));
+  return curve;
+}
+
+}  // namespace
+
+Result<Told> tell(const Results& results, const FlyOptions& /*options*/,
+                  const std::filesystem::path& /*exact*/) {
+  Told told;
+  add_scores(told.names, results);
+  add_claims(told.names, results);
+  const world::GlideTruth& end = nominal_glide().epochs().back();
+  told.names["glide_end"] = [&end](Words&) {
+    return fmt::format("{:.0f} m/s and {:.2f} km, heading {:+.1f} deg", end.v_a.norm(), end.height / 1000,
+                       world::euler_from(end.C_bn).heading / deg);
+  };
+  told.curves["error"] = [&results](Words& words) {
+    constexpr std::size_t step = 10;  // answers come every 100 ms: a point a second
+    return over_time(results.of("table1").curve(words.rest(), quantities::wind_norm), 1, step);
+  };
+  told.curves["wind_speed"] = [](Words& words) {
+    return profile(words.rest(), [](const world::Vector3& wind_n) { return wind_n.norm(); });
+  };
+  told.curves["wind_from"] = [](Words& words) { return profile(words.rest(), from_deg); };
+  told.curves["glide"] = [](Words& words) { return glide(words.rest()); };
+  told.bars_met =
+      passed(results.of("table1"), lost_requirement) &&
+      std::ranges::all_of(judged, [&](const char* name) { return passed(results.of(name), requirement); });
+  return told;
+}
+
+}  // namespace canhil::papers::wind
