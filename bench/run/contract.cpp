@@ -1,5 +1,6 @@
 #include "bench/run/contract.hpp"
 
+#include "bench/nodes/registry.hpp"
 #include "messages/canhil.hpp"
 #include "target/device/device.hpp"
 
@@ -54,6 +55,7 @@ scenario::Contract make_contract() {
                               .wind_outcomes = names<messages::WindOutcome>()};
   contract.parameters_of = parameters_by_estimator();
   contract.sent_by = estimator_by_message();
+  contract.nodes = nodes::tables();
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/nodes/registry.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::scenario {
@@ -15,7 +16,8 @@ inline const Contract contract{.estimators = {"transfer_alignment", "inflight_al
                                .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
                                .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},
                                .fix_outcomes = {"accepted", "gated"},
-                               .answers = {"AlignAttitude", "AlignUpdate"}};
+                               .answers = {"AlignAttitude", "AlignUpdate"},
+                               .nodes = nodes::tables()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0
@@ -63,6 +65,16 @@ inline Scenario parsed(std::string_view text) {
 inline std::string error_of(std::string_view text) {
   const Result<Scenario> result = parse(text, "s.toml", contract);
   return result ? "no error" : result.error().message;
+}
+
+/// What a scenario says of a node that is on its bus.
+template <class Settings>
+Settings node_of(const Scenario& scenario) {
+  for (const NodeSettings& node : scenario.nodes) {
+    if (const auto* settings = node.own<Settings>()) return *settings;
+  }
+  ADD_FAILURE() << "it is not there";
+  return {};
 }
 
 }  // namespace canhil::scenario
