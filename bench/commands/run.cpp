@@ -257,16 +257,11 @@ Error with_controller(Error error, const std::string& bus) {
 
 // A node with a bus of its own is one of the scenario's.
 Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& scenario) {
-  const std::pair<std::string_view, bool> nodes[] = {{"MasterIns", scenario.master_ins.has_value()},
-                                                     {"SlaveImu", scenario.slave_imu.has_value()},
-                                                     {"Ssbl", scenario.ssbl.has_value()},
-                                                     {"Gps", scenario.gps.has_value()},
-                                                     {"Seeker", scenario.seeker.has_value()},
-                                                     {"GliderNav", scenario.glider_nav.has_value()},
-                                                     {"Fins", scenario.fins.has_value()}};
   for (const std::string& text : arguments.bus_of) {
-    const std::string node = node_and_bus(text)->first;
-    if (std::ranges::find(nodes, std::pair(std::string_view(node), false)) == std::end(nodes)) continue;
+    const std::string name = node_and_bus(text)->first;
+    if (std::ranges::any_of(scenario.nodes,
+                            [&](const auto& node) { return node.table().closes.sender == name; }))
+      continue;
     return failure(
         fmt::format("--bus-of '{}': {} has no such node, expected one that it has", text, scenario.file));
   }

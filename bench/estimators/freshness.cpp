@@ -19,15 +19,11 @@ double periods_of_fixes(double loss_probability) {
 
 }  // namespace
 
-double period_us(const scenario::Schedule& schedule, std::int64_t cycle_us) {
-  return static_cast<double>(schedule.period_us.value_or(cycle_us));
-}
+double period_us(const scenario::NodeSettings& node) { return static_cast<double>(node.period_us()); }
 
-double longest_wait_of_fixes_us(const scenario::Schedule& schedule, std::int64_t cycle_us,
-                                const scenario::FixFaults& faults) {
-  const double lost = 1 - (1 - faults.loss_probability) * (1 - faults.invalid_probability);
-  return checks::longest_wait_us(period_us(schedule, cycle_us), periods_of_fixes(lost)) +
-         static_cast<double>(schedule.latency_us);
+double longest_wait_of_fixes_us(const scenario::NodeSettings& aid) {
+  return checks::longest_wait_us(period_us(aid), periods_of_fixes(aid.table().aid->lost(aid))) +
+         static_cast<double>(aid.latency_us());
 }
 
 }  // namespace canhil::estimators

@@ -1,27 +1,18 @@
-// The fin actuators of the glider.
+// The fin actuators of the glider. Sends FinDeflections: what the fins stood at, and when.
 #pragma once
 
-#include "bench/nodes/node.hpp"
-#include "bench/scenario/fins.hpp"
-#include "bench/world/glide/glide.hpp"
+#include "bench/nodes/sample_loss.hpp"
+#include "bench/scenario/schedule.hpp"
 
 namespace canhil::nodes {
 
-/// Sends FinDeflections: what the fins stood at, and when. The record must outlive the node.
-class Fins final : public Node {
- public:
-  /// The run may end before the record does.
-  Fins(const world::GlideRecord& glide, const scenario::Fins& config, world::Stream losses,
-       std::int64_t end_us);
-
-  [[nodiscard]] std::int64_t due_us() const override { return sampling_.due_us(); }
-  void transmit(Transmission& out) override;
-
- private:
-  const world::GlideRecord& glide_;
-  scenario::Fins config_;
-  world::Stream losses_;
-  Sampling sampling_;
+/// The table [fins].
+struct FinsSettings {
+  scenario::Schedule schedule{};
+  std::int64_t stamp_error_us = 0;  ///< a fault: the stamp is so much later than the time of validity
+  SampleLoss loss{};
 };
+
+extern const struct Kind fins;
 
 }  // namespace canhil::nodes

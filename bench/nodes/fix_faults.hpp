@@ -1,10 +1,35 @@
 // What befalls the fixes of an aiding node on their way.
 #pragma once
 
-#include "bench/scenario/fix_faults.hpp"
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "bench/scenario/node.hpp"
+#include "bench/scenario/section.hpp"
 #include "bench/world/stream.hpp"
 
 namespace canhil::nodes {
+
+/// What may befall each fix, on its own; all probabilities in [0, 1].
+struct FixFaults {
+  double loss_probability = 0;     ///< its group is not sent
+  double invalid_probability = 0;  ///< sent as invalid
+  double outlier_probability = 0;
+  double outlier = 0;  ///< horizontal size of an outlier [m]
+  std::optional<std::pair<std::int64_t, std::int64_t>>
+      silence_us{};  ///< no group valid in this interval is sent
+};
+
+/// The keys loss_percent, invalid_percent, outlier_percent, outlier_m and silence_s of a node's table.
+FixFaults read_fix_faults(scenario::Section& section);
+
+/// The share of a node's fixes that nobody can answer. `Own`: its settings, with a member `faults`.
+template <class Own>
+double lost_fixes(const scenario::NodeSettings& node) {
+  const FixFaults& faults = node.own<Own>()->faults;
+  return 1 - (1 - faults.loss_probability) * (1 - faults.invalid_probability);
+}
 
 /// What became of one fix.
 struct Fate {
@@ -14,6 +39,6 @@ struct Fate {
 };
 
 /// Draws the fate of the fix at a time. Takes four numbers of the stream, whatever the faults are.
-Fate draw_fate(const scenario::FixFaults& faults, std::int64_t valid_us, world::Stream& stream);
+Fate draw_fate(const FixFaults& faults, std::int64_t valid_us, world::Stream& stream);
 
 }  // namespace canhil::nodes

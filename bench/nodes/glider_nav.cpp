@@ -2,56 +2,81 @@
 
 #include <cmath>
 
-#include "bench/nodes/sample_loss.hpp"
+#include "bench/nodes/sampler.hpp"
+#include "bench/world/correlated_noise.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
 namespace {
 
-using messages::GliderNavVelocityD;
 using world::Vector3;
 using world::units::deg;
-
-std::int64_t period_us(const scenario::GliderNav& config) {
-  return config.schedule.period_us.value_or(GliderNavVelocityD::info.cycle_time_us);
-}
 
 // Within the half turns that the bus carries.
 double angle_deg(double angle) { return std::remainder(angle / deg, 360); }
 
+bool needed(const scenario::Scenario& scenario) { return scenario.glide.has_value(); }
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  GliderNavSettings node;
+  node.schedule = read_glide_schedule(section);
+  node.velocity_noise = section.number("velocity_noise_mps", sigma, 0);
+  node.rate_noise = section.number("rate_noise_degps", sigma, 0);
+  node.attitude_noise = section.number("attitude_noise_deg", Limits::between(0, 45), 0);
+  node.correlated_fraction = section.number("correlated_fraction", Limits::between(0, 1), 0);
+  node.correlation_time = section.number("correlation_time_s", Limits::above(0), node.correlation_time);
+  node.loss = read_sample_loss(section);
+  return {table, node};
+}
+
+class GliderNav final : public Sampler<GliderNavSettings> {
+ public:
+  GliderNav(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        stream_(run.stream("glider_nav")),
+        losses_(run.stream("glider_nav.loss")),
+        period_s_(1e-6 * static_cast<double>(node.period_us())),
+        velocity_(config_.correlated_fraction, config_.correlation_time, stream_),
+        rates_(config_.correlated_fraction, config_.correlation_time, stream_),
+        attitude_(config_.correlated_fraction, config_.correlation_time, stream_) {}
+
+ private:
+  bool sample(std::int64_t t_us, Transmission& out) override {
+    const world::GlideTruth& truth = run_.glide->at(t_us);
+    const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(period_s_, stream_);
+    const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(period_s_, stream_);
+    const Vector3 turn = config_.attitude_noise * attitude_.next(period_s_, stream_);
+    const world::Euler angles = world::euler_from(truth.C_bn);
+    out.send(messages::GliderNavVelocityNE{
+        .velocity_north_mps = velocity.x(), .velocity_east_mps = velocity.y(), .height_m = truth.height});
+    out.send(messages::GliderNavAttitude{.roll_deg = angle_deg(angles.roll + turn.x()),
+                                         .pitch_deg = angle_deg(angles.pitch + turn.y()),
+                                         .heading_deg = angle_deg(angles.heading + turn.z()),
+                                         .navigation_validity = messages::Validity::valid});
+    out.send(messages::GliderNavRates{
+        .rate_x_degps = rates.x() / deg, .rate_y_degps = rates.y() / deg, .rate_z_degps = rates.z() / deg});
+    out.send(messages::GliderNavVelocityD{.velocity_down_mps = velocity.z(),
+                                          .time_of_validity_us = wrap_us(t_us)});
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream stream_;
+  world::Stream losses_;  // of their own: they change no measurement
+  double period_s_;
+  world::CorrelatedNoise velocity_;
+  world::CorrelatedNoise rates_;
+  world::CorrelatedNoise attitude_;
+};
+
 }  // namespace
 
-GliderNav::GliderNav(const world::GlideRecord& glide, const scenario::GliderNav& config, world::Stream stream,
-                     world::Stream losses, std::int64_t end_us)
-    : glide_(glide),
-      config_(config),
-      stream_(stream),
-      losses_(losses),
-      period_s_(1e-6 * static_cast<double>(period_us(config))),
-      sampling_(period_us(config), config.schedule.latency_us, end_us),
-      velocity_(config.correlated_fraction, config.correlation_time, stream_),
-      rates_(config.correlated_fraction, config.correlation_time, stream_),
-      attitude_(config.correlated_fraction, config.correlation_time, stream_) {}
-
-void GliderNav::transmit(Transmission& out) {
-  const std::int64_t t_us = sampling_.valid_us();
-  const world::GlideTruth& truth = glide_.at(t_us);
-  const Vector3 velocity = truth.v_eb_n + config_.velocity_noise * velocity_.next(period_s_, stream_);
-  const Vector3 rates = truth.omega_nb_b + config_.rate_noise * rates_.next(period_s_, stream_);
-  const Vector3 turn = config_.attitude_noise * attitude_.next(period_s_, stream_);
-  const world::Euler angles = world::euler_from(truth.C_bn);
-  out.send(messages::GliderNavVelocityNE{
-      .velocity_north_mps = velocity.x(), .velocity_east_mps = velocity.y(), .height_m = truth.height});
-  out.send(messages::GliderNavAttitude{.roll_deg = angle_deg(angles.roll + turn.x()),
-                                       .pitch_deg = angle_deg(angles.pitch + turn.y()),
-                                       .heading_deg = angle_deg(angles.heading + turn.z()),
-                                       .navigation_validity = messages::Validity::valid});
-  out.send(messages::GliderNavRates{
-      .rate_x_degps = rates.x() / deg, .rate_y_degps = rates.y() / deg, .rate_z_degps = rates.z() / deg});
-  out.send(GliderNavVelocityD{.velocity_down_mps = velocity.z(), .time_of_validity_us = wrap_us(t_us)});
-  if (is_lost(config_.loss, t_us, losses_)) out.clear();  // counted as sent: the receiver sees the gap
-  sampling_.advance();
-}
+constinit const Kind glider_nav{.table = {.key = "glider_nav",
+                                          .closes = messages::GliderNavVelocityD::info,
+                                          .samples = scenario::TruthOf::glide,
+                                          .read = read,
+                                          .needed = needed},
+                                .make = make<GliderNav>};
 
 }  // namespace canhil::nodes

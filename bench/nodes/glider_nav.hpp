@@ -1,34 +1,23 @@
-// The GPS/INS of the glider.
+// The GPS/INS of the glider. Sends the group GliderNav: ground velocity, attitude, rates and height.
 #pragma once
 
-#include "bench/nodes/node.hpp"
-#include "bench/scenario/glider_nav.hpp"
-#include "bench/world/correlated_noise.hpp"
-#include "bench/world/glide/glide.hpp"
+#include "bench/nodes/sample_loss.hpp"
+#include "bench/scenario/schedule.hpp"
 
 namespace canhil::nodes {
 
-/// Sends the group GliderNav: ground velocity, attitude, rates and height, with their time of validity. The
-/// record must outlive the node.
-class GliderNav final : public Node {
- public:
-  /// The run may end before the record does.
-  GliderNav(const world::GlideRecord& glide, const scenario::GliderNav& config, world::Stream stream,
-            world::Stream losses, std::int64_t end_us);
-
-  [[nodiscard]] std::int64_t due_us() const override { return sampling_.due_us(); }
-  void transmit(Transmission& out) override;
-
- private:
-  const world::GlideRecord& glide_;
-  scenario::GliderNav config_;
-  world::Stream stream_;
-  world::Stream losses_;
-  double period_s_;
-  Sampling sampling_;
-  world::CorrelatedNoise velocity_;
-  world::CorrelatedNoise rates_;
-  world::CorrelatedNoise attitude_;
+/// The table [glider_nav].
+struct GliderNavSettings {
+  scenario::Schedule schedule{};
+  double velocity_noise = 0;  ///< 1-sigma of each component, NED [m/s]
+  double rate_noise = 0;      ///< body [rad/s]
+  double attitude_noise = 0;  ///< roll, pitch, heading [rad]
+  /// Share of the variance that is a first-order Gauss-Markov process; the rest is white.
+  double correlated_fraction = 0;
+  double correlation_time = 60;  ///< [s]
+  SampleLoss loss{};
 };
+
+extern const struct Kind glider_nav;
 
 }  // namespace canhil::nodes

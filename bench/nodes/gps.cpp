@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/nodes/sampler.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
@@ -14,33 +15,52 @@ using world::units::deg;
 
 constexpr std::uint8_t satellites = 9;  // the error model knows no constellation
 
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  GpsSettings node;
+  node.schedule = read_schedule(section);
+  node.bias = {.value = section.three("bias_m"), .sigma = section.three("bias_sigma_m", sigma)};
+  node.noise = section.three("noise_m", sigma);
+  if (section.has("lowest_height_m")) node.lowest_height = section.number("lowest_height_m", Limits{});
+  section.optional("lowest_height_m");
+  node.faults = read_fix_faults(section);
+  return {table, node};
+}
+
+class Gps final : public Sampler<GpsSettings> {
+ public:
+  Gps(const NodeSettings& node, const Run& run)
+      : Sampler(node, run), stream_(run.stream("gps")), bias_(draw(config_.bias, stream_)) {}
+
+ private:
+  bool sample(std::int64_t t_us, Transmission& out) override {
+    const world::Position truth = run_.flight.at(t_us).position;
+    const Vector3 noise = config_.noise.cwiseProduct(stream_.normal3());
+    const Fate fate = draw_fate(config_.faults, t_us, stream_);
+    const bool valid = !fate.invalid && !(config_.lowest_height && truth.height < *config_.lowest_height);
+    const world::Position measured =
+        valid ? displaced(truth, bias_ + noise + fate.jump) : world::Position{};  // nothing to be had from it
+    out.send(messages::GpsLatitude{.latitude_deg = measured.latitude / deg, .height_m = measured.height});
+    out.send(messages::GpsLongitude{.longitude_deg = world::longitude_deg(measured),
+                                    .satellites = valid ? satellites : std::uint8_t{0},
+                                    .position_validity = valid ? Validity::valid : Validity::invalid});
+    out.send(messages::GpsTime{.horizontal_sigma_m = std::max(config_.noise.x(), config_.noise.y()),
+                               .vertical_sigma_m = config_.noise.z(),
+                               .time_of_validity_us = wrap_us(t_us)});
+    return !fate.lost;
+  }
+
+  world::Stream stream_;
+  Vector3 bias_;
+};
+
 }  // namespace
 
-Gps::Gps(const world::FlightRecord& flight, const scenario::Gps& config, world::Stream stream)
-    : flight_(flight),
-      config_(config),
-      stream_(stream),
-      bias_(draw(config.bias, stream_)),
-      sampling_(config.schedule.period_us.value_or(messages::GpsTime::info.cycle_time_us),
-                config.schedule.latency_us, flight.end_us()) {}
-
-void Gps::transmit(Transmission& out) {
-  const std::int64_t t_us = sampling_.valid_us();
-  const world::Position truth = flight_.at(t_us).position;
-  const Vector3 noise = config_.noise.cwiseProduct(stream_.normal3());
-  const Fate fate = draw_fate(config_.faults, t_us, stream_);
-  const bool valid = !fate.invalid && !(config_.lowest_height && truth.height < *config_.lowest_height);
-  const world::Position measured =
-      valid ? displaced(truth, bias_ + noise + fate.jump) : world::Position{};  // nothing to be had from it
-  out.send(messages::GpsLatitude{.latitude_deg = measured.latitude / deg, .height_m = measured.height});
-  out.send(messages::GpsLongitude{.longitude_deg = world::longitude_deg(measured),
-                                  .satellites = valid ? satellites : std::uint8_t{0},
-                                  .position_validity = valid ? Validity::valid : Validity::invalid});
-  out.send(messages::GpsTime{.horizontal_sigma_m = std::max(config_.noise.x(), config_.noise.y()),
-                             .vertical_sigma_m = config_.noise.z(),
-                             .time_of_validity_us = wrap_us(t_us)});
-  if (fate.lost) out.clear();  // counted as sent: the receiver sees the gap
-  sampling_.advance();
-}
+constinit const Kind gps{.table = {.key = "gps",
+                                   .closes = messages::GpsTime::info,
+                                   .samples = scenario::TruthOf::navigation,
+                                   .read = read,
+                                   .aid = scenario::Aid{.aiding = 1, .lost = lost_fixes<GpsSettings>}},
+                         .make = make<Gps>};
 
 }  // namespace canhil::nodes

@@ -1,27 +1,23 @@
-// The vehicle's GPS receiver.
+// The vehicle's GPS receiver. Sends the group Gps; under water it says that it has no fix.
 #pragma once
 
+#include <optional>
+
 #include "bench/nodes/fix_faults.hpp"
-#include "bench/nodes/node.hpp"
-#include "bench/scenario/gps.hpp"
-#include "bench/world/flight_record.hpp"
+#include "bench/scenario/schedule.hpp"
+#include "bench/world/stream.hpp"
 
 namespace canhil::nodes {
 
-/// Sends the group Gps; under water it says that it has no fix. The record must outlive the node.
-class Gps final : public Node {
- public:
-  Gps(const world::FlightRecord& flight, const scenario::Gps& config, world::Stream stream);
-
-  [[nodiscard]] std::int64_t due_us() const override { return sampling_.due_us(); }
-  void transmit(Transmission& out) override;
-
- private:
-  const world::FlightRecord& flight_;
-  scenario::Gps config_;
-  world::Stream stream_;
-  world::Vector3 bias_;
-  Sampling sampling_;
+/// The table [gps].
+struct GpsSettings {
+  scenario::Schedule schedule{};
+  world::RandomConstant bias{};                   ///< NED [m]
+  world::Vector3 noise = world::Vector3::Zero();  ///< 1-sigma a fix, NED [m]
+  std::optional<double> lowest_height{};  ///< no valid fix below this height: the antenna is under water [m]
+  FixFaults faults{};
 };
+
+extern const struct Kind gps;
 
 }  // namespace canhil::nodes

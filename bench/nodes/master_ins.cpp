@@ -1,39 +1,63 @@
 #include "bench/nodes/master_ins.hpp"
 
-#include "bench/nodes/sample_loss.hpp"
+#include "bench/nodes/sampler.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
+namespace {
 
 using world::units::deg;
 
-MasterIns::MasterIns(const world::FlightRecord& flight, const scenario::MasterIns& config,
-                     world::Stream stream, world::Stream losses)
-    : flight_(flight),
-      errors_(config.errors),
-      loss_(config.loss),
-      stream_(stream),
-      losses_(losses),
-      sampling_(config.schedule.period_us.value_or(messages::MasterInsVelocityD::info.cycle_time_us),
-                config.schedule.latency_us, flight.end_us()) {}
+bool needed(const scenario::Scenario& scenario) { return scenario.runs("transfer_alignment"); }
 
-void MasterIns::transmit(Transmission& out) {
-  const world::NavigationSolution solution = measure(flight_.at(sampling_.valid_us()), errors_, stream_);
-  const world::Euler angles = world::euler_from(solution.C_bn);
-  out.send(messages::MasterInsVelocityNE{.velocity_north_mps = solution.v_eb_n.x(),
-                                         .velocity_east_mps = solution.v_eb_n.y(),
-                                         .velocity_validity = messages::Validity::valid});
-  out.send(messages::MasterInsAttitude{
-      .roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg});
-  out.send(messages::MasterInsLatitude{.latitude_deg = solution.position.latitude / deg,
-                                       .height_m = solution.position.height});
-  out.send(messages::MasterInsLongitude{.longitude_deg = world::longitude_deg(solution.position)});
-  out.send(messages::MasterInsVelocityD{.velocity_down_mps = solution.v_eb_n.z(),
-                                        .time_of_validity_us = wrap_us(sampling_.valid_us())});
-  if (is_lost(loss_, sampling_.valid_us(), losses_))
-    out.clear();  // counted as sent: the receiver sees the gap
-  sampling_.advance();
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  MasterInsSettings node;
+  node.schedule = read_schedule(section);
+  node.errors = {.position = {.value = section.three("position_bias_m"),
+                              .sigma = section.three("position_noise_m", sigma)},
+                 .velocity = {.value = section.three("velocity_bias_mps"),
+                              .sigma = section.three("velocity_noise_mps", sigma)},
+                 .attitude = {.value = section.three("attitude_bias_deg", Limits::between(-180, 180)),
+                              .sigma = section.three("attitude_noise_deg", Limits::between(0, 180))}};
+  node.loss = read_sample_loss(section);
+  return {table, node};
 }
+
+class MasterIns final : public Sampler<MasterInsSettings> {
+ public:
+  MasterIns(const NodeSettings& node, const Run& run)
+      : Sampler(node, run), stream_(run.stream("master_ins")), losses_(run.stream("master_ins.loss")) {}
+
+ private:
+  bool sample(std::int64_t t_us, Transmission& out) override {
+    const world::NavigationSolution solution = measure(run_.flight.at(t_us), config_.errors, stream_);
+    const world::Euler angles = world::euler_from(solution.C_bn);
+    out.send(messages::MasterInsVelocityNE{.velocity_north_mps = solution.v_eb_n.x(),
+                                           .velocity_east_mps = solution.v_eb_n.y(),
+                                           .velocity_validity = messages::Validity::valid});
+    out.send(messages::MasterInsAttitude{
+        .roll_deg = angles.roll / deg, .pitch_deg = angles.pitch / deg, .heading_deg = angles.heading / deg});
+    out.send(messages::MasterInsLatitude{.latitude_deg = solution.position.latitude / deg,
+                                         .height_m = solution.position.height});
+    out.send(messages::MasterInsLongitude{.longitude_deg = world::longitude_deg(solution.position)});
+    out.send(messages::MasterInsVelocityD{.velocity_down_mps = solution.v_eb_n.z(),
+                                          .time_of_validity_us = wrap_us(t_us)});
+    return !is_lost(config_.loss, t_us, losses_);
+  }
+
+  world::Stream stream_;
+  world::Stream losses_;  // of their own: they change no measurement
+};
+
+}  // namespace
+
+constinit const Kind master_ins{.table = {.key = "master_ins",
+                                          .closes = messages::MasterInsVelocityD::info,
+                                          .samples = scenario::TruthOf::navigation,
+                                          .read = read,
+                                          .needed = needed},
+                                .make = make<MasterIns>};
 
 }  // namespace canhil::nodes

@@ -34,24 +34,4 @@ class Node {
   virtual void hear(const Frame& /*frame*/) {}
 };
 
-/// A periodic sampler with a transmission delay: sample k is valid at k*period and sent `latency` later, if
-/// that is before the end of the run: after its last Sync nobody would hear of the answer.
-class Sampling {
- public:
-  constexpr Sampling(std::int64_t period_us, std::int64_t latency_us, std::int64_t end_us)
-      : period_us_(period_us), latency_us_(latency_us), end_us_(end_us), valid_us_(period_us) {}
-  [[nodiscard]] constexpr std::int64_t due_us() const {
-    const std::int64_t due_us = valid_us_ + latency_us_;
-    return due_us > end_us_ ? never_us : due_us;
-  }
-  [[nodiscard]] constexpr std::int64_t valid_us() const { return valid_us_; }
-  constexpr void advance() { valid_us_ += period_us_; }
-
- private:
-  std::int64_t period_us_;
-  std::int64_t latency_us_;
-  std::int64_t end_us_;
-  std::int64_t valid_us_;
-};
-
 }  // namespace canhil::nodes

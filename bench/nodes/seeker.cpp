@@ -1,6 +1,17 @@
 #include "bench/nodes/seeker.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <deque>
+#include <type_traits>
+
+#include "bench/nodes/increment_rounding.hpp"
 #include "bench/nodes/is_whole.hpp"
+#include "bench/nodes/kind.hpp"
+#include "bench/nodes/wire_limits.hpp"
+#include "bench/world/engagement/engagement.hpp"
+#include "dbc/wire/sample_group.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
@@ -15,25 +26,120 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
          outcome == LosRateOutcome::updated || outcome == LosRateOutcome::coasting;
 }
 
-}  // namespace
-
-Seeker::Seeker(const world::EngagementPlan& plan, const scenario::Seeker& config,
-               const SeekerStreams& streams, std::int64_t end_us, world::EngagementRecord& record)
-    : engagement_(plan, streams.engagement),
-      errors_(config.errors, streams.errors),
-      config_(config),
-      faults_(streams.faults),
-      guided_(plan.guidance == world::Guidance::target),
-      guidance_delay_us_(plan.guidance_delay_us),
-      period_us_(config.schedule.period_us.value_or(SeekerRange::info.cycle_time_us)),
-      end_us_(end_us),
-      record_(record),
-      valid_us_(0),
-      rounding_(SeekerAntenna::signals()[0]) {
-  advance();
+// KEY and KEY with _sigma before the unit: a given value and what each run draws beside it.
+world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
+                                 double sigma) {
+  return {.value = section.number(key, Limits{}, 0),
+          .sigma = section.number(sigma_key, Limits::at_least(0), sigma)};
 }
 
-std::int64_t Seeker::due_us() const { return engagement_.over() || due_us_ > end_us_ ? never_us : due_us_; }
+world::SeekerErrorModel read_errors(Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  return {.thermal = section.number("thermal_noise_radpm2", sigma, 1e-10),
+          .glint = section.number("glint_noise_m", sigma, 0.5),
+          .glint_correlation = section.number("glint_correlation_ms", sigma, 0),
+          .constant = section.number("constant_noise_mrad", sigma, 0),
+          .gyro_noise = section.number("gyro_noise_mradps", sigma, 1),
+          .gyro_bias = read_constant(section, "gyro_bias_mradps", "gyro_bias_sigma_mradps", 0.5),
+          .accel_noise = section.number("accel_noise_mps2", sigma, 0.3),
+          .accel_bias = read_constant(section, "accel_bias_mps2", "accel_bias_sigma_mps2", 0.2),
+          .range_noise = section.number("range_noise_m", sigma, 5),
+          .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", 15),
+          .full_errors_beyond = section.number("range_errors_full_beyond_m", Limits::above(0), 1000),
+          .closing_speed_noise = section.number("closing_speed_noise_mps", sigma, 3),
+          .closing_speed_bias =
+              read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps", 5),
+          .field_of_view = section.number("field_of_view_deg", Limits::above(0, 37), 8)};
+}
+
+bool needed(const scenario::Scenario& scenario) {
+  return scenario.engagement.has_value() || scenario.runs("los_rate");
+}
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits share = Limits::between(0, 100);
+  SeekerSettings node;
+  node.schedule = read_schedule(section);
+  node.jitter_us = section.time_us("jitter_ms", Limits::between(0, 1000), 0);
+  node.errors = read_errors(section);
+  node.loss_probability = section.number("loss_percent", share, 0);
+  node.invalid_probability = section.number("invalid_percent", share, 0);
+  node.invalid_range_probability = section.number("invalid_range_percent", share, 0);
+  node.blackout_us = section.optional_interval_us("blackout_s", Limits::at_least(0));
+  return {table, node};
+}
+
+Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
+                  const world::FlightRecord& /*flight*/) {
+  const world::EngagementPlan& engagement = *scenario.engagement;
+  const std::int64_t interval_us = node.period_us();
+  if (auto told = check_interval("key 'seeker.period_ms': seeker interval", interval_us, SeekerAngles::info,
+                                 SeekerAngles::signals());
+      !told)
+    return told;
+  const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
+  const SignalInfo& signal = SeekerAntenna::signals()[0];
+  if (roll > signal.maximum) return failure(misfit("roll increment", roll, SeekerAntenna::info, signal));
+  // In lockstep answers take a cycle of Sync to be heard.
+  const std::int64_t least_us = Sync::info.cycle_time_us;
+  if (engagement.guidance == world::Guidance::target && engagement.guidance_delay_us < least_us) {
+    return failure(fmt::format(
+        "key 'engagement.guidance_delay_ms': {:g} is less than the bus takes in "
+        "lockstep, expected at least {:g}, the cycle of Sync",
+        1e-3 * static_cast<double>(engagement.guidance_delay_us), 1e-3 * static_cast<double>(least_us)));
+  }
+  return {};
+}
+
+// With guidance on the target's answers, that to a sample sent at t takes effect at t + the guidance delay,
+// however early it was heard: with a delay of a Sync cycle every bus and clock gives the same flight.
+class Seeker final : public Node {
+ public:
+  Seeker(const NodeSettings& node, const Run& run)
+      : run_(run),
+        engagement_(*run.scenario.engagement, run.stream("engagement")),
+        errors_(node.own<SeekerSettings>()->errors, run.stream("seeker")),
+        config_(*node.own<SeekerSettings>()),
+        faults_(run.stream("seeker.faults")),
+        guided_(run.scenario.engagement->guidance == world::Guidance::target),
+        period_us_(node.period_us()),
+        rounding_(SeekerAntenna::signals()[0]) {
+    advance();
+  }
+
+  [[nodiscard]] std::int64_t due_us() const override {
+    return engagement_.over() || due_us_ > run_.flight.end_us() ? never_us : due_us_;
+  }
+  void transmit(Transmission& out) override;
+  [[nodiscard]] bool listens() const override { return guided_; }
+  void hear(const Frame& frame) override;
+
+ private:
+  /// A sample whose answer may still come.
+  struct Sent {
+    std::int64_t valid_us = 0;
+    std::int64_t sent_us = 0;
+    world::Matrix3 C_na;
+    double closing_speed = 0;  ///< as measured [m/s]
+  };
+
+  void send(Transmission& out, const world::SeekerMeasurement& measured);
+  void advance();
+  void steer();
+
+  Run run_;
+  world::Engagement engagement_;
+  world::ErroneousSeeker errors_;
+  SeekerSettings config_;
+  world::Stream faults_;  // losses and jitter: they change no measurement
+  bool guided_;
+  std::int64_t period_us_;
+  std::int64_t valid_us_ = 0;
+  std::int64_t due_us_ = 0;
+  IncrementRounding rounding_;
+  std::deque<Sent> sent_;
+  SampleGroup<LosRateEstimate, LosRateSigma, LosRateTarget> answer_;
+};
 
 // Sent in the order of sampling, whatever the jitter is.
 void Seeker::advance() {
@@ -46,12 +152,12 @@ void Seeker::transmit(Transmission& out) {
   engagement_.fly_to(valid_us_);
   const world::SeekerIncrement increment = engagement_.take_increment();
   if (engagement_.over()) {
-    record_.miss_n = engagement_.miss_n();
-    record_.passage_us = engagement_.t_us();
+    run_.engagement->miss_n = engagement_.miss_n();
+    run_.engagement->passage_us = engagement_.t_us();
     return;
   }
   const world::EngagementTruth now = engagement_.truth();
-  record_.epochs.push_back(now);
+  run_.engagement->epochs.push_back(now);
   const world::SeekerMeasurement measured = errors_.measure(now, increment);
   send(out, measured);
   if (guided_) {
@@ -111,9 +217,19 @@ void Seeker::steer() {
   if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // guidance holds its command
   const Sent& sample = sent_.front();
   const world::Vector3 omega_los_a(0, estimate.los_rate_pitch_radps, estimate.los_rate_yaw_radps);
-  const bool in_time = engagement_.command(sample.sent_us + guidance_delay_us_, sample.C_na * omega_los_a,
-                                           sample.closing_speed);
-  if (!in_time) ++record_.late_commands;
+  const bool in_time = engagement_.command(sample.sent_us + run_.scenario.engagement->guidance_delay_us,
+                                           sample.C_na * omega_los_a, sample.closing_speed);
+  if (!in_time) ++run_.engagement->late_commands;
 }
+
+}  // namespace
+
+constinit const Kind seeker{.table = {.key = "seeker",
+                                      .closes = messages::SeekerRange::info,
+                                      .samples = scenario::TruthOf::engagement,
+                                      .read = read,
+                                      .needed = needed},
+                            .make = make<Seeker>,
+                            .fits = fits};
 
 }  // namespace canhil::nodes

@@ -1,5 +1,15 @@
 #include "bench/nodes/slave_imu.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "bench/nodes/increment_rounding.hpp"
+#include "bench/nodes/sampler.hpp"
+#include "bench/nodes/wire_limits.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
@@ -12,36 +22,142 @@ using messages::Validity;
 
 constexpr std::int8_t temperature_degc = 25;  // the error model knows no temperature
 
+bool needed(const scenario::Scenario& scenario) {
+  return scenario.runs("transfer_alignment") || scenario.runs("inflight_alignment");
+}
+
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  SlaveImuSettings node;
+  node.schedule = read_schedule(section);
+  node.errors.gyro = {.bias = {.value = section.three("gyro_bias_degph"),
+                               .sigma = section.three("gyro_bias_sigma_degph", sigma)},
+                      .noise = section.three("gyro_noise_degprth", sigma),
+                      .scale_factor = {.value = section.three("gyro_scale_factor_ppm"),
+                                       .sigma = section.three("gyro_scale_factor_sigma_ppm", sigma)},
+                      .misalignment_sigma = section.number("gyro_misalignment_sigma_mrad", sigma, 0)};
+  node.errors.accel = {
+      .bias = {.value = section.three("accel_bias_ug"), .sigma = section.three("accel_bias_sigma_ug", sigma)},
+      .noise = section.three("accel_noise_ugprthz", sigma),
+      .scale_factor = {.value = section.three("accel_scale_factor_ppm"),
+                       .sigma = section.three("accel_scale_factor_sigma_ppm", sigma)},
+      .misalignment_sigma = section.number("accel_misalignment_sigma_mrad", sigma, 0)};
+  node.loss_probability = section.number("loss_percent", Limits::between(0, 100), 0);
+  return {table, node};
+}
+
+// What a sample of one axis is made of, in the order of `parts_of`: names for messages.
+using Names = std::array<std::string_view, 7>;
+constexpr Names gyro_parts{"the flight",
+                           "'slave_imu.gyro_bias_degph'",
+                           "'slave_imu.gyro_bias_sigma_degph'",
+                           "'slave_imu.gyro_noise_degprth'",
+                           "'slave_imu.gyro_scale_factor_ppm'",
+                           "'slave_imu.gyro_scale_factor_sigma_ppm'",
+                           "'slave_imu.gyro_misalignment_sigma_mrad'"};
+constexpr Names accel_parts{"the flight",
+                            "'slave_imu.accel_bias_ug'",
+                            "'slave_imu.accel_bias_sigma_ug'",
+                            "'slave_imu.accel_noise_ugprthz'",
+                            "'slave_imu.accel_scale_factor_ppm'",
+                            "'slave_imu.accel_scale_factor_sigma_ppm'",
+                            "'slave_imu.accel_misalignment_sigma_mrad'"};
+
+// Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt), random ones at six sigma. A row of M has
+// two misalignments: the sigma of their sum is that of one, times the length of the other two components.
+std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world::Vector3& exact, int axis,
+                               double dt) {
+  constexpr double certain = 6;
+  const double along = std::abs(exact[axis]);
+  const double across = std::sqrt(std::max(0.0, exact.squaredNorm() - along * along));
+  return {along,
+          std::abs(model.bias.value[axis]) * dt,
+          certain * model.bias.sigma[axis] * dt,
+          certain * model.noise[axis] * std::sqrt(dt),
+          std::abs(model.scale_factor.value[axis]) * along,
+          certain * model.scale_factor.sigma[axis] * along,
+          certain * model.misalignment_sigma * across};
+}
+
+// The first three signals of a message of increments are its axes.
+template <class Message>
+std::string check_triad(const Names& names, const world::TriadErrorModel& model,
+                        const world::FlightRecord& truth, world::Vector3 world::ImuIncrement::*delta) {
+  const double dt = 1e-6 * static_cast<double>(truth.interval_us());
+  for (const world::ImuIncrement& exact : truth.increments()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const SignalInfo& signal = Message::signals()[static_cast<std::size_t>(axis)];
+      const auto parts = parts_of(model, exact.*delta, axis, dt);
+      const double reach = std::reduce(parts.begin(), parts.end());
+      if (reach <= std::min(-signal.minimum, signal.maximum)) continue;
+      const auto largest = std::ranges::max_element(parts) - parts.begin();
+      return misfit(fmt::format("{} (largest part): an IMU increment of up to",
+                                names[static_cast<std::size_t>(largest)]),
+                    reach, Message::info, signal);
+    }
+  }
+  return {};
+}
+
+Result<void> fits(const NodeSettings& node, const scenario::Scenario& /*scenario*/,
+                  const world::FlightRecord& flight) {
+  if (auto told = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
+                                 SlaveImuStatus::signals());
+      !told)
+    return told;
+  const world::ImuErrorModel& imu = node.own<SlaveImuSettings>()->errors;
+  std::string wrong =
+      check_triad<SlaveImuDeltaTheta>(gyro_parts, imu.gyro, flight, &world::ImuIncrement::delta_theta);
+  if (wrong.empty())
+    wrong = check_triad<SlaveImuDeltaV>(accel_parts, imu.accel, flight, &world::ImuIncrement::delta_v);
+  if (wrong.empty()) return {};
+  return failure(std::move(wrong));
+}
+
+class SlaveImu final : public Sampler<SlaveImuSettings> {
+ public:
+  SlaveImu(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        imu_(config_.errors, run.stream("slave_imu")),
+        losses_(run.stream("slave_imu.loss")),
+        theta_rounding_(SlaveImuDeltaTheta::signals()[0]),
+        velocity_rounding_(SlaveImuDeltaV::signals()[0]) {}
+
+ private:
+  bool sample(std::int64_t /*t_us*/, Transmission& out) override {
+    const world::ImuIncrement measured = imu_.measure(run_.flight.increments()[next_++]);
+    const world::Vector3 delta_theta = theta_rounding_.round(measured.delta_theta, out.rounding());
+    const world::Vector3 delta_v = velocity_rounding_.round(measured.delta_v, out.rounding());
+    out.send(SlaveImuDeltaTheta{.delta_theta_x_rad = delta_theta.x(),
+                                .delta_theta_y_rad = delta_theta.y(),
+                                .delta_theta_z_rad = delta_theta.z(),
+                                .gyro_validity = Validity::valid});
+    out.send(SlaveImuDeltaV{.delta_v_x_mps = delta_v.x(),
+                            .delta_v_y_mps = delta_v.y(),
+                            .delta_v_z_mps = delta_v.z(),
+                            .accel_validity = Validity::valid});
+    out.send(SlaveImuStatus{.time_of_validity_us = wrap_us(measured.t_us),
+                            .interval_us = static_cast<double>(measured.interval_us),
+                            .temperature_degc = temperature_degc});
+    return losses_.uniform() >= config_.loss_probability;
+  }
+
+  world::ErroneousImu imu_;
+  world::Stream losses_;  // of their own: they change no measurement
+  std::size_t next_ = 0;
+  IncrementRounding theta_rounding_;
+  IncrementRounding velocity_rounding_;
+};
+
 }  // namespace
 
-SlaveImu::SlaveImu(const world::FlightRecord& flight, const scenario::SlaveImu& config, world::Stream stream,
-                   world::Stream losses)
-    : flight_(flight),
-      imu_(config.errors, stream),
-      losses_(losses),
-      loss_probability_(config.loss_probability),
-      sampling_(flight.interval_us(), config.schedule.latency_us, flight.end_us()),
-      theta_rounding_(SlaveImuDeltaTheta::signals()[0]),
-      velocity_rounding_(SlaveImuDeltaV::signals()[0]) {}
-
-void SlaveImu::transmit(Transmission& out) {
-  const world::ImuIncrement measured = imu_.measure(flight_.increments()[next_]);
-  const world::Vector3 delta_theta = theta_rounding_.round(measured.delta_theta, out.rounding());
-  const world::Vector3 delta_v = velocity_rounding_.round(measured.delta_v, out.rounding());
-  out.send(SlaveImuDeltaTheta{.delta_theta_x_rad = delta_theta.x(),
-                              .delta_theta_y_rad = delta_theta.y(),
-                              .delta_theta_z_rad = delta_theta.z(),
-                              .gyro_validity = Validity::valid});
-  out.send(SlaveImuDeltaV{.delta_v_x_mps = delta_v.x(),
-                          .delta_v_y_mps = delta_v.y(),
-                          .delta_v_z_mps = delta_v.z(),
-                          .accel_validity = Validity::valid});
-  out.send(SlaveImuStatus{.time_of_validity_us = wrap_us(measured.t_us),
-                          .interval_us = static_cast<double>(measured.interval_us),
-                          .temperature_degc = temperature_degc});
-  if (losses_.uniform() < loss_probability_) out.clear();  // counted as sent: the receiver sees the gap
-  ++next_;
-  sampling_.advance();
-}
+constinit const Kind slave_imu{.table = {.key = "slave_imu",
+                                         .closes = messages::SlaveImuStatus::info,
+                                         .samples = scenario::TruthOf::navigation,
+                                         .read = read,
+                                         .needed = needed},
+                               .make = make<SlaveImu>,
+                               .fits = fits,
+                               .at_every_epoch = true};
 
 }  // namespace canhil::nodes

@@ -1,46 +1,77 @@
 #include "bench/nodes/ssbl.hpp"
 
+#include "bench/nodes/sampler.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
+namespace {
 
 using messages::Validity;
 using world::Vector3;
 using world::units::deg;
 
-Ssbl::Ssbl(const world::FlightRecord& flight, const scenario::Ssbl& config, world::Stream stream)
-    : flight_(flight),
-      config_(config),
-      stream_(stream),
-      ship_error_(draw(config.ship_error, stream_)),
-      bias_(draw(config.bias, stream_)),
-      sampling_(config.schedule.period_us.value_or(messages::SsblRelativeD::info.cycle_time_us),
-                config.schedule.latency_us, flight.end_us()) {}
-
-void Ssbl::transmit(Transmission& out) {
-  const std::int64_t t_us = sampling_.valid_us();
-  const Vector3 way = config_.ship_offset + 1e-6 * static_cast<double>(t_us) * config_.ship_velocity;
-  const world::Position ship = displaced(flight_.epochs().front().position, way);
-  const Vector3 relative = displacement_n(ship, flight_.at(t_us).position);
-
-  // Angles have errors in proportion to the range: added as independent of the rest.
-  const Vector3 range_noise = Vector3::Constant(config_.range_noise * relative.norm());
-  const Vector3 sigma = (config_.noise.array().square() + range_noise.array().square()).sqrt();
-  const Vector3 noise = sigma.cwiseProduct(stream_.normal3());
-  const Fate fate = draw_fate(config_.faults, t_us, stream_);
-  Vector3 measured = relative + bias_ + noise + fate.jump;
-  if (fate.invalid) measured.setZero();  // nothing to be had from it
-  const world::Position reported = displaced(ship, ship_error_);
-  out.send(messages::SsblRelativeNE{.relative_north_m = measured.x(),
-                                    .relative_east_m = measured.y(),
-                                    .position_validity = fate.invalid ? Validity::invalid : Validity::valid});
-  out.send(messages::SsblShipLatitude{.latitude_deg = reported.latitude / deg, .height_m = reported.height});
-  out.send(messages::SsblShipLongitude{.longitude_deg = world::longitude_deg(reported),
-                                       .relative_sigma_m = sigma.maxCoeff()});
-  out.send(messages::SsblRelativeD{.relative_down_m = measured.z(), .time_of_validity_us = wrap_us(t_us)});
-  if (fate.lost) out.clear();  // counted as sent: the receiver sees the gap
-  sampling_.advance();
+NodeSettings read(const NodeTable& table, Section& section) {
+  const Limits sigma = Limits::at_least(0);
+  SsblSettings node;
+  node.schedule = read_schedule(section);
+  node.ship_offset = section.three("ship_offset_m", Limits::between(-5'000, 5'000));
+  node.ship_velocity = section.three("ship_velocity_mps", Limits::between(-50, 50));
+  node.ship_error = {.value = section.three("ship_error_m"),
+                     .sigma = section.three("ship_error_sigma_m", sigma)};
+  node.bias = {.value = section.three("bias_m"), .sigma = section.three("bias_sigma_m", sigma)};
+  node.noise = section.three("noise_m", sigma);
+  node.range_noise = section.number("range_noise_percent", Limits::between(0, 100), 0);
+  node.faults = read_fix_faults(section);
+  return {table, node};
 }
+
+class Ssbl final : public Sampler<SsblSettings> {
+ public:
+  Ssbl(const NodeSettings& node, const Run& run)
+      : Sampler(node, run),
+        stream_(run.stream("ssbl")),
+        ship_error_(draw(config_.ship_error, stream_)),
+        bias_(draw(config_.bias, stream_)) {}
+
+ private:
+  bool sample(std::int64_t t_us, Transmission& out) override {
+    const Vector3 way = config_.ship_offset + 1e-6 * static_cast<double>(t_us) * config_.ship_velocity;
+    const world::Position ship = displaced(run_.flight.epochs().front().position, way);
+    const Vector3 relative = displacement_n(ship, run_.flight.at(t_us).position);
+
+    // Angles have errors in proportion to the range: added as independent of the rest.
+    const Vector3 range_noise = Vector3::Constant(config_.range_noise * relative.norm());
+    const Vector3 sigma = (config_.noise.array().square() + range_noise.array().square()).sqrt();
+    const Vector3 noise = sigma.cwiseProduct(stream_.normal3());
+    const Fate fate = draw_fate(config_.faults, t_us, stream_);
+    Vector3 measured = relative + bias_ + noise + fate.jump;
+    if (fate.invalid) measured.setZero();  // nothing to be had from it
+    const world::Position reported = displaced(ship, ship_error_);
+    out.send(
+        messages::SsblRelativeNE{.relative_north_m = measured.x(),
+                                 .relative_east_m = measured.y(),
+                                 .position_validity = fate.invalid ? Validity::invalid : Validity::valid});
+    out.send(
+        messages::SsblShipLatitude{.latitude_deg = reported.latitude / deg, .height_m = reported.height});
+    out.send(messages::SsblShipLongitude{.longitude_deg = world::longitude_deg(reported),
+                                         .relative_sigma_m = sigma.maxCoeff()});
+    out.send(messages::SsblRelativeD{.relative_down_m = measured.z(), .time_of_validity_us = wrap_us(t_us)});
+    return !fate.lost;
+  }
+
+  world::Stream stream_;
+  Vector3 ship_error_;
+  Vector3 bias_;
+};
+
+}  // namespace
+
+constinit const Kind ssbl{.table = {.key = "ssbl",
+                                    .closes = messages::SsblRelativeD::info,
+                                    .samples = scenario::TruthOf::navigation,
+                                    .read = read,
+                                    .aid = scenario::Aid{.aiding = 0, .lost = lost_fixes<SsblSettings>}},
+                          .make = make<Ssbl>};
 
 }  // namespace canhil::nodes

@@ -1,32 +1,27 @@
-// Acoustic positioning from a moving reference ship.
+// Acoustic positioning from a moving reference ship. Sends the group Ssbl: where the vehicle is w.r.t. the
+// ship, and where the ship says that it is.
 #pragma once
 
 #include "bench/nodes/fix_faults.hpp"
-#include "bench/nodes/node.hpp"
-#include "bench/scenario/ssbl.hpp"
-#include "bench/world/flight_record.hpp"
+#include "bench/scenario/schedule.hpp"
+#include "bench/world/stream.hpp"
 
 namespace canhil::nodes {
 
-/// Sends the group Ssbl: where the vehicle is w.r.t. the ship, and where the ship says that it is. The record
-/// must outlive the node.
-class Ssbl final : public Node {
- public:
-  Ssbl(const world::FlightRecord& flight, const scenario::Ssbl& config, world::Stream stream);
-
-  [[nodiscard]] std::int64_t due_us() const override { return sampling_.due_us(); }
-  void transmit(Transmission& out) override;
-
-  /// The constant error of this run's fixes, ship and SSBL together, NED [m].
-  [[nodiscard]] world::Vector3 constant_error() const { return ship_error_ + bias_; }
-
- private:
-  const world::FlightRecord& flight_;
-  scenario::Ssbl config_;
-  world::Stream stream_;
-  world::Vector3 ship_error_;
-  world::Vector3 bias_;
-  Sampling sampling_;
+/// The table [ssbl].
+struct SsblSettings {
+  scenario::Schedule schedule{};
+  world::Vector3 ship_offset =
+      world::Vector3::Zero();  ///< of the ship from the vehicle at the start, NED [m]
+  world::Vector3 ship_velocity = world::Vector3::Zero();  ///< constant, NED [m/s]
+  world::RandomConstant ship_error{};                     ///< of the position that the ship reports, NED [m]
+  world::RandomConstant bias{};                           ///< of the relative position, NED [m]
+  world::Vector3 noise =
+      world::Vector3::Zero();  ///< 1-sigma a fix of the relative position at no range, NED [m]
+  double range_noise = 0;      ///< 1-sigma a fix and component, over the slant range
+  FixFaults faults{};
 };
+
+extern const struct Kind ssbl;
 
 }  // namespace canhil::nodes

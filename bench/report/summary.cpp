@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bench/estimators/registry.hpp"
+#include "bench/nodes/registry.hpp"
 
 namespace canhil::report {
 namespace {
@@ -91,19 +92,19 @@ std::vector<wire::BitRates> load_rates(const run::Run& run) {
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
-  const auto add = [&](const auto& node, const MessageInfo& info) {
-    if (!node || !node->schedule.period_us || *node->schedule.period_us == info.cycle_time_us) return;
-    lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", info.sample_group,
-                                static_cast<double>(*node->schedule.period_us) * 1e-3,
-                                static_cast<double>(info.cycle_time_us) * 1e-3));
+  const auto add = [&](const nodes::Kind* kind) {
+    const MessageInfo& closes = kind->table.closes;
+    const scenario::NodeSettings* node = scenario.node(kind->table.key);
+    if (node == nullptr || node->period_us() == closes.cycle_time_us) return;
+    lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", closes.sample_group,
+                                static_cast<double>(node->period_us()) * 1e-3,
+                                static_cast<double>(closes.cycle_time_us) * 1e-3));
   };
-  add(scenario.slave_imu, messages::SlaveImuStatus::info);
-  add(scenario.master_ins, messages::MasterInsVelocityD::info);
-  add(scenario.ssbl, messages::SsblRelativeD::info);
-  add(scenario.gps, messages::GpsTime::info);
-  add(scenario.seeker, messages::SeekerRange::info);
-  add(scenario.glider_nav, messages::GliderNavVelocityD::info);
-  add(scenario.fins, messages::FinDeflections::info);
+  for (const bool at_every_epoch : {true, false}) {  // first the period that is the truth's interval too
+    for (const nodes::Kind* kind : nodes::all()) {
+      if (kind->at_every_epoch == at_every_epoch) add(kind);
+    }
+  }
   return lines;
 }
 

@@ -2,6 +2,7 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/nodes/registry.hpp"
 #include "messages/canhil.hpp"
 #include "target/device/device.hpp"
 
@@ -39,6 +40,7 @@ scenario::Contract make_contract() {
                               .known = estimators::all(),
                               .former_check_kinds = checks::former_kinds()};
   contract.parameters_of = parameters_by_estimator();
+  contract.nodes = nodes::tables();
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);

@@ -2,15 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "bench/nodes/fins.hpp"
-#include "bench/nodes/glider_nav.hpp"
-#include "bench/nodes/gps.hpp"
-#include "bench/nodes/master_ins.hpp"
-#include "bench/nodes/seeker.hpp"
-#include "bench/nodes/slave_imu.hpp"
-#include "bench/nodes/ssbl.hpp"
+#include <algorithm>
+
+#include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
-#include "bench/run/wire_limits.hpp"
 
 namespace canhil::run {
 namespace {
@@ -51,6 +46,13 @@ Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_
   return own;
 }
 
+/// The period of the node that samples every epoch, whether it is on the bus or not.
+std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
+  const nodes::Kind& kind = **std::ranges::find_if(nodes::all(), &nodes::Kind::at_every_epoch);
+  const scenario::NodeSettings* node = scenario.node(kind.table.key);
+  return node == nullptr ? kind.table.closes.cycle_time_us : node->period_us();
+}
+
 }  // namespace
 
 estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us) {
@@ -61,17 +63,11 @@ estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& ow
 }
 
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
-  const std::int64_t cycle_us = messages::SlaveImuStatus::info.cycle_time_us;
-  const std::int64_t period_us =
-      scenario.slave_imu ? scenario.slave_imu->schedule.period_us.value_or(cycle_us) : cycle_us;
-  if (auto fits = check_fits_imu_interval(period_us); !fits) return tl::unexpected(fits.error());
-  world::FlightRecord truth(scenario.truth, scenario.duration_us, period_us);
-  if (scenario.slave_imu) {
-    if (auto fits = check_fits(scenario.slave_imu->errors, truth); !fits) return tl::unexpected(fits.error());
-  }
-  if (scenario.engagement && scenario.seeker) {
-    if (auto fits = check_fits(*scenario.engagement, *scenario.seeker); !fits)
-      return tl::unexpected(fits.error());
+  world::FlightRecord truth(scenario.truth, scenario.duration_us, epoch_interval_us(scenario));
+  for (const nodes::Kind* kind : nodes::all()) {
+    const scenario::NodeSettings* node = scenario.node(kind->table.key);
+    if (node == nullptr || kind->fits == nullptr) continue;
+    if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
   // What every run tells its target; its draws are checked run by run.
   for (const scenario::TargetSetup& target : scenario.targets) {
@@ -103,35 +99,12 @@ Result<Flight> make_flight(const scenario::Scenario& scenario, const world::Flig
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                        OwnTruth& own_truth, std::uint64_t run_index, bool lockstep, Rounding rounding) {
-  std::vector<std::unique_ptr<nodes::Node>> sensors;
-  const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
-  if (scenario.slave_imu) {
-    sensors.push_back(std::make_unique<nodes::SlaveImu>(truth, *scenario.slave_imu, stream("slave_imu"),
-                                                        stream("slave_imu.loss")));
-  }
-  if (scenario.master_ins) {
-    sensors.push_back(std::make_unique<nodes::MasterIns>(truth, *scenario.master_ins, stream("master_ins"),
-                                                         stream("master_ins.loss")));
-  }
-  if (scenario.ssbl) sensors.push_back(std::make_unique<nodes::Ssbl>(truth, *scenario.ssbl, stream("ssbl")));
-  if (scenario.gps) sensors.push_back(std::make_unique<nodes::Gps>(truth, *scenario.gps, stream("gps")));
-  // Fins first: the deflection of an instant is there when its navigation is whole.
-  if (own_truth.glide && scenario.fins) {
-    sensors.push_back(
-        std::make_unique<nodes::Fins>(*own_truth.glide, *scenario.fins, stream("fins.loss"), truth.end_us()));
-  }
-  if (own_truth.glide && scenario.glider_nav) {
-    sensors.push_back(std::make_unique<nodes::GliderNav>(*own_truth.glide, *scenario.glider_nav,
-                                                         stream("glider_nav"), stream("glider_nav.loss"),
-                                                         truth.end_us()));
-  }
-  if (own_truth.engagement && scenario.seeker) {
-    const nodes::SeekerStreams streams{
-        .engagement = stream("engagement"), .errors = stream("seeker"), .faults = stream("seeker.faults")};
-    sensors.push_back(std::make_unique<nodes::Seeker>(*scenario.engagement, *scenario.seeker, streams,
-                                                      truth.end_us(), *own_truth.engagement));
-  }
-  return {std::move(sensors), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding};
+  return {nodes::make({.scenario = scenario,
+                       .index = run_index,
+                       .flight = truth,
+                       .glide = own_truth.glide ? &*own_truth.glide : nullptr,
+                       .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr}),
+          std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding};
 }
 
 }  // namespace canhil::run

@@ -1,11 +1,33 @@
 #include "bench/run/initial_state.hpp"
 
+#include <concepts>
+#include <string>
+#include <type_traits>
+
+#include "bench/nodes/wire_limits.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::run {
 
 using world::units::deg;
+
+namespace {
+
+template <class Message>
+void check(const Message& message, std::string& wrong) {
+  Message::visit(message, [&](const SignalInfo& signal, const auto& member) {
+    if constexpr (std::same_as<std::remove_cvref_t<decltype(member)>, double>) {
+      const bool inside = member >= signal.minimum && member <= signal.maximum;
+      const bool vanishes =
+          signal.minimum >= 0 && signal.offset == 0 && member != 0 && member < wire::lsb(signal);
+      if (wrong.empty() && (!inside || vanishes))
+        wrong = nodes::misfit("initial value", member, Message::info, signal);
+    }
+  });
+}
+
+}  // namespace
 
 InitialState initial_state(const world::NavigationSolution& initial, const scenario::InitialSigma& sigma) {
   const world::Euler angles = world::euler_from(initial.C_bn);
@@ -28,6 +50,15 @@ InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_ve
           {.air_velocity_x_mps = air_velocity.x(),
            .air_velocity_y_mps = air_velocity.y(),
            .air_velocity_z_mps = air_velocity.z()}};
+}
+
+Result<void> check_fits(const InitialState& state) {
+  std::string wrong;
+  const auto check_all = [&](const auto&... messages) { (check(messages, wrong), ...); };
+  if (state.air) std::apply(check_all, *state.air);
+  std::apply(check_all, state.navigation);
+  if (wrong.empty()) return {};
+  return failure(std::move(wrong));
 }
 
 }  // namespace canhil::run

@@ -6,6 +6,7 @@
 
 #include "bench/scenario/target_setup.hpp"
 #include "bench/world/navigation_errors.hpp"
+#include "dbc/wire/result.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::run {
@@ -26,5 +27,9 @@ InitialState initial_state(const world::NavigationSolution& initial, const scena
 
 /// Rates [rad/s] and velocity through the air [m/s], body axes.
 InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_velocity);
+
+/// Every value within its signal's range, and no value but zero below its resolution: it would be saturated,
+/// or rounded to nothing, in silence. Error: one line.
+Result<void> check_fits(const InitialState& state);
 
 }  // namespace canhil::run

@@ -1,5 +1,6 @@
-// The names a scenario may use because the DBC has them. Given from outside, so that this folder does not
-// depend on one bus: the generated header or a DBC read at run time can fill it.
+// The names a scenario may use because the DBC has them, and the tables of the nodes that the bench can play.
+// Given from outside, so that this folder depends neither on one bus nor on who is on it: the generated
+// header or a DBC read at run time can fill it.
 #pragma once
 
 #include <functional>
@@ -16,6 +17,8 @@ struct Estimator;
 
 namespace canhil::scenario {
 
+struct NodeTable;
+
 struct Contract {
   std::vector<std::string> estimators;  ///< value table Estimator, without "none"
   std::vector<std::string> algorithms;  ///< value table Algorithm
@@ -29,6 +32,7 @@ struct Contract {
   std::map<std::string, std::string, std::less<>> sent_by{};
   /// By estimator, those of `parameters` that it has: what a misspelt one may mean. Not there: any.
   std::map<std::string, std::vector<std::string>, std::less<>> parameters_of{};
+  std::vector<const NodeTable*> nodes{};  ///< in the order in which they are read
 };
 
 }  // namespace canhil::scenario

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "bench/scenario/engagement.hpp"
 #include "bench/scenario/initial_error.hpp"
@@ -15,27 +14,39 @@
 namespace canhil::scenario {
 namespace {
 
-/// Reads the section of a node: it must be there if the estimator cannot do without it.
-template <class Node>
-std::optional<Node> read_node(Section& root, std::string_view key, bool needed, Node (*read)(Section&)) {
-  std::optional<Section> section = needed ? root.table(key) : root.optional_table(key);
-  if (!section) return std::nullopt;
-  return read(*section);
+/// The keys of the nodes that sample a truth, after those of the truth itself.
+std::vector<std::string_view> keys_of(TruthOf truth, const Contract& contract,
+                                      std::vector<std::string_view> keys) {
+  for (const NodeTable* node : contract.nodes) {
+    if (node->samples == truth) keys.push_back(node->key);
+  }
+  return keys;
 }
 
-/// The glider's truth and nodes: all of them are there, or none is.
-void read_glider(Section& root, Scenario& scenario) {
-  constexpr std::array parts{"glide", "wind", "airframe", "glider_nav", "fins"};
-  const bool wanted =
-      scenario.runs("wind") || std::ranges::any_of(parts, [&](const char* key) { return root.has(key); });
+/// Reads the nodes that sample a truth.
+void read_nodes(Section& root, Scenario& scenario, const Contract& contract, TruthOf truth) {
+  for (const NodeTable* node : contract.nodes) {
+    if (node->samples != truth) continue;
+    const bool needed = node->needed != nullptr && node->needed(scenario);
+    std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
+    if (!section) continue;
+    scenario.nodes.push_back(node->read(*node, *section));
+    section->finish();
+  }
+}
+
+/// The glider's truth and nodes.
+void read_glider(Section& root, Scenario& scenario, const Contract& contract) {
+  const auto parts = keys_of(TruthOf::glide, contract, {"glide", "wind", "airframe"});
+  const bool wanted = scenario.runs("wind") ||
+                      std::ranges::any_of(parts, [&](std::string_view key) { return root.has(key); });
   if (!wanted) {
-    for (const char* key : parts) root.optional(key);
+    for (const std::string_view key : parts) root.optional(key);
     return;
   }
   Section glide = root.table("glide");
   scenario.glide = read_glide(root, glide);
-  scenario.glider_nav = read_node<GliderNav>(root, "glider_nav", true, read_glider_nav);
-  scenario.fins = read_node<Fins>(root, "fins", true, read_fins);
+  read_nodes(root, scenario, contract, TruthOf::glide);
 }
 
 /// The contract that the bus is to carry, if the scenario says so.
@@ -72,38 +83,52 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Co
 
 /// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
 /// may be.
-void read_navigation(Section& root, Scenario& scenario) {
+void read_navigation(Section& root, Scenario& scenario, const Contract& contract) {
   if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth);
     return;
   }
   root.optional("truth");
-  for (const std::string_view key : {"initial_error", "master_ins", "slave_imu", "ssbl", "gps"}) {
+  for (const std::string_view key : keys_of(TruthOf::navigation, contract, {"initial_error"})) {
     if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
   }
 }
 
-/// In-flight alignment takes the fixes of one aid and refuses the other's; nobody else takes any.
+/// In-flight alignment takes the fixes of one aid, the first unless its parameter says another, and refuses
+/// the others'; nobody else takes any.
 void expect_aid(Section& root, const Scenario& scenario, const Contract& contract) {
   const auto target = std::ranges::find(scenario.targets, "inflight_alignment", &TargetSetup::estimator);
-  if (target == scenario.targets.end()) {
-    for (const std::string_view key : {"ssbl", "gps"}) {
-      if (root.has(key))
-        root.reject(key, "has fixes that no estimator takes", "estimator inflight_alignment beside it");
-    }
-    return;
+  std::vector<const NodeTable*> aids;
+  for (const NodeTable* node : contract.nodes) {
+    if (!node->aid) continue;
+    aids.push_back(node);
+    if (target == scenario.targets.end() && root.has(node->key))
+      root.reject(node->key, "has fixes that no estimator takes", "estimator inflight_alignment beside it");
   }
-  if (!scenario.ssbl && !scenario.gps)
-    root.reject("ssbl", "is missing, as is 'gps'", "at least one of the tables [ssbl] and [gps]");
-  if (std::ranges::find(contract.parameters, "aiding") == contract.parameters.end()) return;
+  if (target == scenario.targets.end()) return;
   const auto aiding = std::ranges::find(target->parameters, "aiding", &Parameter::name);
-  const bool takes_gps = aiding != target->parameters.end() && aiding->value == 1;
-  if (takes_gps && !scenario.gps)
-    root.reject("gps", "is missing, and parameter aiding = 1 takes no other fixes", "a table, or aiding = 0");
-  if (!takes_gps && !scenario.ssbl)
-    root.reject("ssbl", "is missing, and parameter aiding = 0 takes no other fixes",
-                "a table, or aiding = 1");
+  const auto chosen = std::ranges::find_if(aids, [&](const NodeTable* aid) {
+    return aiding != target->parameters.end() && aiding->value == aid->aid->aiding;
+  });
+  const NodeTable* taken = chosen == aids.end() ? aids.front() : *chosen;
+  std::vector<std::string> keys, tables, others;
+  for (const NodeTable* aid : aids) {
+    if (aid != aids.front()) keys.push_back(fmt::format("'{}'", aid->key));
+    if (aid != taken) others.push_back(fmt::format("{:g}", aid->aid->aiding));
+    tables.push_back(fmt::format("[{}]", aid->key));
+  }
+  if (std::ranges::none_of(aids, [&](const NodeTable* aid) { return scenario.node(aid->key); })) {
+    root.reject(aids.front()->key, fmt::format("is missing, as is {}", fmt::join(keys, " and ")),
+                fmt::format("at least one of the tables {}", fmt::join(tables, " and ")));
+  }
+  const bool may_choose = std::ranges::find(contract.parameters, "aiding") != contract.parameters.end();
+  if (may_choose && scenario.node(taken->key) == nullptr) {
+    root.reject(
+        taken->key,
+        fmt::format("is missing, and parameter aiding = {:g} takes no other fixes", taken->aid->aiding),
+        fmt::format("a table, or aiding = {}", fmt::join(others, " or ")));
+  }
 }
 
 std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) {
@@ -128,22 +153,18 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   if (auto engagement = root.optional_table("engagement")) {
     scenario.engagement = read_engagement(*engagement);
   }
-  read_glider(root, scenario);
-  read_navigation(root, scenario);
+  read_glider(root, scenario, contract);
+  read_navigation(root, scenario, contract);
   if (auto initial_error = root.optional_table("initial_error")) {
     scenario.initial_error = read_initial_error(*initial_error);
   }
-  const bool transfer = scenario.runs("transfer_alignment");
-  scenario.master_ins = read_node<MasterIns>(root, "master_ins", transfer, read_master_ins);
-  const bool inflight = scenario.runs("inflight_alignment");
-  scenario.slave_imu = read_node<SlaveImu>(root, "slave_imu", transfer || inflight, read_slave_imu);
-  scenario.ssbl = read_node<Ssbl>(root, "ssbl", false, read_ssbl);
-  scenario.gps = read_node<Gps>(root, "gps", false, read_gps);
+  read_nodes(root, scenario, contract, TruthOf::navigation);
   expect_aid(root, scenario, contract);
-  scenario.seeker =
-      read_node<Seeker>(root, "seeker", scenario.engagement || scenario.runs("los_rate"), read_seeker);
-  if (scenario.seeker && !scenario.engagement)
-    root.reject("engagement", "is missing", "a table beside [seeker]");
+  read_nodes(root, scenario, contract, TruthOf::engagement);
+  for (const NodeSettings& node : scenario.nodes) {
+    if (node.table().samples == TruthOf::engagement && !scenario.engagement)
+      root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));
+  }
   scenario.checks = read_checks(root, scenario, contract);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);

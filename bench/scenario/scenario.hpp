@@ -2,8 +2,8 @@
 // judged by.
 //
 // In the file values have the unit in their key (heading_deg); in the structs they are SI and radians, times
-// in us. Each section of the file is a struct with a reader of its own: adding a node is adding such a pair
-// and a line in scenario.cpp. Reading is strict: an unknown key, a wrong type, a value out of range or a
+// in us. Each section of the file is a struct with a reader of its own; those of nodes stand in bench/nodes
+// and are given with the contract. Reading is strict: an unknown key, a wrong type, a value out of range or a
 // missing key ends it with one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
 #pragma once
 
@@ -18,15 +18,9 @@
 
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/contract.hpp"
-#include "bench/scenario/fins.hpp"
 #include "bench/scenario/glide.hpp"
-#include "bench/scenario/glider_nav.hpp"
-#include "bench/scenario/gps.hpp"
-#include "bench/scenario/master_ins.hpp"
-#include "bench/scenario/seeker.hpp"
+#include "bench/scenario/node.hpp"
 #include "bench/scenario/setting.hpp"
-#include "bench/scenario/slave_imu.hpp"
-#include "bench/scenario/ssbl.hpp"
 #include "bench/scenario/target_setup.hpp"
 #include "bench/world/engagement/plan.hpp"
 #include "bench/world/motion.hpp"
@@ -46,19 +40,18 @@ struct Scenario {
   std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
   world::Flight truth;                     ///< at rest where nothing navigates
   world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start
-  std::optional<MasterIns> master_ins;     ///< absent: not on the bus
-  std::optional<SlaveImu> slave_imu;
-  std::optional<Ssbl> ssbl;
-  std::optional<Gps> gps;
-  std::optional<Glide> glide;  ///< the truth of a glider, beside the navigation's
-  std::optional<GliderNav> glider_nav;
-  std::optional<Fins> fins;
+  std::optional<Glide> glide;              ///< the truth of a glider, beside the navigation's
   std::optional<world::EngagementPlan> engagement;
-  std::optional<Seeker> seeker;
+  std::vector<NodeSettings> nodes;  ///< those on the bus
   std::vector<Check> checks;
 
   [[nodiscard]] bool runs(std::string_view estimator) const {
     return std::ranges::find(targets, estimator, &TargetSetup::estimator) != targets.end();
+  }
+  /// The node that the table of this name puts on the bus; null: there is none.
+  [[nodiscard]] const NodeSettings* node(std::string_view key) const {
+    const auto found = std::ranges::find(nodes, key, [](const NodeSettings& one) { return one.table().key; });
+    return found == nodes.end() ? nullptr : &*found;
   }
 };
 

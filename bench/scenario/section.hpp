@@ -54,6 +54,8 @@ class Section {
   /// A time (key ending in _s or _ms): a whole number of microseconds.
   std::int64_t time_us(std::string_view key, Limits limits, std::optional<double> fallback = {});
   std::optional<std::int64_t> optional_time_us(std::string_view key, Limits limits);
+  std::optional<std::pair<std::int64_t, std::int64_t>> optional_interval_us(std::string_view key,
+                                                                            Limits limits);
   /// Text on one line, not empty.
   std::string text(std::string_view key, const std::optional<std::string>& fallback = {});
   std::string one_of(std::string_view key, std::span<const std::string> names,

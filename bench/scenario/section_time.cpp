@@ -24,4 +24,12 @@ std::int64_t Section::time_us(std::string_view key, Limits limits, std::optional
   return static_cast<std::int64_t>(whole);
 }
 
+std::optional<std::pair<std::int64_t, std::int64_t>> Section::optional_interval_us(std::string_view key,
+                                                                                   Limits limits) {
+  optional(key);
+  if (!has(key)) return std::nullopt;
+  const auto [from, to] = interval(key, limits);
+  return std::pair{std::llround(from * 1e6), std::llround(to * 1e6)};
+}
+
 }  // namespace canhil::scenario

@@ -224,15 +224,8 @@ constexpr std::array closing{messages::FixVelocityD::info.name, messages::FixUpd
 // Where there are two sources, that which is heard least: the filter may use it alone.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
-  if (scenario.ssbl) {
-    longest_us = std::max(longest_us, longest_wait_of_fixes_us(scenario.ssbl->schedule,
-                                                               messages::SsblRelativeD::info.cycle_time_us,
-                                                               scenario.ssbl->faults));
-  }
-  if (scenario.gps) {
-    longest_us = std::max(
-        longest_us, longest_wait_of_fixes_us(scenario.gps->schedule, messages::GpsTime::info.cycle_time_us,
-                                             scenario.gps->faults));
+  for (const scenario::NodeSettings& node : scenario.nodes) {
+    if (node.table().aid) longest_us = std::max(longest_us, longest_wait_of_fixes_us(node));
   }
   return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
 }

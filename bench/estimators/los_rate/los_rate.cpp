@@ -176,15 +176,14 @@ constexpr std::array closing{messages::LosRateTarget::info.name};
 constexpr std::array check_kinds{checks::check_kind<MissDistance>};
 
 Freshness freshness_of(const scenario::Scenario& scenario) {
-  if (!scenario.engagement || !scenario.seeker) return {};
+  const scenario::NodeSettings* seeker = scenario.node("seeker");
+  if (!scenario.engagement || seeker == nullptr) return {};
   const world::EngagementPlan& plan = *scenario.engagement;
-  const scenario::Schedule& schedule = scenario.seeker->schedule;
-  const std::int64_t cycle_us = messages::SeekerRange::info.cycle_time_us;
   const double to_go_s = plan.range / (plan.missile_speed + plan.target_speed);  // at the start
-  return {.age_limit_us = std::llround(checks::longest_wait_us(period_us(schedule, cycle_us))),
+  return {.age_limit_us = std::llround(checks::longest_wait_us(period_us(*seeker))),
           .end_us = 0,
           .begin_us = -std::llround(to_go_s * 1e6),
-          .sample_us = std::max(stretch_us, schedule.period_us.value_or(cycle_us))};
+          .sample_us = std::max(stretch_us, seeker->period_us())};
 }
 
 }  // namespace

@@ -105,12 +105,8 @@ constexpr std::array closing{messages::AlignVelocityD::info.name, messages::Alig
 
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
-  if (scenario.master_ins) {
-    const scenario::Schedule& schedule = scenario.master_ins->schedule;
-    longest_us =
-        checks::longest_wait_us(period_us(schedule, messages::MasterInsVelocityD::info.cycle_time_us)) +
-        static_cast<double>(schedule.latency_us);
-  }
+  if (const auto* master = scenario.node("master_ins"))
+    longest_us = checks::longest_wait_us(period_us(*master)) + static_cast<double>(master->latency_us());
   return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
 }
 

@@ -163,9 +163,9 @@ constexpr std::array closing{messages::WindUpdate::info.name};
 
 // The filter may answer less often than it is told of the navigation.
 Freshness freshness_of(const scenario::Scenario& scenario) {
-  if (!scenario.glider_nav) return {};
-  double answers_us =
-      period_us(scenario.glider_nav->schedule, messages::GliderNavVelocityD::info.cycle_time_us);
+  const scenario::NodeSettings* navigation = scenario.node("glider_nav");
+  if (navigation == nullptr) return {};
+  double answers_us = period_us(*navigation);
   for (const scenario::Parameter& parameter : scenario.targets.front().parameters) {
     if (parameter.name == name_of(messages::Parameter::output_interval_ms))
       answers_us = std::max(answers_us, 1e3 * parameter.value);

@@ -51,7 +51,8 @@ def check(root):
     sources = {n: t for n, t in texts.items() if n.split("/")[0] in CODE and n.endswith((".hpp", ".cpp"))}
     graph = {name: includes(text) for name, text in sources.items()}
     return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *size_breaches(sources),
-            *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources), *dbc_breaches(texts, sources)]
+            *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources), *node_breaches(sources, graph),
+            *dbc_breaches(texts, sources)]
 
 
 def without_comments(text, keep_strings=True):
@@ -168,6 +169,21 @@ def quantity_breaches(sources):
         for found in named.finditer(clean):
             line = clean.count("\n", 0, found.start()) + 1
             yield f"{name}:{line}: names {found[0]}, expected quantities: what is particular stands in bench/estimators"
+
+
+def node_breaches(sources, graph):
+    """A node is known to the registry alone: nobody else includes its header or names its settings, other nodes neither."""
+    headers = {n for n, t in sources.items() if n.startswith("bench/nodes/") and re.search(r"\bextern const struct Kind \w+;", t)}
+    settings = {s for n in headers for s in re.findall(r"\bstruct (\w+Settings) \{", sources[n])}
+    named = re.compile(rf"\b({'|'.join(sorted(settings))})\b") if settings else None
+    for name, text in sources.items():
+        own = name.rsplit(".", 1)[0] + ".hpp"
+        for line, _, other in graph[name]:
+            if other in headers - {own} and name != "bench/nodes/registry.cpp":
+                yield f"{name}:{line}: includes {other}, expected the registry: what is particular stands in the node's own file"
+        if named and not name.startswith("bench/nodes/") and (found := named.search(clean := without_comments(text))):
+            line = clean.count("\n", 0, found.start()) + 1
+            yield f"{name}:{line}: names {found[0]}, expected scenario::NodeSettings: its table stands in bench/nodes"
 
 
 def size_breaches(sources):

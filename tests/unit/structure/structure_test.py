@@ -85,6 +85,15 @@ class Checker(unittest.TestCase):
         self.assertEqual(breaches_of({**wind, "bench/campaign/series.cpp": "int window;  // not wind\n",
                                       "bench/estimators/wind/wind.cpp": "int wind;\n"}), [])
 
+    def test_a_node_is_known_to_the_registry_alone(self):
+        gps = {"bench/nodes/gps.hpp": "struct GpsSettings {};\nextern const struct Kind gps;\n", "bench/nodes/gps.cpp": '#include "bench/nodes/gps.hpp"\n',
+               "bench/nodes/registry.cpp": '#include "bench/nodes/gps.hpp"\n'}
+        self.assertEqual(breaches_of(gps), [])
+        for name in ("bench/run/flight.cpp", "bench/report/summary.cpp", "bench/nodes/ssbl.cpp"):
+            with self.subTest(name):
+                self.expect(f"{name}:1: includes bench/nodes/gps.hpp", {**gps, name: '#include "bench/nodes/gps.hpp"\n'})
+        self.expect("bench/scenario/x.cpp:2: names GpsSettings", {**gps, "bench/scenario/x.cpp": "// GpsSettings\nGpsSettings all;\n"})
+
     def test_dbc_knows_neither_side(self):
         for other in ("target/device/device.hpp", "bench/world/truth.hpp", "tests/unit/made.hpp"):
             with self.subTest(other):

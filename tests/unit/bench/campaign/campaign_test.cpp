@@ -36,7 +36,7 @@ TEST(Campaign, TablesInSettingsAreKeysWithDots) {
   text.erase(where, text.find('\n', where) - where);
   const auto campaign = parse(text);
   ASSERT_TRUE(campaign) << campaign.error().message;
-  EXPECT_EQ(campaign->variants[1].scenario.master_ins->schedule.period_us, 50'000);
+  EXPECT_EQ(campaign->variants[1].scenario.node("master_ins")->period_us(), 50'000);
 }
 
 TEST(Campaign, SweepIsTheCartesianProductWithEveryVariant) {
@@ -53,7 +53,7 @@ other = "A"
   ASSERT_EQ(campaign->variants.size(), 8U);
   EXPECT_EQ(campaign->variants[1].name, "A master_ins.period_ms=50 target.parameters.fading_per_s=0.1");
   EXPECT_EQ(campaign->variants[6].name, "B master_ins.period_ms=100 target.parameters.fading_per_s=0");
-  EXPECT_EQ(campaign->variants[6].scenario.master_ins->schedule.period_us, 100'000);
+  EXPECT_EQ(campaign->variants[6].scenario.node("master_ins")->period_us(), 100'000);
   EXPECT_THAT(variants_of(*campaign, campaign->metrics[0]), ElementsAre(4, 5, 6, 7));
   EXPECT_EQ(counterpart(*campaign, 6, "A"), 2U);  // at the same point
 }

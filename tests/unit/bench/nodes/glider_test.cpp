@@ -7,6 +7,7 @@
 #include "bench/nodes/glider_nav.hpp"
 #include "bench/world/units.hpp"
 #include "dbc/wire/time_base.hpp"
+#include "tests/unit/bench/nodes/made.hpp"
 
 namespace canhil::nodes {
 namespace {
@@ -19,6 +20,12 @@ constexpr std::int64_t end_us = 20'000'000;
 const world::GlideRecord& glide() {
   static const world::GlideRecord record({}, end_us, world::Stream(1, 0, "coefficients"),
                                          world::Stream(1, 0, "gusts"));
+  return record;
+}
+
+// As long as the run.
+const world::FlightRecord& flight() {
+  static const world::FlightRecord record({.start = {}, .motion = world::Rest{}}, end_us, 10'000);
   return record;
 }
 
@@ -36,15 +43,15 @@ struct Sample {
   double height = 0;
 };
 
-std::vector<Sample> navigation(const scenario::GliderNav& config) {
+std::vector<Sample> navigation(const GliderNavSettings& config) {
   using namespace messages;
-  GliderNav node(glide(), config, world::Stream(3, 0, "glider_nav"), world::Stream(3, 0, "loss"), end_us);
+  const auto node = made(glider_nav, config, flight(), &glide());
   std::vector<Sample> all;
   Transmission out;
-  for (; node.due_us() != never_us; out.clear()) {
+  for (; node->due_us() != never_us; out.clear()) {
     Sample sample;
-    sample.due_us = node.due_us();
-    node.transmit(out);
+    sample.due_us = node->due_us();
+    node->transmit(out);
     if (out.frames().empty()) continue;
     const auto ne = message<GliderNavVelocityNE>(out, 0);
     const auto attitude = message<GliderNavAttitude>(out, 1);
@@ -69,7 +76,7 @@ Vector3 angles(const world::GlideTruth& truth) {
 }
 
 TEST(GliderNav, SendsTheTruthOfItsTimeOfValidity) {
-  scenario::GliderNav config;
+  GliderNavSettings config;
   config.schedule.latency_us = 30'000;
   const auto samples = navigation(config);
   ASSERT_EQ(samples.size(), 998U);  // every 20 ms, those that arrive before the end
@@ -120,7 +127,7 @@ TEST(GliderNav, CorrelatedErrorsStay) {
 }
 
 TEST(GliderNav, LossesAndOutagesLeaveAGapInTheCounter) {
-  scenario::GliderNav config;
+  GliderNavSettings config;
   config.loss = {.probability = 0.1, .outage_us = 1'000'000, .outage_every_us = 10'000'000};
   const auto samples = navigation(config);
   EXPECT_NEAR(static_cast<double>(samples.size()), 0.9 * 900, 45);
@@ -131,18 +138,18 @@ TEST(GliderNav, LossesAndOutagesLeaveAGapInTheCounter) {
 }
 
 TEST(Fins, SendTheDeflectionOfTheirTimeOfValidity) {
-  scenario::Fins config;
+  FinsSettings config;
   config.schedule.latency_us = 50'000;
-  Fins node(glide(), config, world::Stream(3, 0, "loss"), end_us);
+  const auto node = made(fins, config, flight(), &glide());
   Transmission out;
   int count = 0;
-  for (; node.due_us() != never_us; out.clear()) {
-    const std::int64_t due_us = node.due_us();
-    node.transmit(out);
-    const auto fins = message<messages::FinDeflections>(out, 0);
-    const std::int64_t valid_us = unwrap_short_us(std::llround(fins.time_of_validity_us), due_us);
+  for (; node->due_us() != never_us; out.clear()) {
+    const std::int64_t due_us = node->due_us();
+    node->transmit(out);
+    const auto told = message<messages::FinDeflections>(out, 0);
+    const std::int64_t valid_us = unwrap_short_us(std::llround(told.time_of_validity_us), due_us);
     EXPECT_EQ(valid_us, due_us - 50'000);
-    const Vector3 sent(fins.elevator_deg, fins.aileron_deg, fins.rudder_deg);
+    const Vector3 sent(told.elevator_deg, told.aileron_deg, told.rudder_deg);
     EXPECT_LT((sent - glide().at(valid_us).fins / deg).cwiseAbs().maxCoeff(), 0.0101);
     ++count;
   }
@@ -150,15 +157,15 @@ TEST(Fins, SendTheDeflectionOfTheirTimeOfValidity) {
 }
 
 TEST(Fins, AWrongStampIsWrongByWhatIsAskedFor) {
-  scenario::Fins config;
+  FinsSettings config;
   config.stamp_error_us = 40'000;
-  Fins node(glide(), config, world::Stream(3, 0, "loss"), end_us);
+  const auto node = made(fins, config, flight(), &glide());
   Transmission out;
-  const std::int64_t due_us = node.due_us();
-  node.transmit(out);
-  const auto fins = message<messages::FinDeflections>(out, 0);
-  EXPECT_EQ(fins.time_of_validity_us, static_cast<double>(due_us + 40'000));
-  EXPECT_NEAR(fins.elevator_deg, glide().at(due_us).fins.x() / deg, 0.0101);
+  const std::int64_t due_us = node->due_us();
+  node->transmit(out);
+  const auto told = message<messages::FinDeflections>(out, 0);
+  EXPECT_EQ(told.time_of_validity_us, static_cast<double>(due_us + 40'000));
+  EXPECT_NEAR(told.elevator_deg, glide().at(due_us).fins.x() / deg, 0.0101);
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 // What the emulated nodes send, and when.
 #include <gmock/gmock.h>
 
+#include "bench/nodes/increment_rounding.hpp"
 #include "bench/nodes/is_whole.hpp"
 #include "bench/nodes/master_ins.hpp"
 #include "bench/nodes/sample_loss.hpp"
 #include "bench/nodes/slave_imu.hpp"
 #include "bench/nodes/time_keeper.hpp"
 #include "bench/world/motion/rest.hpp"
+#include "tests/unit/bench/nodes/made.hpp"
 
 namespace canhil::nodes {
 namespace {
@@ -65,8 +67,8 @@ TEST(IsWhole, AFrameOfTheMessageWithItsCrcAndNoErrorFrame) {
 }
 
 TEST(SampleLoss, DrawsForEverySampleAlsoInAnOutage) {
-  const scenario::SampleLoss chance{.probability = 0.5, .outage_us = 0, .outage_every_us = 0};
-  const scenario::SampleLoss both{.probability = 0.5, .outage_us = 200'000, .outage_every_us = 1'000'000};
+  const SampleLoss chance{.probability = 0.5, .outage_us = 0, .outage_every_us = 0};
+  const SampleLoss both{.probability = 0.5, .outage_us = 200'000, .outage_every_us = 1'000'000};
   world::Stream alone(1, 0, "loss"), beside(1, 0, "loss");
   for (std::int64_t t_us = 0; t_us < 3'000'000; t_us += 10'000) {
     const bool by_chance = is_lost(chance, t_us, alone);
@@ -74,23 +76,23 @@ TEST(SampleLoss, DrawsForEverySampleAlsoInAnOutage) {
   }
 }
 
-TEST(Sampling, IsSentALatencyAfterItsTimeOfValidity) {
-  Sampling sampling(20'000, 7'000, 100'000);
-  EXPECT_EQ(sampling.valid_us(), 20'000);
-  EXPECT_EQ(sampling.due_us(), 27'000);
-  sampling.advance();
-  EXPECT_EQ(sampling.due_us(), 47'000);
+TEST(SampleLoss, OutagesAreTheEndOfTheirPeriod) {
+  constexpr SampleLoss loss{.probability = 0, .outage_us = 1'000'000, .outage_every_us = 10'000'000};
+  EXPECT_FALSE(in_outage(loss, 500'000));
+  EXPECT_FALSE(in_outage(loss, 8'990'000));
+  EXPECT_TRUE(in_outage(loss, 9'000'000));
+  EXPECT_TRUE(in_outage(loss, 19'990'000));
+  EXPECT_FALSE(in_outage(loss, 20'000'000));
+  EXPECT_FALSE(in_outage({}, 9'500'000));
 }
 
-TEST(Sampling, NothingIsSentAfterTheEndOfTheRun) {
+TEST(Sampler, SendsNothingAfterTheEndOfTheRun) {
   const auto flight = at_rest(40'000);
-  SlaveImu in_time(flight, {}, world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
-  EXPECT_THAT(times(in_time), ElementsAre(10'000, 20'000, 30'000, 40'000));
-  SlaveImu delayed(
-      flight,
-      {.schedule = {.period_us = std::nullopt, .latency_us = 5'000}, .errors = {}, .loss_probability = 0},
-      world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
-  EXPECT_THAT(times(delayed), ElementsAre(15'000, 25'000, 35'000));
+  EXPECT_THAT(times(*made(slave_imu, SlaveImuSettings{}, flight)),
+              ElementsAre(10'000, 20'000, 30'000, 40'000));
+  const SlaveImuSettings late{
+      .schedule = {.period_us = std::nullopt, .latency_us = 5'000}, .errors = {}, .loss_probability = 0};
+  EXPECT_THAT(times(*made(slave_imu, late, flight)), ElementsAre(15'000, 25'000, 35'000));
 }
 
 TEST(TimeKeeper, KeepsTimeFromZeroToTheEnd) {
@@ -117,11 +119,12 @@ TEST(TimeKeeper, CountsStepsInElevenBits) {
 
 TEST(MasterIns, ClosesItsGroupWithTheTimeOfValidityNotOfTransmission) {
   const auto flight = at_rest(1'000'000);
-  MasterIns node(flight, {.schedule = {.period_us = 50'000, .latency_us = 30'000}, .errors = {}},
-                 world::Stream(1, 0, "master"), world::Stream(1, 0, "loss"));
-  EXPECT_EQ(node.due_us(), 80'000);
+  const auto node =
+      made(master_ins,
+           MasterInsSettings{.schedule = {.period_us = 50'000, .latency_us = 30'000}, .errors = {}}, flight);
+  EXPECT_EQ(node->due_us(), 80'000);
   Transmission out;
-  node.transmit(out);
+  node->transmit(out);
   ASSERT_EQ(out.frames().size(), 5U);
   const auto closing = from_frame<messages::MasterInsVelocityD>(out.frames().back());
   EXPECT_EQ(out.frames().back().id, messages::MasterInsVelocityD::info.id);
@@ -131,17 +134,17 @@ TEST(MasterIns, ClosesItsGroupWithTheTimeOfValidityNotOfTransmission) {
 
 TEST(MasterIns, AGroupLostOrInAnOutageLeavesAGapInTheCountersAndChangesNoMeasurement) {
   const auto flight = at_rest(10'000'000);
-  scenario::MasterIns config{.schedule = {.period_us = 50'000, .latency_us = 0}, .errors = {}};
+  MasterInsSettings config{.schedule = {.period_us = 50'000, .latency_us = 0}, .errors = {}};
   config.errors.velocity.sigma = {0.1, 0.1, 0.1};
-  MasterIns whole(flight, config, world::Stream(1, 0, "master"), world::Stream(1, 0, "loss"));
+  const auto whole = made(master_ins, config, flight);
   config.loss = {.probability = 0.3, .outage_us = 2'000'000, .outage_every_us = 10'000'000};
-  MasterIns lossy(flight, config, world::Stream(1, 0, "master"), world::Stream(1, 0, "loss"));
+  const auto lossy = made(master_ins, config, flight);
   Transmission out, lossy_out;
   int lost = 0;
-  for (; whole.due_us() != never_us; out.clear(), lossy_out.clear()) {
-    const std::int64_t valid_us = whole.due_us();
-    whole.transmit(out);
-    lossy.transmit(lossy_out);
+  for (; whole->due_us() != never_us; out.clear(), lossy_out.clear()) {
+    const std::int64_t valid_us = whole->due_us();
+    whole->transmit(out);
+    lossy->transmit(lossy_out);
     const bool is_lost = lossy_out.frames().empty();
     if (!is_lost) {
       ASSERT_TRUE(std::ranges::equal(out.frames(), lossy_out.frames()));
@@ -157,16 +160,16 @@ TEST(MasterIns, AGroupLostOrInAnOutageLeavesAGapInTheCountersAndChangesNoMeasure
 
 TEST(SlaveImu, AGroupLostTakesItsIncrementsWithItAndLeavesAGapInTheCounters) {
   const auto flight = at_rest(10'000'000);
-  scenario::SlaveImu config;
-  SlaveImu whole(flight, config, world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
+  SlaveImuSettings config;
+  const auto whole = made(slave_imu, config, flight);
   config.loss_probability = 0.3;
-  SlaveImu lossy(flight, config, world::Stream(1, 0, "imu"), world::Stream(1, 0, "loss"));
+  const auto lossy = made(slave_imu, config, flight);
   Transmission out, lossy_out;
   int lost = 0;
-  for (; whole.due_us() != never_us; out.clear(), lossy_out.clear()) {
-    ASSERT_EQ(whole.due_us(), lossy.due_us());
-    whole.transmit(out);
-    lossy.transmit(lossy_out);
+  for (; whole->due_us() != never_us; out.clear(), lossy_out.clear()) {
+    ASSERT_EQ(whole->due_us(), lossy->due_us());
+    whole->transmit(out);
+    lossy->transmit(lossy_out);
     if (lossy_out.frames().empty()) {
       ++lost;
     } else {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bench/nodes/kind.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::nodes {
@@ -12,7 +13,11 @@ namespace {
 
 using namespace messages;
 
-constexpr std::int64_t end_us = 8'000'000;
+// As long as the run.
+const world::FlightRecord& flight() {
+  static const world::FlightRecord record({.start = {}, .motion = world::Rest{}}, 8'000'000, 10'000);
+  return record;
+}
 
 struct Sample {
   std::int64_t due_us = 0;
@@ -32,14 +37,18 @@ Message message(const Transmission& out, std::size_t place) {
 /// A seeker with its record and its outbox.
 class Bench {
  public:
-  explicit Bench(const scenario::Seeker& config = {}, const world::EngagementPlan& plan = {})
-      : node_(plan, config, {stream("engagement"), stream("seeker"), stream("faults")}, end_us, record_) {}
+  explicit Bench(const SeekerSettings& config = {}, const world::EngagementPlan& plan = {})
+      : node_(seeker.make({seeker.table, config}, {.scenario = with(plan),
+                                                   .index = 0,
+                                                   .flight = flight(),
+                                                   .glide = nullptr,
+                                                   .engagement = &record_})) {}
 
   /// The next sample; none: it was lost, or the engagement is over.
   std::optional<Sample> next() {
     out_.clear();
-    const std::int64_t due_us = node_.due_us();
-    node_.transmit(out_);
+    const std::int64_t due_us = node_->due_us();
+    node_->transmit(out_);
     if (out_.frames().empty()) return std::nullopt;
     EXPECT_EQ(out_.frames().size(), 4U);
     return Sample{.due_us = due_us,
@@ -51,7 +60,7 @@ class Bench {
   }
   std::vector<Sample> all() {
     std::vector<Sample> samples;
-    while (node_.due_us() != never_us) {
+    while (node_->due_us() != never_us) {
       if (const auto sample = next()) samples.push_back(*sample);
     }
     return samples;
@@ -69,23 +78,28 @@ class Bench {
     answers_.send(LosRateTarget{.cause_time_us = wrap_us(cause_us)});
     for (Frame frame : answers_.frames()) {
       if (spoilt) frame.data[3] ^= 1U;
-      node_.hear(frame);
+      node_->hear(frame);
     }
   }
 
-  Seeker& node() { return node_; }
+  Node& node() { return *node_; }
   world::EngagementRecord& record() { return record_; }
 
  private:
-  static world::Stream stream(std::string_view name) { return {1, 0, name}; }
+  const scenario::Scenario& with(const world::EngagementPlan& plan) {
+    scenario_.seed = 1;
+    scenario_.engagement = plan;
+    return scenario_;
+  }
+  scenario::Scenario scenario_;
   world::EngagementRecord record_;
-  Seeker node_;
+  std::unique_ptr<Node> node_;
   Transmission out_;
   Outbox<3> answers_;
 };
 
-scenario::Seeker exact() {
-  scenario::Seeker config;
+SeekerSettings exact() {
+  SeekerSettings config;
   config.errors = {.thermal = 0,
                    .glint = 0,
                    .gyro_noise = 0,
@@ -146,7 +160,7 @@ TEST(Seeker, IncrementsCarryTheirRemainders) {
 }
 
 TEST(Seeker, LatencyAndJitterDelayWhatIsSentNotWhenItIsValid) {
-  scenario::Seeker config = exact();
+  SeekerSettings config = exact();
   config.schedule = {.period_us = 2000, .latency_us = 3000};
   config.jitter_us = 4000;
   Bench bench(config);
@@ -166,7 +180,7 @@ TEST(Seeker, LatencyAndJitterDelayWhatIsSentNotWhenItIsValid) {
 }
 
 TEST(Seeker, ALostGroupIsCountedAsSent) {
-  scenario::Seeker config = exact();
+  SeekerSettings config = exact();
   config.loss_probability = 0.2;
   Bench bench(config);
   const std::vector<Sample> samples = bench.all();
@@ -178,7 +192,7 @@ TEST(Seeker, ALostGroupIsCountedAsSent) {
 }
 
 TEST(Seeker, LossesChangeNoMeasurement) {
-  scenario::Seeker faulty;
+  SeekerSettings faulty;
   faulty.loss_probability = 0.3;
   faulty.invalid_probability = 0.3;
   faulty.jitter_us = 1000;
@@ -193,7 +207,7 @@ TEST(Seeker, LossesChangeNoMeasurement) {
 }
 
 TEST(Seeker, FlagsWhatItDoesNotSee) {
-  scenario::Seeker config;
+  SeekerSettings config;
   config.blackout_us = {1'000'000, 1'200'000};
   config.invalid_range_probability = 0.1;
   Bench bench(config);
@@ -208,7 +222,7 @@ TEST(Seeker, FlagsWhatItDoesNotSee) {
   }
   EXPECT_GT(no_range, 70);
   EXPECT_LT(no_range, 150);
-  scenario::Seeker narrow;
+  SeekerSettings narrow;
   narrow.errors.field_of_view = 1e-4;
   Bench blind(narrow);
   EXPECT_EQ(blind.next()->angles.error_validity, Validity::invalid) << "the antenna starts 5 mrad off";

@@ -12,6 +12,12 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/estimators/inflight_alignment/answers.hpp"
+#include "bench/nodes/fins.hpp"
+#include "bench/nodes/glider_nav.hpp"
+#include "bench/nodes/kind.hpp"
+#include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/seeker.hpp"
+#include "bench/nodes/slave_imu.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
@@ -120,11 +126,19 @@ TEST(JsonReport, AFileNameThatIsNoUtf8DoesNotEndIt) {
 TEST(Reports, NameAPeriodThatIsNotTheDbcs) {
   scenario::Scenario scenario = scenario_of();
   EXPECT_THAT(text(scenario, run_of()), Not(HasSubstr("DBC:")));
-  scenario.slave_imu.emplace().schedule.period_us = 5'000;
-  scenario.master_ins.emplace();
-  EXPECT_THAT(text(scenario, run_of()), HasSubstr("SlaveImu every 5 ms (DBC: 10 ms)"));
+  const scenario::Schedule often{.period_us = 20'000, .latency_us = 0};
+  const scenario::Schedule as_in_the_dbc{.period_us = nodes::seeker.table.closes.cycle_time_us,
+                                         .latency_us = 0};
+  scenario.nodes.emplace_back(nodes::fins.table, nodes::FinsSettings{.schedule = often});
+  scenario.nodes.emplace_back(nodes::glider_nav.table, nodes::GliderNavSettings{});
+  scenario.nodes.emplace_back(nodes::master_ins.table, nodes::MasterInsSettings{.schedule = often});
+  scenario.nodes.emplace_back(nodes::slave_imu.table, nodes::SlaveImuSettings{.schedule = often});
+  scenario.nodes.emplace_back(nodes::seeker.table, nodes::SeekerSettings{.schedule = as_in_the_dbc});
+  EXPECT_THAT(text(scenario, run_of()), HasSubstr("SlaveImu every 20 ms (DBC: 10 ms)"));
   const auto page = nlohmann::json::parse(json(scenario, run_of()));
-  EXPECT_THAT(page["provenance"]["period_overrides"], testing::SizeIs(1));
+  EXPECT_THAT(page["provenance"]["period_overrides"],
+              testing::ElementsAre("SlaveImu every 20 ms (DBC: 10 ms)", "MasterIns every 20 ms (DBC: 100 ms)",
+                                   "Fins every 20 ms (DBC: 10 ms)"));
 }
 
 TEST(Reports, TellWhatBecameOfFixes) {

@@ -3,8 +3,8 @@
 
 #include "bench/checks/kinds/error.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
+#include "bench/nodes/seeker.hpp"
 #include "bench/quantities/quantity.hpp"
-
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
@@ -49,7 +49,7 @@ TEST(EngagementFields, DefaultsAreThoseOfTheWorld) {
   EXPECT_EQ(plan.manoeuvre.at_time_to_go, standard.manoeuvre.at_time_to_go);
   EXPECT_EQ(plan.guidance, world::Guidance::truth);
   EXPECT_EQ(plan.guidance_delay_us, standard.guidance_delay_us);
-  const Seeker seeker = s.seeker.value(), usual;
+  const auto seeker = node_of<nodes::SeekerSettings>(s), usual = nodes::SeekerSettings{};
   EXPECT_EQ(seeker.errors.thermal, usual.errors.thermal);
   EXPECT_EQ(seeker.errors.glint, usual.errors.glint);
   EXPECT_DOUBLE_EQ(seeker.errors.gyro_noise, usual.errors.gyro_noise);
@@ -100,7 +100,7 @@ TEST(EngagementFields, EveryKey) {
 }
 
 TEST(SeekerFields, EveryKey) {
-  const Seeker seeker =
+  const auto seeker = node_of<nodes::SeekerSettings>(
       parsed(los_with("[seeker]",
                       "period_ms = 2\nlatency_ms = 1.5\njitter_ms = 0.5\nthermal_noise_radpm2 = 2e-10\n"
                       "glint_noise_m = 0.7\nglint_correlation_ms = 40\nconstant_noise_mrad = 1\n"
@@ -110,8 +110,7 @@ TEST(SeekerFields, EveryKey) {
                       "range_errors_full_beyond_m = 500\nclosing_speed_noise_mps = 11\n"
                       "closing_speed_bias_mps = -12\nclosing_speed_bias_sigma_mps = 13\n"
                       "field_of_view_deg = 5\nloss_percent = 1\ninvalid_percent = 2\n"
-                      "invalid_range_percent = 3\nblackout_s = [1, 1.5]"))
-          .seeker.value();
+                      "invalid_range_percent = 3\nblackout_s = [1, 1.5]")));
   EXPECT_EQ(seeker.schedule.period_us, 2000);
   EXPECT_EQ(seeker.schedule.latency_us, 1500);
   EXPECT_EQ(seeker.jitter_us, 500);

@@ -1,6 +1,10 @@
 // Every field of a scenario but its checks: where it goes, in which unit, and what it is when absent.
 #include <gtest/gtest.h>
 
+#include "bench/nodes/gps.hpp"
+#include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/ssbl.hpp"
 #include "bench/world/hash.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
@@ -127,16 +131,16 @@ TEST(ScenarioFields, InitialErrorIsFixedOrDrawnForOneOrThreeAxes) {
 }
 
 TEST(ScenarioFields, MasterIns) {
-  const auto bare = parsed(valid).master_ins.value();
+  const auto bare = node_of<nodes::MasterInsSettings>(parsed(valid));
   EXPECT_FALSE(bare.schedule.period_us.has_value()) << "the DBC's";
   EXPECT_EQ(bare.schedule.latency_us, 0);
   EXPECT_TRUE(bare.errors.velocity.sigma.isZero());
-  const auto node = parsed(inside("[master_ins]",
-                                  "period_ms = 50\nlatency_ms = 12.5\n"
-                                  "velocity_noise_mps = 0.05\nvelocity_bias_mps = [0.1, 0, 0]\n"
-                                  "attitude_noise_deg = 0.01\nattitude_bias_deg = [0, 0, 1]\n"
-                                  "position_noise_m = [1, 1, 2]\nposition_bias_m = 3"))
-                        .master_ins.value();
+  const auto node = node_of<nodes::MasterInsSettings>(
+      parsed(inside("[master_ins]",
+                    "period_ms = 50\nlatency_ms = 12.5\n"
+                    "velocity_noise_mps = 0.05\nvelocity_bias_mps = [0.1, 0, 0]\n"
+                    "attitude_noise_deg = 0.01\nattitude_bias_deg = [0, 0, 1]\n"
+                    "position_noise_m = [1, 1, 2]\nposition_bias_m = 3")));
   EXPECT_EQ(node.schedule.period_us, 50'000);
   EXPECT_EQ(node.schedule.latency_us, 12'500);
   expect_near(node.errors.velocity.sigma, {0.05, 0.05, 0.05});
@@ -148,18 +152,18 @@ TEST(ScenarioFields, MasterIns) {
 }
 
 TEST(ScenarioFields, SlaveImu) {
-  const auto bare = parsed(valid).slave_imu.value();
+  const auto bare = node_of<nodes::SlaveImuSettings>(parsed(valid));
   EXPECT_FALSE(bare.schedule.period_us.has_value());
   EXPECT_TRUE(bare.errors.gyro.noise.isZero() && bare.errors.accel.bias.sigma.isZero());
-  const auto node = parsed(inside("[slave_imu]",
-                                  "period_ms = 5\nlatency_ms = 1\nloss_percent = 2\n"
-                                  "accel_bias_ug = 10\naccel_bias_sigma_ug = 300\naccel_noise_ugprthz = 50\n"
-                                  "accel_scale_factor_ppm = 100\naccel_scale_factor_sigma_ppm = 200\n"
-                                  "accel_misalignment_sigma_mrad = 0.1\n"
-                                  "gyro_bias_degph = [1, 2, 3]\ngyro_bias_sigma_degph = 3\n"
-                                  "gyro_noise_degprth = 0.125\ngyro_scale_factor_ppm = 5\n"
-                                  "gyro_scale_factor_sigma_ppm = 6\ngyro_misalignment_sigma_mrad = 0.2"))
-                        .slave_imu.value();
+  const auto node = node_of<nodes::SlaveImuSettings>(
+      parsed(inside("[slave_imu]",
+                    "period_ms = 5\nlatency_ms = 1\nloss_percent = 2\n"
+                    "accel_bias_ug = 10\naccel_bias_sigma_ug = 300\naccel_noise_ugprthz = 50\n"
+                    "accel_scale_factor_ppm = 100\naccel_scale_factor_sigma_ppm = 200\n"
+                    "accel_misalignment_sigma_mrad = 0.1\n"
+                    "gyro_bias_degph = [1, 2, 3]\ngyro_bias_sigma_degph = 3\n"
+                    "gyro_noise_degprth = 0.125\ngyro_scale_factor_ppm = 5\n"
+                    "gyro_scale_factor_sigma_ppm = 6\ngyro_misalignment_sigma_mrad = 0.2")));
   EXPECT_EQ(node.schedule.period_us, 5'000);
   EXPECT_EQ(node.schedule.latency_us, 1'000);
   EXPECT_DOUBLE_EQ(node.loss_probability, 0.02);
@@ -237,17 +241,16 @@ std::string aided(const std::string& aid) {
 }
 
 TEST(ScenarioFields, Ssbl) {
-  const auto bare = parsed(aided("[ssbl]")).ssbl.value();
+  const auto bare = node_of<nodes::SsblSettings>(parsed(aided("[ssbl]")));
   EXPECT_FALSE(bare.schedule.period_us.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero() && bare.ship_error.sigma.isZero());
   EXPECT_FALSE(bare.faults.silence_us.has_value());
-  const auto node =
+  const auto node = node_of<nodes::SsblSettings>(
       parsed(aided("[ssbl]\nperiod_ms = 2000\nlatency_ms = 1500\n"
                    "ship_offset_m = [100, 200, -10]\nship_velocity_mps = [1, 2, 0]\n"
                    "ship_error_m = 4\nship_error_sigma_m = 3\nbias_m = [1, 0, 0]\nbias_sigma_m = 1\n"
                    "noise_m = 2\nrange_noise_percent = 0.5\nloss_percent = 5\ninvalid_percent = 4\n"
-                   "outlier_percent = 3\noutlier_m = 1000\nsilence_s = [5, 6.5]"))
-          .ssbl.value();
+                   "outlier_percent = 3\noutlier_m = 1000\nsilence_s = [5, 6.5]")));
   EXPECT_EQ(node.schedule.period_us, 2'000'000);
   EXPECT_EQ(node.schedule.latency_us, 1'500'000);
   expect_near(node.ship_offset, {100, 200, -10});
@@ -266,18 +269,19 @@ TEST(ScenarioFields, Ssbl) {
 }
 
 TEST(ScenarioFields, OutliersOfNoShareAreNone) {  // as at the beginning of a sweep
-  const auto faults = parsed(aided("[ssbl]\noutlier_percent = 0\noutlier_m = 200")).ssbl.value().faults;
+  const auto faults =
+      node_of<nodes::SsblSettings>(parsed(aided("[ssbl]\noutlier_percent = 0\noutlier_m = 200"))).faults;
   EXPECT_EQ(faults.outlier_probability, 0);
   EXPECT_EQ(faults.outlier, 200);
 }
 
 TEST(ScenarioFields, Gps) {
-  const auto bare = parsed(aided("[gps]")).gps.value();
+  const auto bare = node_of<nodes::GpsSettings>(parsed(aided("[gps]")));
   EXPECT_FALSE(bare.lowest_height.has_value());
   EXPECT_TRUE(bare.noise.isZero() && bare.bias.sigma.isZero());
-  const auto node = parsed(aided("[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
-                                 "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7"))
-                        .gps.value();
+  const auto node = node_of<nodes::GpsSettings>(
+      parsed(aided("[gps]\nlatency_ms = 100\nbias_m = 1\nbias_sigma_m = [2, 2, 3]\n"
+                   "noise_m = [10, 10, 15]\nlowest_height_m = -0.5\nloss_percent = 7")));
   EXPECT_EQ(node.schedule.latency_us, 100'000);
   expect_near(node.bias.value, {1, 1, 1});
   expect_near(node.bias.sigma, {2, 2, 3});
@@ -290,10 +294,10 @@ TEST(ScenarioFields, NodesAreOnTheBusOnlyIfNamed) {
   const std::string text = with("[master_ins]\n[slave_imu]\n", "[slave_imu]\n[gps]\n",
                                 with("transfer_alignment", "inflight_alignment"));
   const Scenario s = parsed(text);
-  EXPECT_FALSE(s.master_ins.has_value());
-  EXPECT_TRUE(s.slave_imu.has_value());
-  EXPECT_FALSE(s.ssbl.has_value());
-  EXPECT_TRUE(s.gps.has_value());
+  EXPECT_FALSE(s.node("master_ins"));
+  EXPECT_TRUE(s.node("slave_imu"));
+  EXPECT_FALSE(s.node("ssbl"));
+  EXPECT_TRUE(s.node("gps"));
 }
 
 }  // namespace

@@ -7,8 +7,12 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
-#include "bench/scenario/scenario.hpp"
+#include "bench/nodes/gps.hpp"
+#include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/ssbl.hpp"
 #include "bench/world/units.hpp"
+#include "tests/unit/bench/scenario/texts.hpp"
 
 namespace canhil::scenario {
 namespace {
@@ -46,7 +50,8 @@ Contract of_the_dbc() {
           .messages = matches(text, "\nBO_ [0-9]+ ([A-Za-z]+):"),
           .answers = answers(text),
           .check_kinds = checks::kinds(estimators::all()),
-          .known = estimators::all()};
+          .known = estimators::all(),
+          .nodes = nodes::tables()};
 }
 
 TEST(ScenarioFiles, AreAllValid) {
@@ -66,10 +71,11 @@ TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.tilt, s.initial_error.attitude.sigma.x());
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, s.initial_error.velocity.sigma.x());
   for (const Parameter& parameter : s.targets.front().parameters) {
-    const auto& imu = s.slave_imu->errors;
+    const auto imu = node_of<nodes::SlaveImuSettings>(s).errors;
     if (parameter.name == "velocity_noise_m2ps") {
       // The DBC's 100 ms between updates turn a sigma into a density.
-      EXPECT_NEAR(parameter.value, 0.1 * std::pow(s.master_ins->errors.velocity.sigma.x(), 2), 1e-15);
+      EXPECT_NEAR(parameter.value,
+                  0.1 * std::pow(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.x(), 2), 1e-15);
     } else if (parameter.name == "accel_bias_sigma_ug") {
       EXPECT_NEAR(parameter.value * world::units::ug, imu.accel.bias.sigma.x(), 1e-15);
     } else if (parameter.name == "gyro_noise_degprth") {
@@ -83,7 +89,7 @@ TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
   EXPECT_EQ(s.targets.front().algorithm, "robust_h2");
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, 1 * world::units::deg);
   EXPECT_DOUBLE_EQ(s.initial_error.attitude.sigma.z(), 5 * world::units::deg);
-  EXPECT_TRUE(s.master_ins->errors.velocity.sigma.isZero());
+  EXPECT_TRUE(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.isZero());
 }
 
 TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreToldTheTruth) {
@@ -98,20 +104,23 @@ TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreToldTheTruth) {
     EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.velocity, s.initial_error.velocity.sigma.x());
     EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.position, s.initial_error.position.sigma.x());
     EXPECT_GE(s.targets.front().initial_sigma.heading, s.initial_error.heading_magnitude);
-    const auto& imu = s.slave_imu->errors;
+    const auto imu = node_of<nodes::SlaveImuSettings>(s).errors;
     EXPECT_NEAR(parameter("accel_bias_sigma_ug") * world::units::ug, imu.accel.bias.sigma.x(), 1e-15);
     EXPECT_NEAR(parameter("gyro_bias_sigma_degph") * world::units::degph, imu.gyro.bias.sigma.x(), 1e-15);
     EXPECT_NEAR(parameter("accel_noise_ugprthz") * world::units::ugprthz, imu.accel.noise.x(), 1e-15);
     EXPECT_NEAR(parameter("gyro_noise_degprth") * world::units::degprth, imu.gyro.noise.x(), 1e-15);
-    EXPECT_EQ(parameter("aiding"), s.gps ? 1.0 : 0.0);
-    const world::Vector3 noise = s.gps ? s.gps->noise : s.ssbl->noise;
+    const bool gps = s.node("gps") != nullptr;
+    EXPECT_EQ(parameter("aiding"), gps ? 1.0 : 0.0);
+    const world::Vector3 noise =
+        gps ? node_of<nodes::GpsSettings>(s).noise : node_of<nodes::SsblSettings>(s).noise;
     EXPECT_EQ(parameter("fix_noise_horizontal_m"), noise.x());
     EXPECT_EQ(parameter("fix_noise_vertical_m"), noise.z());
-    if (s.gps) {
+    if (gps) {
       EXPECT_EQ(parameter("initial_height_sigma_m"), s.initial_error.position.sigma.z());
     } else {
-      EXPECT_NEAR(parameter("fix_bias_sigma_m"),
-                  std::hypot(s.ssbl->bias.sigma.x(), s.ssbl->ship_error.sigma.x()), 1e-6);
+      const auto ssbl = node_of<nodes::SsblSettings>(s);
+      EXPECT_NEAR(parameter("fix_bias_sigma_m"), std::hypot(ssbl.bias.sigma.x(), ssbl.ship_error.sigma.x()),
+                  1e-6);
     }
   }
 }

@@ -4,8 +4,9 @@
 #include "bench/checks/kinds/answers.hpp"
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/error.hpp"
+#include "bench/nodes/fins.hpp"
+#include "bench/nodes/glider_nav.hpp"
 #include "bench/quantities/quantity.hpp"
-
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
@@ -21,7 +22,8 @@ const Contract glider_contract{.estimators = {"transfer_alignment", "wind"},
                                .messages = {"WindVector"},
                                .answers = {"WindVector"},
                                .check_kinds = checks::kinds(estimators::all()),
-                               .known = estimators::all()};
+                               .known = estimators::all(),
+                               .nodes = nodes::tables()};
 
 constexpr std::string_view glider = R"(title = "A glider"
 duration_s = 20.0
@@ -73,7 +75,7 @@ TEST(GlideSections, NeedNoTruthOfNavigation) {
   EXPECT_EQ(s.glide->plan.coefficients.level, 0);
   EXPECT_EQ(s.glide->plan.density_error, 0);
   EXPECT_EQ(s.glide->release.air_velocity, 0);
-  EXPECT_FALSE(s.fins->schedule.period_us);
+  EXPECT_FALSE(node_of<nodes::FinsSettings>(s).schedule.period_us);
   EXPECT_TRUE(std::holds_alternative<world::Rest>(s.truth.motion));
 }
 
@@ -108,28 +110,20 @@ TEST(GlideSections, CarryEveryKey) {
   EXPECT_EQ(s.glide->release.velocity, 0.5);
   EXPECT_NEAR(s.glide->release.attitude, 0.1 * deg, 1e-15);
   EXPECT_NEAR(s.glide->release.rate, 0.01 * deg, 1e-15);
-  EXPECT_EQ(s.fins->schedule.period_us, 20'000);
-  EXPECT_EQ(s.fins->schedule.latency_us, 50'000);
-  EXPECT_EQ(s.fins->stamp_error_us, 40'000);
-  EXPECT_NEAR(s.fins->loss.probability, 0.1, 1e-15);
-  EXPECT_EQ(s.glider_nav->schedule.period_us, 50'000);
-  EXPECT_EQ(s.glider_nav->velocity_noise, 0.25);
-  EXPECT_NEAR(s.glider_nav->rate_noise, 0.125 * deg, 1e-15);
-  EXPECT_NEAR(s.glider_nav->attitude_noise, 0.25 * deg, 1e-15);
-  EXPECT_EQ(s.glider_nav->correlated_fraction, 0.5);
-  EXPECT_EQ(s.glider_nav->correlation_time, 30);
-  EXPECT_EQ(s.glider_nav->loss.outage_us, 1'000'000);
-  EXPECT_EQ(s.glider_nav->loss.outage_every_us, 10'000'000);
-}
-
-TEST(GlideSections, OutagesAreTheEndOfTheirPeriod) {
-  constexpr SampleLoss loss{.probability = 0, .outage_us = 1'000'000, .outage_every_us = 10'000'000};
-  EXPECT_FALSE(in_outage(loss, 500'000));
-  EXPECT_FALSE(in_outage(loss, 8'990'000));
-  EXPECT_TRUE(in_outage(loss, 9'000'000));
-  EXPECT_TRUE(in_outage(loss, 19'990'000));
-  EXPECT_FALSE(in_outage(loss, 20'000'000));
-  EXPECT_FALSE(in_outage({}, 9'500'000));
+  const auto fins = node_of<nodes::FinsSettings>(s);
+  EXPECT_EQ(fins.schedule.period_us, 20'000);
+  EXPECT_EQ(fins.schedule.latency_us, 50'000);
+  EXPECT_EQ(fins.stamp_error_us, 40'000);
+  EXPECT_NEAR(fins.loss.probability, 0.1, 1e-15);
+  const auto navigation = node_of<nodes::GliderNavSettings>(s);
+  EXPECT_EQ(navigation.schedule.period_us, 50'000);
+  EXPECT_EQ(navigation.velocity_noise, 0.25);
+  EXPECT_NEAR(navigation.rate_noise, 0.125 * deg, 1e-15);
+  EXPECT_NEAR(navigation.attitude_noise, 0.25 * deg, 1e-15);
+  EXPECT_EQ(navigation.correlated_fraction, 0.5);
+  EXPECT_EQ(navigation.correlation_time, 30);
+  EXPECT_EQ(navigation.loss.outage_us, 1'000'000);
+  EXPECT_EQ(navigation.loss.outage_every_us, 10'000'000);
 }
 
 TEST(GlideSections, ChecksOfTheWind) {

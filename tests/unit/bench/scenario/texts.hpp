@@ -9,6 +9,7 @@
 #include "bench/checks/judge.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/nodes/registry.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::scenario {
@@ -20,7 +21,8 @@ inline const Contract contract{.estimators = {"transfer_alignment", "inflight_al
                                .answers = {"AlignAttitude", "AlignUpdate"},
                                .check_kinds = checks::kinds(estimators::all()),
                                .known = estimators::all(),
-                               .former_check_kinds = checks::former_kinds()};
+                               .former_check_kinds = checks::former_kinds(),
+                               .nodes = nodes::tables()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0
@@ -77,6 +79,16 @@ Kind rule_of(const Check& check) {
 inline std::string error_of(std::string_view text) {
   const Result<Scenario> result = parse(text, "s.toml", contract);
   return result ? "no error" : result.error().message;
+}
+
+/// What a scenario says of a node that is on its bus.
+template <class Settings>
+Settings node_of(const Scenario& scenario) {
+  for (const NodeSettings& node : scenario.nodes) {
+    if (const auto* settings = node.own<Settings>()) return *settings;
+  }
+  ADD_FAILURE() << "it is not there";
+  return {};
 }
 
 }  // namespace canhil::scenario

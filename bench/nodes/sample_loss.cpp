@@ -1,10 +1,10 @@
-#include "bench/scenario/sample_loss.hpp"
+#include "bench/nodes/sample_loss.hpp"
 
-#include "bench/scenario/section.hpp"
+namespace canhil::nodes {
 
-namespace canhil::scenario {
+using scenario::Limits;
 
-SampleLoss read_sample_loss(Section& section) {
+SampleLoss read_sample_loss(scenario::Section& section) {
   const SampleLoss loss{.probability = section.number("loss_percent", Limits::between(0, 100), 0),
                         .outage_us = section.time_us("outage_s", Limits::at_least(0), 0),
                         .outage_every_us = section.time_us("outage_every_s", Limits::at_least(0), 0)};
@@ -17,4 +17,4 @@ SampleLoss read_sample_loss(Section& section) {
   return loss;
 }
 
-}  // namespace canhil::scenario
+}  // namespace canhil::nodes

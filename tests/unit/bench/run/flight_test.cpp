@@ -1,10 +1,12 @@
-// What an IMU's errors may be before its increments leave their signals' ranges.
-#include "bench/run/wire_limits.hpp"
+// What can be flown: what an IMU's errors may be before its increments leave their signals' ranges, and who
+// sends first.
+#include "bench/run/flight.hpp"
 
 #include <gmock/gmock.h>
 
+#include "bench/nodes/registry.hpp"
+#include "bench/nodes/slave_imu.hpp"
 #include "bench/run/contract.hpp"
-#include "bench/run/flight.hpp"
 
 namespace canhil::run {
 namespace {
@@ -24,15 +26,21 @@ class ImuLimits : public testing::Test {
         truth_(*make_truth(scenario_)) {}
 
   [[nodiscard]] std::string refused(const world::ImuErrorModel& imu) const {
-    const auto fits = check_fits(imu, truth_);
+    const auto fits = nodes::slave_imu.fits(with(imu), scenario_, truth_);
     return fits ? "" : fits.error().message;
+  }
+
+  static scenario::NodeSettings with(const world::ImuErrorModel& imu) {
+    return {nodes::slave_imu.table, nodes::SlaveImuSettings{.errors = imu}};
   }
 
   scenario::Scenario scenario_;
   world::FlightRecord truth_;  // 1 g ahead and 1 g up: 0.098 m/s a sample on two axes, hardly any rotation
 };
 
-TEST_F(ImuLimits, AnHonestImuFits) { EXPECT_EQ(refused(scenario_.slave_imu->errors), ""); }
+TEST_F(ImuLimits, AnHonestImuFits) {
+  EXPECT_EQ(refused(scenario_.node("slave_imu")->own<nodes::SlaveImuSettings>()->errors), "");
+}
 
 TEST_F(ImuLimits, EachErrorIsRefusedWhereItsSixSigmaLeaveTheRangeAndNotBefore) {
   for (const double share : {0.9, 1.1}) {
@@ -95,14 +103,34 @@ TEST_F(ImuLimits, WhatIsAcceptedNeverLeavesTheRange) {
 }
 
 TEST_F(ImuLimits, AScenarioThatSaturatesIsRefusedWithItsTruth) {
-  scenario_.slave_imu->errors.gyro.bias.sigma = Vector3::Constant(4848);  // 1e9 deg/h
+  world::ImuErrorModel imu;
+  imu.gyro.bias.sigma = Vector3::Constant(4848);  // 1e9 deg/h
+  scenario_.nodes.assign(1, with(imu));
   const auto truth = make_truth(scenario_);
   ASSERT_FALSE(truth);
   EXPECT_THAT(truth.error().message,
               HasSubstr("'slave_imu.gyro_bias_sigma_degph' (largest part): an IMU increment of up to 290"));
   EXPECT_THAT(truth.error().message, HasSubstr("SlaveImuDeltaTheta.delta_theta_x_rad, expected -0.131 to"));
-  scenario_.slave_imu.reset();
+  scenario_.nodes.clear();
   EXPECT_TRUE(make_truth(scenario_));
+}
+
+// Frames and counters of every recorded run hang on this order.
+TEST(Nodes, SendInAnOrderThatNeverChanges) {
+  const auto all = scenario::read_file(SOURCE_DIR "/bench/scenarios/all_four.toml", contract()).value();
+  const world::FlightRecord truth = make_truth(all).value();
+  Flight flight = make_flight(all, truth, 0).value();
+  OwnTruth& own = flight.own_truth;
+  const auto sensors = nodes::make(
+      {.scenario = all, .index = 0, .flight = truth, .glide = &*own.glide, .engagement = &*own.engagement});
+  std::vector<std::string_view> senders;
+  for (const auto& node : sensors) {
+    nodes::Transmission out;
+    while (out.frames().empty()) node->transmit(out);  // some are lost on purpose
+    senders.push_back(messages::find_message(out.frames().front().id)->sender);
+  }
+  EXPECT_THAT(senders,
+              testing::ElementsAre("SlaveImu", "MasterIns", "Ssbl", "Gps", "Fins", "GliderNav", "Seeker"));
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+// A line a node.
+#include "bench/nodes/registry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "bench/nodes/fins.hpp"
+#include "bench/nodes/glider_nav.hpp"
+#include "bench/nodes/gps.hpp"
+#include "bench/nodes/master_ins.hpp"
+#include "bench/nodes/seeker.hpp"
+#include "bench/nodes/slave_imu.hpp"
+#include "bench/nodes/ssbl.hpp"
+
+namespace canhil::nodes {
+namespace {
+
+constexpr std::array registered{
+    &master_ins,  // the carrier's
+    &slave_imu,   // of the weapon, or of the vehicle
+    &ssbl,        // of a ship
+    &gps,         // of the vehicle
+    &seeker,      // of a missile
+    &glider_nav,  // the GPS/INS of the glider
+    &fins,        // of the glider
+};
+
+}  // namespace
+
+std::span<const Kind* const> all() { return registered; }
+
+std::vector<const scenario::NodeTable*> tables() {
+  std::vector<const scenario::NodeTable*> all;
+  for (const Kind* kind : registered) all.push_back(&kind->table);
+  return all;
+}
+
+// By the truth that they sample, then as on the bus: the lower id first. So the deflection of an instant is
+// there when its navigation is whole.
+std::vector<std::unique_ptr<Node>> make(const Run& run) {
+  auto kinds = registered;
+  std::ranges::sort(kinds, {},
+                    [](const Kind* kind) { return std::pair(kind->table.samples, kind->table.closes.id); });
+  std::vector<std::unique_ptr<Node>> nodes;
+  for (const Kind* kind : kinds) {
+    if (const auto* node = run.scenario.node(kind->table.key)) nodes.push_back(kind->make(*node, run));
+  }
+  return nodes;
+}
+
+}  // namespace canhil::nodes

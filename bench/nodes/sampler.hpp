@@ -1,0 +1,42 @@
+// A node that sends a sample group every period.
+#pragma once
+
+#include "bench/nodes/kind.hpp"
+
+namespace canhil::nodes {
+
+/// Sample k is valid at k * period and sent a latency later, if that is before the end of the run: after its
+/// last Sync nobody would hear of the answer. `Settings`: what its table says.
+template <class Settings>
+class Sampler : public Node {
+ public:
+  Sampler(const NodeSettings& node, const Run& run)
+      : config_(*node.own<Settings>()),
+        run_(run),
+        period_us_(node.period_us()),
+        latency_us_(node.latency_us()),
+        valid_us_(period_us_) {}
+
+  [[nodiscard]] std::int64_t due_us() const final {
+    const std::int64_t due_us = valid_us_ + latency_us_;
+    return due_us > run_.flight.end_us() ? never_us : due_us;
+  }
+  void transmit(Transmission& out) final {
+    if (!sample(valid_us_, out)) out.clear();  // counted as sent: the receiver sees the gap
+    valid_us_ += period_us_;
+  }
+
+ protected:
+  const Settings config_;
+  const Run run_;
+
+ private:
+  /// Appends the group of a time; false: it is lost.
+  virtual bool sample(std::int64_t valid_us, Transmission& out) = 0;
+
+  std::int64_t period_us_;
+  std::int64_t latency_us_;
+  std::int64_t valid_us_;
+};
+
+}  // namespace canhil::nodes

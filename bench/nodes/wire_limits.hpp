@@ -1,0 +1,21 @@
+// Whether a value fits onto the bus.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "dbc/wire/message_info.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::nodes {
+
+/// Says that it does not: one line.
+std::string misfit(std::string_view what, double value, const MessageInfo& message, const SignalInfo& signal);
+
+/// An interval can be told exactly by the message's signal interval_us.
+Result<void> check_interval(std::string_view what, std::int64_t interval_us, const MessageInfo& message,
+                            std::span<const SignalInfo> signals);
+
+}  // namespace canhil::nodes

@@ -1,0 +1,73 @@
+// A node that the bench plays, as a scenario sees it: a table with a name. What stands in the table only the
+// node's own file in bench/nodes knows.
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "bench/scenario/schedule.hpp"
+#include "dbc/wire/message_info.hpp"
+
+namespace canhil::scenario {
+
+class NodeSettings;
+class Section;
+struct Scenario;
+
+/// Whose truth a node samples: that of [truth], [glide] or [engagement].
+enum class TruthOf : std::uint8_t { navigation, glide, engagement };
+
+/// What in-flight alignment has of a node's fixes.
+struct Aid {
+  double aiding = 0;  ///< the value of its parameter of that name that takes them
+  /// The share that is lost at random, on purpose: waiting longer for them is no silence.
+  double (*lost)(const NodeSettings& node) = nullptr;
+};
+
+/// What a scenario has to know of a kind of node.
+struct NodeTable {
+  std::string_view key;       ///< of its table: "gps"
+  const MessageInfo& closes;  ///< its sample group, and comes at the DBC's cycle time
+  TruthOf samples;
+  /// Reads the table; what nobody asked for is found afterwards.
+  NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
+  /// Whether a scenario whose estimators and truths are read cannot do without it; null: all can.
+  bool (*needed)(const Scenario& scenario) = nullptr;
+  std::optional<Aid> aid{};
+};
+
+/// What a scenario says of a node that is on the bus. Never changes; copies of the scenario share it.
+class NodeSettings {
+ public:
+  /// `own`: the node's own type, with a member `schedule`.
+  template <class Own>
+  NodeSettings(const NodeTable& table, Own own) : table_(&table) {
+    auto shared = std::make_shared<const Own>(std::move(own));
+    schedule_ = &shared->schedule;
+    own_ = std::move(shared);
+  }
+
+  [[nodiscard]] const NodeTable& table() const { return *table_; }
+  [[nodiscard]] std::int64_t latency_us() const { return schedule_->latency_us; }
+  [[nodiscard]] std::int64_t period_us() const {
+    return schedule_->period_us.value_or(table_->closes.cycle_time_us);
+  }
+
+  /// What its table says; null: a node of another kind.
+  template <class Own>
+  [[nodiscard]] const Own* own() const {
+    const auto* shared = std::any_cast<std::shared_ptr<const Own>>(&own_);
+    return shared == nullptr ? nullptr : shared->get();
+  }
+
+ private:
+  const NodeTable* table_;
+  const Schedule* schedule_;  // a part of what follows
+  std::any own_;              // std::shared_ptr<const Own>
+};
+
+}  // namespace canhil::scenario

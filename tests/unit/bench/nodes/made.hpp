@@ -1,0 +1,17 @@
+// Nodes as a run makes them.
+#pragma once
+
+#include <memory>
+
+#include "bench/nodes/kind.hpp"
+
+namespace canhil::nodes {
+
+template <class Settings>
+std::unique_ptr<Node> made(const Kind& kind, const Settings& settings, const world::FlightRecord& flight,
+                           const world::GlideRecord* glide = nullptr) {
+  static const scenario::Scenario any;  // a run's nodes refer to theirs
+  return kind.make({kind.table, settings}, {.scenario = any, .index = 0, .flight = flight, .glide = glide});
+}
+
+}  // namespace canhil::nodes

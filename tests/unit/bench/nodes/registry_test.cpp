@@ -1,0 +1,55 @@
+// Every node that the DBC has beside bench and target is one that the bench can play.
+#include "bench/nodes/registry.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "messages/canhil.hpp"
+
+namespace canhil::nodes {
+namespace {
+
+// MasterIns as master_ins.
+std::string key_of(std::string_view sender) {
+  std::string key;
+  for (const char c : sender) {
+    if (std::isupper(c) != 0 && !key.empty()) key += '_';
+    key += static_cast<char>(std::tolower(c));
+  }
+  return key;
+}
+
+TEST(Registry, HasANodeForEverySenderOfTheDbcAndItsTableHasItsName) {
+  std::set<std::string> senders, keys;
+  for (const MessageInfo& message : messages::all_messages) senders.insert(key_of(message.sender));
+  senders.erase("bench");
+  senders.erase("target");
+  for (const Kind* kind : all()) {
+    EXPECT_TRUE(keys.emplace(kind->table.key).second) << kind->table.key;
+    EXPECT_EQ(key_of(kind->table.closes.sender), kind->table.key);
+  }
+  EXPECT_EQ(keys, senders);
+}
+
+TEST(Registry, WhatClosesAGroupIsTheLastOfItAndHasACycle) {
+  for (const Kind* kind : all()) {
+    const MessageInfo& closes = kind->table.closes;
+    EXPECT_GT(closes.cycle_time_us, 0) << closes.name;
+    for (const MessageInfo& message : messages::all_messages) {
+      if (message.sample_group == closes.sample_group) {
+        EXPECT_LE(message.id, closes.id) << message.name;
+      }
+    }
+  }
+}
+
+// The truth has one interval.
+TEST(Registry, OneNodeSamplesEveryEpoch) {
+  EXPECT_EQ(std::ranges::count(all(), true, &Kind::at_every_epoch), 1);
+}
+
+}  // namespace
+}  // namespace canhil::nodes
