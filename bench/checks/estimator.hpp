@@ -14,6 +14,7 @@
 #include "bench/quantities/samples.hpp"
 #include "bench/quantities/track.hpp"
 #include "bench/scenario/checks.hpp"
+#include "bench/scenario/estimator_facts.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
@@ -46,6 +47,7 @@ struct OwnTrack {
 
 struct Estimator {
   std::string_view name;                                 ///< as in the DBC's value table Estimator
+  scenario::EstimatorFacts facts;                        ///< what a scenario has to know
   const quantities::Layout& layout;                      ///< of its samples
   std::span<const quantities::Quantity* const> of_runs;  ///< what its tracks tell
   /// Puts its answers together, for a run.
@@ -61,9 +63,10 @@ struct Estimator {
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
   std::span<const std::string_view> closing;  ///< the last message of each group of its answers
-  std::string_view
-      of_own_interval{};  ///< the group that keeps an interval of its own where its stimuli come faster
-  std::span<const scenario::CheckKind> check_kinds{};  ///< that nobody else can have
+  /// The group that keeps an interval of its own where its stimuli come faster.
+  std::string_view of_own_interval{};
+  std::span<const scenario::CheckKind> check_kinds{};               ///< that nobody else can have
+  std::span<const scenario::FormerCheckKind> former_check_kinds{};  ///< that only it had
   /// How long they hold, by the rule of the checks (bench/checks/silence.hpp), in runs of a scenario.
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
 };

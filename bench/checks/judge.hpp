@@ -20,7 +20,7 @@ std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& check
 /// Every kind of check that a scenario may have: those of this folder and the estimators' own.
 std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators);
 /// Those of before, each with what is written in its place now.
-std::span<const scenario::FormerCheckKind> former_kinds();
+std::vector<scenario::FormerCheckKind> former_kinds(std::span<const estimators::Estimator* const> estimators);
 
 /// Why no timing of this run can be judged: frames of the target were lost on the way. Empty: it can, as far
 /// as the bench kept its own deadlines, which each check asks by its bar.

@@ -23,16 +23,6 @@ constexpr std::array of_any_estimator{
     check_kind<Latency>, check_kind<OutputPeriod>,   check_kind<Heartbeat>,       check_kind<Counters>,
     check_kind<BusLoad>, check_kind<BusErrorLimits>, check_kind<WireResponseRule>};
 
-constexpr std::array<scenario::FormerCheckKind, 7> former{{
-    {"attitude_error", "kind 'error' with quantity 'attitude.heading', 'attitude.roll' or 'attitude.pitch'"},
-    {"velocity_error", "kind 'error' with quantity 'velocity.norm', or its component"},
-    {"position_error", "kind 'error' with quantity 'position.norm', or its component"},
-    {"los_rate_error", "kind 'error' with quantity 'los.rate', or its plane, and statistic 'rms'"},
-    {"wind_error", "kind 'error' with quantity 'wind.norm', or its component"},
-    {"fixes", "kind 'answers'"},
-    {"wind_answers", "kind 'answers'"},
-}};
-
 }  // namespace
 
 std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators) {
@@ -42,6 +32,12 @@ std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* co
   return all;
 }
 
-std::span<const scenario::FormerCheckKind> former_kinds() { return former; }
+std::vector<scenario::FormerCheckKind> former_kinds(
+    std::span<const estimators::Estimator* const> estimators) {
+  std::vector<scenario::FormerCheckKind> all;
+  for (const estimators::Estimator* one : estimators)
+    all.insert(all.end(), one->former_check_kinds.begin(), one->former_check_kinds.end());
+  return all;
+}
 
 }  // namespace canhil::checks

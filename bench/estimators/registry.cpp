@@ -25,6 +25,12 @@ constexpr std::array<const Estimator*, 4> registered{
 
 std::span<const Estimator* const> all() { return registered; }
 
+std::map<std::string, scenario::EstimatorFacts, std::less<>> facts() {
+  std::map<std::string, scenario::EstimatorFacts, std::less<>> all;
+  for (const Estimator* one : registered) all.emplace(one->name, one->facts);
+  return all;
+}
+
 const Estimator* find(std::string_view name) { return find(registered, name); }
 
 const Estimator* telling(std::string_view columns) {

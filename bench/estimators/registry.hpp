@@ -1,6 +1,9 @@
 // A line an estimator: registry.cpp.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "bench/checks/estimator.hpp"
 
 namespace canhil {
@@ -19,6 +22,8 @@ const Estimator* telling(std::string_view columns);
 const Estimator* sending(const MessageInfo& message);
 /// Whose samples a campaign keeps of a scenario.
 const Estimator& of(const scenario::Scenario& scenario);
+/// What scenarios have to know of them, by name, for scenario::Contract.
+std::map<std::string, scenario::EstimatorFacts, std::less<>> facts();
 /// Every quantity that any of them tells, each once, in the order of the registry.
 std::span<const quantities::Quantity* const> every_quantity();
 

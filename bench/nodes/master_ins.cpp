@@ -9,8 +9,6 @@ namespace {
 
 using world::units::deg;
 
-bool needed(const scenario::Scenario& scenario) { return scenario.runs("transfer_alignment"); }
-
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   MasterInsSettings node;
@@ -56,8 +54,7 @@ class MasterIns final : public Sampler<MasterInsSettings> {
 constinit const Kind master_ins{.table = {.key = "master_ins",
                                           .closes = messages::MasterInsVelocityD::info,
                                           .samples = scenario::TruthOf::navigation,
-                                          .read = read,
-                                          .needed = needed},
+                                          .read = read},
                                 .make = make<MasterIns>};
 
 }  // namespace canhil::nodes

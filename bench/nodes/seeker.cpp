@@ -52,9 +52,7 @@ world::SeekerErrorModel read_errors(Section& section) {
           .field_of_view = section.number("field_of_view_deg", Limits::above(0, 37), 8)};
 }
 
-bool needed(const scenario::Scenario& scenario) {
-  return scenario.engagement.has_value() || scenario.runs("los_rate");
-}
+bool needed(const scenario::Scenario& scenario) { return scenario.engagement.has_value(); }
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits share = Limits::between(0, 100);

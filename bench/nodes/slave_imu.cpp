@@ -22,10 +22,6 @@ using messages::Validity;
 
 constexpr std::int8_t temperature_degc = 25;  // the error model knows no temperature
 
-bool needed(const scenario::Scenario& scenario) {
-  return scenario.runs("transfer_alignment") || scenario.runs("inflight_alignment");
-}
-
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   SlaveImuSettings node;
@@ -154,8 +150,7 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
 constinit const Kind slave_imu{.table = {.key = "slave_imu",
                                          .closes = messages::SlaveImuStatus::info,
                                          .samples = scenario::TruthOf::navigation,
-                                         .read = read,
-                                         .needed = needed},
+                                         .read = read},
                                .make = make<SlaveImu>,
                                .fits = fits,
                                .at_every_epoch = true};

@@ -4,7 +4,6 @@
 #include "bench/estimators/registry.hpp"
 #include "bench/nodes/registry.hpp"
 #include "messages/canhil.hpp"
-#include "target/device/device.hpp"
 
 namespace canhil::run {
 namespace {
@@ -17,19 +16,6 @@ std::vector<std::string> names() {
   return all;
 }
 
-/// Of the target that comes with this bench; another one's may differ.
-std::map<std::string, std::vector<std::string>, std::less<>> parameters_by_estimator() {
-  std::map<std::string, std::vector<std::string>, std::less<>> all;
-  const target::Device device;
-  for (const auto estimator : messages::enumerators<messages::Estimator>) {
-    for (const auto parameter : messages::enumerators<messages::Parameter>) {
-      if (device.range(estimator, parameter))
-        all[std::string(name_of(estimator))].emplace_back(name_of(parameter));
-    }
-  }
-  return all;
-}
-
 scenario::Contract make_contract() {
   scenario::Contract contract{.estimators = names<messages::Estimator>(),
                               .algorithms = names<messages::Algorithm>(),
@@ -38,8 +24,8 @@ scenario::Contract make_contract() {
                               .answers = {},
                               .check_kinds = checks::kinds(estimators::all()),
                               .known = estimators::all(),
-                              .former_check_kinds = checks::former_kinds()};
-  contract.parameters_of = parameters_by_estimator();
+                              .former_check_kinds = checks::former_kinds(estimators::all())};
+  contract.facts = estimators::facts();
   contract.nodes = nodes::tables();
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include "bench/estimators/registry.hpp"
 
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
@@ -26,6 +27,11 @@ InitialState state_at_release(const world::GlideRecord& glide, const scenario::G
   const world::Vector3 rates = truth.omega_nb_b + error.rate * stream.normal3();
   state.air = initial_air(rates, truth.v_a + error.air_velocity * stream.normal3());
   return state;
+}
+
+bool starts_by_own_truth(const scenario::TargetSetup& target) {
+  const estimators::Estimator* estimator = estimators::find(target.estimator);
+  return estimator != nullptr && estimator->facts.start == scenario::Start::own_truth;
 }
 
 Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
@@ -89,7 +95,7 @@ Result<Flight> make_flight(const scenario::Scenario& scenario, const world::Flig
     world::Stream stream(scenario.seed, run_index, "initial_error");
     const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
     flight.initial.push_back(
-        glide && target.estimator == "wind"
+        glide && starts_by_own_truth(target)
             ? state_at_release(*glide, *scenario.glide, target.initial_sigma, stream)
             : initial_state(initial_solution(truth.epochs().front(), error, stream), target.initial_sigma));
     if (auto fits = check_fits(flight.initial.back()); !fits) return tl::unexpected(fits.error());

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/scenario/checks.hpp"
+#include "bench/scenario/estimator_facts.hpp"
 
 namespace canhil::estimators {
 struct Estimator;
@@ -27,12 +28,17 @@ struct Contract {
   std::vector<std::string> answers;     ///< of those that answer a sample group
   std::vector<CheckKind> check_kinds{};
   std::span<const estimators::Estimator* const> known{};  ///< what the bench knows of estimators
-  std::span<const FormerCheckKind> former_check_kinds{};
+  std::vector<FormerCheckKind> former_check_kinds{};
   /// By message, the estimator that sends it. Not there: sent whoever runs, or not by the target.
   std::map<std::string, std::string, std::less<>> sent_by{};
-  /// By estimator, those of `parameters` that it has: what a misspelt one may mean. Not there: any.
-  std::map<std::string, std::vector<std::string>, std::less<>> parameters_of{};
-  std::vector<const NodeTable*> nodes{};  ///< in the order in which they are read
+  std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
+  std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
 };
+
+/// Of an estimator; one that nobody knows is one that navigates.
+inline EstimatorFacts facts_of(const Contract& contract, std::string_view estimator) {
+  const auto found = contract.facts.find(estimator);
+  return found == contract.facts.end() ? EstimatorFacts{} : found->second;
+}
 
 }  // namespace canhil::scenario

@@ -1,6 +1,9 @@
 // [glide], [wind] and [airframe]: the truth of a glider. One flight a run, as its errors are drawn anew.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "bench/world/glide/glide.hpp"
 
 namespace canhil::scenario {
@@ -19,6 +22,9 @@ struct Glide {
   world::GlidePlan plan;
   ReleaseError release;
 };
+
+/// The tables of its truth.
+inline constexpr std::array<std::string_view, 3> glide_tables{"glide", "wind", "airframe"};
 
 /// `root`: the file; `section`: its [glide]. [wind] is needed, [airframe] is not.
 Glide read_glide(Section& root, Section& section);

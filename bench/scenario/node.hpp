@@ -21,9 +21,9 @@ struct Scenario;
 /// Whose truth a node samples: that of [truth], [glide] or [engagement].
 enum class TruthOf : std::uint8_t { navigation, glide, engagement };
 
-/// What in-flight alignment has of a node's fixes.
+/// What an estimator that is aided has of a node's fixes.
 struct Aid {
-  double aiding = 0;  ///< the value of its parameter of that name that takes them
+  double aiding = 0;  ///< the value of its parameter (EstimatorFacts::aided_by) that takes them
   /// The share that is lost at random, on purpose: waiting longer for them is no silence.
   double (*lost)(const NodeSettings& node) = nullptr;
 };

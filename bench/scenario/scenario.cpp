@@ -23,11 +23,22 @@ std::vector<std::string_view> keys_of(TruthOf truth, const Contract& contract,
   return keys;
 }
 
+/// Whether something holds of an estimator that the scenario runs.
+template <class Holds>
+bool any_runs(const Scenario& scenario, const Contract& contract, Holds holds) {
+  return std::ranges::any_of(scenario.targets, [&](const TargetSetup& target) {
+    return holds(facts_of(contract, target.estimator));
+  });
+}
+
 /// Reads the nodes that sample a truth.
 void read_nodes(Section& root, Scenario& scenario, const Contract& contract, TruthOf truth) {
   for (const NodeTable* node : contract.nodes) {
     if (node->samples != truth) continue;
-    const bool needed = node->needed != nullptr && node->needed(scenario);
+    const bool needed = (node->needed != nullptr && node->needed(scenario)) ||
+                        any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
+                          return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
+                        });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
     if (!section) continue;
     scenario.nodes.push_back(node->read(*node, *section));
@@ -37,8 +48,9 @@ void read_nodes(Section& root, Scenario& scenario, const Contract& contract, Tru
 
 /// The glider's truth and nodes.
 void read_glider(Section& root, Scenario& scenario, const Contract& contract) {
-  const auto parts = keys_of(TruthOf::glide, contract, {"glide", "wind", "airframe"});
-  const bool wanted = scenario.runs("wind") ||
+  const auto parts = keys_of(TruthOf::glide, contract, {glide_tables.begin(), glide_tables.end()});
+  const bool wanted = any_runs(scenario, contract,
+                               [](const EstimatorFacts& facts) { return facts.truth == TruthOf::glide; }) ||
                       std::ranges::any_of(parts, [&](std::string_view key) { return root.has(key); });
   if (!wanted) {
     for (const std::string_view key : parts) root.optional(key);
@@ -95,19 +107,27 @@ void read_navigation(Section& root, Scenario& scenario, const Contract& contract
   }
 }
 
-/// In-flight alignment takes the fixes of one aid, the first unless its parameter says another, and refuses
-/// the others'; nobody else takes any.
+/// An estimator that is aided takes the fixes of one aid, the first unless its parameter says another, and
+/// refuses the others'; nobody else takes any.
 void expect_aid(Section& root, const Scenario& scenario, const Contract& contract) {
-  const auto target = std::ranges::find(scenario.targets, "inflight_alignment", &TargetSetup::estimator);
+  const auto target = std::ranges::find_if(scenario.targets, [&](const TargetSetup& one) {
+    return !facts_of(contract, one.estimator).aided_by.empty();
+  });
+  std::vector<std::string_view> who;
+  for (const auto& [name, facts] : contract.facts) {
+    if (!facts.aided_by.empty()) who.push_back(name);
+  }
   std::vector<const NodeTable*> aids;
   for (const NodeTable* node : contract.nodes) {
     if (!node->aid) continue;
     aids.push_back(node);
     if (target == scenario.targets.end() && root.has(node->key))
-      root.reject(node->key, "has fixes that no estimator takes", "estimator inflight_alignment beside it");
+      root.reject(node->key, "has fixes that no estimator takes",
+                  fmt::format("estimator {} beside it", fmt::join(who, " or ")));
   }
   if (target == scenario.targets.end()) return;
-  const auto aiding = std::ranges::find(target->parameters, "aiding", &Parameter::name);
+  const std::string_view parameter = facts_of(contract, target->estimator).aided_by;
+  const auto aiding = std::ranges::find(target->parameters, parameter, &Parameter::name);
   const auto chosen = std::ranges::find_if(aids, [&](const NodeTable* aid) {
     return aiding != target->parameters.end() && aiding->value == aid->aid->aiding;
   });
@@ -122,12 +142,12 @@ void expect_aid(Section& root, const Scenario& scenario, const Contract& contrac
     root.reject(aids.front()->key, fmt::format("is missing, as is {}", fmt::join(keys, " and ")),
                 fmt::format("at least one of the tables {}", fmt::join(tables, " and ")));
   }
-  const bool may_choose = std::ranges::find(contract.parameters, "aiding") != contract.parameters.end();
+  const bool may_choose = std::ranges::find(contract.parameters, parameter) != contract.parameters.end();
   if (may_choose && scenario.node(taken->key) == nullptr) {
-    root.reject(
-        taken->key,
-        fmt::format("is missing, and parameter aiding = {:g} takes no other fixes", taken->aid->aiding),
-        fmt::format("a table, or aiding = {}", fmt::join(others, " or ")));
+    root.reject(taken->key,
+                fmt::format("is missing, and parameter {} = {:g} takes no other fixes", parameter,
+                            taken->aid->aiding),
+                fmt::format("a table, or {} = {}", parameter, fmt::join(others, " or ")));
   }
 }
 

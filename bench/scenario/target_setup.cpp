@@ -27,9 +27,9 @@ InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
 
 std::vector<Parameter> read_parameters(Section section, const Contract& contract,
                                        const std::string& estimator) {
-  const auto own = contract.parameters_of.find(estimator);
+  const auto own = facts_of(contract, estimator).parameters;
   const auto may_be_meant = [&](const std::string& name) {
-    return own == contract.parameters_of.end() || std::ranges::find(own->second, name) != own->second.end();
+    return own.empty() || std::ranges::find(own, name) != own.end();
   };
   constexpr double largest = 3.4e38;  // ParamSet carries an IEEE single
   std::vector<Parameter> parameters;
@@ -53,18 +53,17 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   target.algorithm = section.one_of("algorithm", contract.algorithms);
   target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
   // Told at every start; an estimator that does not navigate makes nothing of it.
-  const bool navigates = target.estimator != "los_rate";
-  if (navigates || section.has("initial_sigma"))
+  const EstimatorFacts facts = facts_of(contract, target.estimator);
+  if (facts.start != Start::nothing || section.has("initial_sigma"))
     target.initial_sigma = read_initial_sigma(section.table("initial_sigma"), target);
   section.optional("initial_sigma");
   if (auto parameters = section.optional_table("parameters")) {
     target.parameters = read_parameters(*std::move(parameters), contract, target.estimator);
   }
-  // One is let go with the errors of its glide, the other is told of no state that it makes anything of.
-  if (target.estimator == "wind")
-    section.refuse("initial_error", "has no effect on 'wind'", "[glide.initial_error]");
-  if (!navigates)
-    section.refuse("initial_error", fmt::format("has no effect on '{}'", target.estimator), "no such table");
+  if (facts.start != Start::navigation) {
+    section.refuse("initial_error", fmt::format("has no effect on '{}'", target.estimator),
+                   facts.start == Start::own_truth ? facts.start_errors : "no such table");
+  }
   if (auto initial_error = section.optional_table("initial_error"))
     target.initial_error = read_initial_error(*initial_error);
   section.finish();

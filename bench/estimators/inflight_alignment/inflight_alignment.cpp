@@ -17,6 +17,7 @@
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/inflight_alignment/quantities.hpp"
+#include "bench/estimators/names.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -230,18 +231,34 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
   return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
 }
 
+constexpr std::array<scenario::FormerCheckKind, 2> former{
+    {{"position_error", "kind 'error' with quantity 'position.norm', or its component"},
+     {"fixes", "kind 'answers'"}}};
+
+constexpr auto parameters = [] {
+  using enum messages::Parameter;
+  return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
+                  closed_loop, output_interval_ms, aiding, attitude_error_frame, ukf_root, ukf_covariance,
+                  fix_noise_horizontal_m, fix_noise_vertical_m, fix_bias_sigma_m, fix_bias_walk_mprts,
+                  initial_height_sigma_m, handover_sigma_deg, gate_nis, gate_recovery, late_fixes);
+}();
+constexpr std::array<std::string_view, 1> nodes{"slave_imu"};
+
 }  // namespace
 
-constinit const Estimator inflight_alignment{.name = "inflight_alignment",
-                                             .layout = layout,
-                                             .of_runs = of_runs,
-                                             .reception = inflight_reception,
-                                             .samples = samples_of,
-                                             .tracks = tracks_of,
-                                             .marks = marks_of,
-                                             .results = results_of,
-                                             .closing = closing,
-                                             .of_own_interval = messages::FixVelocityD::info.sample_group,
-                                             .freshness = freshness_of};
+constinit const Estimator inflight_alignment{
+    .name = "inflight_alignment",
+    .facts = {.parameters = parameters, .nodes = nodes, .aided_by = name_of(messages::Parameter::aiding)},
+    .layout = layout,
+    .of_runs = of_runs,
+    .reception = inflight_reception,
+    .samples = samples_of,
+    .tracks = tracks_of,
+    .marks = marks_of,
+    .results = results_of,
+    .closing = closing,
+    .of_own_interval = messages::FixVelocityD::info.sample_group,
+    .former_check_kinds = former,
+    .freshness = freshness_of};
 
 }  // namespace canhil::estimators

@@ -17,6 +17,7 @@
 #include "bench/estimators/los_rate/miss_distance.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
 #include "bench/estimators/marks.hpp"
+#include "bench/estimators/names.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -186,18 +187,37 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
           .sample_us = std::max(stretch_us, seeker->period_us())};
 }
 
+constexpr std::array<scenario::FormerCheckKind, 2> former{
+    {{"los_rate_error", "kind 'error' with quantity 'los.rate', or its plane, and statistic 'rms'"},
+     {"coasting", "kind 'answers' with coasting_at_least or coasting_at_most"}}};
+
+constexpr auto parameters = [] {
+  using enum messages::Parameter;
+  return names_of(jerk_density_m2ps5, thermal_noise_pitch_radpm2, thermal_noise_yaw_radpm2,
+                  glint_noise_pitch_m, glint_noise_yaw_m, constant_noise_pitch_rad, constant_noise_yaw_rad,
+                  sample_period_ms, los_rate_sigma_radps, target_acceleration_sigma_mps2, start_up_s,
+                  gap_limit_ms, low_pass_bandwidth_radps, low_pass_damping, range_max_m,
+                  closing_speed_max_mps, blind_range_m, range_sigma_m, range_gate_m, closing_speed_gate_mps,
+                  relock_samples, range_unchanged_limit_ms, field_of_view_rad, antenna_rate_sigma_radps,
+                  missile_acceleration_sigma_mps2);
+}();
+constexpr std::array<std::string_view, 1> nodes{"seeker"};
+
 }  // namespace
 
-constinit const Estimator los_rate{.name = "los_rate",
-                                   .layout = layout,
-                                   .of_runs = of_runs,
-                                   .reception = los_reception,
-                                   .samples = samples_of,
-                                   .tracks = tracks_of,
-                                   .marks = marks_of,
-                                   .results = results_of,
-                                   .closing = closing,
-                                   .check_kinds = check_kinds,
-                                   .freshness = freshness_of};
+constinit const Estimator los_rate{
+    .name = "los_rate",
+    .facts = {.parameters = parameters, .nodes = nodes, .start = scenario::Start::nothing},
+    .layout = layout,
+    .of_runs = of_runs,
+    .reception = los_reception,
+    .samples = samples_of,
+    .tracks = tracks_of,
+    .marks = marks_of,
+    .results = results_of,
+    .closing = closing,
+    .check_kinds = check_kinds,
+    .former_check_kinds = former,
+    .freshness = freshness_of};
 
 }  // namespace canhil::estimators

@@ -6,6 +6,7 @@
 #include "bench/estimators/alignment_results.hpp"
 #include "bench/estimators/alignment_tracks.hpp"
 #include "bench/estimators/freshness.hpp"
+#include "bench/estimators/names.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/estimators/transfer_alignment/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -110,9 +111,22 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
   return {.age_limit_us = std::llround(longest_us), .end_us = scenario.duration_us};
 }
 
+constexpr std::array<scenario::FormerCheckKind, 2> former{
+    {{"attitude_error", "kind 'error' with quantity 'attitude.heading', 'attitude.roll' or 'attitude.pitch'"},
+     {"velocity_error", "kind 'error' with quantity 'velocity.norm', or its component"}}};
+
+constexpr auto parameters = [] {
+  using enum messages::Parameter;
+  return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
+                  velocity_noise_m2ps, h2_case, h2_alpha_rule, h2_alpha_mps2, fading_per_s, mechanization,
+                  closed_loop, output_interval_ms);
+}();
+constexpr std::array<std::string_view, 2> nodes{"slave_imu", "master_ins"};
+
 }  // namespace
 
 constinit const Estimator transfer_alignment{.name = "transfer_alignment",
+                                             .facts = {.parameters = parameters, .nodes = nodes},
                                              .layout = layout,
                                              .of_runs = of_runs,
                                              .reception = transfer_reception,
@@ -122,6 +136,7 @@ constinit const Estimator transfer_alignment{.name = "transfer_alignment",
                                              .results = results_of,
                                              .closing = closing,
                                              .of_own_interval = messages::AlignVelocityD::info.sample_group,
+                                             .former_check_kinds = former,
                                              .freshness = freshness_of};
 
 }  // namespace canhil::estimators

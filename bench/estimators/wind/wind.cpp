@@ -13,6 +13,7 @@
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/marks.hpp"
+#include "bench/estimators/names.hpp"
 #include "bench/estimators/wind/answers.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -173,9 +174,29 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
   return {.age_limit_us = std::llround(checks::longest_wait_us(answers_us)), .end_us = scenario.duration_us};
 }
 
+constexpr std::array<scenario::FormerCheckKind, 2> former{
+    {{"wind_error", "kind 'error' with quantity 'wind.norm', or its component"},
+     {"wind_answers", "kind 'answers'"}}};
+
+constexpr auto parameters = [] {
+  using enum messages::Parameter;
+  return names_of(output_interval_ms, process_noise, air_velocity_noise_mpsprts, body_rate_noise_degpsprts,
+                  attitude_noise_degprts, wind_noise_mpsprts, glider_velocity_sigma_mps,
+                  glider_rate_sigma_degps, glider_attitude_sigma_deg, theta_per_s, theta_cap_per_s,
+                  theta_rate_weight, adaptation_time_s, adaptation_limit, initial_air_velocity_sigma_mps,
+                  initial_rate_sigma_degps, initial_wind_sigma_mps, fins_late_ms, fins_missing_ms,
+                  glider_nav_coast_s, glider_nav_stale_ms, glider_nav_gate_mps);
+}();
+constexpr std::array<std::string_view, 2> nodes{"glider_nav", "fins"};
+
 }  // namespace
 
 constinit const Estimator wind{.name = "wind",
+                               .facts = {.parameters = parameters,
+                                         .nodes = nodes,
+                                         .truth = scenario::TruthOf::glide,
+                                         .start = scenario::Start::own_truth,
+                                         .start_errors = "[glide.initial_error]"},
                                .layout = layout,
                                .of_runs = of_runs,
                                .reception = wind_reception,
@@ -184,6 +205,7 @@ constinit const Estimator wind{.name = "wind",
                                .marks = marks_of,
                                .results = results_of,
                                .closing = closing,
+                               .former_check_kinds = former,
                                .freshness = freshness_of};
 
 }  // namespace canhil::estimators

@@ -27,8 +27,12 @@ MAY_INCLUDE = {
 # Out of reach even through other headers: a check judges decoded frames against the truth, and nothing else.
 NEVER_REACHES = {"bench/checks/": ("target/", "bench/nodes/")}
 
-# What works on quantities names no estimator (a folder of bench/estimators) and no message. More is to come here.
-ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/series.", "bench/report/thinned.", "bench/report/csv.")
+# What works on quantities names no estimator (a folder of bench/estimators), not even as a word, and no message at all.
+ON_QUANTITIES = ("bench/quantities/", "bench/campaign/", "bench/report/")
+
+# Where an estimator may be named: its folder and the registry; the papers, which are about one each; the seeker, which steers by what
+# it is answered; and the truth of the glide, whose table [wind] has an estimator's name.
+KNOW_ESTIMATORS = ("bench/estimators/", "bench/papers/", "bench/nodes/seeker.", "bench/scenario/glide.")
 
 # Aim for 300. A long table or one long derivation may pass it; at a third more, a file has got a second subject.
 MOST_LINES = 400
@@ -51,7 +55,8 @@ def check(root):
     sources = {n: t for n, t in texts.items() if n.split("/")[0] in CODE and n.endswith((".hpp", ".cpp"))}
     graph = {name: includes(text) for name, text in sources.items()}
     return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *size_breaches(sources),
-            *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources), *node_breaches(sources, graph),
+            *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources),
+            *estimator_breaches(sources), *node_breaches(sources, graph),
             *dbc_breaches(texts, sources)]
 
 
@@ -169,6 +174,24 @@ def quantity_breaches(sources):
         for found in named.finditer(clean):
             line = clean.count("\n", 0, found.start()) + 1
             yield f"{name}:{line}: names {found[0]}, expected quantities: what is particular stands in bench/estimators"
+
+
+def estimator_breaches(sources):
+    """Nobody but its folder and the registry names an estimator or a message of its answers; see KNOW_ESTIMATORS."""
+    own = {n: without_comments(t) for n, t in sources.items() if n.startswith("bench/estimators/")}
+    estimators = {n.split("/")[2] for n in own if n.count("/") == 3}
+    groups = re.findall(r"\b(?:Answer|Navigation)Group<([^<>;]*)>", " ".join(own.values()))
+    answers = {m.strip().split("::")[-1] for g in groups for m in g.split(",")} - {"Messages...", "Attitude", "VelocityNE", "VelocityD"}
+    if not estimators or not answers:
+        return
+    named = re.compile(rf'"(?:{"|".join(sorted(estimators))})"|\b(?:{"|".join(sorted(answers))})\b')
+    for name, text in sources.items():
+        if not name.startswith("bench/") or name.startswith(KNOW_ESTIMATORS):
+            continue
+        clean = without_comments(text)
+        for found in named.finditer(clean):
+            line = clean.count("\n", 0, found.start()) + 1
+            yield f"{name}:{line}: names {found[0]}, expected the registry: what is particular stands in bench/estimators"
 
 
 def node_breaches(sources, graph):

@@ -85,6 +85,16 @@ class Checker(unittest.TestCase):
         self.assertEqual(breaches_of({**wind, "bench/campaign/series.cpp": "int window;  // not wind\n",
                                       "bench/estimators/wind/wind.cpp": "int wind;\n"}), [])
 
+    def test_an_estimator_is_known_to_its_folder_and_the_registry_alone(self):
+        odometry = {"bench/estimators/odometry/odometry.cpp": "using Group = AnswerGroup<OdometrySpeed, OdometryState>;\n",
+                    "bench/estimators/registry.cpp": "const Estimator& one = odometry;\n",
+                    "bench/papers/odometry/claims.cpp": 'auto name = "odometry";\n'}
+        self.assertEqual(breaches_of({**odometry, "bench/run/x.cpp": 'int odometry = 0; auto s = "odometry of a car";\n'}), [])
+        for name in ("bench/run/monitor.cpp", "bench/checks/kinds/error.cpp", "bench/scenario/target_setup.cpp", "bench/nodes/gps.cpp"):
+            for text in ('if (name == "odometry") return;\n', "auto speed = from_frame<OdometrySpeed>(frame);\n"):
+                with self.subTest(name=name, text=text):
+                    self.expect(f"{name}:1: names", {**odometry, name: text})
+
     def test_a_node_is_known_to_the_registry_alone(self):
         gps = {"bench/nodes/gps.hpp": "struct GpsSettings {};\nextern const struct Kind gps;\n", "bench/nodes/gps.cpp": '#include "bench/nodes/gps.hpp"\n',
                "bench/nodes/registry.cpp": '#include "bench/nodes/gps.hpp"\n'}

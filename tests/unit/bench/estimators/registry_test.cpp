@@ -8,6 +8,7 @@
 
 #include "bench/estimators/registry.hpp"
 #include "bench/run/contract.hpp"
+#include "target/device/device.hpp"
 
 namespace canhil::estimators {
 namespace {
@@ -34,6 +35,23 @@ TEST(Registry, KnowsTheEstimatorsOfTheContract) {
   EXPECT_THAT(names, testing::UnorderedElementsAreArray(run::contract().estimators));
   EXPECT_EQ(find("wheel_odometry"), nullptr);
   EXPECT_EQ(telling("height"), nullptr);
+}
+
+// What a misspelt parameter may mean: those that this target has.
+TEST(Registry, TheParametersAreThoseOfTheTarget) {
+  const target::Device device;
+  for (const auto estimator : messages::enumerators<messages::Estimator>) {
+    const Estimator* known = find(name_of(estimator));
+    std::vector<std::string_view> own;
+    for (const auto parameter : messages::enumerators<messages::Parameter>) {
+      if (device.range(estimator, parameter)) own.push_back(name_of(parameter));
+    }
+    if (known == nullptr) {
+      EXPECT_TRUE(own.empty()) << name_of(estimator);
+    } else {
+      EXPECT_THAT(known->facts.parameters, testing::ElementsAreArray(own)) << known->name;
+    }
+  }
 }
 
 // The table of docs/quantities.md, as the code has it.

@@ -202,7 +202,7 @@ TEST(ScenarioChecks, WhatIsOfBeforeIsToldWithWhatToWriteNow) {
             "s.toml:17: key 'check[1].kind': 'attitude_error' is a kind of before, expected kind 'error' "
             "with quantity "
             "'attitude.heading', 'attitude.roll' or 'attitude.pitch'");
-  for (const FormerCheckKind& former : checks::former_kinds()) {
+  for (const FormerCheckKind& former : checks::former_kinds(estimators::all())) {
     EXPECT_THAT(refused(fmt::format("kind = '{}'", former.name)),
                 HasSubstr(fmt::format("expected {}", former.now)));
   }

@@ -38,7 +38,8 @@ TEST(Contradictions, AMisspeltParameterIsOneOfItsEstimator) {
   };
   EXPECT_EQ(error(contract), "s.toml:9: key 'target.parameters.h2_cas': is unknown, expected 'h2_case'");
   Contract by_estimator = contract;
-  by_estimator.parameters_of["transfer_alignment"] = {"velocity_noise_m2ps"};
+  static constexpr std::array<std::string_view, 1> own{"velocity_noise_m2ps"};
+  by_estimator.facts["transfer_alignment"].parameters = own;
   EXPECT_EQ(error(by_estimator),
             "s.toml:9: key 'target.parameters.h2_cas': is unknown, expected one of: velocity_noise_m2ps");
   // Given, another's is left to the target: it may be somebody else's.

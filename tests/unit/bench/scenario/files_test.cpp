@@ -51,6 +51,7 @@ Contract of_the_dbc() {
           .answers = answers(text),
           .check_kinds = checks::kinds(estimators::all()),
           .known = estimators::all(),
+          .facts = estimators::facts(),
           .nodes = nodes::tables()};
 }
 

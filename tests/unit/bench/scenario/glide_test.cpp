@@ -23,6 +23,7 @@ const Contract glider_contract{.estimators = {"transfer_alignment", "wind"},
                                .answers = {"WindVector"},
                                .check_kinds = checks::kinds(estimators::all()),
                                .known = estimators::all(),
+                               .facts = estimators::facts(),
                                .nodes = nodes::tables()};
 
 constexpr std::string_view glider = R"(title = "A glider"

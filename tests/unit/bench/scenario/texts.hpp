@@ -21,7 +21,8 @@ inline const Contract contract{.estimators = {"transfer_alignment", "inflight_al
                                .answers = {"AlignAttitude", "AlignUpdate"},
                                .check_kinds = checks::kinds(estimators::all()),
                                .known = estimators::all(),
-                               .former_check_kinds = checks::former_kinds(),
+                               .former_check_kinds = checks::former_kinds(estimators::all()),
+                               .facts = estimators::facts(),
                                .nodes = nodes::tables()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
