@@ -27,8 +27,9 @@ class NavigationGroup {
  public:
   using Group = AnswerGroup<Attitude, VelocityNE, VelocityD>;
 
-  std::optional<Whole> take(const Frame& frame, std::int64_t now_us, std::vector<NavigationAnswer>& answers) {
-    if (!group_.put(frame)) return std::nullopt;
+  /// True: the group is whole now.
+  bool put(const Frame& frame) { return group_.put(frame); }
+  Whole add(std::int64_t now_us, std::vector<NavigationAnswer>& answers) const {
     using world::units::deg;
     const auto& attitude = group_.template get<Attitude>();
     const auto& horizontal = group_.template get<VelocityNE>();

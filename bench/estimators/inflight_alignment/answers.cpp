@@ -77,9 +77,11 @@ class InflightReception final : public Reception {
   }
   std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
                             checks::Observations& seen) override {
-    auto& answers = seen.of<InflightAnswers>();
-    if (Navigation::Group::has(message)) return navigation_.take(frame, now_us, answers.navigation);
-    return fix_.put(frame) ? std::optional(add(fix_, now_us, answers)) : std::nullopt;
+    if (Navigation::Group::has(message)) {
+      if (!navigation_.put(frame)) return std::nullopt;
+      return navigation_.add(now_us, seen.of<InflightAnswers>().navigation);
+    }
+    return fix_.put(frame) ? std::optional(add(fix_, now_us, seen.of<InflightAnswers>())) : std::nullopt;
   }
   void sent(std::string_view group, std::int64_t valid_us, checks::Observations& seen) override {
     for (const FixSource source : {FixSource::ssbl, FixSource::gps}) {

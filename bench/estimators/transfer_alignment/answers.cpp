@@ -48,9 +48,12 @@ class TransferReception final : public Reception {
   }
   std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
                             checks::Observations& seen) override {
-    auto& answers = seen.of<TransferAnswers>();
-    if (Navigation::Group::has(message)) return navigation_.take(frame, now_us, answers.navigation);
-    return filter_.put(frame) ? std::optional(add(filter_, now_us, answers)) : std::nullopt;
+    if (Navigation::Group::has(message)) {
+      if (!navigation_.put(frame)) return std::nullopt;
+      return navigation_.add(now_us, seen.of<TransferAnswers>().navigation);
+    }
+    return filter_.put(frame) ? std::optional(add(filter_, now_us, seen.of<TransferAnswers>()))
+                              : std::nullopt;
   }
 
  private:
