@@ -34,6 +34,9 @@ bool lies_in(const std::pair<double, double>& to_go_s, double value) {
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
   if (candidates.size() == 1) return section.one_of("estimator", candidates, candidates.front());
+  // Said before the keys that are of this estimator or that.
+  if (!section.has("estimator"))
+    section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
   return section.one_of("estimator", candidates);
 }
 

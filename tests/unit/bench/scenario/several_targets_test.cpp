@@ -71,6 +71,10 @@ TEST(SeveralTargets, ACheckSaysWhoseAnswersItIsAbout) {
       refusal(two(second, check)),
       HasSubstr(
           "key 'check[1].estimator': is missing, expected one of: transfer_alignment, inflight_alignment"));
+  EXPECT_THAT(
+      refusal(two(second, "[[check]]\nkind = 'answers'\ncoasting_at_most = 0\n")),
+      HasSubstr(
+          "key 'check[1].estimator': is missing, expected one of: transfer_alignment, inflight_alignment"));
   const Scenario s = parsed(two(second, check + "estimator = 'inflight_alignment'\n"));
   EXPECT_EQ(rule_of<checks::Error>(s.checks.at(0)).of.estimator, "inflight_alignment");
   EXPECT_EQ(s.checks.at(0).name, "error attitude.roll of inflight_alignment");
