@@ -1,8 +1,6 @@
 // What a check found, and what all that judge share.
 #pragma once
 
-#include <algorithm>
-#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -21,15 +19,6 @@ constexpr Outcome pass_if(bool good) { return good ? Outcome::pass : Outcome::fa
 
 constexpr bool within(const scenario::Window& window, std::int64_t t_us) {
   return t_us >= window.from_us && t_us <= window.to_us;
-}
-
-/// The items of a series (with t_us) that lie in a window.
-template <class Series>
-Series inside(const Series& series, const scenario::Window& window) {
-  Series part;
-  std::ranges::copy_if(series, std::back_inserter(part),
-                       [&](const auto& item) { return within(window, item.t_us); });
-  return part;
 }
 
 /// "from 1 to 2 s".

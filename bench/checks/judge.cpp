@@ -5,6 +5,7 @@
 
 #include "bench/checks/finding.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
+#include "bench/checks/kinds/of_tracks.hpp"
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/rule.hpp"
 #include "bench/checks/timing.hpp"
@@ -30,8 +31,7 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
   std::vector<Subject> wanted;
   for (const scenario::Check& check : checks) {
     for (const Subject& subject : check.rule->subjects()) {
-      if (subject.quantity->parts.empty()) wanted.push_back(subject);
-      for (const quantities::Quantity* part : subject.quantity->parts)
+      for (const quantities::Quantity* part : parts_of(*subject.quantity))
         wanted.push_back({.estimator = subject.estimator, .quantity = part});
     }
   }
@@ -55,13 +55,11 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity) {
   std::vector<const quantities::Track*> found;
-  const auto add = [&](const quantities::Quantity* one) {
+  for (const quantities::Quantity* part : parts_of(quantity)) {
     for (const auto& [name, track] : evidence.tracks) {
-      if (name == estimator && track.quantity == one) found.push_back(&track);
+      if (name == estimator && track.quantity == part) found.push_back(&track);
     }
-  };
-  if (quantity.parts.empty()) add(&quantity);
-  for (const quantities::Quantity* part : quantity.parts) add(part);
+  }
   return found;
 }
 

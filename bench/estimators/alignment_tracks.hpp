@@ -1,6 +1,7 @@
 // What estimators of attitude and velocity have in common: what follows from their samples, and their tracks.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -33,6 +34,21 @@ struct AlignmentWords {
   std::string_view navigation_closes{};                     ///< the last message of its navigation answers
   std::array<const quantities::Quantity*, 3> innovation{};  ///< north, east, down
 };
+
+/// What AlignmentTracks gives of any of them, beside its innovations and statistics.
+inline constexpr std::array<const quantities::Quantity*, 10> alignment_told{
+    &quantities::attitude_heading,  &quantities::misalignment_north, &quantities::misalignment_east,
+    &quantities::misalignment_down, &quantities::attitude_roll,      &quantities::attitude_pitch,
+    &quantities::velocity_north,    &quantities::velocity_east,      &quantities::velocity_down,
+    &quantities::velocity_norm};
+
+/// These and what one of them tells alone.
+template <std::size_t count>
+constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, count>& own) {
+  std::array<const quantities::Quantity*, alignment_told.size() + count> all{};
+  std::ranges::copy(own, std::ranges::copy(alignment_told, all.begin()).out);
+  return all;
+}
 
 /// A normalised error squared after each update.
 struct AlignmentStatistic {

@@ -44,8 +44,7 @@ std::string Error::subject() const {
 
 std::optional<Bar> Error::bar() const {
   Bar bar{.of = {}, .stretch = stretch, .below = below, .statistic = name(statistic)};
-  if (of.quantity->parts.empty()) bar.of = {of};
-  for (const quantities::Quantity* part : of.quantity->parts)
+  for (const quantities::Quantity* part : parts_of(*of.quantity))
     bar.of.push_back({.estimator = of.estimator, .quantity = part});
   return bar;
 }

@@ -93,6 +93,11 @@ std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::st
   return number(in_degrees ? quantities::degrees : quantities::mrad);
 }
 
+std::vector<const Quantity*> parts_of(const Quantity& quantity) {
+  if (quantity.parts.empty()) return {&quantity};
+  return {quantity.parts.begin(), quantity.parts.end()};
+}
+
 int digits_of(const quantities::Unit& unit) { return unit.name == "m" ? 2 : unit.name == "m/s" ? 4 : 3; }
 
 std::string words(const Stretch& stretch) {

@@ -27,6 +27,9 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
                                              const quantities::Quantity& quantity);
 
+/// What a quantity is made of: its parts, or itself.
+std::vector<const quantities::Quantity*> parts_of(const quantities::Quantity& quantity);
+
 /// As many as a figure in this unit has after its point.
 int digits_of(const quantities::Unit& unit);
 

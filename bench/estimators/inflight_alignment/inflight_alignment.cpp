@@ -31,33 +31,18 @@ constexpr std::array<const Quantity*, 15> kept{
     &attitude_heading,   &velocity_north,    &velocity_east,     &velocity_down, &innovation_nis,
     &position_north,     &position_east,     &position_down,     &heading_sigma, &covariance_repairs};
 
-constexpr std::array<const Quantity*, 20> of_runs{&attitude_heading,
-                                                  &misalignment_north,
-                                                  &misalignment_east,
-                                                  &misalignment_down,
-                                                  &attitude_roll,
-                                                  &attitude_pitch,
-                                                  &velocity_north,
-                                                  &velocity_east,
-                                                  &velocity_down,
-                                                  &velocity_norm,
-                                                  &position_north,
-                                                  &position_east,
-                                                  &position_down,
-                                                  &position_horizontal,
-                                                  &position_norm,
-                                                  &position_innovation_north,
-                                                  &position_innovation_east,
-                                                  &position_innovation_down,
-                                                  &innovation_nis,
-                                                  &heading_nees};
+constexpr auto of_runs = and_alignment_told(
+    std::array<const Quantity*, 10>{&position_north, &position_east, &position_down, &position_horizontal,
+                                    &position_norm, &position_innovation_north, &position_innovation_east,
+                                    &position_innovation_down, &innovation_nis, &heading_nees});
 
 constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
-  const auto errors = navigation_errors(seen.of<InflightAnswers>().navigation, truth.flight);
-  for (const FixAnswer& update : seen.of<InflightAnswers>().fixes) {
+  const InflightAnswers& answers = seen.of<InflightAnswers>();
+  const auto errors = navigation_errors(answers.navigation, truth.flight);
+  for (const FixAnswer& update : answers.fixes) {
     if (!tells_of_its_time(update, truth.flight)) continue;
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
@@ -92,11 +77,12 @@ constexpr AlignmentWords words{
 // The longest time that is no silence between answers to fixes: so many in a row may go unanswered. By the
 // median, as the bench may keep fixes back on purpose; of two sources the slower one counts.
 double longest_wait_us(const checks::Observations& seen) {
+  const InflightAnswers& answers = seen.of<InflightAnswers>();
   double period_us = 0;
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {
     std::vector<std::int64_t> periods_us;
     std::optional<std::int64_t> before_us;
-    for (const SentFix& fix : seen.of<InflightAnswers>().sent) {
+    for (const SentFix& fix : answers.sent) {
       if (fix.source != source) continue;
       if (before_us) periods_us.push_back(fix.valid_us - *before_us);
       before_us = fix.valid_us;
@@ -122,6 +108,7 @@ std::function<std::string(std::int64_t, std::int64_t)> owed_to(const checks::Obs
 
 void give_position(const checks::Observations& seen, const Truth& truth, double wait_us,
                    const TrackSink& give) {
+  const InflightAnswers& answers = seen.of<InflightAnswers>();
   const auto add = [&](const Quantity& quantity, std::string title, bool only_if_judged, auto told) {
     Track track{.quantity = &quantity,
                 .unit = metres,
@@ -130,7 +117,7 @@ void give_position(const checks::Observations& seen, const Truth& truth, double 
                 .unanswered = owed_to(seen),
                 .longest_wait_us = wait_us,
                 .answers_end_us = truth.duration_us};
-    for (const FixAnswer& fix : seen.of<InflightAnswers>().fixes) {
+    for (const FixAnswer& fix : answers.fixes) {
       if (!tells_of_its_time(fix, truth.flight)) continue;
       track.told.push_back(told(fix, position_error(fix, truth.flight)));
       track.told.back().t_us = fix.cause_us;
@@ -153,11 +140,11 @@ void give_position(const checks::Observations& seen, const Truth& truth, double 
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const double wait_us = longest_wait_us(seen);
-  const AlignmentTracks tracks(words, seen, seen.of<InflightAnswers>().navigation, truth.flight,
-                               truth.duration_us, seen.of<InflightAnswers>().fixes, wait_us,
-                               misalignment_sigma, owed_to(seen));
+  const InflightAnswers& answers = seen.of<InflightAnswers>();
+  const AlignmentTracks tracks(words, seen, answers.navigation, truth.flight, truth.duration_us,
+                               answers.fixes, wait_us, misalignment_sigma, owed_to(seen));
   std::vector<Normalised> nis, of_heading;
-  for (const FixAnswer& answer : seen.of<InflightAnswers>().fixes) {
+  for (const FixAnswer& answer : answers.fixes) {
     if (!used(answer.outcome)) continue;
     nis.push_back({answer.cause_us, answer.nis});
     add_heading_nees(of_heading, tracks.errors(), answer, answer.heading_sigma);
@@ -175,36 +162,33 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
 // Navigation answers that bridged lost input; fixes by what became of them, whose answers after which the
 // covariance had been repaired, and those after which the heading was resolved and fed back.
 std::vector<Mark> marks_of(const checks::Observations& seen) {
+  const InflightAnswers& answers = seen.of<InflightAnswers>();
   std::vector<Mark> marks{
-      {.name = "answers", .t_us = times_of(seen.of<InflightAnswers>().navigation, every_answer)},
-      {.name = "coasting",
-       .t_us = times_of(seen.of<InflightAnswers>().navigation, &NavigationAnswer::coasting)}};
-  add_marks(marks, seen.of<InflightAnswers>().fixes, &FixAnswer::outcome,
-            messages::enumerators<messages::FixOutcome>);
+      {.name = "answers", .t_us = times_of(answers.navigation, every_answer)},
+      {.name = "coasting", .t_us = times_of(answers.navigation, &NavigationAnswer::coasting)}};
+  add_marks(marks, answers.fixes, &FixAnswer::outcome, messages::enumerators<messages::FixOutcome>);
   std::uint32_t repairs = 0;
-  marks.push_back(
-      {.name = "repaired", .t_us = times_of(seen.of<InflightAnswers>().fixes, [&](const FixAnswer& fix) {
-                             return std::exchange(repairs, fix.repairs) != fix.repairs;
-                           })});
-  marks.push_back(
-      {.name = "handed_over", .t_us = times_of(seen.of<InflightAnswers>().fixes, &FixAnswer::handed_over)});
+  marks.push_back({.name = "repaired", .t_us = times_of(answers.fixes, [&](const FixAnswer& fix) {
+                                         return std::exchange(repairs, fix.repairs) != fix.repairs;
+                                       })});
+  marks.push_back({.name = "handed_over", .t_us = times_of(answers.fixes, &FixAnswer::handed_over)});
   return marks;
 }
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                    std::string_view algorithm) {
   constexpr std::array bands_deg{30.0, 10.0, 3.0, 1.0};
-  auto lines = alignment_results(navigation_errors(seen.of<InflightAnswers>().navigation, truth.flight),
-                                 bands_deg, degrees);
-  if (seen.of<InflightAnswers>().fixes.empty()) return lines;
-  const FixAnswer& last = seen.of<InflightAnswers>().fixes.back();
+  const InflightAnswers& answers = seen.of<InflightAnswers>();
+  auto lines = alignment_results(navigation_errors(answers.navigation, truth.flight), bands_deg, degrees);
+  if (answers.fixes.empty()) return lines;
+  const FixAnswer& last = answers.fixes.back();
   ResultLine filter{.name = "filter", .what = "filter"};
   filter.figures.push_back({.name = "repairs",
                             .value = last.repairs,
                             .words = fmt::format("repairs of the covariance {}", last.repairs)});
   // The algorithm keeps the heading apart from the INS until it is resolved.
-  const auto resolved = std::ranges::find(seen.of<InflightAnswers>().fixes, true, &FixAnswer::handed_over);
-  if (resolved != seen.of<InflightAnswers>().fixes.end()) {
+  const auto resolved = std::ranges::find(answers.fixes, true, &FixAnswer::handed_over);
+  if (resolved != answers.fixes.end()) {
     const double t_s = static_cast<double>(resolved->cause_us) / 1e6;
     filter.figures.push_back({.name = "resolved",
                               .value = t_s,

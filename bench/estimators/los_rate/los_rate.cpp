@@ -87,8 +87,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   if (truth.engagement == nullptr) return;
+  const LosAnswers& answers = seen.of<LosAnswers>();
   const world::EngagementRecord& engagement = *truth.engagement;
-  const auto errors = los_errors(seen.of<LosAnswers>(), engagement);
+  const auto errors = los_errors(answers, engagement);
   // In the last moments before the passage the rate itself grows beyond any picture.
   constexpr double least_to_go_s = 0.08;
   const auto last = std::find_if(errors.rbegin(), errors.rend(),
@@ -111,7 +112,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     for (const world::EngagementTruth& epoch : engagement.epochs)
       track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
     for (const LosError& e : errors) {
-      const auto& answer = *std::ranges::lower_bound(seen.of<LosAnswers>(), e.t_us, {}, &LosAnswer::cause_us);
+      const auto& answer = *std::ranges::lower_bound(answers, e.t_us, {}, &LosAnswer::cause_us);
       track.told.push_back({.t_us = e.t_us,
                             .value = e.rate.*member,
                             .sigma = answer.rate_sigma.*member,
@@ -125,16 +126,15 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   Track statistic = empty(los_nis);
   statistic.kind = Track::Kind::statistic;
   statistic.title = "normalised innovation squared";
-  for (const Normalised& n : nis_of(seen.of<LosAnswers>()))
-    statistic.told.push_back({.t_us = n.t_us, .value = n.value});
+  for (const Normalised& n : nis_of(answers)) statistic.told.push_back({.t_us = n.t_us, .value = n.value});
   give(std::move(statistic));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
-  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.of<LosAnswers>(), every_answer)}};
-  add_marks(marks, seen.of<LosAnswers>(), &LosAnswer::outcome,
-            messages::enumerators<messages::LosRateOutcome>);
-  marks.push_back({.name = "blind", .t_us = times_of(seen.of<LosAnswers>(), &LosAnswer::blind)});
+  const LosAnswers& answers = seen.of<LosAnswers>();
+  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(answers, every_answer)}};
+  add_marks(marks, answers, &LosAnswer::outcome, messages::enumerators<messages::LosRateOutcome>);
+  marks.push_back({.name = "blind", .t_us = times_of(answers, &LosAnswer::blind)});
   return marks;
 }
 

@@ -22,32 +22,20 @@ constexpr std::array<const Quantity*, 12> kept{&misalignment_north, &misalignmen
                                                &velocity_north,     &velocity_east,     &velocity_down,
                                                &attitude_nees,      &innovation_nis,    &heading_sigma};
 
-constexpr std::array<const Quantity*, 16> of_runs{&attitude_heading,
-                                                  &misalignment_north,
-                                                  &misalignment_east,
-                                                  &misalignment_down,
-                                                  &attitude_roll,
-                                                  &attitude_pitch,
-                                                  &velocity_north,
-                                                  &velocity_east,
-                                                  &velocity_down,
-                                                  &velocity_norm,
-                                                  &velocity_innovation_north,
-                                                  &velocity_innovation_east,
-                                                  &velocity_innovation_down,
-                                                  &innovation_nis,
-                                                  &attitude_nees,
-                                                  &heading_nees};
+constexpr auto of_runs = and_alignment_told(std::array<const Quantity*, 6>{
+    &velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down, &innovation_nis,
+    &attitude_nees, &heading_nees});
 
 constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
-  const auto errors = navigation_errors(seen.of<TransferAnswers>().navigation, truth.flight);
+  const TransferAnswers& answers = seen.of<TransferAnswers>();
+  const auto errors = navigation_errors(answers.navigation, truth.flight);
   // One value an update, in order, up to the last one that a navigation answer follows.
-  const std::vector<Normalised> nees = nees_of(seen.of<TransferAnswers>().filter, errors);
+  const std::vector<Normalised> nees = nees_of(answers.filter, errors);
   for (std::size_t i = 0; i < nees.size(); ++i) {
-    const FilterAnswer& update = seen.of<TransferAnswers>().filter[i];
+    const FilterAnswer& update = answers.filter[i];
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
@@ -67,11 +55,12 @@ constexpr AlignmentWords words{
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const double wait_us =
       checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::AlignUpdate::info.name));
-  const AlignmentTracks tracks(words, seen, seen.of<TransferAnswers>().navigation, truth.flight,
-                               truth.duration_us, seen.of<TransferAnswers>().filter, wait_us,
+  const TransferAnswers& answers = seen.of<TransferAnswers>();
+  const AlignmentTracks tracks(words, seen, answers.navigation, truth.flight, truth.duration_us,
+                               answers.filter, wait_us,
                                [](const FilterAnswer& a, int axis) { return a.attitude_sigma(axis); });
   std::vector<Normalised> nis, of_heading;
-  for (const FilterAnswer& answer : seen.of<TransferAnswers>().filter) {
+  for (const FilterAnswer& answer : answers.filter) {
     nis.push_back({answer.cause_us, answer.nis});
     add_heading_nees(of_heading, tracks.errors(), answer, answer.attitude_sigma.z());
   }
@@ -80,7 +69,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
       {{.quantity = &innovation_nis, .title = "normalised innovation squared", .series = std::move(nis)},
        {.quantity = &attitude_nees,
         .title = "normalised error squared of the attitude",
-        .series = nees_of(seen.of<TransferAnswers>().filter, tracks.errors()),
+        .series = nees_of(answers.filter, tracks.errors()),
         .only_if_judged = true},
        {.quantity = &heading_nees,
         .title = "normalised error squared of the heading",
@@ -89,10 +78,10 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
-  return {{.name = "answers", .t_us = times_of(seen.of<TransferAnswers>().navigation, every_answer)},
-          {.name = "coasting",
-           .t_us = times_of(seen.of<TransferAnswers>().navigation, &NavigationAnswer::coasting)},
-          {.name = "updates", .t_us = times_of(seen.of<TransferAnswers>().filter, every_answer)}};
+  const TransferAnswers& answers = seen.of<TransferAnswers>();
+  return {{.name = "answers", .t_us = times_of(answers.navigation, every_answer)},
+          {.name = "coasting", .t_us = times_of(answers.navigation, &NavigationAnswer::coasting)},
+          {.name = "updates", .t_us = times_of(answers.filter, every_answer)}};
 }
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,

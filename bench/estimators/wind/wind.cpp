@@ -59,7 +59,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   if (truth.glide == nullptr) return;
-  const auto errors = wind_errors(seen.of<WindAnswers>(), *truth.glide);
+  const WindAnswers& answers = seen.of<WindAnswers>();
+  const auto errors = wind_errors(answers, *truth.glide);
   const double wait_us =
       checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::WindUpdate::info.name));
   const auto empty = [&](const Quantity& quantity, std::string title) {
@@ -71,8 +72,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   };
   const auto fill = [&](Track track, auto told) {
     for (const WindError& e : errors) {
-      track.told.push_back(
-          told(*std::ranges::lower_bound(seen.of<WindAnswers>(), e.t_us, {}, &WindAnswer::cause_us), e));
+      track.told.push_back(told(*std::ranges::lower_bound(answers, e.t_us, {}, &WindAnswer::cause_us), e));
       track.told.back().t_us = e.t_us;
     }
     give(std::move(track));
@@ -111,20 +111,20 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     for (const Normalised& n : series) track.told.push_back({.t_us = n.t_us, .value = n.value});
     give(std::move(track));
   };
-  statistic(empty(wind_nis, "normalised innovation squared"), nis_of(seen.of<WindAnswers>()));
-  statistic(judged(wind_nees, "normalised error squared"), nees_of(seen.of<WindAnswers>(), *truth.glide));
+  statistic(empty(wind_nis, "normalised innovation squared"), nis_of(answers));
+  statistic(judged(wind_nees, "normalised error squared"), nees_of(answers, *truth.glide));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {
-  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(seen.of<WindAnswers>(), every_answer)}};
-  add_marks(marks, seen.of<WindAnswers>(), &WindAnswer::outcome,
-            messages::enumerators<messages::WindOutcome>);
+  const WindAnswers& answers = seen.of<WindAnswers>();
+  std::vector<Mark> marks{{.name = "answers", .t_us = times_of(answers, every_answer)}};
+  add_marks(marks, answers, &WindAnswer::outcome, messages::enumerators<messages::WindOutcome>);
   for (const auto& [name, flag] :
        {std::pair{"outside", &WindAnswer::outside}, std::pair{"fins_late", &WindAnswer::fins_late},
         std::pair{"fins_missing", &WindAnswer::fins_missing},
         std::pair{"fins_not_physical", &WindAnswer::fins_not_physical},
         std::pair{"theta_capped", &WindAnswer::theta_capped}})
-    marks.push_back({.name = name, .t_us = times_of(seen.of<WindAnswers>(), flag)});
+    marks.push_back({.name = name, .t_us = times_of(answers, flag)});
   return marks;
 }
 
