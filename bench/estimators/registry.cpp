@@ -14,7 +14,7 @@
 namespace canhil::estimators {
 namespace {
 
-constexpr std::array<const Estimator*, 4> registered{
+constexpr std::array registered{
     &transfer_alignment,
     &inflight_alignment,
     &wind,

@@ -20,11 +20,32 @@
 
 namespace canhil::test {
 
-std::string scratch(const std::string& name) {
-  const std::filesystem::path folder =
+namespace {
+
+/// The folder of this program. It stays where a test failed: somebody will want to look.
+class Folder {
+ public:
+  Folder() { std::filesystem::create_directories(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() {
+    if (getpid() != made_by_ || !testing::UnitTest::GetInstance()->Passed()) return;
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+
+  const std::filesystem::path path =
       std::filesystem::temp_directory_path() / fmt::format("canhil-{}", getpid());
-  std::filesystem::create_directories(folder);
-  return folder / name;
+
+ private:
+  const pid_t made_by_ = getpid();  // not a child of it
+};
+
+}  // namespace
+
+std::string scratch(const std::string& name) {
+  static const Folder folder;
+  return folder.path / name;
 }
 
 std::string read(const std::string& path) {

@@ -1,0 +1,123 @@
+// Baro-inertial height behind the bus: groups SlaveImu and Barometer in, group Height out.
+#include <array>
+#include <optional>
+
+#include "dbc/wire/time_base.hpp"
+#include "target/device/adapters.hpp"
+#include "target/device/fix_queue.hpp"
+#include "target/device/imu_stream.hpp"
+#include "tests/fifth_estimator/vertical_channel.hpp"
+
+namespace canhil::target {
+namespace {
+
+using namespace messages;
+
+constexpr double ug = 1e-6 * 9.80665;
+
+using Row = ParameterTable<baro_inertial::Settings>::Row;
+constexpr std::array rows{
+    Row{Parameter::accel_bias_sigma_ug, 300, 0, 1e6, false, false,
+        [](baro_inertial::Settings& s, double v) { s.accel_bias_sigma_0 = v * ug; }},
+    Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, false, true,
+        [](baro_inertial::Settings& s, double v) { s.accel_noise_density = v * ug; }},
+    Row{Parameter::fix_noise_vertical_m, 1, 1e-3, 1e4, false, true,
+        [](baro_inertial::Settings& s, double v) { s.barometer_sigma = v; }},
+    Row{Parameter::gate_nis, 0, 0, 1e6, false, true,
+        [](baro_inertial::Settings& s, double v) { s.gate = v; }},
+};
+
+class BaroInertialAdapter final : public Adapter {
+ public:
+  [[nodiscard]] Estimator estimator() const override { return Estimator::baro_inertial; }
+
+  bool reset(Algorithm algorithm) override {
+    if (algorithm != Algorithm::kalman) return false;
+    parameters_.reset(settings_);
+    imu_.reset();
+    group_.discard();
+    return true;
+  }
+
+  ParameterStatus set(Parameter parameter, double value, bool running) override {
+    return parameters_.set(settings_, parameter, value, running);
+  }
+  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
+    return parameters_.get(parameter);
+  }
+  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
+    return parameters_.range(parameter);
+  }
+
+  void start(const InitialState& initial) override {
+    settings_.height_sigma_0 = initial.position_sigma;
+    settings_.velocity_sigma_0 = initial.velocity_sigma;
+    channel_.start({.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
+                    .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
+                    .latitude = initial.latitude,
+                    .longitude = initial.longitude,
+                    .height = initial.height},
+                   settings_);
+    imu_.start(initial.t_us, 0);
+    pending_.clear();
+  }
+
+  Health receive(const Frame& frame, std::uint8_t counter, Context context) override {
+    switch (imu_.receive(frame, counter, context, [this](const strapdown::ImuIncrement& imu, std::int64_t) {
+      channel_.propagate(imu, settings_);
+    })) {
+      case ImuStream::Taken::stepped:
+        if (!channel_.finite()) return numeric_fault(context);
+        return pending_.reached(imu_.now_us(), [&](const At<double>& fix) { return answer(fix, context); });
+      case ImuStream::Taken::waiting:
+        return Health::good;
+      case ImuStream::Taken::fault:
+        return Health::fault;
+      case ImuStream::Taken::foreign:
+        break;
+    }
+    if (frame.id == BarometerHeight::info.id && completes<BarometerHeight>(group_, frame, counter, context)) {
+      const auto& told = group_.get<BarometerHeight>();
+      const At<double> fix{unwrap_us(told.time_of_validity_us, context.now_us), counter, told.height_m};
+      if (fix.t_us < imu_.now_us()) {
+        ++context.losses.late;  // kept simple: no history to apply it to
+      } else if (fix.t_us == imu_.now_us()) {
+        return answer(fix, context);
+      } else if (!pending_.push(fix)) {
+        drop_group(context);
+      }
+    }
+    return Health::good;
+  }
+
+  Health tick(Context context) override { return imu_.tick(context); }
+
+ private:
+  Health answer(const At<double>& fix, Context& context) {
+    const bool used = channel_.update(fix.value, settings_) == baro_inertial::Outcome::used;
+    const Eigen::Vector3d sigma = channel_.P().diagonal().cwiseMax(0).cwiseSqrt();
+    context.answers.send(
+        HeightEstimate{.height_m = channel_.nav().height, .velocity_down_mps = channel_.nav().v_eb_n.z()});
+    context.answers.send(HeightSigma{.height_sigma_m = sigma(0), .velocity_sigma_down_mps = sigma(1)});
+    context.answers.send(
+        HeightBias{.accel_bias_z_ug = channel_.bias() / ug, .accel_bias_sigma_z_ug = sigma(2) / ug});
+    context.answers.send(HeightUpdate{.cause_time_us = wrap_us(fix.t_us),
+                                      .cause_counter = fix.counter,
+                                      .nis = channel_.nis(),
+                                      .used = static_cast<std::uint8_t>(used)});
+    return Health::good;
+  }
+
+  ParameterTable<baro_inertial::Settings> parameters_{rows};
+  baro_inertial::Settings settings_;
+  baro_inertial::VerticalChannel channel_;
+  ImuStream imu_;
+  SampleGroup<BarometerHeight> group_;
+  FixQueue<double, 8> pending_;
+};
+
+}  // namespace
+
+std::unique_ptr<Adapter> make_baro_inertial_adapter() { return std::make_unique<BaroInertialAdapter>(); }
+
+}  // namespace canhil::target

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""Makes a copy of the project with a fifth estimator in it: python3 tests/fifth_estimator/add.py FOLDER
+
+What is changed outside tests/fifth_estimator is here, whole: a line a registry, and the contract, which gets what contract.dbc
+says. A file of the copy that stays the same is not written again, so that a build of it goes on where it was.
+"""
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = "tests/fifth_estimator"
+PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "dbc", "docs", "target", "tests")
+
+# (registry, the line that is there, the line that comes after it)
+LINES = [
+    ("bench/estimators/registry.cpp", '#include "messages/canhil.hpp"', f'#include "{HERE}/baro_inertial.hpp"'),
+    ("bench/estimators/registry.cpp", "    &los_rate,", "    &baro_inertial,"),
+    ("bench/nodes/registry.cpp", '#include "bench/nodes/ssbl.hpp"', f'#include "{HERE}/barometer.hpp"'),
+    ("bench/nodes/registry.cpp", "    &fins,        // of the glider", "    &barometer,   // of the vehicle"),
+    ("target/device/adapters.hpp", "std::unique_ptr<Adapter> make_wind_adapter();",
+     "std::unique_ptr<Adapter> make_baro_inertial_adapter();"),
+    ("target/device/adapters.hpp", "  adapters.push_back(make_wind_adapter());",
+     "  adapters.push_back(make_baro_inertial_adapter());"),
+    ("tests/CMakeLists.txt", "canhil_build_for(processes hil-target hil-bench) # what the process tests start",
+     "add_subdirectory(fifth_estimator)"),
+]
+LAST_ESTIMATOR, ONE_MORE = '4 "wind"', '5 "baro_inertial" '
+
+
+def fail(what: str) -> None:
+    sys.exit(f"add.py: {what}")
+
+
+def with_lines(name: str, text: str) -> str:
+    for file, there, line in LINES:
+        if file != name:
+            continue
+        if text.count(f"{there}\n") != 1:
+            fail(f"{name}: expected the line '{there}' once")
+        text = text.replace(f"{there}\n", f"{there}\n{line}\n")
+    return text
+
+
+def contract(text: str) -> str:
+    """The nodes join BU_, the estimator joins the lists of estimators, and the rest comes at the end."""
+    own = (ROOT / HERE / "contract.dbc").read_text()
+    nodes, rest = own.split("\n", 1)
+    lines = []
+    for line in text.splitlines():
+        if line.startswith("BU_:"):
+            line += nodes.removeprefix("BU_:")
+        elif line.startswith(("VAL_ ", "VAL_TABLE_ ")) and f" {LAST_ESTIMATOR} " in line:
+            line = line.replace(LAST_ESTIMATOR, ONE_MORE + LAST_ESTIMATOR)
+        lines.append(line)
+    return "\n".join(lines) + "\n" + rest
+
+
+def copied(name: str, content: bytes) -> bytes:
+    if name == "dbc/canhil.dbc":
+        return contract(content.decode()).encode()
+    if any(file == name for file, _, _ in LINES):
+        return with_lines(name, content.decode()).encode()
+    return content
+
+
+def main() -> None:
+    if len(sys.argv) != 2:
+        fail("expected one argument, the folder for the copy")
+    target = pathlib.Path(sys.argv[1])
+    names = set()
+    for part in PARTS:
+        path = ROOT / part
+        for file in [path] if path.is_file() else sorted(path.rglob("*")):
+            if file.is_dir() or "__pycache__" in file.parts:
+                continue
+            name = file.relative_to(ROOT).as_posix()
+            names.add(name)
+            to, content = target / name, copied(name, file.read_bytes())
+            if name == "dbc/canhil-fd.dbc" and to.exists():
+                continue  # made from the contract of the copy, by dbcgen --fd
+            if to.exists() and to.read_bytes() == content:
+                continue
+            to.parent.mkdir(parents=True, exist_ok=True)
+            to.write_bytes(content)
+            to.chmod(file.stat().st_mode)
+    for part in PARTS:
+        for file in (target / part).rglob("*"):
+            if file.is_file() and file.relative_to(target).as_posix() not in names:
+                file.unlink()  # no longer in the project
+
+
+if __name__ == "__main__":
+    main()

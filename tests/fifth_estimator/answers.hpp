@@ -1,0 +1,32 @@
+// What a baro-inertial height answers.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bench/checks/reception.hpp"
+#include "bench/world/flight_record.hpp"
+
+namespace canhil::estimators {
+
+/// Group Height: after a barometric height, at its time of validity. SI.
+struct HeightAnswer {
+  std::int64_t cause_us = 0;
+  double height = 0;  ///< above the ellipsoid
+  double height_sigma = 0;
+  double velocity_down = 0;
+  double velocity_down_sigma = 0;
+  double nis = 0;
+  bool used = false;  ///< else it was gated
+};
+using HeightAnswers = std::vector<HeightAnswer>;
+
+std::unique_ptr<Reception> height_reception();
+
+/// Errors (estimated - true) of an answer.
+struct HeightError {
+  double height = 0, velocity_down = 0;
+};
+HeightError error_of(const HeightAnswer& answer, const world::FlightRecord& flight);
+
+}  // namespace canhil::estimators

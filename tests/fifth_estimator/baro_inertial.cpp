@@ -1,0 +1,127 @@
+#include "tests/fifth_estimator/baro_inertial.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "bench/checks/silence.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/estimators/freshness.hpp"
+#include "bench/estimators/marks.hpp"
+#include "bench/estimators/names.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "messages/canhil.hpp"
+#include "tests/fifth_estimator/answers.hpp"
+#include "tests/fifth_estimator/quantities.hpp"
+
+namespace canhil::estimators {
+namespace {
+
+using namespace quantities;
+
+constexpr std::array<const Quantity*, 5> kept{&height, &velocity_down, &height_sigma, &height_nees,
+                                              &height_nis};
+constexpr std::array<const Quantity*, 4> of_runs{&height, &velocity_down, &height_nees, &height_nis};
+constexpr Layout layout{.kept = kept};
+
+double nees_of(const HeightAnswer& answer, double error) { return std::pow(error / answer.height_sigma, 2); }
+
+Samples samples_of(const checks::Observations& seen, const Truth& truth) {
+  Samples samples(layout);
+  for (const HeightAnswer& answer : seen.of<HeightAnswers>()) {
+    const HeightError error = error_of(answer, truth.flight);
+    const std::array<double, kept.size()> values{error.height, error.velocity_down, answer.height_sigma,
+                                                 told(nees_of(answer, error.height)), told(answer.nis)};
+    samples.add(answer.cause_us, values);
+  }
+  return samples;
+}
+
+void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
+  const HeightAnswers& answers = seen.of<HeightAnswers>();
+  const double wait_us =
+      checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::HeightUpdate::info.name));
+  const auto track = [&](const Quantity& quantity, const char* title, Track::Kind kind, auto told) {
+    Track of{.quantity = &quantity,
+             .kind = kind,
+             .unit = quantity.unit,
+             .title = title,
+             .longest_wait_us = wait_us,
+             .answers_end_us = truth.duration_us};
+    for (const HeightAnswer& answer : answers) {
+      of.told.push_back(told(answer, error_of(answer, truth.flight)));
+      of.told.back().t_us = answer.cause_us;
+    }
+    return of;
+  };
+  using enum Track::Kind;
+  Track of_height = track(height, "height error", error, [](const HeightAnswer& a, const HeightError& e) {
+    return Told{
+        .value = e.height, .sigma = a.height_sigma, .estimate = a.height, .truth = a.height - e.height};
+  });
+  of_height.estimate_title = "height";
+  of_height.estimate_unit = metres;
+  give(std::move(of_height));
+  give(track(velocity_down, "velocity error down", error, [](const HeightAnswer& a, const HeightError& e) {
+    return Told{.value = e.velocity_down, .sigma = a.velocity_down_sigma};
+  }));
+  give(track(height_nis, "normalised innovation squared", statistic,
+             [](const HeightAnswer& a, const HeightError&) { return Told{.value = a.nis}; }));
+  Track of_nees =
+      track(height_nees, "normalised error squared", statistic,
+            [](const HeightAnswer& a, const HeightError& e) { return Told{.value = nees_of(a, e.height)}; });
+  of_nees.only_if_judged = true;
+  give(std::move(of_nees));
+}
+
+std::vector<Mark> marks_of(const checks::Observations& seen) {
+  const HeightAnswers& answers = seen.of<HeightAnswers>();
+  return {{.name = "answers", .t_us = times_of(answers, every_answer)},
+          {.name = "used", .t_us = times_of(answers, &HeightAnswer::used)}};
+}
+
+std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
+                                   std::string_view /*algorithm*/) {
+  ResultLine line{.name = "final_error", .what = "error at the end"};
+  if (seen.of<HeightAnswers>().empty()) return {line};
+  const HeightError error = error_of(seen.of<HeightAnswers>().back(), truth.flight);
+  line.figures = {
+      {.name = "height", .value = error.height, .words = fmt::format("height {:+.3f} m", error.height)},
+      {.name = "velocity_down",
+       .value = error.velocity_down,
+       .words = fmt::format("velocity down {:+.3f} m/s", error.velocity_down)}};
+  return {line};
+}
+
+constexpr std::array closing{messages::HeightUpdate::info.name};
+
+Freshness freshness_of(const scenario::Scenario& scenario) {
+  const scenario::NodeSettings* barometer = scenario.node("barometer");
+  if (barometer == nullptr) return {};
+  return {
+      .age_limit_us = std::llround(checks::longest_wait_us(period_us(*barometer))) + barometer->latency_us(),
+      .end_us = scenario.duration_us};
+}
+
+constexpr auto parameters = [] {
+  using enum messages::Parameter;
+  return names_of(accel_bias_sigma_ug, accel_noise_ugprthz, fix_noise_vertical_m, gate_nis);
+}();
+constexpr std::array<std::string_view, 2> nodes{"slave_imu", "barometer"};
+
+}  // namespace
+
+constinit const Estimator baro_inertial{.name = "baro_inertial",
+                                        .facts = {.parameters = parameters, .nodes = nodes},
+                                        .layout = layout,
+                                        .of_runs = of_runs,
+                                        .reception = height_reception,
+                                        .samples = samples_of,
+                                        .tracks = tracks_of,
+                                        .marks = marks_of,
+                                        .results = results_of,
+                                        .closing = closing,
+                                        .freshness = freshness_of};
+
+}  // namespace canhil::estimators

@@ -1,0 +1,85 @@
+// A fifth estimator end to end: target, node, scenario, campaign, report.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <regex>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string here(const std::string& name) { return SOURCE_DIR "/tests/fifth_estimator/" + name; }
+
+/// height.toml with one of its lines written otherwise.
+std::string with(const std::string& line, const std::string& instead) {
+  std::string text = read(here("height.toml"));
+  const auto at = text.find(line);
+  if (at == std::string::npos) ADD_FAILURE() << "height.toml has no line " << line;
+  std::string file = scratch("changed.toml");
+  std::ofstream(file) << text.replace(at, line.size(), instead);
+  return file;
+}
+
+TEST(FifthEstimator, PassesItsScenarioBehindTheBusWithTheBitsOfOneInProcess) {
+  const std::string report = scratch("height.json"), log = scratch("bus.log"),
+                    in_process = scratch("process.log");
+  const Ended ended = hil_bench(
+      fmt::format("run {} --bus {} --lockstep --json {} --log {}", here("height.toml"), bus(), report, log));
+  EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+  EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process --log {}", here("height.toml"), in_process)).code,
+            0);
+  EXPECT_TRUE(target_frames(log) == target_frames(in_process));
+  EXPECT_LT(std::abs(figure(read_json(report), "baro_inertial", "final_error", "height")), 1.0);
+}
+
+TEST(FifthEstimator, ItsQuantitiesAreDrawnAndExported) {
+  const std::string page = scratch("height.html"), table = scratch("height.csv");
+  EXPECT_EQ(
+      hil_bench(fmt::format("run {} --bus in-process --html {} --csv {}", here("height.toml"), page, table))
+          .code,
+      0);
+  const std::string html = read(page);
+  for (const char* title : {"height error", "velocity error down", "normalised innovation squared"})
+    EXPECT_THAT(html, HasSubstr(title));
+  EXPECT_THAT(read(table), HasSubstr("height.nis"));
+}
+
+TEST(FifthEstimator, ItsDefectsFail) {
+  // A gate that nothing passes: heights are answered, and not used.
+  const Ended gated = hil_bench(
+      fmt::format("run {} --bus in-process", with("fix_noise_vertical_m = 2.0", "gate_nis = 1e-9")));
+  EXPECT_EQ(gated.code, 1) << gated.out;
+  EXPECT_TRUE(std::regex_search(gated.out, std::regex("FAIL +answers"))) << gated.out;
+  // Told of a barometer five times as good: NIS says so.
+  const Ended sure = hil_bench(fmt::format("run {} --bus in-process",
+                                           with("fix_noise_vertical_m = 2.0", "fix_noise_vertical_m = 0.4")));
+  EXPECT_EQ(sure.code, 1) << sure.out;
+  EXPECT_TRUE(std::regex_search(sure.out, std::regex("FAIL +consistency"))) << sure.out;
+}
+
+TEST(FifthEstimator, BadInputOfItsOwnIsOneLine) {
+  expect_one_line(hil_bench(fmt::format("run {} --bus in-process",
+                                        with("quantity = \"height\"", "quantity = \"hight\""))),
+                  "'height'");
+  expect_one_line(hil_bench(fmt::format("run {} --bus in-process", with("[barometer]\nnoise_m = 2.0", ""))),
+                  "[barometer]");
+  expect_one_line(hil_bench(fmt::format("run {} --bus in-process", with("noise_m = 2.0", "noise_m = 200"))),
+                  "barometer.noise_m");
+}
+
+TEST(FifthEstimator, ACampaignJudgesItsHonesty) {
+  const std::string folder = scratch("campaign");
+  const Ended ended = hil_bench(fmt::format("campaign {} --out {} --threads 2 --html {}",
+                                            here("heights.toml"), folder, scratch("heights.html")));
+  EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("height.nees"));
+}
+
+}  // namespace
+}  // namespace canhil::test

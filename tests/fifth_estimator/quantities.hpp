@@ -1,0 +1,22 @@
+// What a baro-inertial height alone tells.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+inline constexpr Quantity height{.name = "height", .meaning = "error of the height", .unit = metres};
+inline constexpr Quantity height_sigma{
+    .name = "height.sigma", .meaning = "sigma of the height as the target tells it", .unit = metres};
+inline constexpr Quantity height_nees{
+    .name = "height.nees",
+    .meaning = "error of the height over the sigma that the target tells, squared",
+    .unit = plain,
+    .degrees_of_freedom = 1};
+inline constexpr Quantity height_nis{.name = "height.nis",
+                                     .meaning = "normalised innovation squared of a barometric height",
+                                     .unit = plain,
+                                     .degrees_of_freedom = 1,
+                                     .white = true};
+
+}  // namespace canhil::quantities
