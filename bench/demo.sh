@@ -45,7 +45,7 @@ if [[ $bus == vcan0 ]]; then say "bus: vcan0"; else say "bus: embedded (this ker
 say "flying 20 s in real time"
 code=0
 progress_start "demo: flying 20 s" /dev/null >&2
-build/default/hil-bench run bench/scenarios/transfer_alignment.toml --bus "$bus" >build/demo.out 2>build/demo.err || code=$?
+build/default/hil-bench run bench/flights/transfer_alignment.toml --bus "$bus" >build/demo.out 2>build/demo.err || code=$?
 progress_stop >&2
 cat build/demo.err >&2
 cat build/demo.out

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "bench/run/contract.hpp"
+#include "bench/drive/contract.hpp"
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
@@ -122,7 +122,7 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
       auto read =
-          scenario::parse(sources.scenarios.at(one.scenario), one.scenario, run::contract(), settings);
+          scenario::parse(sources.scenarios.at(one.scenario), one.scenario, drive::contract(), settings);
       const auto refused = [&](std::string_view why) {
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };

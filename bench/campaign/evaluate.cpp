@@ -25,7 +25,7 @@ Endings endings_of(const Variant& variant, const Runs& runs) {
   endings.variant = variant.name;
   endings.runs = runs.size();
   for (const RunSeries& run : runs) {
-    if (run.ending.kind == run::Ending::Kind::completed) {
+    if (run.ending.kind == drive::Ending::Kind::completed) {
       ++endings.completed;
       if (!finite(run.samples)) ++endings.not_finite;
     } else if (endings.first_fault.empty()) {

@@ -11,8 +11,8 @@
 #include <optional>
 #include <thread>
 
-#include "bench/run/flight.hpp"
-#include "bench/run/session.hpp"
+#include "bench/drive/flight.hpp"
+#include "bench/drive/session.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -77,7 +77,7 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
     const auto [variant, run] = work.tasks[place];
     const world::FlightRecord& truth = *work.truths[variant];
     const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
-    const auto flown = run::run_in_process(scenario, truth, run, work.campaign.rounding);
+    const auto flown = drive::run_in_process(scenario, truth, run, work.campaign.rounding);
     if (!flown) {
       finishing.fail(in_variant(work.campaign, variant, flown.error()));
       work.halt = true;
@@ -105,7 +105,7 @@ Result<void> compute_truths(Work& work) {
   work.truths.resize(work.campaign.variants.size());
   for (const Key& task : work.tasks) {
     if (work.truths[task.variant]) continue;
-    auto truth = run::make_truth(work.campaign.variants[task.variant].scenario);
+    auto truth = drive::make_truth(work.campaign.variants[task.variant].scenario);
     if (!truth) return tl::unexpected(in_variant(work.campaign, task.variant, truth.error()));
     work.truths[task.variant] = std::move(*truth);
   }

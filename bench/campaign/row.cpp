@@ -16,7 +16,7 @@ std::string_view text_of(std::span<const std::uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::int64_t hash_of(std::int64_t id, const Key& key, const run::Ending& ending, std::string_view columns,
+std::int64_t hash_of(std::int64_t id, const Key& key, const drive::Ending& ending, std::string_view columns,
                      std::span<const std::uint8_t> samples) {
   return Digest()
       .add(id)
@@ -93,13 +93,13 @@ Result<Key> key_of(const Statement& row, std::uint64_t runs) {
 Result<Finished> read_row(const Statement& row, std::uint64_t runs) {
   const auto key = key_of(row, runs);
   if (!key) return tl::unexpected(key.error());
-  const auto kind = enumerator(row.integer(3), run::Ending::last_kind);
+  const auto kind = enumerator(row.integer(3), drive::Ending::last_kind);
   const std::string columns = row.text(6);
   const estimators::Estimator* estimator = estimators::telling(columns);
   if (!kind) return damaged(row, fmt::format("has ending {}", row.integer(3)));
   if (estimator == nullptr) return damaged(row, "has columns that no estimator tells");
   const std::span<const std::uint8_t> bytes = row.bytes(7);
-  run::Ending ending{.kind = *kind, .t_us = row.integer(4), .detail = row.text(5)};
+  drive::Ending ending{.kind = *kind, .t_us = row.integer(4), .detail = row.text(5)};
   if (hash_of(row.integer(0), *key, ending, columns, bytes) != row.integer(8))
     return damaged(row, "has another hash than its content");
   auto samples = quantities::decode(bytes, estimator->layout);

@@ -2,12 +2,12 @@
 
 namespace canhil::campaign {
 
-RunSeries series_of(std::uint64_t run_index, const run::Collected& finished, const world::FlightRecord& truth,
-                    const estimators::Estimator& estimator) {
-  return {
-      .run = run_index,
-      .ending = finished.ending,
-      .samples = estimator.samples(finished.seen, run::truth_of(truth, finished.own_truth, truth.end_us()))};
+RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
+                    const world::FlightRecord& truth, const estimators::Estimator& estimator) {
+  return {.run = run_index,
+          .ending = finished.ending,
+          .samples =
+              estimator.samples(finished.seen, drive::truth_of(truth, finished.own_truth, truth.end_us()))};
 }
 
 }  // namespace canhil::campaign

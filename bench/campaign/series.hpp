@@ -4,10 +4,10 @@
 
 #include <cstdint>
 
+#include "bench/drive/session.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/quantities/list.hpp"
 #include "bench/quantities/samples.hpp"
-#include "bench/run/session.hpp"
 #include "bench/world/flight_record.hpp"
 
 namespace canhil::campaign {
@@ -17,14 +17,14 @@ using quantities::Quantity;
 /// One run of one variant.
 struct RunSeries {
   std::uint64_t run = 0;
-  run::Ending ending;  ///< a run that did not complete keeps the samples it gave
+  drive::Ending ending;  ///< a run that did not complete keeps the samples it gave
   quantities::Samples samples{};
   quantities::Freshness freshness{};
 };
 
 /// The series of a finished run. `truth` is that of its variant, `estimator` that of its scenario; no samples
 /// where the run has no truth to hold the answers against.
-RunSeries series_of(std::uint64_t run_index, const run::Collected& finished, const world::FlightRecord& truth,
-                    const estimators::Estimator& estimator);
+RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
+                    const world::FlightRecord& truth, const estimators::Estimator& estimator);
 
 }  // namespace canhil::campaign

@@ -152,7 +152,7 @@ RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, st
     for (auto i = from; i < to; ++i)
       sum += std::abs(run.samples.value(static_cast<std::size_t>(i), quantity));
     const double mean = sum / static_cast<double>(to - from);  // NaN of none
-    const bool completed = run.ending.kind == run::Ending::Kind::completed;
+    const bool completed = run.ending.kind == drive::Ending::Kind::completed;
     if (completed && std::isfinite(mean) && answers_throughout(run, from_us, to_us)) means.push_back(mean);
   }
   RunMeans found{.missing = runs.size() - means.size()};
@@ -186,7 +186,7 @@ ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, const Quantity&
       squares += value * value;
       ++statistics.count;
     }
-    const bool ended = run.ending.kind != run::Ending::Kind::completed;
+    const bool ended = run.ending.kind != drive::Ending::Kind::completed;
     const auto answered = static_cast<double>(statistics.count - before);
     const bool silent = answered == 0 || answered < checks::least_answered *
                                                         std::floor(samples_to_go(run.freshness, least, most));
@@ -274,7 +274,7 @@ Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity,
   constexpr std::int64_t at_the_end = std::numeric_limits<std::int64_t>::max();
   Divergence result{.runs = runs.size()};
   for (const RunSeries& run : runs) {
-    if (run.ending.kind != run::Ending::Kind::completed) {
+    if (run.ending.kind != drive::Ending::Kind::completed) {
       ++result.faulted;
     } else if (!(last_magnitude(run, quantity, at_the_end) <= bound)) {
       ++result.beyond;

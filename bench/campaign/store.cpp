@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "bench/run/program_file.hpp"
+#include "bench/drive/program_file.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::campaign {
@@ -25,7 +25,7 @@ std::string schema() {
 }
 
 std::string hash_of_this_program() {
-  const auto own = run::look_at_program("/proc/self/exe");
+  const auto own = drive::look_at_program("/proc/self/exe");
   return fmt::format("{}+{:016x}", CANHIL_VERSION, own ? own->hash : 0);
 }
 

@@ -25,7 +25,7 @@ std::int64_t end_of(const RunSeries& run) {
 }
 
 bool had_ended(const RunSeries& run, std::int64_t t_us) {
-  return run.ending.kind != run::Ending::Kind::completed && run.ending.t_us < t_us;
+  return run.ending.kind != drive::Ending::Kind::completed && run.ending.t_us < t_us;
 }
 
 // Adds the times from which on the last of these updates is stale, up to the end.

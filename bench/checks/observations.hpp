@@ -60,7 +60,7 @@ struct Observations {
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
-  std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see run::LoadMeter
+  std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
   std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages
   std::uint32_t target_bad_crc = 0;
   std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost

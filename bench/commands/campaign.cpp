@@ -18,10 +18,10 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/progress_line.hpp"
+#include "bench/drive/session.hpp"
 #include "bench/papers/names.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/text.hpp"
-#include "bench/run/session.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -224,8 +224,8 @@ ExitCode replay(const ReplayArguments& arguments) {
     return complain({fmt::format("{}: run {} is none of the campaign's, expected 0 to {}", arguments.file,
                                  *arguments.run, campaign->runs - 1)});
   }
-  run::Options options;
-  options.bus = run::BusName(std::string(run::in_process_bus));
+  drive::Options options;
+  options.bus = drive::BusName(std::string(drive::in_process_bus));
   options.run_index = *arguments.run;
   if (!arguments.log.empty()) {
     if (auto distinct = check_distinct(*campaign, {arguments.log}); !distinct)
@@ -234,7 +234,7 @@ ExitCode replay(const ReplayArguments& arguments) {
     options.log_path = arguments.log;
   }
   catch_interrupts();
-  const auto finished = run::run(variant->scenario, options, interrupted, [](std::int64_t) {});
+  const auto finished = drive::run(variant->scenario, options, interrupted, [](std::int64_t) {});
   if (!finished) return complain(finished.error());
   fmt::print("variant {} · run {}\n{}", variant->name, options.run_index,
              report::text(variant->scenario, *finished));

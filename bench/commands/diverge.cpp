@@ -5,18 +5,18 @@
 #include <string>
 
 #include "bench/commands/exit_code.hpp"
-#include "bench/run/divergence.hpp"
+#include "bench/observe/divergence.hpp"
 
 namespace canhil::commands {
 namespace {
 
 void show(const std::string& log, const std::optional<LogEntry>& entry) {
   if (!entry) return fmt::print("  {}: has no more frames of the target\n", log);
-  fmt::print("  {}: {}\n    {}\n", log, format_log_line(*entry), run::describe(entry->frame));
+  fmt::print("  {}: {}\n    {}\n", log, format_log_line(*entry), observe::describe(entry->frame));
 }
 
 ExitCode execute(const std::string& log_a, const std::string& log_b) {
-  const auto comparison = run::compare(log_a, log_b);
+  const auto comparison = observe::compare(log_a, log_b);
   if (!comparison) return complain(comparison.error());
   const auto& first = comparison->first;
   if (comparison->compared == 0 && !(first && first->a && first->b)) {

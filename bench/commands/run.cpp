@@ -17,14 +17,14 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/doctor/interface.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/session.hpp"
 #include "bench/report/csv.hpp"
 #include "bench/report/file.hpp"
 #include "bench/report/json.hpp"
 #include "bench/report/junit.hpp"
 #include "bench/report/page.hpp"
 #include "bench/report/text.hpp"
-#include "bench/run/contract.hpp"
-#include "bench/run/session.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/realtime/command_line.hpp"
@@ -80,7 +80,7 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
   const auto node = std::ranges::find_if(
       nodes, [&](std::string_view name) { return same_name(name, text.substr(0, equals)); });
   const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
-  if (node == nodes.end() || bus.empty() || bus == local_prefix || run::BusName(bus).in_process)
+  if (node == nodes.end() || bus.empty() || bus == local_prefix || drive::BusName(bus).in_process)
     return failure(
         fmt::format("--bus-of '{}': expected NODE=BUS with NODE one of {} and BUS an interface or local:NAME",
                     text, fmt::join(nodes, ", ")));
@@ -95,8 +95,8 @@ WireFacts controller_of(const std::string& bus) {
                     .data = interface->controller->data.bitrate}};
 }
 
-run::Options options_of(const Arguments& arguments, run::BusName bus, BusFormat format) {
-  run::Options options;
+drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFormat format) {
+  drive::Options options;
   options.format = format;
   const bool external = arguments.target == "none";
   options.bus = std::move(bus);
@@ -144,7 +144,7 @@ void remove_earlier(const Arguments& arguments) {
 // A report on stdout stands in place of the text. One that cannot be written costs none of the others. Error:
 // of the first.
 Result<void> write_reports(const Arguments& arguments, const scenario::Scenario& scenario,
-                           const run::Run& run) {
+                           const drive::Run& run) {
   Result<void> all;
   const auto note = [&](Result<void> written) {
     if (all && !written) all = std::move(written);
@@ -182,7 +182,7 @@ Result<void> check_outputs(const Arguments& arguments) {
   return {};
 }
 
-Result<void> check_bus(const Arguments& arguments, const run::BusName& bus) {
+Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
   const bool here = bus.in_process;
   if (here && !arguments.target.empty())
     return failure(
@@ -218,7 +218,7 @@ Result<void> check_bus(const Arguments& arguments, const run::BusName& bus) {
   if (arguments.target_cpu) {
     if (auto known = realtime::check_cpu("--target-cpu", *arguments.target_cpu); !known) return known;
   }
-  static const std::vector<std::string> known{std::string(run::in_process_bus), std::string(local_prefix)};
+  static const std::vector<std::string> known{std::string(drive::in_process_bus), std::string(local_prefix)};
   const bool names_one = is_local(arguments.bus) || here;
   const std::string meant = scenario::nearest(arguments.bus, known);
   if (!names_one && !meant.empty() && if_nametoindex(arguments.bus.c_str()) == 0)
@@ -227,7 +227,7 @@ Result<void> check_bus(const Arguments& arguments, const run::BusName& bus) {
   return {};
 }
 
-void warn(const run::Run& run) {
+void warn(const drive::Run& run) {
   const std::string warning = realtime::frequency_warning(*run.host);
   if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
 }
@@ -269,9 +269,9 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
 }
 
 ExitCode execute(const Arguments& arguments) {
-  const run::BusName bus(arguments.bus);
+  const drive::BusName bus(arguments.bus);
   if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
-  auto scenario = scenario::read_file(arguments.scenario, run::contract());
+  auto scenario = scenario::read_file(arguments.scenario, drive::contract());
   if (!scenario) return complain(scenario.error());
   if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
   const auto format = format_of(arguments, *scenario);
@@ -279,10 +279,10 @@ ExitCode execute(const Arguments& arguments) {
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   catch_interrupts();
-  Result<run::Run> finished = [&] {
+  Result<drive::Run> finished = [&] {
     const ProgressLine line;
     bool begun = false;
-    return run::run(*scenario, options_of(arguments, bus, *format), interrupted, [&](std::int64_t t_us) {
+    return drive::run(*scenario, options_of(arguments, bus, *format), interrupted, [&](std::int64_t t_us) {
       if (!std::exchange(begun, true)) remove_earlier(arguments);
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });

@@ -20,8 +20,8 @@ struct Told {
 /// {{pass NAME}}, a verdict by a yes or no. `runs`: of the campaign with the bars, which are for `enough`.
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
-// Of each paper: the files that are built into the program, bench/campaigns/paper_NAME and its templates; and
-// what it tells, which keeps references to the results. `exact`: results of the transfer paper's table2
+// Of each paper: the files that are built into the program, bench/monte_carlo/paper_NAME and its templates;
+// and what it tells, which keeps references to the results. `exact`: results of the transfer paper's table2
 // without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
 namespace transfer_alignment {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;

@@ -13,7 +13,7 @@ std::string field(const std::optional<double>& value) { return value ? fmt::form
 
 }  // namespace
 
-std::string csv(const scenario::Scenario& scenario, const run::Run& run) {
+std::string csv(const scenario::Scenario& scenario, const drive::Run& run) {
   using quantities::Track;
   std::string table = "t_s,estimator,quantity,unit,estimate,truth,error,sigma\n";
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {

@@ -146,7 +146,7 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
 }
 
 // What was tested: the program and which of its versions, as far as the bench knows it.
-Json target(const run::Run& run) {
+Json target(const drive::Run& run) {
   if (run.in_process) return {{"program", "in hil-bench itself"}};
   if (!run.options.target) return {{"program", "runs elsewhere"}};
   Json json{{"program", *run.options.target}};
@@ -158,7 +158,7 @@ Json target(const run::Run& run) {
   return json;
 }
 
-Json provenance(const scenario::Scenario& scenario, const run::Run& run, const Summary& summary) {
+Json provenance(const scenario::Scenario& scenario, const drive::Run& run, const Summary& summary) {
   Json json{{"scenario", scenario.file},
             {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
             {"contract", name_of(run.options.format)},
@@ -206,7 +206,7 @@ void print(std::string& out, const Json& json, std::size_t indent) {
 
 }  // namespace
 
-Json document(const scenario::Scenario& scenario, const run::Run& run) {
+Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   const Summary summary = summarise(scenario, run);
   Json page;
   page["schema"] = schema;
@@ -216,7 +216,7 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
   page["provenance"] = provenance(scenario, run, summary);
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
-  page["ending"] = {{"completed", run.ending.kind == run::Ending::Kind::completed},
+  page["ending"] = {{"completed", run.ending.kind == drive::Ending::Kind::completed},
                     {"t_s", static_cast<double>(run.ending.t_us) * 1e-6},
                     {"detail", run.ending.detail}};
   page["checks"] = Json::array();
@@ -231,7 +231,7 @@ Json document(const scenario::Scenario& scenario, const run::Run& run) {
   for (const EstimatorResults& one : summary.results)
     page["results"][std::string(one.estimator)] = object(one.lines);
   page["timing"] = timing_judged(run);
-  if (run.clock != run::ClockKind::lockstep) add_timing(page, scenario, run);
+  if (run.clock != drive::ClockKind::lockstep) add_timing(page, scenario, run);
   if (run.seen.target_timing_seen)
     page["target_timing_us"] = {{"queue_max", run.seen.queue_max_us},
                                 {"compute_max", run.seen.compute_max_us}};
@@ -264,7 +264,7 @@ std::string text_of(const Json& document) {
   return out + "\n";
 }
 
-std::string json(const scenario::Scenario& scenario, const run::Run& run) {
+std::string json(const scenario::Scenario& scenario, const drive::Run& run) {
   return text_of(document(scenario, run));
 }
 

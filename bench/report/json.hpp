@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bench/run/session.hpp"
+#include "bench/drive/session.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::report {
@@ -15,12 +15,12 @@ inline constexpr std::string_view schema = "canhil-report-1";
 
 /// One JSON object: verdict, checks, figures, provenance, and all that the page shows. Times in s, angles in
 /// rad, unit in every key; docs/report.md describes it.
-nlohmann::ordered_json document(const scenario::Scenario& scenario, const run::Run& run);
+nlohmann::ordered_json document(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// As text: an object a line for each key, an array of numbers on one line.
 std::string text_of(const nlohmann::ordered_json& document);
 
 /// Both in one.
-std::string json(const scenario::Scenario& scenario, const run::Run& run);
+std::string json(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

@@ -81,7 +81,7 @@ Json wire_of(const checks::Observations& seen) {
 
 }  // namespace
 
-void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& run) {
+void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run& run) {
   const checks::TimingRecord& timing = run.seen.timing;
   const std::vector<std::string_view> closing = closing_answers(scenario);
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
@@ -111,7 +111,7 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& 
   page["bench_lateness_s"]["line"] = object(timing.lateness_line);
 }
 
-Json timing_judged(const run::Run& run) {
+Json timing_judged(const drive::Run& run) {
   Json json{{"judged", run.timing_unfit.empty()},
             {"why_not", run.timing_unfit},
             {"answer_stamps", Json::object()},

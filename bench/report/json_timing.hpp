@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/checks/histogram.hpp"
-#include "bench/run/session.hpp"
+#include "bench/drive/session.hpp"
 
 namespace canhil::report {
 
@@ -17,9 +17,9 @@ Json object(const checks::TimeLine& line);
 
 /// Adds latency, jitter and lateness of all messages that were seen. Not in lockstep: its time has no
 /// meaning.
-void add_timing(Json& page, const scenario::Scenario& scenario, const run::Run& run);
+void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run& run);
 
 /// What the host did, and why timing is not judged, if it is not.
-Json timing_judged(const run::Run& run);
+Json timing_judged(const drive::Run& run);
 
 }  // namespace canhil::report

@@ -19,11 +19,11 @@ std::string property(std::string_view name, std::string_view value) {
 
 }  // namespace
 
-std::string junit(const scenario::Scenario& scenario, const run::Run& run) {
+std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
   // The run as a whole is a case of its own: a run that ended early fails even if no check does.
   std::vector<CheckResult> cases = run.verdict.checks;
-  const bool early = run.ending.kind != run::Ending::Kind::completed;
-  const bool interrupted = run.ending.kind == run::Ending::Kind::interrupted;
+  const bool early = run.ending.kind != drive::Ending::Kind::completed;
+  const bool interrupted = run.ending.kind == drive::Ending::Kind::interrupted;
   cases.insert(cases.begin(), CheckResult{.name = "run completes",
                                           .kind = "run",
                                           .requirement = "",

@@ -90,15 +90,15 @@ class Pictures {
 
 }  // namespace
 
-void give_tracks(const scenario::Scenario& scenario, const run::Run& run, const TrackOf& give) {
-  const estimators::Truth truth = run::truth_of(run.truth, run.own_truth, scenario.duration_us);
+void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give) {
+  const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
   for (const estimators::Estimator* one : estimators::all()) {
     if (!scenario.runs(one->name)) continue;
     one->tracks(run.seen, truth, [&](const Track& track) { give(one->name, track); });
   }
 }
 
-std::vector<Series> series(const scenario::Scenario& scenario, const run::Run& run) {
+std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run) {
   std::vector<Series> all;
   std::string_view of;
   std::optional<Pictures> pictures;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/drive/session.hpp"
 #include "bench/quantities/track.hpp"
-#include "bench/run/session.hpp"
 
 namespace canhil::report {
 
@@ -45,9 +45,9 @@ struct Series {
 /// Takes a track of the estimator of this name.
 using TrackOf = std::function<void(std::string_view estimator, const quantities::Track& track)>;
 /// Gives the tracks of every estimator that the scenario runs, estimator by estimator.
-void give_tracks(const scenario::Scenario& scenario, const run::Run& run, const TrackOf& give);
+void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give);
 
 /// Of every estimator that the scenario runs.
-std::vector<Series> series(const scenario::Scenario& scenario, const run::Run& run);
+std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

@@ -10,22 +10,22 @@
 namespace canhil::report {
 namespace {
 
-std::string_view name(run::ClockKind clock) {
+std::string_view name(drive::ClockKind clock) {
   switch (clock) {
-    case run::ClockKind::real_time:
+    case drive::ClockKind::real_time:
       return "real time";
-    case run::ClockKind::lockstep:
+    case drive::ClockKind::lockstep:
       return "lockstep";
-    case run::ClockKind::simulated_wire:
+    case drive::ClockKind::simulated_wire:
       return "virtual, simulated wire";
   }
   return "?";
 }
 
 EstimatorResults results_of(const estimators::Estimator& estimator, const scenario::Scenario& scenario,
-                            const run::Run& run) {
+                            const drive::Run& run) {
   const auto target = std::ranges::find(scenario.targets, estimator.name, &scenario::TargetSetup::estimator);
-  const estimators::Truth truth = run::truth_of(run.truth, run.own_truth, scenario.duration_us);
+  const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
   EstimatorResults results{estimator.name, estimator.results(run.seen, truth, target->algorithm)};
   estimators::ResultLine answers{.name = "answers", .what = "answers by what they say"};
   for (const estimators::Mark& mark : estimator.marks(run.seen)) {
@@ -53,7 +53,7 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
   return sender != nullptr && scenario.runs(sender->name);
 }
 
-Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
+Summary summarise(const scenario::Scenario& scenario, const drive::Run& run) {
   Summary summary;
   for (const estimators::Estimator* one : estimators::all()) {
     if (scenario.runs(one->name)) summary.results.push_back(results_of(*one, scenario, run));
@@ -70,8 +70,8 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   summary.lateness_s = checks::distribution_s(run.seen.timing.lateness);
   summary.clock = name(run.clock);
   summary.stamp_source =
-      run.clock == run::ClockKind::lockstep         ? "virtual time"
-      : run.clock == run::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
+      run.clock == drive::ClockKind::lockstep         ? "virtual time"
+      : run.clock == drive::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
       : checks::stamped_by_hardware(run.seen.timing)
           ? "the controller's hardware stamps of stimulus and answer"
       : run.seen.transmit_stamps_echoed ? "bus stamps of stimulus and answer"
@@ -79,7 +79,7 @@ Summary summarise(const scenario::Scenario& scenario, const run::Run& run) {
   return summary;
 }
 
-std::vector<wire::BitRates> load_rates(const run::Run& run) {
+std::vector<wire::BitRates> load_rates(const drive::Run& run) {
   const bool fd = run.options.format == BusFormat::fd;
   wire::BitRates known = run.seen.bit_rates;
   if (known.nominal > 0) {

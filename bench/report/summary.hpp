@@ -7,7 +7,7 @@
 
 #include "bench/checks/results.hpp"
 #include "bench/checks/timing.hpp"
-#include "bench/run/session.hpp"
+#include "bench/drive/session.hpp"
 
 namespace canhil::report {
 
@@ -33,7 +33,7 @@ struct Summary {
   std::string stamp_source;               ///< what the latencies were measured with
 };
 
-Summary summarise(const scenario::Scenario& scenario, const run::Run& run);
+Summary summarise(const scenario::Scenario& scenario, const drive::Run& run);
 
 /// The message that closes each group of answers of the estimators in use.
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);
@@ -43,7 +43,7 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
 
 /// The bit rates that reports tell the bus load at: that of the bus, or, where it has none, 500 kbit/s and
 /// 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
-std::vector<wire::BitRates> load_rates(const run::Run& run);
+std::vector<wire::BitRates> load_rates(const drive::Run& run);
 
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario);

@@ -62,7 +62,7 @@ std::string told_us(std::uint16_t us) {
   return us < checks::most_told_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
 }
 
-std::string load_words(const run::Run& run) {
+std::string load_words(const drive::Run& run) {
   std::string lines;
   for (const wire::BitRates& rates : load_rates(run)) {
     const checks::Load load = checks::bus_load(run.seen, rates);
@@ -134,7 +134,7 @@ std::string wire_words(const checks::Observations& seen) {
 
 }  // namespace
 
-std::string text(const scenario::Scenario& scenario, const run::Run& run) {
+std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   const Summary summary = summarise(scenario, run);
   std::string page;
 
@@ -165,7 +165,7 @@ std::string text(const scenario::Scenario& scenario, const run::Run& run) {
     if (scenario.targets.size() > 1) page += fmt::format("  {}\n", results.estimator);
     for (const estimators::ResultLine& line : results.lines) page += words(line);
   }
-  const bool virtual_time = run.clock == run::ClockKind::lockstep;
+  const bool virtual_time = run.clock == drive::ClockKind::lockstep;
   for (const MessageLatency& row : summary.latencies) {
     if (row.latency_s.count == 0) {
       page += fmt::format("  latency {:<22}no answers{}\n", row.message,

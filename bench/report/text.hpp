@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "bench/run/session.hpp"
+#include "bench/drive/session.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::report {
 
 /// Verdict, checks, convergence, latency, losses: a page of text.
-std::string text(const scenario::Scenario& scenario, const run::Run& run);
+std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

@@ -5,7 +5,7 @@ Packages: python3-numpy python3-canmatrix. From the root of the tree, with a bui
 
     docs/experiments/invariant_heading.py build/default/hil-bench --runs 100 --jobs 2 --work /tmp/invariant
 
-Flies runs 0..N-1 of the sin/cos variants of bench/campaigns/paper_inflight/starts.toml (and from 90 deg with larger tilts) with
+Flies runs 0..N-1 of the sin/cos variants of bench/monte_carlo/paper_inflight/starts.toml (and from 90 deg with larger tilts) with
 `campaign replay --log`, decodes the log with dbc/canhil.dbc, and gives the IMU, the fixes and the initial state to the invariant
 filter. The sin/cos filter's heading and sigma are those that the target answered in the same log. Decoded runs are kept in --work:
 a second call only filters. --forms adds variations of the invariant filter. The equations stand in invariant_heading.md.
@@ -21,7 +21,7 @@ import canmatrix.formats
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCENARIOS = ROOT / "bench/campaigns/paper_inflight"
+SCENARIOS = ROOT / "bench/monte_carlo/paper_inflight"
 STARTS = ((30, 1), (90, 1), (150, 1), (180, 1), (90, 3), (90, 5), (90, 10))  # heading error, sigma of the tilts [deg]
 VARIANT = """
 [[variant]]

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/contract.hpp"
-#include "bench/run/flight.hpp"
-#include "bench/run/handshake.hpp"
-#include "bench/run/in_process_port.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/flight.hpp"
+#include "bench/drive/handshake.hpp"
+#include "bench/drive/in_process_port.hpp"
 
 namespace canhil {
 
@@ -47,7 +47,7 @@ class RecordingPort final : public Port {
   std::vector<Round> rounds{1};  // the last one is without an answer yet
 
  private:
-  run::InProcessPort device_{Rounding::as_on_the_bus};
+  drive::InProcessPort device_{Rounding::as_on_the_bus};
   std::vector<Received> heard_;
   std::size_t next_ = 0;
 };
@@ -56,19 +56,19 @@ class RecordingPort final : public Port {
 /// Error: one line.
 inline Result<std::vector<Round>> record_flight(const std::string& file, const std::string& algorithm,
                                                 std::uint64_t run_index) {
-  auto scenario = scenario::read_file(file, run::contract());
+  auto scenario = scenario::read_file(file, drive::contract());
   if (!scenario) return tl::unexpected(scenario.error());
   scenario->targets.front().algorithm = algorithm;
-  const auto truth = run::make_truth(*scenario);
+  const auto truth = drive::make_truth(*scenario);
   if (!truth) return tl::unexpected(truth.error());
-  auto flight = run::make_flight(*scenario, *truth, run_index);
+  auto flight = drive::make_flight(*scenario, *truth, run_index);
   if (!flight) return tl::unexpected(flight.error());
 
   RecordingPort port;
-  run::Link link(port);
-  run::Schedule schedule = run::make_schedule(*scenario, *truth, flight->own_truth, run_index, false);
+  drive::Link link(port);
+  drive::Schedule schedule = drive::make_schedule(*scenario, *truth, flight->own_truth, run_index, false);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
-  auto ready = run::configure(link, schedule.outbox(), scenario->targets, flight->initial, gone);
+  auto ready = drive::configure(link, schedule.outbox(), scenario->targets, flight->initial, gone);
   if (!ready) return tl::unexpected(ready.error());
   while (schedule.due_us() != nodes::never_us) {
     for (const Frame& frame : schedule.take()) port.send(frame);

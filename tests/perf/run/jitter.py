@@ -31,7 +31,7 @@ SAMPLES = 1100  # about as many as the scenario has
 PRIORITY = 40
 FIRST = 0x70  # SeekerAntenna, the first frame of every deadline
 OF_BENCH = {0x70, 0x71, 0x72, 0x73, 0xA0}  # the seeker's frames and Sync
-SCENARIO = pathlib.Path(__file__).parents[3] / "bench/scenarios/los_quick.toml"
+SCENARIO = pathlib.Path(__file__).parents[3] / "bench/flights/los_quick.toml"
 SPINS_US = (0, 100)
 
 CPUS = sorted(os.sched_getaffinity(0))

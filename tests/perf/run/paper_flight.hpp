@@ -10,7 +10,7 @@ namespace canhil {
 
 /// Or the program ends.
 inline campaign::Campaign paper_campaign() {
-  auto read = campaign::read_campaign(SOURCE_DIR "/bench/campaigns/paper_transfer/table2.toml");
+  auto read = campaign::read_campaign(SOURCE_DIR "/bench/monte_carlo/paper_transfer/table2.toml");
   if (read) return std::move(*read);
   std::fprintf(stderr, "%s\n", read.error().message.c_str());
   std::exit(1);

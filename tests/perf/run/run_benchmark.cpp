@@ -1,21 +1,21 @@
 // One run of 20 s at 100 Hz in process, bus path included: the unit of work of a campaign.
 #include <benchmark/benchmark.h>
 
-#include "bench/run/contract.hpp"
-#include "bench/run/flight.hpp"
-#include "bench/run/session.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/flight.hpp"
+#include "bench/drive/session.hpp"
 
 namespace canhil {
 namespace {
 
 void run_20_s(benchmark::State& state, const char* file) {
   const auto scenario =
-      scenario::read_file(std::string(SOURCE_DIR "/bench/scenarios/") + file, run::contract());
+      scenario::read_file(std::string(SOURCE_DIR "/bench/flights/") + file, drive::contract());
   if (!scenario) return state.SkipWithError(scenario.error().message.c_str());
-  const auto truth = run::make_truth(*scenario);
+  const auto truth = drive::make_truth(*scenario);
   std::uint64_t index = 0;
   for (auto _ : state) {
-    auto finished = run::run_in_process(*scenario, *truth, index++);
+    auto finished = drive::run_in_process(*scenario, *truth, index++);
     benchmark::DoNotOptimize(finished);
   }
   state.counters["x_real_time"] = benchmark::Counter(

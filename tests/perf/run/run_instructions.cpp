@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "bench/campaign/series.hpp"
-#include "bench/run/flight.hpp"
+#include "bench/drive/flight.hpp"
 #include "tests/perf/run/paper_flight.hpp"
 
 namespace {
@@ -14,7 +14,7 @@ using namespace canhil;
 // What a campaign does for each run, but for storing it.
 [[gnu::noinline]] std::size_t one_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                       std::uint64_t index) {
-  const auto finished = run::run_in_process(scenario, truth, index);
+  const auto finished = drive::run_in_process(scenario, truth, index);
   return finished ? campaign::series_of(index, *finished, truth, estimators::of(scenario)).samples.size() : 0;
 }
 
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
   const campaign::Campaign campaign = paper_campaign();
   for (const campaign::Variant& variant : campaign.variants) {
     if (variant.name != wanted) continue;
-    const auto truth = run::make_truth(variant.scenario);  // once a variant
+    const auto truth = drive::make_truth(variant.scenario);  // once a variant
     if (!truth) break;
     for (std::uint64_t index = 0; index < 3; ++index) {
       if (one_run(variant.scenario, *truth, index) != 199) break;

@@ -21,9 +21,9 @@ FILES = (
     ("bench/world/", SENSOR), ("bench/nodes/", SENSOR),
     ("messages/canhil.hpp", None), ("dbc/wire/bits", None), ("dbc/wire/quantise", None), ("dbc/wire/message.hpp", None),
     ("dbc/wire/transmit", PACK), ("dbc/wire/routes", UNPACK),
-    ("dbc/wire/", WIRE), ("dbc/ports/", WIRE), ("bench/run/in_process_port", WIRE), ("bench/run/link", WIRE),
+    ("dbc/wire/", WIRE), ("dbc/ports/", WIRE), ("bench/drive/in_process_port", WIRE), ("bench/drive/link", WIRE),
     ("target/estimators/", ESTIMATOR), ("target/", LOOP),
-    ("bench/run/monitor", MONITOR), ("bench/checks/", MONITOR), ("bench/campaign/", MONITOR),
+    ("bench/observe/monitor", MONITOR), ("bench/checks/", MONITOR), ("bench/campaign/", MONITOR),
     ("bench/", LOOP), ("tests/perf/", LOOP),
 )
 UNPACKS = {"unpack", "load_le", "load_be", "unsigned_bits", "signed_bits", "physical", "real", "from_frame", "unpacked"}

@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/target_process.hpp"
+#include "bench/drive/target_process.hpp"
 #include "dbc/command_line/command_line.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "tests/perf/run/flight_rounds.hpp"
@@ -189,7 +189,7 @@ Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string
     ::close_range(3, ~0U, 0);
     echo(buses[1], rounds);
   }
-  auto target = run::TargetProcess::start(HIL_TARGET, buses[0]);
+  auto target = drive::TargetProcess::start(HIL_TARGET, buses[0]);
   if (!target) return tl::unexpected(target.error());
   const bool ready =
       bare.hears(messages::TargetHeartbeat::info.id) && device.hears(messages::TargetHeartbeat::info.id);
@@ -248,7 +248,7 @@ int compare(int flights, const std::string& only, const std::vector<std::string>
     for (int flight = 0; flight < estimator.flights * flights; ++flight) {
       const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
       const auto rounds =
-          record_flight(fmt::format("{}/bench/scenarios/{}.toml", SOURCE_DIR, estimator.scenario),
+          record_flight(fmt::format("{}/bench/flights/{}.toml", SOURCE_DIR, estimator.scenario),
                         estimator.algorithm, static_cast<std::uint64_t>(flight));
       if (!rounds) return complain(rounds.error().message);
       rest(start_ns);

@@ -80,7 +80,7 @@ std::string bus() {
 }
 
 std::string scenario(const std::string& name) {
-  return fmt::format("{}/bench/scenarios/{}.toml", SOURCE_DIR, name);
+  return fmt::format("{}/bench/flights/{}.toml", SOURCE_DIR, name);
 }
 
 std::vector<Frame> target_frames(const std::string& log_path) {

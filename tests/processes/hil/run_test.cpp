@@ -301,7 +301,7 @@ TEST(Output, ThatIsLostIsSaid) {
 TEST(Run, CsvIsATableOfAllThatWasTold) {
   const std::string table = scratch("run.csv");
   const Ended ended = hil_bench(fmt::format(
-      "run {}/bench/scenarios/transfer_alignment_quick.toml --bus in-process --csv {}", SOURCE_DIR, table));
+      "run {}/bench/flights/transfer_alignment_quick.toml --bus in-process --csv {}", SOURCE_DIR, table));
   EXPECT_EQ(ended.code, 3) << ended.err;
   std::ifstream file(table);
   std::string line;

@@ -13,7 +13,7 @@ fail() { echo "FAILED: $*" >&2; tail -n 5 "$cluster"/*.out >&2 || true; exit 1; 
 
 cluster_start
 cd "$cluster"
-campaign=$root/bench/campaigns/quick.toml
+campaign=$root/bench/monte_carlo/quick.toml
 
 # Exit code 1: a metric of the campaign did not hold, which is not this test's business.
 "$bench" campaign "$campaign" --threads 2 --out single.sqlite >single.out || [[ $? == 1 ]] || fail "the campaign in one process"

@@ -20,7 +20,7 @@ MAY_INCLUDE = {
     "target/device/": ("dbc/", "target/device/", "target/estimators/"),
     "target/estimators/": ESTIMATOR_SHARED,  # and its own folder, see allowed_prefixes()
     "bench/": ("dbc/", "bench/"),
-    "bench/run/": ("dbc/", "bench/", DEVICE),
+    "bench/drive/": ("dbc/", "bench/", DEVICE),
     "bench/campaign/": ("dbc/", "bench/", DEVICE),
     "bench/checks/": ("dbc/", "bench/"),
 }

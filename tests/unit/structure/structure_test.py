@@ -28,8 +28,8 @@ GOOD = {
                                          '#include "target/estimators/wind/model.hpp"\n',
     "target/estimators/wind/model.hpp": "#include <cmath>\n",
     "target/estimators/los_rate/model.hpp": '// #include "dbc/wire/frame.hpp"\n',
-    "bench/main.cpp": '#include "bench/run/runner.hpp"\n',
-    "bench/run/runner.hpp": '#include "bench/nodes/seeker.hpp"\n#include "target/device/device.hpp"\n',
+    "bench/main.cpp": '#include "bench/drive/runner.hpp"\n',
+    "bench/drive/runner.hpp": '#include "bench/nodes/seeker.hpp"\n#include "target/device/device.hpp"\n',
     "bench/nodes/seeker.hpp": '#include "bench/world/truth.hpp"\n#include "dbc/wire/frame.hpp"\n',
     "bench/world/truth.hpp": "#include <fmt/format.h>\n",
     "bench/checks/timing.hpp": '#include "bench/world/truth.hpp"\nint limit = 129;\nauto m = "id = 129";\n',
@@ -89,8 +89,8 @@ class Checker(unittest.TestCase):
         odometry = {"bench/estimators/odometry/odometry.cpp": "using Group = AnswerGroup<OdometrySpeed, OdometryState>;\n",
                     "bench/estimators/registry.cpp": "const Estimator& one = odometry;\n",
                     "bench/papers/odometry/claims.cpp": 'auto name = "odometry";\n'}
-        self.assertEqual(breaches_of({**odometry, "bench/run/x.cpp": 'int odometry = 0; auto s = "odometry of a car";\n'}), [])
-        for name in ("bench/run/monitor.cpp", "bench/checks/kinds/error.cpp", "bench/scenario/target_setup.cpp", "bench/nodes/gps.cpp"):
+        self.assertEqual(breaches_of({**odometry, "bench/drive/x.cpp": 'int odometry = 0; auto s = "odometry of a car";\n'}), [])
+        for name in ("bench/observe/monitor.cpp", "bench/checks/kinds/error.cpp", "bench/scenario/target_setup.cpp", "bench/nodes/gps.cpp"):
             for text in ('if (name == "odometry") return;\n', "auto speed = from_frame<OdometrySpeed>(frame);\n"):
                 with self.subTest(name=name, text=text):
                     self.expect(f"{name}:1: names", {**odometry, name: text})
@@ -99,7 +99,7 @@ class Checker(unittest.TestCase):
         gps = {"bench/nodes/gps.hpp": "struct GpsSettings {};\nextern const struct Kind gps;\n", "bench/nodes/gps.cpp": '#include "bench/nodes/gps.hpp"\n',
                "bench/nodes/registry.cpp": '#include "bench/nodes/gps.hpp"\n'}
         self.assertEqual(breaches_of(gps), [])
-        for name in ("bench/run/flight.cpp", "bench/report/summary.cpp", "bench/nodes/ssbl.cpp"):
+        for name in ("bench/drive/flight.cpp", "bench/report/summary.cpp", "bench/nodes/ssbl.cpp"):
             with self.subTest(name):
                 self.expect(f"{name}:1: includes bench/nodes/gps.hpp", {**gps, name: '#include "bench/nodes/gps.hpp"\n'})
         self.expect("bench/scenario/x.cpp:2: names GpsSettings", {**gps, "bench/scenario/x.cpp": "// GpsSettings\nGpsSettings all;\n"})
@@ -119,7 +119,7 @@ class Checker(unittest.TestCase):
         for name in ("bench/main.cpp", "bench/nodes/seeker.hpp", "bench/world/truth.hpp", "bench/checks/timing.hpp"):
             with self.subTest(name):
                 self.expect_include(name, "target/device/device.hpp")
-        for name in ("bench/run/runner.hpp", "bench/campaign/shard.hpp"):
+        for name in ("bench/drive/runner.hpp", "bench/campaign/shard.hpp"):
             with self.subTest(name):
                 self.expect_include(name, "target/estimators/wind/filter.hpp")
         self.assertEqual(breaches_of({"bench/campaign/shard.hpp": '#include "target/device/device.hpp"\n'}), [])
@@ -127,7 +127,7 @@ class Checker(unittest.TestCase):
     def test_checks_reach_neither_nodes_nor_target(self):
         timing = "bench/checks/timing.hpp"
         self.expect("reaches bench/nodes/seeker.hpp", {timing: '#include "bench/nodes/seeker.hpp"\n'})
-        self.expect("reaches target/device/device.hpp", {timing: '#include "bench/run/runner.hpp"\n'})
+        self.expect("reaches target/device/device.hpp", {timing: '#include "bench/drive/runner.hpp"\n'})
 
     def test_folders_form_no_cycle(self):
         self.expect("a cycle of folders", {"bench/world/truth.hpp": '#include "bench/nodes/seeker.hpp"\n'})

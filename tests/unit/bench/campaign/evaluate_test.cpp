@@ -111,7 +111,7 @@ TEST(Bars, AreNotMetWhileARunIsMissing) {
   const auto one_faulted = [](std::size_t variant) -> Result<std::vector<RunSeries>> {
     auto runs = runs_of(variant);
     runs[1] = run_with(1, variant == 0 ? std::vector{9e-3, 2e-3} : std::vector{9e-3, 8e-3});
-    runs[1].ending = {.kind = run::Ending::Kind::target_fault, .t_us = 250'000, .detail = "input_silent"};
+    runs[1].ending = {.kind = drive::Ending::Kind::target_fault, .t_us = 250'000, .detail = "input_silent"};
     return runs;
   };
   for (const std::string metric : {"kind = 'time_within'\nwithin_mrad = 3\nnever_before_s = 0.0\n",
@@ -162,7 +162,7 @@ TEST(Report, OfAVariantThatNeverFlewIsNoPass) {
     for (RunSeries& run : runs) {
       if (variant == 0) continue;
       run.samples = Samples(estimators::transfer_alignment.layout);
-      run.ending = {.kind = run::Ending::Kind::target_fault, .t_us = 0, .detail = "input_silent"};
+      run.ending = {.kind = drive::Ending::Kind::target_fault, .t_us = 0, .detail = "input_silent"};
     }
     return runs;
   };

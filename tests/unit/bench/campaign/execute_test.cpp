@@ -8,7 +8,7 @@
 
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/merge.hpp"
-#include "bench/run/flight.hpp"
+#include "bench/drive/flight.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
 
 namespace canhil::campaign {
@@ -37,8 +37,8 @@ TEST(Execute, StoresWhatRunInProcessGives) {
   const auto runs = store->load(1);
   ASSERT_EQ(runs->size(), 4U);
   const scenario::Scenario& scenario = campaign->variants[1].scenario;
-  const auto truth = run::make_truth(scenario);
-  const auto flown = run::run_in_process(scenario, *truth, 2);
+  const auto truth = drive::make_truth(scenario);
+  const auto flown = drive::run_in_process(scenario, *truth, 2);
   EXPECT_EQ(encode((*runs)[2].samples),
             encode(series_of(2, *flown, *truth, estimators::transfer_alignment).samples));
   EXPECT_EQ((*runs)[2].run, 2U);

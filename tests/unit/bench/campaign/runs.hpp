@@ -57,7 +57,7 @@ inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
 inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values,
                             const Quantity& quantity = quantities::attitude_heading) {
   RunSeries series = run_with(run, values, quantity);
-  series.ending = {.kind = run::Ending::Kind::target_fault,
+  series.ending = {.kind = drive::Ending::Kind::target_fault,
                    .t_us = 100'000 * static_cast<std::int64_t>(values.size()),
                    .detail = ""};
   return series;
@@ -85,7 +85,7 @@ inline std::filesystem::path scratch(const std::string& name) {
 }
 
 inline std::string quick_scenario() {
-  return content(SOURCE_DIR "/bench/scenarios/transfer_alignment_quick.toml");
+  return content(SOURCE_DIR "/bench/flights/transfer_alignment_quick.toml");
 }
 
 inline const std::string two_variants = R"(title = "Two"

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/run/contract.hpp"
-#include "bench/run/flight.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/flight.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
 
 namespace canhil::campaign {
@@ -80,7 +80,7 @@ TEST(Series, QuantitiesThatFollowFromOthers) {
 }
 
 TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
-  run::Collected flown{.ending = {}, .seen = {}};
+  drive::Collected flown{.ending = {}, .seen = {}};
   world::EngagementRecord record;
   // 100 Hz, 1000 m/s: two answers a sample; errors of 3 and 4 mrad/s in pitch, 1 in yaw.
   for (std::int64_t t_us = 10'000; t_us <= 90'000; t_us += 10'000) {
@@ -121,14 +121,14 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
 }
 
 TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
-  const auto scenario = scenario::parse(quick_scenario(), "quick.toml", run::contract());
+  const auto scenario = scenario::parse(quick_scenario(), "quick.toml", drive::contract());
   ASSERT_TRUE(scenario) << scenario.error().message;
-  const auto truth = run::make_truth(*scenario);
-  const auto flown = run::run_in_process(*scenario, *truth, 5);
+  const auto truth = drive::make_truth(*scenario);
+  const auto flown = drive::run_in_process(*scenario, *truth, 5);
   ASSERT_TRUE(flown) << flown.error().message;
   const RunSeries series = series_of(5, *flown, *truth, estimators::transfer_alignment);
   EXPECT_EQ(series.run, 5U);
-  EXPECT_EQ(series.ending.kind, run::Ending::Kind::completed);
+  EXPECT_EQ(series.ending.kind, drive::Ending::Kind::completed);
   // 10 Hz for 3 s; the last update is followed by no answer.
   ASSERT_EQ(series.samples.size(), 29U);
   const auto errors =
@@ -154,7 +154,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
 TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
   const world::Position start{.latitude = 0.6, .longitude = 2, .height = 5};
   const world::FlightRecord truth({.start = start, .motion = world::Rest{}}, 3'000'000, 20'000);
-  run::Collected flown{.ending = {}, .seen = {}};
+  drive::Collected flown{.ending = {}, .seen = {}};
   for (const std::int64_t t_us : {1'000'000, 1'500'000, 2'000'000})
     flown.seen.of<estimators::InflightAnswers>().navigation.push_back(
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});

@@ -5,7 +5,7 @@
 
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/statistics.hpp"
-#include "bench/run/contract.hpp"
+#include "bench/drive/contract.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
 
 namespace canhil::campaign {
@@ -159,8 +159,8 @@ TEST(Silence, OfAFilterThatCoastsIsThatOfItsNis) {
 }
 
 std::int64_t age_limit_us(const std::string& scenario, const std::vector<scenario::Setting>& settings = {}) {
-  const std::string file = SOURCE_DIR "/bench/scenarios/" + scenario;
-  const auto read = scenario::parse(content(file), file, run::contract(), settings);
+  const std::string file = SOURCE_DIR "/bench/flights/" + scenario;
+  const auto read = scenario::parse(content(file), file, drive::contract(), settings);
   EXPECT_TRUE(read) << read.error().message;
   return estimators::of(*read).freshness(*read).age_limit_us;
 }

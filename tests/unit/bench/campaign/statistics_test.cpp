@@ -109,7 +109,7 @@ TEST(RunDistribution, BootstrapsTheRmsOfABatch) {
 
 TEST(RunDistribution, CountsRunsThatHadEndedOrAreNotFinite) {
   std::vector<RunSeries> runs{run_with(0, {1, 2}), run_with(1, {1}), run_with(2, {1, nan}), run_with(3, {})};
-  runs[1].ending = {.kind = run::Ending::Kind::target_fault, .t_us = 150'000, .detail = ""};
+  runs[1].ending = {.kind = drive::Ending::Kind::target_fault, .t_us = 150'000, .detail = ""};
   const auto found = run_distribution(runs, heading, 200'000, 5, 100);
   EXPECT_EQ(found.missing, 3U);
   EXPECT_DOUBLE_EQ(found.rms, 2);
@@ -205,14 +205,14 @@ TEST(ToGo, TakesTheSamplesThatLieWithinTheWindow) {
       << "yaw is 0";
   runs[1] = engagement(1, {{1000, 9}});
   EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0.2, 0.5).missing, 1U);
-  runs[0].ending.kind = run::Ending::Kind::target_fault;
+  runs[0].ending.kind = drive::Ending::Kind::target_fault;
   EXPECT_EQ(to_go_statistics(runs, quantities::los_rate_pitch, 0.2, 0.5).missing, 2U);
 }
 
 TEST(Divergence, CountsFaultsAndWhatIsBeyondAtTheEnd) {
   std::vector runs{run_with(0, {9, 1}), run_with(1, {1, -9}), run_with(2, {1, nan}), run_with(3, {1}),
                    run_with(4, {})};
-  runs[3].ending.kind = run::Ending::Kind::target_fault;
+  runs[3].ending.kind = drive::Ending::Kind::target_fault;
   const auto found = divergence(runs, heading, 2);
   EXPECT_EQ(found.faulted, 1U);
   EXPECT_EQ(found.beyond, 3U);

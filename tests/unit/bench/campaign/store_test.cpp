@@ -35,7 +35,7 @@ std::filesystem::path results(const std::string& name) {
     std::vector<Finished> runs;
     for (std::uint64_t run = 0; run < 4; ++run) {
       runs.push_back({variant, run_with(run, std::vector<double>(30, 1e-3 * static_cast<double>(run + 1)))});
-      if (run == 2) runs.back().series.ending = {run::Ending::Kind::target_fault, 9, "input_silent"};
+      if (run == 2) runs.back().series.ending = {drive::Ending::Kind::target_fault, 9, "input_silent"};
     }
     EXPECT_TRUE(store->add(runs));
   }

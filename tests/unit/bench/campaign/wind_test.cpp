@@ -6,9 +6,9 @@
 
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/statistics.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/flight.hpp"
 #include "bench/estimators/wind/answers.hpp"
-#include "bench/run/contract.hpp"
-#include "bench/run/flight.hpp"
 #include "tests/unit/bench/campaign/runs.hpp"
 
 namespace canhil::campaign {
@@ -33,7 +33,7 @@ TEST(RunMeans, AreOfEachRunOverTheWindow) {
 
 TEST(RunMeans, CountRunsThatWereLost) {
   auto runs = three_runs();
-  runs[1].ending.kind = run::Ending::Kind::target_silent;
+  runs[1].ending.kind = drive::Ending::Kind::target_silent;
   runs[2] = run_with(2, {1, std::numeric_limits<double>::quiet_NaN(), 1}, quantities::wind_along);
   const RunMeans found = run_means(runs, quantities::wind_along, 200'000, end_us);
   EXPECT_EQ(found.missing, 2U);
@@ -77,10 +77,10 @@ TEST(RunMean, ARatioNeedsAnother) {
 }
 
 TEST(WindSeries, IsWhatTheChecksSee) {
-  auto scenario = scenario::read_file(SOURCE_DIR "/bench/scenarios/wind_quick.toml", run::contract()).value();
+  auto scenario = scenario::read_file(SOURCE_DIR "/bench/flights/wind_quick.toml", drive::contract()).value();
   EXPECT_EQ(&estimators::of(scenario), &estimators::wind);
-  const auto truth = run::make_truth(scenario);
-  const auto flown = run::run_in_process(scenario, *truth, 2);
+  const auto truth = drive::make_truth(scenario);
+  const auto flown = drive::run_in_process(scenario, *truth, 2);
   ASSERT_TRUE(flown) << flown.error().message;
   const RunSeries series = series_of(2, *flown, *truth, estimators::of(scenario));
   const auto errors =

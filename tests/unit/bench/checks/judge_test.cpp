@@ -15,7 +15,7 @@
 #include "bench/checks/kinds/output_period.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/transfer_alignment/quantities.hpp"
-#include "bench/run/stopwatch.hpp"
+#include "bench/observe/stopwatch.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
 
@@ -72,7 +72,7 @@ class Judged : public testing::Test {
   [[nodiscard]] Observations timed(const std::vector<scenario::Check>& checks) const {
     Observations seen = seen_;
     seen.timing.windows = timed_windows(checks);
-    run::Stopwatch stopwatch(seen.timing);
+    observe::Stopwatch stopwatch(seen.timing);
     stopwatch.sent({}, seen.first_ns, 0);
     for (const auto& [group, stimuli] : stimuli_) {
       seen.stimuli[group] = {

@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "bench/drive/contract.hpp"
 #include "bench/estimators/registry.hpp"
-#include "bench/run/contract.hpp"
 #include "target/device/device.hpp"
 
 namespace canhil::estimators {
@@ -32,7 +32,7 @@ TEST(Registry, KnowsTheEstimatorsOfTheContract) {
     EXPECT_EQ(find(one->name), one);
     EXPECT_EQ(telling(quantities::names(one->layout)), one);
   }
-  EXPECT_THAT(names, testing::UnorderedElementsAreArray(run::contract().estimators));
+  EXPECT_THAT(names, testing::UnorderedElementsAreArray(drive::contract().estimators));
   EXPECT_EQ(find("wheel_odometry"), nullptr);
   EXPECT_EQ(telling("height"), nullptr);
 }

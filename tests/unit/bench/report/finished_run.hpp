@@ -16,8 +16,8 @@ inline scenario::Scenario scenario_of() {
   return scenario;
 }
 
-inline run::Run run_of() {
-  run::Run run{
+inline drive::Run run_of() {
+  drive::Run run{
       .verdict = {.outcome = checks::Outcome::fail,
                   .reason = "1 of 2 checks failed",
                   .checks = {{"latency", "latency", "REQ-7", checks::Outcome::fail, "9 ms", "< 5 ms"},
@@ -49,8 +49,8 @@ inline run::Run run_of() {
 }
 
 // A run at 500 kbit/s: 100 stimuli of 0.3 ms to their echo, 0.2 of it the frame, and 1 ms from there on.
-inline run::Run run_on_a_wire() {
-  run::Run run = run_of();
+inline drive::Run run_on_a_wire() {
+  drive::Run run = run_of();
   run.seen.bit_rates = {.nominal = 500'000};
   run.seen.transmit_stamps_echoed = true;
   run.seen.last_ns = 2'000'000'000;

@@ -17,7 +17,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string page_of(const run::Run& run) { return html(document(scenario_of(), run)).value(); }
+std::string page_of(const drive::Run& run) { return html(document(scenario_of(), run)).value(); }
 
 TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
   const auto split = document(scenario_of(), run_on_a_wire()).at("split");
@@ -41,7 +41,7 @@ TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
 }
 
 TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
-  run::Run run = run_on_a_wire();
+  drive::Run run = run_on_a_wire();
   run.seen.timing.wire.rates = {};
   run.seen.timing.split.told = 0;
   const auto parts = document(scenario_of(), run).at("split").at("parts_s");
@@ -53,7 +53,7 @@ TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
 }
 
 TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
-  run::Run run = run_on_a_wire();
+  drive::Run run = run_on_a_wire();
   EXPECT_FALSE(document(scenario_of(), run).at("split").contains("at_least"));
   run.seen.timing.split.queue_clipped = true;
   const auto split = document(scenario_of(), run).at("split");
@@ -68,7 +68,7 @@ TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
 }
 
 TEST(PageSections, TheSplitOfEachGroupStandsBesideThatOfAll) {
-  run::Run run = run_on_a_wire();
+  drive::Run run = run_on_a_wire();
   checks::TimingRecord& timing = run.seen.timing;
   timing.split_by_group = {
       {"SlaveImu", {.stimuli = 90, .latency_ns = 45'000'000, .reply_wire_ns = 9'000'000}},
@@ -114,7 +114,7 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
 
 // 200 stimuli, and of the answers of a group of an estimator in use not one.
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)
     run.seen.stimuli[messages::MasterInsVelocityD::info.sample_group].add(100'000 * i);
   const Json latencies = document(scenario_of(), run).at("latency_s");
@@ -130,15 +130,15 @@ TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
 }
 
 TEST(PageSections, TellInVirtualTimeTooWhatWasNeverAnswered) {
-  run::Run run = run_of();
-  run.clock = run::ClockKind::lockstep;
+  drive::Run run = run_of();
+  run.clock = drive::ClockKind::lockstep;
   EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("latency AlignVelocityD")));
   run.seen.timing.answers[message_index<messages::AlignVelocityD>()] = {};
   EXPECT_THAT(text(scenario_of(), run), ContainsRegex("latency AlignVelocityD +no answers"));
 }
 
 TEST(PageSections, TheLoadDoesNotFallInTheSecondInWhichTheRunEnded) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   run.seen.length_by_second = {{.nominal = 100'000}, {.nominal = 120'000}, {.nominal = 400}};
   const Json busiest = document(scenario_of(), run).at("bus_load_line").at("busiest");
   ASSERT_EQ(busiest.size(), 2U);

@@ -29,7 +29,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::Pointwise;
 
-std::string page_of(const run::Run& run) { return html(document(scenario_of(), run)).value(); }
+std::string page_of(const drive::Run& run) { return html(document(scenario_of(), run)).value(); }
 
 TEST(Page, NeedsNothingOutsideItself) {
   EXPECT_THAT(page_of(run_of()),
@@ -66,7 +66,7 @@ TEST(Page, EveryPictureIsWellFormedAndFinite) {
 
 TEST(Page, IsTheSameFromTheFileAsFromTheRun) {
   const std::string path = testing::TempDir() + "canhil_page_test.json";
-  const run::Run run = run_of();
+  const drive::Run run = run_of();
   std::ofstream(path) << json(scenario_of(), run);
   const auto read = read_document(path);
   ASSERT_TRUE(read) << read.error().message;
@@ -74,8 +74,8 @@ TEST(Page, IsTheSameFromTheFileAsFromTheRun) {
 }
 
 TEST(Page, OfVirtualTimeHasNoLatency) {
-  run::Run run = run_of();
-  run.clock = run::ClockKind::lockstep;
+  drive::Run run = run_of();
+  run.clock = drive::ClockKind::lockstep;
   run.timing_unfit = "virtual time";
   EXPECT_THAT(page_of(run),
               AllOf(HasSubstr("Timing is not judged: virtual time."), Not(HasSubstr("Latency of"))));
@@ -178,7 +178,7 @@ TEST(Plot, ABarThatWouldHideTheCurveIsLeftOut) {
 }
 
 TEST(Provenance, SaysWhatWasTested) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   const auto target = [&] { return document(scenario_of(), run).at("provenance").at("target"); };
   EXPECT_EQ(target().at("program"), "runs elsewhere");
   run.options.target = "./hil-target";

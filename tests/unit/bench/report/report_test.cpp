@@ -42,7 +42,7 @@ scenario::Scenario scenario_of() {
   return scenario;
 }
 
-run::Run run_of() {
+drive::Run run_of() {
   return {.verdict = {.outcome = Outcome::fail,
                       .reason = "1 of 3 checks failed",
                       .checks = {{awkward, "kind", awkward, Outcome::fail, "5 < 6", "> 7"},
@@ -56,7 +56,7 @@ run::Run run_of() {
           .wall_s = 1.5};
 }
 
-boost::property_tree::ptree suite_of(const run::Run& run) {
+boost::property_tree::ptree suite_of(const drive::Run& run) {
   std::istringstream text(junit(scenario_of(), run));
   boost::property_tree::ptree xml;
   read_xml(text, xml);
@@ -71,7 +71,7 @@ std::map<std::string, std::string> properties_of(const boost::property_tree::ptr
 }
 
 TEST(Junit, CarriesWhatAPassedCheckMeasuredAndWhenTheRunBegan) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   EXPECT_FALSE(suite_of(run).get_optional<std::string>("<xmlattr>.timestamp")) << "not known";
   run.started_s = 86'400;
   const auto suite = suite_of(run);
@@ -99,11 +99,11 @@ TEST(Junit, CountsWhatItLists) {
 }
 
 TEST(Junit, ARunThatEndedEarlyIsAFailureAndAnInterruptedOneIsSkipped) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   run.verdict.checks.clear();
-  run.ending = {.kind = run::Ending::Kind::target_silent, .t_us = 5, .detail = "silent"};
+  run.ending = {.kind = drive::Ending::Kind::target_silent, .t_us = 5, .detail = "silent"};
   EXPECT_EQ(suite_of(run).get<int>("<xmlattr>.failures"), 1);
-  run.ending = {.kind = run::Ending::Kind::interrupted, .t_us = 5, .detail = "interrupted"};
+  run.ending = {.kind = drive::Ending::Kind::interrupted, .t_us = 5, .detail = "interrupted"};
   EXPECT_EQ(suite_of(run).get<int>("<xmlattr>.failures"), 0);
   EXPECT_EQ(suite_of(run).get<int>("<xmlattr>.skipped"), 1);
 }
@@ -142,7 +142,7 @@ TEST(Reports, NameAPeriodThatIsNotTheDbcs) {
 }
 
 TEST(Reports, TellWhatBecameOfFixes) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "sin_cos", .initial_sigma = {}, .parameters = {}}};
@@ -173,7 +173,7 @@ TEST(Reports, TellWhatBecameOfFixes) {
 }
 
 TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   run.seen.of<estimators::InflightAnswers>().fixes = {{.cause_us = 100'000, .heading_sigma = 0.01}};
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
@@ -185,7 +185,7 @@ TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
 }
 
 TEST(Reports, TellTheLoadAtTheRateOfTheWire) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   EXPECT_THAT(text(scenario_of(), run),
               AllOf(HasSubstr("bus load at 500 kbit/s"), HasSubstr("bus load at 1000 kbit/s")));
   run.seen.bit_rates = {.nominal = 250'000, .data = 2'000'000};
@@ -200,7 +200,7 @@ TEST(Reports, TellTheLoadAtTheRateOfTheWire) {
 }
 
 TEST(Reports, TellThatTheTargetsOwnAccountEnds) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   run.seen.target_timing_seen = true;
   run.seen.queue_max_us = 8190;
   run.seen.compute_max_us = 8191;
@@ -218,7 +218,7 @@ TEST(Reports, SayOfSeveralEstimatorsWhoseLinesTheyAre) {
 }
 
 TEST(Reports, TellWhatTheBusDid) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   EXPECT_THAT(text(scenario_of(), run), HasSubstr("0 error frames; interface down 0 times; late in transmit "
                                                   "queue 0 frames"));
   run.seen.first_ns = 1'000'000'000;
@@ -242,7 +242,7 @@ TEST(Reports, TellWhatTheBusDid) {
 }
 
 TEST(Reports, NameTheControllersStamps) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   EXPECT_THAT(text(scenario_of(), run), Not(HasSubstr("hardware")));
   run.seen.timing.stimuli_with_hardware_stamp = 1;
   EXPECT_THAT(text(scenario_of(), run), HasSubstr("latency by the controller's hardware stamps"));

@@ -37,14 +37,14 @@ scenario::Scenario scenario_of(std::vector<scenario::Check> checks = {}) {
 }
 
 // 20 s; the heading is off by 200 mrad in the first second and by 1 mrad after it.
-run::Run run_of() {
-  run::Run run{.verdict = {},
-               .ending = {},
-               .seen = {},
-               .truth = {{.start = {}, .motion = world::Rest{}}, duration_us, 10'000},
-               .options = {},
-               .wall_s = 2};
-  run.clock = run::ClockKind::lockstep;
+drive::Run run_of() {
+  drive::Run run{.verdict = {},
+                 .ending = {},
+                 .seen = {},
+                 .truth = {{.start = {}, .motion = world::Rest{}}, duration_us, 10'000},
+                 .options = {},
+                 .wall_s = 2};
+  run.clock = drive::ClockKind::lockstep;
   for (std::int64_t t_us = 10'000; t_us <= duration_us; t_us += 10'000) {
     const double heading = t_us <= 1'000'000 ? 0.2 : 0.001;
     run.seen.of<estimators::TransferAnswers>().navigation.push_back(
@@ -68,7 +68,7 @@ scenario::Check heading_below_2_mrad() {
 }
 
 TEST(Series, CarryTheBarsOfTheChecksThatJudgeThem) {
-  const run::Run run = run_of();
+  const drive::Run run = run_of();
   EXPECT_EQ(find(series(scenario_of(), run), "heading error"), nullptr) << "nobody judges it";
   const scenario::Check convergence = checks::check_of(
       checks::Convergence{
@@ -106,7 +106,7 @@ TEST(Series, ABarThatTheFirstInstantsHideIsDrawnInASecondPicture) {
 }
 
 TEST(Series, ShowTheEstimateBesideTheTruthWithoutAJumpAtSouth) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   const double south = std::numbers::pi;
   run.truth = {{.start = {}, .motion = world::Rest{.angles = {.roll = 0, .pitch = 0, .heading = south}}},
                duration_us,
@@ -127,7 +127,7 @@ TEST(Series, ShowTheEstimateBesideTheTruthWithoutAJumpAtSouth) {
 }
 
 TEST(Series, ASigmaThatIsStaleIsAGap) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   std::erase_if(run.seen.of<estimators::TransferAnswers>().filter,
                 [](const auto& a) { return a.cause_us > 5'000'000 && a.cause_us < 15'000'000; });
   const auto all = series(scenario_of(), run);
@@ -141,7 +141,7 @@ TEST(Series, ASigmaThatIsStaleIsAGap) {
 
 // A fix each second but for 10 s in which the bench keeps them back: what was told before is stale after 3 s.
 TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   scenario::Scenario scenario = scenario_of();
   scenario.targets[0].estimator = "inflight_alignment";
   run.seen.of<estimators::InflightAnswers>().navigation =
@@ -159,7 +159,7 @@ TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
 }
 
 TEST(Series, SilenceIsAGapUpToTheEndOfTheRun) {
-  run::Run run = run_of();
+  drive::Run run = run_of();
   std::erase_if(run.seen.of<estimators::TransferAnswers>().navigation,
                 [](const auto& a) { return a.cause_us > 5'000'000 && a.cause_us < 8'000'000; });
   std::erase_if(run.seen.of<estimators::TransferAnswers>().navigation,

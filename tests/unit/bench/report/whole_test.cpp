@@ -24,8 +24,8 @@ std::string why(const std::function<void(Json&)>& edit) {
 TEST(WholeReport, OfARunAndOfVirtualTime) {
   EXPECT_EQ(why([](Json&) {}), "");
   EXPECT_EQ(why_not_whole(document(scenario_of(), run_on_a_wire())), "");
-  run::Run run = run_of();
-  run.clock = run::ClockKind::lockstep;
+  drive::Run run = run_of();
+  run.clock = drive::ClockKind::lockstep;
   run.timing_unfit = "virtual time";
   EXPECT_EQ(why_not_whole(document(scenario_of(), run)), "");
 }

@@ -57,7 +57,7 @@ Contract of_the_dbc() {
 
 TEST(ScenarioFiles, AreAllValid) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(SOURCE_DIR "/bench/scenarios")) {
+  for (const auto& entry : std::filesystem::directory_iterator(SOURCE_DIR "/bench/flights")) {
     const auto scenario = read_file(entry.path(), of_the_dbc());
     EXPECT_TRUE(scenario) << scenario.error().message;
     ++count;
@@ -66,7 +66,7 @@ TEST(ScenarioFiles, AreAllValid) {
 }
 
 TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
-  const auto s = read_file(SOURCE_DIR "/bench/scenarios/transfer_alignment.toml", of_the_dbc()).value();
+  const auto s = read_file(SOURCE_DIR "/bench/flights/transfer_alignment.toml", of_the_dbc()).value();
   EXPECT_EQ(s.targets.front().algorithm, "kalman");
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, s.initial_error.attitude.sigma.z());
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.tilt, s.initial_error.attitude.sigma.x());
@@ -86,7 +86,7 @@ TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
 }
 
 TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
-  const auto s = read_file(SOURCE_DIR "/bench/scenarios/transfer_alignment_h2.toml", of_the_dbc()).value();
+  const auto s = read_file(SOURCE_DIR "/bench/flights/transfer_alignment_h2.toml", of_the_dbc()).value();
   EXPECT_EQ(s.targets.front().algorithm, "robust_h2");
   EXPECT_DOUBLE_EQ(s.targets.front().initial_sigma.heading, 1 * world::units::deg);
   EXPECT_DOUBLE_EQ(s.initial_error.attitude.sigma.z(), 5 * world::units::deg);
@@ -95,7 +95,7 @@ TEST(ScenarioFiles, TheH2FilterIsToldOneDegreeOfFive) {
 
 TEST(ScenarioFiles, TheFiltersOfInFlightAlignmentAreToldTheTruth) {
   for (const std::string name : {"inflight_ssbl", "inflight_gps", "inflight_ssbl_180", "inflight_quick"}) {
-    const auto s = read_file(SOURCE_DIR "/bench/scenarios/" + name + ".toml", of_the_dbc()).value();
+    const auto s = read_file(SOURCE_DIR "/bench/flights/" + name + ".toml", of_the_dbc()).value();
     const auto parameter = [&](std::string_view wanted) {
       const auto found = std::ranges::find(s.targets.front().parameters, wanted, &Parameter::name);
       return found == s.targets.front().parameters.end() ? std::nan("") : found->value;

@@ -13,7 +13,7 @@ namespace {
 
 /// The quick scenario of the project: it has most of the grammar.
 std::string quick() {
-  std::ifstream file(SOURCE_DIR "/bench/scenarios/transfer_alignment_quick.toml");
+  std::ifstream file(SOURCE_DIR "/bench/flights/transfer_alignment_quick.toml");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -1,0 +1,51 @@
+#include "bench/drive/buses.hpp"
+
+#include <algorithm>
+
+#include "bench/drive/in_process_port.hpp"
+#include "bench/drive/in_process_wire.hpp"
+#include "dbc/ports/several.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+namespace {
+
+static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
+
+// Without a wire there is no bus, and frames travel as they are in both contracts.
+Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat format) {
+  const bool wireless = bus.rounding == Rounding::none || (bus.wire && bus.wire->rates.nominal == 0);
+  if (wireless) return std::make_unique<InProcessPort>(bus.rounding);
+  if (!bus.wire) return tl::unexpected(bus.wire.error());
+  auto port = std::make_unique<InProcessWire>(bus.text, *bus.wire, format);
+  if (format == BusFormat::fd) return in_fd_groups(std::move(port));
+  return port;
+}
+
+}  // namespace
+
+Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format) {
+  const auto notes = std::make_shared<std::vector<std::string>>();
+  const auto with_notes = [&](std::unique_ptr<Port> port) { return OpenBuses{notes, std::move(port)}; };
+  if (bus.in_process) return open_in_process(bus, format).map(with_notes);
+  std::vector<std::string> names{bus.text};  // each once
+  for (const auto& [node, own] : bus_of) {
+    if (std::ranges::find(names, own) == names.end()) names.push_back(own);
+  }
+  PortOptions options;
+  options.own_echo = true;
+  options.foreign = true;
+  options.node_name = "hil-bench";
+  HubRules rules;
+  rules.on_turned_away = [notes](const std::string& line) { notes->push_back(line); };
+  const auto route = [names, bus_of](const Frame& frame) -> std::size_t {
+    const MessageInfo* info = messages::find_message(frame.id);
+    const auto own = std::ranges::find_if(
+        bus_of, [&](const auto& entry) { return info != nullptr && info->sender == entry.first; });
+    if (own == bus_of.end()) return 0;
+    return static_cast<std::size_t>(std::ranges::find(names, own->second) - names.begin());
+  };
+  return canhil::open_buses(names, options, format, route, rules).map(with_notes);
+}
+
+}  // namespace canhil::drive

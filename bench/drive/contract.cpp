@@ -1,0 +1,47 @@
+#include "bench/drive/contract.hpp"
+
+#include "bench/checks/judge.hpp"
+#include "bench/estimators/registry.hpp"
+#include "bench/nodes/registry.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+namespace {
+
+template <class E>
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  all.reserve(messages::enumerators<E>.size());
+  for (const E value : messages::enumerators<E>) all.emplace_back(name_of(value));
+  return all;
+}
+
+scenario::Contract make_contract() {
+  scenario::Contract contract{.estimators = names<messages::Estimator>(),
+                              .algorithms = names<messages::Algorithm>(),
+                              .parameters = names<messages::Parameter>(),
+                              .messages = {},
+                              .answers = {},
+                              .check_kinds = checks::kinds(estimators::all()),
+                              .known = estimators::all(),
+                              .former_check_kinds = checks::former_kinds(estimators::all())};
+  contract.facts = estimators::facts();
+  contract.nodes = nodes::tables();
+  std::erase(contract.estimators, name_of(messages::Estimator::none));
+  for (const MessageInfo& info : messages::all_messages) {
+    contract.messages.emplace_back(info.name);
+    if (!info.answers.empty()) contract.answers.emplace_back(info.name);
+    if (const estimators::Estimator* sender = estimators::sending(info))
+      contract.sent_by[contract.messages.back()] = sender->name;
+  }
+  return contract;
+}
+
+}  // namespace
+
+scenario::Contract contract() {
+  static const scenario::Contract built_in = make_contract();
+  return built_in;
+}
+
+}  // namespace canhil::drive

@@ -1,0 +1,116 @@
+#include "bench/drive/flight.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include "bench/estimators/registry.hpp"
+
+#include "bench/nodes/registry.hpp"
+#include "bench/nodes/time_keeper.hpp"
+
+namespace canhil::drive {
+namespace {
+
+/// What a carrier tells a glider that it lets go: the truth with the errors that this run draws.
+InitialState state_at_release(const world::GlideRecord& glide, const scenario::Glide& config,
+                              const scenario::InitialSigma& sigma, world::Stream& stream) {
+  const world::GlideTruth& truth = glide.epochs().front();
+  const scenario::ReleaseError& error = config.release;
+  const world::Vector3 turn = error.attitude * stream.normal3();
+  world::Euler angles = world::euler_from(truth.C_bn);
+  angles = {angles.roll + turn.x(), angles.pitch + turn.y(), angles.heading + turn.z()};
+  InitialState state = initial_state({.t_us = truth.t_us,
+                                      .position = {.height = truth.height},
+                                      .v_eb_n = truth.v_eb_n + error.velocity * stream.normal3(),
+                                      .C_bn = C_bn_from(angles)},
+                                     sigma);
+  const world::Vector3 rates = truth.omega_nb_b + error.rate * stream.normal3();
+  state.air = initial_air(rates, truth.v_a + error.air_velocity * stream.normal3());
+  return state;
+}
+
+bool starts_by_own_truth(const scenario::TargetSetup& target) {
+  const estimators::Estimator* estimator = estimators::find(target.estimator);
+  return estimator != nullptr && estimator->facts.start == scenario::Start::own_truth;
+}
+
+Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
+  OwnTruth own;
+  if (scenario.glide) {
+    const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
+    own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
+                      stream("glide.gusts"));
+    const double missing_s = 1e-6 * static_cast<double>(scenario.duration_us - own.glide->end_us());
+    if (missing_s >= 1e-6 * static_cast<double>(world::GlideRecord::step_us)) {
+      return failure(
+          fmt::format("key 'duration_s': the glide of run {} ends {:g} s before it, at a height of {:.0f} m, "
+                      "expected to be in the air to the end",
+                      run_index, missing_s, own.glide->epochs().back().height));
+    }
+  }
+  if (scenario.engagement) own.engagement.emplace();
+  return own;
+}
+
+/// The period of the node that samples every epoch, whether it is on the bus or not.
+std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
+  const nodes::Kind& kind = **std::ranges::find_if(nodes::all(), &nodes::Kind::at_every_epoch);
+  const scenario::NodeSettings* node = scenario.node(kind.table.key);
+  return node == nullptr ? kind.table.closes.cycle_time_us : node->period_us();
+}
+
+}  // namespace
+
+estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us) {
+  return {.flight = flight,
+          .duration_us = duration_us,
+          .engagement = own.engagement ? &*own.engagement : nullptr,
+          .glide = own.glide ? &*own.glide : nullptr};
+}
+
+Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
+  world::FlightRecord truth(scenario.truth, scenario.duration_us, epoch_interval_us(scenario));
+  for (const nodes::Kind* kind : nodes::all()) {
+    const scenario::NodeSettings* node = scenario.node(kind->table.key);
+    if (node == nullptr || kind->fits == nullptr) continue;
+    if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
+  }
+  // What every run tells its target; its draws are checked run by run.
+  for (const scenario::TargetSetup& target : scenario.targets) {
+    world::Stream none(0, 0, "none");
+    const auto start = initial_solution(truth.epochs().front(), world::InitialErrorModel{}, none);
+    if (auto fits = check_fits(initial_state(start, target.initial_sigma)); !fits)
+      return tl::unexpected(fits.error());
+  }
+  return truth;
+}
+
+Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                           std::uint64_t run_index) {
+  auto own_truth = make_own_truth(scenario, run_index);
+  if (!own_truth) return tl::unexpected(own_truth.error());
+  Flight flight{.own_truth = std::move(*own_truth), .initial = {}};
+  const auto& glide = flight.own_truth.glide;
+  for (const scenario::TargetSetup& target : scenario.targets) {
+    world::Stream stream(scenario.seed, run_index, "initial_error");
+    const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
+    flight.initial.push_back(
+        glide && starts_by_own_truth(target)
+            ? state_at_release(*glide, *scenario.glide, target.initial_sigma, stream)
+            : initial_state(initial_solution(truth.epochs().front(), error, stream), target.initial_sigma));
+    if (auto fits = check_fits(flight.initial.back()); !fits) return tl::unexpected(fits.error());
+  }
+  return flight;
+}
+
+Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep, Rounding rounding) {
+  return {nodes::make({.scenario = scenario,
+                       .index = run_index,
+                       .flight = truth,
+                       .glide = own_truth.glide ? &*own_truth.glide : nullptr,
+                       .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr}),
+          std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding};
+}
+
+}  // namespace canhil::drive

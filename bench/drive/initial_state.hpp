@@ -1,0 +1,35 @@
+// What the target is told of its state at the start.
+#pragma once
+
+#include <optional>
+#include <tuple>
+
+#include "bench/scenario/target_setup.hpp"
+#include "bench/world/navigation_errors.hpp"
+#include "dbc/wire/result.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+
+/// Group TargetInit in the order of transmission.
+using InitialNavigation =
+    std::tuple<messages::TargetInitLatitude, messages::TargetInitLongitude, messages::TargetInitVelocityNE,
+               messages::TargetInitAttitude, messages::TargetInitSigma, messages::TargetInitVelocityD>;
+/// Group TargetInitAir.
+using InitialAir = std::tuple<messages::TargetInitRate, messages::TargetInitAirVelocity>;
+
+struct InitialState {
+  std::optional<InitialAir> air;  ///< of a glider; sent first, as the other group makes the target ready
+  InitialNavigation navigation;
+};
+
+InitialState initial_state(const world::NavigationSolution& initial, const scenario::InitialSigma& sigma);
+
+/// Rates [rad/s] and velocity through the air [m/s], body axes.
+InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_velocity);
+
+/// Every value within its signal's range, and no value but zero below its resolution: it would be saturated,
+/// or rounded to nothing, in silence. Error: one line.
+Result<void> check_fits(const InitialState& state);
+
+}  // namespace canhil::drive

@@ -1,0 +1,76 @@
+#include "bench/drive/link.hpp"
+
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+namespace {
+
+constexpr std::int64_t late_in_queue_ns = messages::Sync::info.cycle_time_us * 1000;
+
+}  // namespace
+
+LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns) {
+  std::int64_t deadline_ns = 0;  // looked up when it matters: most frames are taken at once
+  for (;;) {
+    // The stamp is taken before: the answer of a fast target must not precede it.
+    const std::int64_t t_ns = port_.now_ns();
+    const std::int64_t late_ns = due_ns ? port_.monotonic_ns() - *due_ns : 0;
+    const SendOutcome outcome = port_.send(frame);
+    look_at_interface();
+    if (outcome == SendOutcome::sent) {
+      const bool waited = deadline_ns != 0;
+      if (waited) while_waiting_.reset();
+      if (waited && late_ns > late_in_queue_ns) ++late_in_queue_;
+      for (observe::Observer* observer : observers_) observer->transmitted(frame, t_ns, late_ns);
+      return LinkState::up;
+    }
+    const bool may_return = outcome == SendOutcome::down && !port_.up();
+    if (outcome != SendOutcome::queue_full && !may_return) return LinkState::down;
+    const std::int64_t now_ns = port_.monotonic_ns();
+    if (deadline_ns == 0) {
+      deadline_ns = now_ns + patience_ns;
+      while_waiting_.emplace();
+    }
+    if (now_ns >= deadline_ns) {
+      crowd_ = while_waiting_->frames() == 0 ? "" : while_waiting_->words();
+      while_waiting_.reset();
+      return may_return ? LinkState::down : LinkState::congested;
+    }
+    // What fills the queue may be a target that waits for us to read its answers.
+    if (drain() == LinkState::down) return LinkState::down;
+    if (!backlog_.more()) wait(port_, WaitFor::room, deadline_ns);
+  }
+}
+
+LinkState Link::drain() {
+  int looked_at = 0;
+  for (; looked_at < most_at_once; ++looked_at) {
+    const auto received = port_.receive();
+    if (!received) break;
+    backlog_.add(received->frame);
+    if (while_waiting_ && !received->own) while_waiting_->add(received->frame);
+    for (observe::Observer* observer : observers_)
+      received->foreign ? observer->foreign(*received) : observer->received(*received);
+  }
+  const bool more = looked_at == most_at_once;
+  if (more || backlog_.stands()) {
+    const std::uint64_t before = overflowed_;
+    if (more) overflowed_ = port_.counters().overflowed;  // a system call: not asked without a reason
+    backlog_.pause(more, overflowed_ > before, port_.monotonic_ns());
+  }
+  look_at_interface();
+  return port_.closed() ? LinkState::down : LinkState::up;
+}
+
+void Link::look_at_interface() {
+  if (port_.up() == up_) return;
+  up_ = port_.up();
+  for (observe::Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
+}
+
+// A port that has taken several frames in at once says nothing of those which it still holds.
+bool Link::wait_until(std::int64_t deadline_ns) {
+  return backlog_.more() || wait(port_, WaitFor::frame, deadline_ns);
+}
+
+}  // namespace canhil::drive

@@ -1,0 +1,20 @@
+// The file of a program: which of its versions was started.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace canhil::drive {
+
+/// A program as it lay on the disk.
+struct ProgramFile {
+  std::uint64_t hash = 0;       ///< FNV-1a of its bytes
+  std::uint64_t bytes = 0;      ///< its size
+  std::int64_t modified_s = 0;  ///< since 1970, UTC
+};
+
+/// Looks at a file; none: it is no regular file, or cannot be read.
+std::optional<ProgramFile> look_at_program(const std::string& path);
+
+}  // namespace canhil::drive

@@ -1,0 +1,127 @@
+#include "bench/drive/real_time.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <optional>
+
+#include "bench/observe/bus_watch.hpp"
+#include "bench/observe/heard.hpp"
+#include "bench/observe/heartbeat_errors.hpp"
+#include "bench/observe/second_target.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+namespace {
+
+constexpr std::int64_t ns_per_us = 1000;
+constexpr std::int64_t lead_ns = 20'000'000;             // from here to the first deadline
+constexpr std::int64_t last_answers_ns = 150'000'000;    // longer than a heartbeat period
+constexpr std::int64_t outage_limit_ns = 5'000'000'000;  // an interface down and up, a restart after bus-off
+constexpr std::int64_t progress_period_us = 100'000;
+
+// A bus that carried much all the while is full, and by whom is worth knowing.
+std::string took_none(const Link& link, std::int64_t due_us) {
+  return fmt::format("the bus took no frame since t={:.3f} s{}{}", static_cast<double>(due_us) * 1e-6,
+                     link.crowd().empty() ? "" : " and carried ", link.crowd());
+}
+
+// When the target was last observe::heard and whether it gave up.
+class TargetWatch final : public observe::Observer {
+ public:
+  TargetWatch(const Link& link, std::int64_t heard_ns) : link_(link), heard_ns_(heard_ns) {}
+  void received(const Received& received) override {
+    if (received.own || observe::target_messages(received.frame) == Routes::nowhere) return;
+    heard_ns_ = link_.now_ns();
+    if (const auto beat = observe::fault_in(received)) fault_ = beat;
+  }
+  [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
+  /// The heartbeat that said so.
+  [[nodiscard]] const std::optional<messages::TargetHeartbeat>& fault() const { return fault_; }
+
+ private:
+  const Link& link_;
+  std::int64_t heard_ns_;
+  std::optional<messages::TargetHeartbeat> fault_;
+};
+
+}  // namespace
+
+Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
+                     const std::atomic<bool>& stop, const Progress& progress, std::int64_t spin_ns) {
+  const std::int64_t start_ns = link.now_ns() + lead_ns;
+  const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
+  TargetWatch watch(link, start_ns);
+  const Attached attached(link, watch);
+  observe::BusWatch bus(link.port());
+  const Attached bus_attached(link, bus);
+  observe::SecondTarget second;
+  const Attached second_attached(link, second);
+  std::int64_t progress_due_us = 0;
+
+  // Nobody can be observe::heard, nor hear, while the bus is away: then, and for as long after as always,
+  // silence says nothing.
+  const auto excused_until_ns = [&] {
+    if (bus.outage()) return bus.outage()->since_ns + outage_limit_ns;
+    return std::max(watch.heard_ns(), bus.ended_ns()) + silence_limit_ns;
+  };
+  const auto silent = [&] {
+    const std::int64_t since_us = bench_us(bus.outage() ? bus.outage()->since_ns : watch.heard_ns());
+    return Ending{bus.outage() ? Ending::Kind::bus_down : Ending::Kind::target_silent, since_us,
+                  fmt::format("{} since t={:.3f} s", bus.outage() ? bus.outage()->what : "target silent",
+                              static_cast<double>(since_us) * 1e-6)};
+  };
+  // Receives until `deadline_ns`; says why the run is over, if it is.
+  const auto receive_until = [&](std::int64_t deadline_ns) -> std::optional<Ending> {
+    for (;;) {
+      const LinkState state = link.drain();
+      const std::int64_t now = link.now_ns();
+      if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
+      if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
+      if (second.found())
+        return Ending{Ending::Kind::target_fault, bench_us(now),
+                      std::string(observe::SecondTarget::complaint)};
+      if (watch.fault())
+        return Ending{Ending::Kind::target_fault, bench_us(now), observe::fault_of(*watch.fault())};
+      if (now > excused_until_ns()) return silent();
+      if (now >= deadline_ns) return std::nullopt;
+      if (now >= deadline_ns - spin_ns) continue;
+      const bool heard = link.wait_until(std::min(deadline_ns - spin_ns, excused_until_ns() + 1));
+      if (!heard && link.now_ns() >= deadline_ns) return std::nullopt;  // on time, with nothing to look at
+    }
+  };
+
+  while (schedule.due_us() != nodes::never_us) {
+    const std::int64_t due_us = schedule.due_us();
+    const std::int64_t due_ns = start_ns + due_us * ns_per_us;
+    if (auto ending = receive_until(due_ns)) return *ending;
+    for (const Frame& frame : schedule.take()) {
+      LinkState state = link.send(frame, silence_limit_ns, due_ns);
+      while (state != LinkState::up && bus.outage() && !stop && !link.port().closed()) {
+        if (link.now_ns() > excused_until_ns()) return silent();
+        state = link.send(frame, silence_limit_ns, due_ns);
+      }
+      switch (state) {
+        case LinkState::up:
+          break;
+        case LinkState::congested:
+          if (link.now_ns() > excused_until_ns()) {  // a target that reads no more fills the bus
+            Ending ending = silent();
+            ending.detail += ", " + took_none(link, due_us);
+            return ending;
+          }
+          return {Ending::Kind::target_silent, due_us, took_none(link, due_us)};
+        case LinkState::down:
+          return {Ending::Kind::bus_down, due_us, "the bus is down"};
+      }
+    }
+    if (due_us >= progress_due_us) {
+      progress(due_us);
+      progress_due_us = due_us + progress_period_us;
+    }
+  }
+  const std::int64_t end_ns = link.now_ns();
+  if (auto ending = receive_until(end_ns + last_answers_ns)) return *ending;
+  return {Ending::Kind::completed, bench_us(end_ns), ""};
+}
+
+}  // namespace canhil::drive

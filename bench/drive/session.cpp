@@ -1,0 +1,285 @@
+#include "bench/drive/session.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "bench/checks/other_senders.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/drive/handshake.hpp"
+#include "bench/drive/lockstep.hpp"
+#include "bench/drive/target_process.hpp"
+#include "bench/estimators/registry.hpp"
+#include "bench/observe/bus_watch.hpp"
+#include "bench/observe/host_watch.hpp"
+#include "bench/observe/intruders.hpp"
+#include "bench/observe/load_meter.hpp"
+#include "bench/observe/monitor.hpp"
+#include "bench/observe/recorder.hpp"
+
+namespace canhil::drive {
+namespace {
+
+constexpr std::int64_t silence_limit_ns =
+    400'000'000;  // four heartbeats; a dead target is named within 0.5 s
+constexpr std::int64_t step_limit_ns = 5'000'000'000;
+
+Capabilities known_of(const Port& port, const WireFacts& controller) {
+  Capabilities bus = port.capabilities();
+  if (bus.wire.rates.nominal == 0) bus.wire = controller;
+  return bus;
+}
+
+observe::LoadBy load_by(const Capabilities& bus, ClockKind clock) {
+  if (clock == ClockKind::lockstep)
+    return bus.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
+  return bus.wire.rates.nominal > 0 ? observe::LoadBy::stamps : observe::LoadBy::time_base;
+}
+
+observe::Monitor monitor_of(const scenario::Scenario& scenario, const Options& options, WireFacts wire) {
+  if (!options.for_verdict) return observe::Monitor();
+  wire.fd = options.format == BusFormat::fd;
+  return observe::Monitor(checks::timed_windows(scenario.checks), wire);
+}
+
+// One run, stage by stage: open, configure, drive, collect.
+class Session {
+ public:
+  // Enters real time, opens bus and log, starts the target: what the options ask for. All but the flight must
+  // outlive the session.
+  static Result<std::unique_ptr<Session>> open(const scenario::Scenario& scenario,
+                                               const world::FlightRecord& truth, Flight flight,
+                                               const Options& options) {
+    const std::vector<int> cpus = options.target_cpu ? std::vector{*options.target_cpu}
+                                  : options.target   ? realtime::cpus()
+                                                     : std::vector<int>{};
+    if (options.realtime) {
+      if (auto entered = realtime::enter(*options.realtime); !entered) return tl::unexpected(entered.error());
+    }
+    auto buses = open_buses(options.bus, options.bus_of, options.format);
+    if (!buses) return tl::unexpected(buses.error());
+    auto session = std::make_unique<Session>(scenario, truth, std::move(flight), options, std::move(*buses));
+    if (auto logged = session->open_log(); !logged) return tl::unexpected(logged.error());
+    if (auto started = session->start_target(cpus); !started) return tl::unexpected(started.error());
+    return session;
+  }
+
+  Session(const scenario::Scenario& scenario, const world::FlightRecord& truth, Flight flight,
+          const Options& options, OpenBuses buses)
+      : scenario_(scenario),
+        options_(options),
+        flight_(std::move(flight)),
+        notes_(std::move(buses.notes)),
+        port_(std::move(buses.port)),
+        bus_(known_of(*port_, options.controller)),
+        clock_(clock_of(bus_.time, options.lockstep)),
+        link_(*port_),
+        schedule_(make_schedule(scenario, truth, flight_.own_truth, options.run_index,
+                                clock_ == ClockKind::lockstep, bus_.rounding)),
+        monitor_(monitor_of(scenario, options, bus_.wire)),
+        bus_watch_(*port_),
+        load_(options.format, load_by(bus_, clock_)) {
+    if (!options.for_verdict) return;
+    link_.attach(bus_watch_);
+    link_.attach(intruders_);
+  }
+
+  // Makes the target ready and starts its estimators.
+  Result<void> configure(const std::atomic<bool>& stop) {
+    const auto gone = [&]() -> std::optional<std::string> {
+      if (stop) return "interrupted";
+      const auto why = target_ ? target_->ended() : std::nullopt;
+      return why ? std::optional("target: " + *why) : std::nullopt;
+    };
+    auto ready = drive::configure(link_, schedule_.outbox(), scenario_.targets, flight_.initial, gone,
+                                  options_.format);
+    if (!ready) return failure(explained(ready.error().message));
+    return ready;
+  }
+
+  // Flies to the end, or as far as it goes.
+  void drive(const std::atomic<bool>& stop, const Progress& progress) {
+    const Attached monitored(link_, monitor_);
+    std::optional<Attached> load_watched, host_watched;
+    if (options_.for_verdict) {
+      load_watched.emplace(link_, load_);
+      host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
+    }
+    const Attached listening(link_, schedule_);
+    if (options_.realtime && target_)
+      static_cast<void>(realtime::own_memory_again());  // permitted: it entered
+    ending_ = clock_ == ClockKind::lockstep
+                  ? run_lockstep(link_, schedule_, step_limit_ns, stop, progress)
+                  : run_real_time(link_, schedule_, silence_limit_ns, stop, progress, options_.spin_ns);
+  }
+
+  // Stops the target and closes the log.
+  Collected collect() {
+    if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
+    if (options_.for_verdict) stop(link_, schedule_.outbox(), scenario_.targets);
+    const auto logged = log_ ? log_->close() : Result<void>{};
+    checks::Observations seen = monitor_.finish();
+    if (options_.for_verdict) add_watched(seen);
+    if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
+    return Collected{.ending = std::move(ending_),
+                     .seen = std::move(seen),
+                     .own_truth = std::move(flight_.own_truth),
+                     .log_error = logged ? std::nullopt : std::optional(logged.error())};
+  }
+
+  [[nodiscard]] const Capabilities& bus() const { return bus_; }
+  [[nodiscard]] ClockKind clock() const { return clock_; }
+  [[nodiscard]] const std::optional<ProgramFile>& target_file() const { return target_file_; }
+  // What went wrong, and who flooded the bus, or was turned away from it: that may be why.
+  [[nodiscard]] std::string explained(const std::string& what) const {
+    if (link_.flood()) return fmt::format("{}; {}", what, words(*link_.flood()));
+    return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
+  }
+  // Why no timing can be judged; empty: it can.
+  [[nodiscard]] std::string timing_unfit(const checks::Observations& seen) const {
+    if (clock_ == ClockKind::lockstep) return "virtual time";
+    return link_.flood() ? words(*link_.flood()) : checks::unfit_for_timing(seen);
+  }
+
+ private:
+  Result<void> open_log() {
+    if (!options_.log_path) return {};
+    return observe::Recorder::open(*options_.log_path, *port_)
+        .map([&](std::unique_ptr<observe::Recorder> log) {
+          log_ = std::move(log);
+          link_.attach(*log_);
+        });
+  }
+
+  Result<void> start_target(const std::vector<int>& cpus) {
+    if (!options_.target || bus_.in_process) return {};
+    target_file_ = look_at_program(*options_.target);
+    return TargetProcess::start(*options_.target, options_.bus.text, options_.target_arguments, cpus)
+        .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
+  }
+
+  std::string why_silent() {
+    if (target_) {
+      if (const auto why = target_->ended()) return fmt::format(" (its process {})", *why);
+      if (target_->stopped()) return " (its process is stopped by a signal)";
+    }
+    if (clock_ == ClockKind::lockstep) return {};
+    return load_.full_wire(ending_.t_us * 1000 + silence_limit_ns, bus_.wire.rates);
+  }
+
+  // Who else is on the bus comes first of what is noted.
+  void add_watched(checks::Observations& seen) {
+    seen.bus = bus_watch_.record();
+    seen.bus.intruded = intruders_.frames();
+    if (const std::string others = checks::other_senders(seen); !others.empty())
+      notes_->insert(notes_->begin(), others);
+    // What the host did has no part in the times of a simulated wire.
+    if (clock_ != ClockKind::simulated_wire) seen.host = host_->record();
+    seen.bit_rates = bus_.wire.rates;
+    seen.length_by_second = load_.lengths();
+    seen.bus.reports_errors = bus_.reports_errors;
+    seen.bus.late_in_queue = link_.late_in_queue();
+    seen.bus.foreign = port_->counters().foreign;
+    seen.bus.notes = *notes_;
+    if (link_.flood()) seen.bus.notes.push_back(words(*link_.flood()));
+    seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
+  }
+
+  const scenario::Scenario& scenario_;
+  const Options& options_;
+  Flight flight_;
+  std::shared_ptr<std::vector<std::string>> notes_;
+  std::unique_ptr<Port> port_;
+  Capabilities bus_;
+  ClockKind clock_;
+  Link link_;
+  Schedule schedule_;
+  observe::Monitor monitor_;
+  observe::BusWatch bus_watch_;
+  observe::Intruders intruders_;
+  observe::LoadMeter load_;
+  std::optional<observe::HostWatch> host_;  // watches from its construction on
+  std::unique_ptr<observe::Recorder> log_;
+  std::optional<ProgramFile> target_file_;
+  std::optional<TargetProcess> target_;
+  Ending ending_;
+};
+
+checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                           const Session& session, const Collected& flown, const std::string& timing_unfit) {
+  checks::Verdict verdict =
+      checks::judge(scenario, {.seen = flown.seen,
+                               .truth = truth_of(truth, flown.own_truth, scenario.duration_us),
+                               .estimators = estimators::all(),
+                               .ended_early = flown.ending.detail,
+                               .timing_unfit = timing_unfit});
+  if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)
+    verdict.reason = session.explained(verdict.reason);
+  if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
+  return verdict;
+}
+
+}  // namespace
+
+ClockKind clock_of(BusTime time, bool lockstep) {
+  if (time == BusTime::waits) return ClockKind::simulated_wire;
+  return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
+}
+
+Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
+                const Progress& progress) {
+  const auto in_file = [&](const Error& error) {
+    return failure(fmt::format("{}: {}", scenario.file, error.message));
+  };
+  auto truth = make_truth(scenario);
+  if (!truth) return in_file(truth.error());
+  auto flight = make_flight(scenario, *truth, options.run_index);
+  if (!flight) return in_file(flight.error());
+  const auto opened = Session::open(scenario, *truth, std::move(*flight), options);
+  if (!opened) return tl::unexpected(opened.error());
+  Session& session = **opened;
+  if (auto ready = session.configure(stop); !ready) return tl::unexpected(ready.error());
+  const std::int64_t start_ns = clock_ns(CLOCK_MONOTONIC);
+  const std::int64_t started_s = clock_ns(CLOCK_REALTIME) / 1'000'000'000;
+  session.drive(stop, progress);
+  const double wall_s = static_cast<double>(clock_ns(CLOCK_MONOTONIC) - start_ns) * 1e-9;
+  Collected flown = session.collect();
+
+  std::string timing_unfit = session.timing_unfit(flown.seen);
+  const ClockKind clock = session.clock();
+  return Run{.verdict = verdict_of(scenario, *truth, session, flown, timing_unfit),
+             .ending = std::move(flown.ending),
+             .seen = std::move(flown.seen),
+             .truth = std::move(*truth),
+             .own_truth = std::move(flown.own_truth),
+             .options = options,
+             .clock = clock,
+             .in_process = session.bus().in_process,
+             .timing_unfit = std::move(timing_unfit),
+             .host = clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
+             .target_file = session.target_file(),
+             .wall_s = wall_s,
+             .started_s = started_s,
+             .log_error = std::move(flown.log_error)};
+}
+
+Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                 std::uint64_t run_index, Rounding rounding) {
+  static const std::atomic<bool> never = false;
+  auto flight = make_flight(scenario, truth, run_index);
+  if (!flight) {
+    return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
+                     .seen = {}};
+  }
+  Options options;
+  options.bus = BusName(std::string(rounding == Rounding::none ? unrounded_bus : in_process_bus));
+  options.run_index = run_index;
+  options.for_verdict = false;
+  const auto session = Session::open(scenario, truth, std::move(*flight), options);
+  if (!session) return tl::unexpected(session.error());
+  if (auto ready = (*session)->configure(never); !ready) return tl::unexpected(ready.error());
+  (*session)->drive(never, [](std::int64_t) {});
+  return (*session)->collect();
+}
+
+}  // namespace canhil::drive

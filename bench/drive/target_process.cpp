@@ -1,0 +1,99 @@
+#include "bench/drive/target_process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "dbc/realtime/process.hpp"
+
+namespace canhil::drive {
+
+Result<TargetProcess> TargetProcess::start(const std::string& program, const std::string& bus,
+                                           const std::vector<std::string>& more,
+                                           const std::vector<int>& cpus) {
+  const auto no_program = [&program](int reason) {
+    return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", program,
+                               strerror(reason)));
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(program, ignored)) return no_program(EISDIR);  // or execv says EACCES
+  std::vector<std::string> words{program, "--bus", bus};
+  words.insert(words.end(), more.begin(), more.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  // Why the program did not start; it closes when it does.
+  int refusal[2];
+  if (pipe2(refusal, O_CLOEXEC) != 0)
+    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(errno)));
+  const pid_t parent = getpid();
+  const pid_t pid = fork();
+  const int fork_error = errno;
+  if (pid != 0) close(refusal[1]);
+  if (pid < 0) {
+    close(refusal[0]);
+    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(fork_error)));
+  }
+  if (pid == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    std::signal(SIGPIPE, SIG_DFL);  // what the bench ignores is its own affair
+    if (getppid() != parent) _exit(127);
+    if (!cpus.empty()) realtime::pin(cpus);
+    dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output is the bench's: a report may go there
+    execv(program.c_str(), arguments.data());
+    const int reason = errno;
+    static_cast<void>(!write(refusal[1], &reason, sizeof reason));
+    _exit(127);
+  }
+  int reason = 0;
+  ssize_t got = 0;
+  do {
+    got = read(refusal[0], &reason, sizeof reason);
+  } while (got < 0 && errno == EINTR);
+  close(refusal[0]);
+  if (got == static_cast<ssize_t>(sizeof reason)) {
+    waitpid(pid, nullptr, 0);
+    return no_program(reason);
+  }
+  return TargetProcess(pid);
+}
+
+TargetProcess::TargetProcess(TargetProcess&& other) noexcept
+    : pid_(std::exchange(other.pid_, -1)), ended_(std::move(other.ended_)) {}
+
+TargetProcess::~TargetProcess() {
+  if (pid_ < 0 || ended()) return;
+  kill(pid_, SIGTERM);
+  for (int i = 0; i < 100; ++i) {
+    if (ended()) return;
+    usleep(5000);
+  }
+  kill(pid_, SIGKILL);
+  waitpid(pid_, nullptr, 0);
+}
+
+bool TargetProcess::stopped() const {
+  siginfo_t info{};
+  return pid_ >= 0 && !ended_ &&
+         waitid(P_PID, static_cast<id_t>(pid_), &info, WSTOPPED | WNOHANG | WNOWAIT) == 0 &&
+         info.si_pid == pid_;
+}
+
+std::optional<std::string> TargetProcess::ended() {
+  int status = 0;
+  if (pid_ >= 0 && !ended_ && waitpid(pid_, &status, WNOHANG) == pid_) {
+    ended_ = WIFSIGNALED(status)
+                 ? fmt::format("ended by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))
+                 : fmt::format("exited with {}", WEXITSTATUS(status));
+  }
+  return ended_;
+}
+
+}  // namespace canhil::drive

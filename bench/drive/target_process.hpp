@@ -1,0 +1,38 @@
+// The target as a child process of the bench.
+#pragma once
+
+#include <sys/types.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dbc/wire/result.hpp"
+
+namespace canhil::drive {
+
+/// A started hil-target; it is terminated with this object, and by the kernel should the bench die.
+class TargetProcess {
+ public:
+  /// Starts `program --bus BUS` and what else it is to be told, on the given CPUs (empty: on those of the
+  /// bench). Error: the program cannot be started.
+  static Result<TargetProcess> start(const std::string& program, const std::string& bus,
+                                     const std::vector<std::string>& more = {},
+                                     const std::vector<int>& cpus = {});
+
+  TargetProcess(TargetProcess&& other) noexcept;
+  TargetProcess(const TargetProcess&) = delete;
+  TargetProcess& operator=(const TargetProcess&) = delete;
+  ~TargetProcess();
+
+  /// How the process ended, if it has: one phrase for a person.
+  std::optional<std::string> ended();
+  /// True while a signal holds it, as SIGSTOP does.
+  [[nodiscard]] bool stopped() const;
+
+ private:
+  explicit TargetProcess(pid_t pid) : pid_(pid) {}
+  pid_t pid_ = -1;
+  std::optional<std::string> ended_;
+};
+
+}  // namespace canhil::drive

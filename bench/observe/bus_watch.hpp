@@ -1,0 +1,41 @@
+// The bus itself in a run: error frames and outages, recorded, and held against nobody's silence.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "bench/checks/bus.hpp"
+#include "bench/observe/observer.hpp"
+
+namespace canhil::observe {
+
+class BusWatch final : public Observer {
+ public:
+  /// `port`: whose clock of deadlines counts.
+  explicit BusWatch(const Port& port) : port_(port) {}
+  void received(const Received& received) override;
+  void interface_changed(bool up, std::int64_t t_ns) override;
+
+  /// What keeps every frame from the bus now, and since when by Port::monotonic_ns().
+  struct Outage {
+    std::string_view what;
+    std::int64_t since_ns = 0;
+  };
+  [[nodiscard]] const std::optional<Outage>& outage() const { return outage_; }
+  /// When the last outage ended, by Port::monotonic_ns(); 0: there was none.
+  [[nodiscard]] std::int64_t ended_ns() const { return ended_ns_; }
+
+  [[nodiscard]] const checks::BusRecord& record() const { return record_; }
+
+ private:
+  void note(std::int64_t t_ns, BusEvent event);
+  void begin(std::string_view what);
+  void end();
+
+  const Port& port_;
+  checks::BusRecord record_;
+  std::optional<Outage> outage_;
+  std::int64_t ended_ns_ = 0;
+};
+
+}  // namespace canhil::observe

@@ -1,0 +1,56 @@
+// The bench's own machine during a run: whether its clock stepped, whether it had a CPU when it wanted one.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "bench/checks/host.hpp"
+#include "bench/observe/observer.hpp"
+
+namespace canhil::observe {
+
+/// Finds steps of one clock against another. An adjusted clock drifts by 500 ppm at most (adjtimex), so what
+/// is more between two readings, and more than 100 us, is a step.
+class ClockSteps {
+ public:
+  /// Readings of both clocks at one instant.
+  void note(std::int64_t steady_ns, std::int64_t stamps_ns);
+  /// With its sign; 0: there was none.
+  [[nodiscard]] std::int64_t largest_ns() const { return largest_ns_; }
+
+ private:
+  struct Reading {
+    std::int64_t steady_ns, stamps_ns;
+  };
+  std::optional<Reading> before_;
+  std::int64_t largest_ns_ = 0;
+};
+
+/// What the kernel accounts to this process and machine, since their start.
+struct CpuAccount {
+  std::int64_t run_ns = 0;   ///< of this process
+  std::int64_t wait_ns = 0;  ///< of this process, ready to run
+  std::uint64_t preempted = 0;
+  std::uint64_t all_ticks = 0;     ///< of all CPUs
+  std::uint64_t stolen_ticks = 0;  ///< of them
+};
+/// From the texts of /proc/self/schedstat and /proc/stat; what they do not tell is 0.
+CpuAccount cpu_account(std::string_view schedstat, std::string_view stat);
+
+/// Watches from its construction on.
+class HostWatch final : public Observer {
+ public:
+  /// `stamp_clock`: Port::stamp_clock().
+  explicit HostWatch(int stamp_clock);
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
+  [[nodiscard]] checks::HostRecord record() const;
+
+ private:
+  int stamp_clock_;
+  std::int64_t start_ns_;
+  CpuAccount start_;
+  ClockSteps steps_;
+};
+
+}  // namespace canhil::observe

@@ -1,0 +1,79 @@
+// How busy the frames of a run keep the bus.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/observe/observer.hpp"
+#include "dbc/ports/fd_groups.hpp"
+#include "dbc/wire/bit_length.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::observe {
+
+/// By what a frame counts, and which do.
+enum class LoadBy : std::uint8_t {
+  time_base,        ///< the second of the last Sync: the same on every bus and in virtual time
+  time_base_alone,  ///< the same without what only lockstep has, StepDone: as the run would load a bus
+  stamps  ///< the second, from the first one on, in which it left the wire: a full queue is no load yet
+};
+
+/// Adds up the exact length of every frame, from the bench and from others, by second. On CAN FD of the
+/// frames on the wire: observers see what containers hold, which packs into the same containers again.
+class LoadMeter final : public Observer {
+ public:
+  LoadMeter(BusFormat format, LoadBy by) : format_(format), by_(by) {}
+  void transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) override {
+    if (by_ == LoadBy::stamps) return;  // its echo counts
+    if (frame.id == messages::Sync::info.id)
+      second_ = static_cast<std::size_t>(from_frame<messages::Sync>(frame).time_us / 1'000'000);
+    take(frame, own_);
+  }
+  void received(const Received& received) override {
+    if (received.frame.error) return;
+    if (by_ == LoadBy::time_base_alone && received.frame.id == messages::StepDone::info.id) return;
+    if (by_ == LoadBy::stamps) {
+      if (!first_ns_) first_ns_ = received.t_ns;
+      const std::int64_t elapsed_ns = std::max<std::int64_t>(0, received.t_ns - *first_ns_);
+      second_ = static_cast<std::size_t>(elapsed_ns / 1'000'000'000);
+    }
+    if (by_ == LoadBy::stamps || !received.own) take(received.frame, received.own ? own_ : others_);
+  }
+  /// Of each second from time 0 on.
+  [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }
+  /// Why nobody is heard, in a phrase, on a bus that has had more to carry until now than it can; empty: it
+  /// is another reason.
+  [[nodiscard]] std::string full_wire(std::int64_t now_ns, const wire::BitRates& rates) const {
+    constexpr double full = 0.9;
+    if (rates.nominal == 0 || now_ns <= 0) return {};
+    wire::BitLength all;
+    for (const wire::BitLength& length : lengths_) all += length;
+    const double load = wire::bus_load(all, static_cast<double>(now_ns) * 1e-9, rates);
+    if (load < full) return {};
+    return fmt::format(" (the wire of {:g} kbit/s is full: load {:.0f} %)",
+                       static_cast<double>(rates.nominal) * 1e-3, load * 100);
+  }
+
+ private:
+  void take(const Frame& frame, FdPacker& packer) {
+    if (format_ == BusFormat::classic || frame.fd) return add(frame);
+    packer.pack(frame, [&](const Frame& on_wire) { add(on_wire); });
+  }
+  void add(const Frame& frame) {
+    if (lengths_.size() <= second_) lengths_.resize(second_ + 1);
+    lengths_[second_] += wire::bit_length(frame);
+  }
+
+  BusFormat format_;
+  LoadBy by_;
+  std::optional<std::int64_t> first_ns_;
+  FdPacker own_, others_;
+  std::vector<wire::BitLength> lengths_;
+  std::size_t second_ = 0;
+};
+
+}  // namespace canhil::observe

@@ -1,0 +1,128 @@
+#include "bench/observe/monitor.hpp"
+
+#include <algorithm>
+
+#include "bench/estimators/registry.hpp"
+#include "bench/observe/heard.hpp"
+#include "dbc/wire/time_base.hpp"
+
+namespace canhil::observe {
+namespace {
+
+using namespace messages;
+
+constexpr bool is_answered(std::string_view group) {
+  return std::ranges::any_of(all_messages, [&](const MessageInfo& info) {
+    return std::ranges::find(info.answers, group) != info.answers.end();
+  });
+}
+
+// The message that closes a sample group which the target answers.
+template <class Message>
+concept ClosesStimulus = requires(Message message) {
+  message.time_of_validity_us;
+}
+&&is_answered(Message::info.sample_group);
+
+// The sample group that a frame of the bench closes, and its time of validity.
+struct Closed {
+  std::string_view group;  // empty: none that is answered
+  std::uint32_t valid_us = 0;
+};
+
+Closed closed_by(const Frame& frame) {
+  Closed closed;
+  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
+    if constexpr (ClosesStimulus<Message>) {
+      if (frame.id == Message::info.id)
+        closed = {Message::info.sample_group, from_frame<Message>(frame).time_of_validity_us};
+    }
+  };
+  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+    (try_one(std::type_identity<Messages>{}), ...);
+  }(std::type_identity<AllMessages>{});
+  return closed;
+}
+
+}  // namespace
+
+Monitor::Monitor() {
+  for (const estimators::Estimator* estimator : estimators::all()) {
+    estimators::Reception* own = receptions_.emplace_back(estimator->reception()).get();
+    for (std::size_t message = 0; message < reception_of_.size(); ++message) {
+      if (own->takes(message)) reception_of_[message] = own;
+    }
+    if (!estimator->of_own_interval.empty()) seen_.of_own_interval.insert(estimator->of_own_interval);
+  }
+}
+
+void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
+  if (!sent_any_) seen_.first_ns = t_ns;
+  sent_any_ = true;
+  seen_.last_ns = t_ns;
+  if (stopwatch_) stopwatch_->sent(frame, t_ns, late_ns);
+  if (frame.id == Sync::info.id) {
+    now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
+  } else if (const Closed closed = closed_by(frame); !closed.group.empty()) {
+    const std::int64_t valid_us = unwrap_us(closed.valid_us, now_us_);
+    seen_.stimuli[closed.group].add(valid_us);
+    for (const auto& reception : receptions_) reception->sent(closed.group, valid_us, seen_);
+    if (stopwatch_)
+      stopwatch_->stimulus(closed.group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = t_ns - late_ns});
+  }
+}
+
+// The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
+void Monitor::echoed(const Received& received) {
+  const Closed closed = closed_by(received.frame);
+  if (!closed.group.empty()) seen_.transmit_stamps_echoed = true;
+  if (stopwatch_) stopwatch_->echoed(received, closed.group, unwrap_us(closed.valid_us, now_us_));
+}
+
+void Monitor::received(const Received& received) {
+  if (received.own) return echoed(received);
+  const Frame& frame = received.frame;
+  const std::size_t index = target_messages(frame);
+  if (index == Routes::nowhere) return;
+  const MessageInfo* info = &all_messages[index];
+  if (frame.size != info->size || frame.fd != info->fd) {
+    ++seen_.target_bad_crc;
+    return;
+  }
+  switch (receivers_[index].check(frame.payload(), info->e2e_data_id)) {
+    case e2e::Check::wrong_crc:
+      ++seen_.target_bad_crc;
+      return;
+    case e2e::Check::repeated:
+      return;
+    case e2e::Check::some_lost:
+      seen_.target_frames_lost += static_cast<std::uint32_t>(receivers_[index].lost());
+      break;
+    case e2e::Check::ok:
+      break;
+  }
+  if (stopwatch_) stopwatch_->arrived(index, received);
+  decode(frame, index);
+}
+
+void Monitor::decode(const Frame& frame, std::size_t index) {
+  if (estimators::Reception* reception = reception_of_[index]; reception != nullptr) {
+    // The newest arrival of every message of a whole group is the answer to its cause.
+    const auto whole = reception->take(frame, index, now_us_, seen_);
+    if (!whole) return;
+    for (const std::size_t message : whole->messages) ++seen_.answers[message];
+    if (stopwatch_) stopwatch_->answered(whole->messages, whole->cause_group, whole->cause_us);
+    return;
+  }
+  if (frame.id == TargetCounters::info.id) {
+    seen_.counters = from_frame<TargetCounters>(frame);
+  } else if (frame.id == TargetTiming::info.id) {
+    const auto timing = from_frame<TargetTiming>(frame);
+    seen_.target_timing_seen = true;
+    seen_.queue_max_us = std::max(seen_.queue_max_us, timing.queue_max_us);
+    seen_.compute_max_us = std::max(seen_.compute_max_us, timing.compute_max_us);
+    if (stopwatch_) stopwatch_->told(timing);
+  }
+}
+
+}  // namespace canhil::observe

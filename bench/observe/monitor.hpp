@@ -1,0 +1,52 @@
+// Frames to observations: decodes what the target sends, pairs it with its cause, keeps the stamps.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bench/checks/reception.hpp"
+#include "bench/observe/observer.hpp"
+#include "bench/observe/stopwatch.hpp"
+#include "dbc/wire/e2e.hpp"
+
+namespace canhil::observe {
+
+/// Watches a run from the target's start on.
+class Monitor final : public Observer {
+ public:
+  /// Takes no times: those of virtual time say nothing, and a campaign flies thousands of runs in it.
+  Monitor();
+  /// Takes times, also within the windows.
+  explicit Monitor(std::vector<checks::TimedWindow> windows, const WireFacts& wire = {}) : Monitor() {
+    seen_.timing.windows = std::move(windows);
+    seen_.timing.wire = wire;
+    stopwatch_.emplace(seen_.timing);
+  }
+
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
+  void received(const Received& received) override;
+
+  /// What was seen so far.
+  [[nodiscard]] const checks::Observations& observations() const { return seen_; }
+  /// The run is over: all of it.
+  checks::Observations finish() {
+    if (stopwatch_) stopwatch_->finish();
+    return std::move(seen_);
+  }
+
+ private:
+  void echoed(const Received& received);
+  void decode(const Frame& frame, std::size_t index);
+  checks::Observations seen_;
+  std::optional<Stopwatch> stopwatch_;
+  bool sent_any_ = false;
+  std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
+  std::vector<std::unique_ptr<estimators::Reception>> receptions_;
+  std::array<estimators::Reception*, messages::all_messages.size()>
+      reception_of_{};       // by place in all_messages
+  std::int64_t now_us_ = 0;  // last Sync
+};
+
+}  // namespace canhil::observe

@@ -1,0 +1,252 @@
+#include "bench/observe/stopwatch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "bench/checks/finding.hpp"
+#include "dbc/wire/e2e.hpp"
+#include "dbc/wire/routes.hpp"
+
+namespace canhil::observe {
+namespace {
+
+using checks::Stimulus;
+using checks::TimedWindow;
+
+constexpr Routes bench_messages([](const MessageInfo& info) {
+  return info.sender != messages::TargetHeartbeat::info.sender;
+});
+
+bool answers(std::size_t index, std::string_view group) {
+  return std::ranges::find(messages::all_messages[index].answers, group) !=
+         messages::all_messages[index].answers.end();
+}
+
+// From the stimulus before to this one: how far off the time between their deadlines.
+void add_deviation(TimedWindow& window, const Stimulus& from, const Stimulus& to) {
+  const std::int64_t period_ns = elapsed_ns(from, to);
+  const std::int64_t due_ns = to.due_ns - from.due_ns;
+  const double times =
+      due_ns > 0 ? std::round(static_cast<double>(period_ns) / static_cast<double>(due_ns)) : 1.0;
+  window.stimulus_deviation.add(std::abs(period_ns - due_ns),
+                                static_cast<std::uint64_t>(std::max(1.0, times)));
+}
+
+void add_arrival(TimedWindow& window, const checks::Arrival& arrival) {
+  if (window.last_arrival) window.period.add(elapsed_ns(*window.last_arrival, arrival));
+  window.last_arrival = arrival;
+}
+
+void add(checks::WireResponse& response, std::int64_t ns) {
+  ++response.count;
+  response.max_ns = std::max(response.max_ns, ns);
+}
+
+}  // namespace
+
+/// The frame on the wire that ends with this message; none: more are in it.
+std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
+  if (!record_.wire.fd) return message;
+  if (packer.due_before(message)) packer.clear();  // went without its last message
+  return packer.put(message);
+}
+
+std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
+  const wire::BitRates& rates = record_.wire.rates;
+  return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
+}
+
+/// What of a container's time is not between its hand-over and its echo: the stamp comes before the
+/// intermission. The last frame of a classic group has that of the frame before it in this time instead.
+std::int64_t Stopwatch::no_intermission_ns() const {
+  return record_.wire.fd ? wire::duration_ns({.nominal = wire::intermission_bits}, record_.wire.rates) : 0;
+}
+
+void Stopwatch::sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
+  if (!first_ns_) first_ns_ = t_ns;
+  record_.lateness.add(late_ns);
+  record_.lateness_line.add(t_ns - *first_ns_, late_ns);
+  const std::size_t index = bench_messages(frame);
+  if (index == Routes::nowhere) return;
+  record_.transmit[index].handed_over.add(late_ns);
+  pending_[index][e2e::counter(frame.payload())] = {frame, t_ns, late_ns, true};
+}
+
+void Stopwatch::stimulus(std::string_view name, const Stimulus& stimulus) {
+  Group& group = groups_[name];
+  group.sent.push_back({.stimulus = stimulus});
+  if (group.sent.size() > remembered) forget_oldest(name, group);
+}
+
+// Lateness is of CLOCK_MONOTONIC, stamps may be of another clock: only differences of stamps are taken.
+void Stopwatch::echoed(const Received& received, std::string_view group, std::int64_t valid_us) {
+  const std::size_t index = bench_messages(received.frame);
+  if (index == Routes::nowhere) return;
+  Pending& pending = pending_[index][e2e::counter(received.frame.payload())];
+  const std::optional<Frame> on_wire = closed_by(received.frame, echoes_);
+  const bool known = pending.waiting && std::ranges::equal(pending.frame.payload(), received.frame.payload());
+  if (known) {
+    pending.waiting = false;
+    const std::int64_t on_bus_ns = received.t_ns - pending.t_ns;
+    record_.transmit[index].echoed.add(pending.late_ns + on_bus_ns);
+    if (on_wire) add(record_.responses[carriers_[index].first], on_bus_ns);
+  }
+  Sent* sent = group.empty() ? nullptr : find(group, valid_us);
+  if (sent == nullptr) return;
+  if (known) sent->to_echo_ns = received.t_ns - pending.t_ns;
+  if (on_wire) sent->wire_ns = on_wire_ns(*on_wire) - no_intermission_ns();
+  sent->stimulus.t_ns = received.t_ns;
+  sent->stimulus.hardware_ns = received.hardware_ns;
+}
+
+void Stopwatch::arrived(std::size_t index, const Received& received) {
+  ++record_.stamps[static_cast<std::size_t>(received.source)];
+  if (received.hardware_ns == 0) ++record_.without_hardware_stamp;
+  const checks::Arrival arrival{.t_ns = received.t_ns, .hardware_ns = received.hardware_ns};
+  newest_[index] = arrival;
+  if (const auto on_wire = closed_by(received.frame, arrivals_))
+    wire_ns_[carriers_[index].first] = on_wire_ns(*on_wire);
+  checks::AnswerTiming& timing = record_.answers[index];
+  const std::int64_t heard_ns = timing.last_ns.value_or(first_ns_.value_or(arrival.t_ns));
+  timing.longest_silence_ns = std::max(timing.longest_silence_ns, arrival.t_ns - heard_ns);
+  timing.last_ns = arrival.t_ns;
+  ++timing.count;
+
+  const MessageInfo& info = messages::all_messages[index];
+  if (!info.answers.empty()) return;
+  for (TimedWindow& window : record_.windows) {
+    if (window.message == index) add_arrival(window, arrival);
+  }
+  if (info.cycle_time_us == 0) return;
+  if (last_[index]) {
+    const std::int64_t period_ns = elapsed_ns(last_[index]->arrival, arrival);
+    timing.jitter.add(std::abs(period_ns - std::int64_t{info.cycle_time_us} * 1000));
+  }
+  last_[index] = {.arrival = arrival, .due_ns = 0};
+}
+
+void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view group,
+                         std::int64_t cause_us) {
+  Sent* sent = find(group, cause_us);
+  if (sent == nullptr) {
+    for (const std::size_t index : indices) ++record_.answers[index].unpaired;
+    return;
+  }
+  const bool again = sent->answered_by.test(indices.back());
+  sent->answered_by.set(indices.back());
+  const std::size_t first = indices.front();
+  const std::int64_t began_ns = newest_[first].t_ns - wire_ns_[carriers_[first].first];
+  std::size_t before = carriers_.size();
+  for (const std::size_t index : indices) {
+    // Messages of one container follow one another and came with it: the first of them counts for it.
+    const std::size_t carrier = carriers_[index].first;
+    const bool another = std::exchange(before, carrier) != carrier;
+    if (again) ++record_.answers[index].repeated;
+    answered(index, group, *sent, another ? wire_ns_[carrier] : 0, cause_us);
+    if (another) add(record_.responses[carrier], newest_[index].t_ns - began_ns);
+  }
+}
+
+void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+                         std::int64_t cause_us) {
+  checks::AnswerTiming& timing = record_.answers[index];
+  const checks::Arrival& arrival = newest_[index];
+  const std::int64_t latency_ns = elapsed_ns(sent.stimulus, arrival);
+  timing.latency.add(latency_ns);
+  timing.latency_line.add(arrival.t_ns - first_ns_.value_or(arrival.t_ns), latency_ns);
+  if (last_[index]) {
+    const std::int64_t period_ns = elapsed_ns(last_[index]->arrival, arrival);
+    timing.jitter.add(std::abs(period_ns - (sent.stimulus.due_ns - last_[index]->due_ns)));
+  }
+  last_[index] = {.arrival = arrival, .due_ns = sent.stimulus.due_ns};
+  for (TimedWindow& window : record_.windows) {
+    if (window.message != index || !checks::within(window.window, cause_us)) continue;
+    window.latency.add(latency_ns);
+    add_arrival(window, arrival);
+  }
+  split(index, group, sent, wire_ns, latency_ns);
+}
+
+checks::LatencySplit& Stopwatch::split_of(std::string_view group) {
+  auto& all = record_.split_by_group;
+  const auto found = std::ranges::find(all, group, &checks::GroupSplit::group);
+  return found != all.end() ? found->split
+                            : all.emplace_back(checks::GroupSplit{.group = group, .split = {}}).split;
+}
+
+// A stimulus may have several answers: it has been answered with the last of them.
+void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+                      std::int64_t latency_ns) {
+  sent.reply_wire_ns += wire_ns;
+  record_.answers[index].reply_wire_ns += sent.reply_wire_ns;
+  for (checks::LatencySplit* split : {&record_.split, &split_of(group)}) {
+    split->reply_wire_ns += wire_ns;
+    split->latency_ns += latency_ns - sent.latency_ns;
+    if (sent.answered) continue;
+    ++split->stimuli;
+    if (!sent.to_echo_ns) continue;
+    ++split->echoed;
+    split->to_echo_ns += *sent.to_echo_ns;
+    split->stimulus_wire_ns += sent.wire_ns;
+  }
+  sent.latency_ns = latency_ns;
+  if (!sent.answered) ++untold_.stimuli;
+  sent.answered = true;
+  if (latency_ns <= untold_.slowest.latency_ns) return;
+  untold_.slowest = {.message = messages::all_messages[index].name,
+                     .t_ns = newest_[index].t_ns - first_ns_.value_or(0),
+                     .latency_ns = latency_ns,
+                     .reply_wire_ns = sent.reply_wire_ns};
+}
+
+void Stopwatch::told(const messages::TargetTiming& timing) {
+  const auto stimuli = static_cast<std::int64_t>(untold_.stimuli);
+  record_.split.told += untold_.stimuli;
+  if (stimuli > 0) {
+    record_.split.queue_clipped |= timing.queue_mean_us >= checks::most_told_us;
+    record_.split.compute_clipped |= timing.compute_mean_us >= checks::most_told_us;
+  }
+  record_.split.target_queue_ns += stimuli * timing.queue_mean_us * 1000;
+  record_.split.target_compute_ns += stimuli * timing.compute_mean_us * 1000;
+  if (untold_.slowest.latency_ns > record_.slowest.latency_ns) {
+    record_.slowest = untold_.slowest;
+    record_.slowest.queue_max_us = timing.queue_max_us;
+    record_.slowest.compute_max_us = timing.compute_max_us;
+  }
+  untold_ = {};
+}
+
+void Stopwatch::finish() {
+  for (auto& [name, group] : groups_) {
+    while (!group.sent.empty()) forget_oldest(name, group);
+  }
+}
+
+// The newest first: an answer comes soon, or not at all.
+Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us) {
+  const auto group = groups_.find(name);
+  if (group == groups_.end()) return nullptr;
+  std::deque<Sent>& sent = group->second.sent;
+  const auto found = std::find_if(sent.rbegin(), sent.rend(),
+                                  [&](const Sent& s) { return s.stimulus.valid_us == valid_us; });
+  return found == sent.rend() ? nullptr : &*found;
+}
+
+// By now its echo has come, if it ever does.
+void Stopwatch::forget_oldest(std::string_view name, Group& group) {
+  const Stimulus stimulus = group.sent.front().stimulus;
+  group.sent.pop_front();
+  ++(stimulus.hardware_ns != 0 ? record_.stimuli_with_hardware_stamp : record_.without_hardware_stamp);
+  for (TimedWindow& window : record_.windows) {
+    if (!answers(window.message, name)) continue;
+    if (group.before && checks::within(window.window, stimulus.valid_us))
+      add_deviation(window, *group.before, stimulus);
+    if (stimulus.valid_us <= window.window.to_us)
+      window.last_stimulus_ns = std::max(window.last_stimulus_ns.value_or(stimulus.t_ns), stimulus.t_ns);
+  }
+  group.before = stimulus;
+}
+
+}  // namespace canhil::observe

@@ -1,0 +1,97 @@
+// Takes the times of a run: latency, jitter and the bench's own lateness, as the frames pass.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "bench/checks/timing_record.hpp"
+#include "dbc/ports/fd_groups.hpp"
+#include "dbc/wire/carriers.hpp"
+
+namespace canhil::observe {
+
+/// Remembers the last `remembered` stimuli of each group; an answer that comes later answers nothing.
+class Stopwatch {
+ public:
+  static constexpr std::size_t remembered = 1024;
+
+  /// The record says which windows are asked for, and how fast the bus is.
+  explicit Stopwatch(checks::TimingRecord& record)
+      : record_(record), carriers_(wire::carriers(record.wire.fd)) {}
+
+  /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
+  void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
+  /// With that frame a sample group that is answered was whole.
+  void stimulus(std::string_view group, const checks::Stimulus& stimulus);
+  /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that it closes, if it does.
+  void echoed(const Received& received, std::string_view group, std::int64_t valid_us);
+  /// A message of the target came; `index`: its place in all_messages.
+  void arrived(std::size_t index, const Received& received);
+  /// The newest arrivals of these messages are the answer to a stimulus.
+  void answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us);
+  /// The target accounted for its time since it last did.
+  void told(const messages::TargetTiming& timing);
+  /// The run is over.
+  void finish();
+
+ private:
+  // Frames on their way, by the counter that each carries: one that is as old as 16 of its kind is lost.
+  struct Pending {
+    Frame frame;
+    std::int64_t t_ns = 0;
+    std::int64_t late_ns = 0;
+    bool waiting = false;
+  };
+  struct Sent {
+    checks::Stimulus stimulus;
+    std::optional<std::int64_t> to_echo_ns{};
+    std::int64_t wire_ns = 0;
+    bool answered = false;
+    std::bitset<messages::all_messages.size()> answered_by{};  // the last message of each answer
+    std::int64_t latency_ns = 0;                               // of the last answer so far
+    std::int64_t reply_wire_ns = 0;                            // of all answers so far
+  };
+  struct Group {
+    std::deque<Sent> sent{};
+    std::optional<checks::Stimulus> before{};  // the last one that is no longer remembered
+  };
+  struct Last {
+    checks::Arrival arrival;
+    std::int64_t due_ns = 0;  // when what it answers was to be sent
+  };
+  // Since the target last told of its time.
+  struct Untold {
+    std::uint64_t stimuli = 0;
+    checks::SlowestAnswer slowest{};
+  };
+
+  Sent* find(std::string_view group, std::int64_t valid_us);
+  void forget_oldest(std::string_view name, Group& group);
+  void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+                std::int64_t cause_us);
+  checks::LatencySplit& split_of(std::string_view group);
+  void split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
+             std::int64_t latency_ns);
+  std::optional<Frame> closed_by(const Frame& message, FdPacker& packer) const;
+  [[nodiscard]] std::int64_t on_wire_ns(const Frame& frame) const;
+  [[nodiscard]] std::int64_t no_intermission_ns() const;
+
+  checks::TimingRecord& record_;
+  const wire::Carriers& carriers_;
+  FdPacker echoes_, arrivals_;  // the containers again
+  std::array<std::array<Pending, 16>, messages::all_messages.size()> pending_{};
+  std::map<std::string_view, Group> groups_;
+  std::array<checks::Arrival, messages::all_messages.size()> newest_{};
+  std::array<std::int64_t, messages::all_messages.size()> wire_ns_{};  // of what came, by Carrier::first
+  std::array<std::optional<Last>, messages::all_messages.size()> last_{};
+  std::optional<std::int64_t> first_ns_;
+  Untold untold_;
+};
+
+}  // namespace canhil::observe

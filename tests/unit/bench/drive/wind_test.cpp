@@ -1,0 +1,142 @@
+// The glider from the scenario's text to the checks, against the device in this process.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "bench/checks/judge.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/flight.hpp"
+#include "bench/drive/session.hpp"
+#include "bench/estimators/registry.hpp"
+#include "bench/estimators/wind/answers.hpp"
+
+namespace canhil::drive {
+namespace {
+
+using messages::WindOutcome;
+using testing::HasSubstr;
+
+scenario::Scenario quick(const std::vector<scenario::Setting>& settings) {
+  std::ifstream file(SOURCE_DIR "/bench/flights/wind_quick.toml");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const auto scenario = scenario::parse(text, "quick.toml", contract(), settings);
+  EXPECT_TRUE(scenario) << scenario.error().message;
+  return *scenario;
+}
+
+scenario::Setting set(std::string key, std::string value) {
+  return {.key = std::move(key), .value = std::move(value), .elements = {}, .line = 1};
+}
+
+struct Flown {
+  checks::Observations seen;
+  OwnTruth own_truth;
+  checks::Verdict verdict;
+
+  [[nodiscard]] std::int64_t count(WindOutcome outcome) const {
+    return std::ranges::count(seen.of<estimators::WindAnswers>(), outcome, &estimators::WindAnswer::outcome);
+  }
+  [[nodiscard]] std::int64_t flagged(bool estimators::WindAnswer::*flag) const {
+    return std::ranges::count(seen.of<estimators::WindAnswers>(), true, flag);
+  }
+  [[nodiscard]] double mean_error(double (*component)(const estimators::WindError&)) const {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const estimators::WindError& error :
+         estimators::wind_errors(seen.of<estimators::WindAnswers>(), *own_truth.glide)) {
+      if (error.t_us < 10'000'000) continue;
+      sum += std::abs(component(error));
+      ++count;
+    }
+    return sum / static_cast<double>(count);
+  }
+};
+
+double norm(const estimators::WindError& error) { return error.error_n.norm(); }
+double along_track(const estimators::WindError& error) { return error.along_track; }
+double cross_track(const estimators::WindError& error) { return error.cross_track; }
+
+Flown fly(const std::vector<scenario::Setting>& settings = {}, std::uint64_t run = 0) {
+  const scenario::Scenario scenario = quick(settings);
+  const auto truth = make_truth(scenario);
+  EXPECT_TRUE(truth) << truth.error().message;
+  auto flown = run_in_process(scenario, *truth, run);
+  EXPECT_TRUE(flown) << flown.error().message;
+  EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
+  checks::Verdict verdict =
+      checks::judge(scenario, {.seen = flown->seen,
+                               .truth = truth_of(*truth, flown->own_truth, scenario.duration_us),
+                               .estimators = estimators::all(),
+                               .ended_early = flown->ending.detail,
+                               .timing_unfit = "virtual time"});
+  return {std::move(flown->seen), std::move(flown->own_truth), std::move(verdict)};
+}
+
+TEST(Wind, IsEstimatedThroughTheBus) {
+  const Flown flown = fly();
+  for (const checks::CheckResult& check : flown.verdict.checks)
+    EXPECT_NE(check.outcome, checks::Outcome::fail) << check.name << ": " << check.measured;
+  EXPECT_GE(flown.count(WindOutcome::updated), 990);
+  EXPECT_LT(flown.mean_error(norm), 2);
+}
+
+// The first answer knows what the carrier told: not more, not less. Nothing else errs: with the noise of the
+// navigation and coefficients wrong by 20 % it is off by 1.2 m/s RMS even where the carrier told the truth.
+TEST(Wind, StartsFromWhatTheCarrierTells) {
+  const auto first_error = [](const std::string& sigma) {
+    std::vector<scenario::Setting> settings{set("glide.initial_error.air_velocity_sigma_mps", sigma)};
+    for (const char* quiet :
+         {"glide.initial_error.attitude_sigma_deg", "glide.initial_error.rate_sigma_degps",
+          "airframe.coefficient_error_percent", "glider_nav.velocity_noise_mps",
+          "glider_nav.attitude_noise_deg", "glider_nav.rate_noise_degps"})
+      settings.push_back(set(quiet, "0"));
+    const Flown flown = fly(settings);
+    return estimators::wind_errors(flown.seen.of<estimators::WindAnswers>(), *flown.own_truth.glide)
+        .front()
+        .error_n.norm();
+  };
+  EXPECT_LT(first_error("0"), 0.1);
+  EXPECT_GT(first_error("10"), 1);
+}
+
+TEST(Wind, DenserAirIsAWindAlongTheTrack) {
+  const Flown flown =
+      fly({set("airframe.density_error_percent", "3"), set("airframe.coefficient_error_percent", "0")});
+  EXPECT_NEAR(flown.mean_error(along_track), 2.7, 0.7);
+  EXPECT_LT(flown.mean_error(cross_track), 0.7);
+}
+
+TEST(Wind, FinsThatStayAwayAreTold) {
+  const Flown lost = fly({set("fins.outage_s", "1"), set("fins.outage_every_s", "5")});
+  EXPECT_GT(lost.flagged(&estimators::WindAnswer::fins_missing), 4 * 40);
+  EXPECT_EQ(fly().flagged(&estimators::WindAnswer::fins_missing), 0);
+  EXPECT_GT(fly({set("fins.latency_ms", "50")}).flagged(&estimators::WindAnswer::fins_late), 900);
+}
+
+TEST(Wind, NavigationThatStaysAwayIsBridged) {
+  const Flown flown = fly({set("glider_nav.outage_s", "1"), set("glider_nav.outage_every_s", "5")});
+  EXPECT_NEAR(static_cast<double>(flown.count(WindOutcome::updated)), 800, 10);
+  EXPECT_LT(flown.mean_error(norm), 3);
+}
+
+TEST(Wind, AGlideThatEndsBeforeTheRunIsRefused) {
+  const scenario::Scenario low = quick({set("glide.height_m", "100"), set("glide.speed_mps", "80")});
+  const auto own = make_flight(low, *make_truth(low), 7);
+  ASSERT_FALSE(own);
+  EXPECT_THAT(own.error().message, HasSubstr("key 'duration_s': the glide of run 7 ends"));
+}
+
+TEST(Wind, RunsAreDrawnApartAndAgain) {
+  const Flown a = fly({}, 3);
+  const Flown b = fly({}, 3);
+  const Flown c = fly({}, 4);
+  EXPECT_EQ(a.seen.of<estimators::WindAnswers>().back().wind_n,
+            b.seen.of<estimators::WindAnswers>().back().wind_n);
+  EXPECT_NE(a.seen.of<estimators::WindAnswers>().back().wind_n,
+            c.seen.of<estimators::WindAnswers>().back().wind_n);
+  EXPECT_NE(a.own_truth.glide->epochs().back().v_a, c.own_truth.glide->epochs().back().v_a);
+}
+
+}  // namespace
+}  // namespace canhil::drive
