@@ -38,7 +38,9 @@ TEST(VerticalChannel, FindsTheBias) {
   imu.delta_v.z() += bias * dt;
   for (int i = 1; i <= 6000; ++i) {
     channel.propagate(imu, settings);
-    if (i % 10 == 0) EXPECT_EQ(channel.update(0, settings), Outcome::used);
+    if (i % 10 == 0) {
+      EXPECT_EQ(channel.update(0, settings), Outcome::used);
+    }
   }
   EXPECT_NEAR(channel.nav().height, 0, 0.01);
   EXPECT_NEAR(channel.nav().v_eb_n.z(), 0, 0.005);
