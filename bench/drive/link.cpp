@@ -16,7 +16,7 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
     const std::int64_t t_ns = port_.now_ns();
     const std::int64_t late_ns = due_ns ? port_.monotonic_ns() - *due_ns : 0;
     const SendOutcome outcome = port_.send(frame);
-    look_at_interface();
+    if (outcome != SendOutcome::sent || !up_) look_at_interface();
     if (outcome == SendOutcome::sent) {
       const bool waited = deadline_ns != 0;
       if (waited) while_waiting_.reset();

@@ -38,6 +38,8 @@ class Schedule final : public observe::Observer {
     return out_.frames();
   }
 
+  /// Whether any node does.
+  [[nodiscard]] bool listens() const { return !listeners_.empty(); }
   /// The nodes that listen hear every frame of somebody else.
   void received(const Received& received) override {
     if (received.own || received.frame.error) return;

@@ -105,7 +105,8 @@ class Session {
       load_watched.emplace(link_, load_);
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
     }
-    const Attached listening(link_, schedule_);
+    std::optional<Attached> listening;
+    if (schedule_.listens()) listening.emplace(link_, schedule_);
     if (options_.realtime && target_)
       static_cast<void>(realtime::own_memory_again());  // permitted: it entered
     ending_ = clock_ == ClockKind::lockstep

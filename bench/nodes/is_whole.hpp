@@ -8,7 +8,7 @@ namespace canhil::nodes {
 /// Its id, size and CRC; an error frame, whose class bits may look like any id, is none.
 template <class Message>
 bool is_whole(const Frame& frame) {
-  return !frame.error && frame.extended == Message::info.extended && frame.id == Message::info.id &&
+  return frame.id == Message::info.id && !frame.error && frame.extended == Message::info.extended &&
          frame.size == Message::size && frame.data[0] == e2e::crc(frame.payload(), Message::info.e2e_data_id);
 }
 

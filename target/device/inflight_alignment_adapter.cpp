@@ -309,7 +309,7 @@ class InflightAlignmentAdapter final : public Adapter {
 }  // namespace
 
 std::unique_ptr<Adapter> make_inflight_alignment_adapter() {
-  return std::make_unique<InflightAlignmentAdapter>();
+  return std::make_unique_for_overwrite<InflightAlignmentAdapter>();
 }
 
 }  // namespace canhil::target

@@ -275,6 +275,6 @@ class LosRateAdapter final : public Adapter {
 
 }  // namespace
 
-std::unique_ptr<Adapter> make_los_rate_adapter() { return std::make_unique<LosRateAdapter>(); }
+std::unique_ptr<Adapter> make_los_rate_adapter() { return std::make_unique_for_overwrite<LosRateAdapter>(); }
 
 }  // namespace canhil::target

@@ -249,7 +249,7 @@ class TransferAlignmentAdapter final : public Adapter {
 }  // namespace
 
 std::unique_ptr<Adapter> make_transfer_alignment_adapter() {
-  return std::make_unique<TransferAlignmentAdapter>();
+  return std::make_unique_for_overwrite<TransferAlignmentAdapter>();
 }
 
 }  // namespace canhil::target

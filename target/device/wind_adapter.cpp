@@ -264,6 +264,6 @@ class WindAdapter final : public Adapter {
 
 }  // namespace
 
-std::unique_ptr<Adapter> make_wind_adapter() { return std::make_unique<WindAdapter>(); }
+std::unique_ptr<Adapter> make_wind_adapter() { return std::make_unique_for_overwrite<WindAdapter>(); }
 
 }  // namespace canhil::target
