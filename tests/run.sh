@@ -164,7 +164,7 @@ coverage() {
   find build/coverage -name '*.gcda' -delete 2>/dev/null # the counts of an earlier run
   export GCOV_ERROR_FILE=/dev/null # a process without the right to write its counts says so, where a test expects one line
   # Left out: two tests in which the program may not write files, and so not its counts.
-  # Without optimisation, and counting, a long test takes twice its time; two papers' pages take over a quarter of an hour and are cut off.
+  # Half optimised, and counting, a long test takes twice its time.
   build coverage tests_unit tests_processes tests_pages &&
     run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
     python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"
