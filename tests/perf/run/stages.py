@@ -29,11 +29,19 @@ FILES = (
 UNPACKS = {"unpack", "load_le", "load_be", "unsigned_bits", "signed_bits", "physical", "real", "from_frame", "unpacked"}
 
 
+def here(file):
+    """The file of this tree and build: an object of a compiler cache may name those of another one."""
+    if "/build/" not in file:
+        return pathlib.Path(file)
+    below = file.split("/build/")[1].split("/", 1)[1]  # of the folder of the build
+    return pathlib.Path(sys.argv[1]) / below
+
+
 @functools.cache
 def definitions(file):
     """[(line, function)] of a header of the codec."""
     found = []
-    for number, text in enumerate(pathlib.Path(file).read_text().splitlines(), 1):
+    for number, text in enumerate(here(file).read_text().splitlines(), 1):
         match = re.search(r"\b(\w+)\(", text)
         if match and "constexpr" in text and text.rstrip().endswith("{"):
             found.append((number, match[1]))
