@@ -2,14 +2,16 @@
 """Makes a copy of the project with a fifth estimator in it: python3 tests/fifth_estimator/add.py FOLDER
 
 What is changed outside tests/fifth_estimator is here, whole: a line a registry, and the contract, which gets what contract.dbc
-says. A file of the copy that stays the same is not written again, so that a build of it goes on where it was.
+says.
 """
 import pathlib
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/static"))
+import copied_tree  # noqa: E402
+
 HERE = "tests/fifth_estimator"
-PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "dbc", "docs", "target", "tests")
 
 # (registry, the line that is there, the line that comes after it)
 LINES = [
@@ -66,27 +68,8 @@ def copied(name: str, content: bytes) -> bytes:
 def main() -> None:
     if len(sys.argv) != 2:
         fail("expected one argument, the folder for the copy")
-    target = pathlib.Path(sys.argv[1])
-    names = set()
-    for part in PARTS:
-        path = ROOT / part
-        for file in [path] if path.is_file() else sorted(path.rglob("*")):
-            if file.is_dir() or "__pycache__" in file.parts:
-                continue
-            name = file.relative_to(ROOT).as_posix()
-            names.add(name)
-            to, content = target / name, copied(name, file.read_bytes())
-            if name == "dbc/canhil-fd.dbc" and to.exists():
-                continue  # made from the contract of the copy, by dbcgen --fd
-            if to.exists() and to.read_bytes() == content:
-                continue
-            to.parent.mkdir(parents=True, exist_ok=True)
-            to.write_bytes(content)
-            to.chmod(file.stat().st_mode)
-    for part in PARTS:
-        for file in (target / part).rglob("*"):
-            if file.is_file() and file.relative_to(target).as_posix() not in names:
-                file.unlink()  # no longer in the project
+    # dbcgen --fd makes the other contract from the contract of the copy.
+    copied_tree.copy_tree(pathlib.Path(sys.argv[1]), copied, made=("dbc/canhil-fd.dbc",))
 
 
 if __name__ == "__main__":

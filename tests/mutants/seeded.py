@@ -1,0 +1,54 @@
+"""The seeded defects of the target, as the files beside this one say them: a file a family, a table [[mutant]] a defect.
+
+A mutant is a `name`, a `file`, the text that `was` there (once) and that `is` there instead, and `what` is then wrong.
+"""
+import pathlib
+import tomllib
+from dataclasses import dataclass
+
+HERE = pathlib.Path(__file__).resolve().parent
+KEYS = {"name", "file", "was", "is", "what"}
+
+# Of each family at least so many.
+FAMILIES = {"strapdown": 12, "imu_stream": 6, "transfer_alignment": 18, "inflight_alignment": 22, "los_rate": 14, "wind": 14,
+            "device": 12, "timing": 4}
+AT_LEAST = 95
+
+
+@dataclass(frozen=True)
+class Mutant:
+    family: str
+    name: str
+    file: str
+    was: str
+    then: str
+    what: str
+
+    @property
+    def full_name(self):
+        return f"{self.family}.{self.name}"
+
+    def applied(self, text):
+        """The text of its file with the defect in it."""
+        times = text.count(self.was)
+        if times != 1:
+            raise ValueError(f"{self.full_name}: its text is {times} times in {self.file}, expected once")
+        return text.replace(self.was, self.then)
+
+
+def mutants_of(family, text):
+    """Those that the text of a family's file says, in its order."""
+    read = tomllib.loads(text)
+    if set(read) != {"mutant"}:
+        raise ValueError(f"{family}: holds {', '.join(sorted(read)) or 'nothing'}, expected tables [[mutant]] and nothing else")
+    found = []
+    for number, table in enumerate(read["mutant"], 1):
+        if set(table) != KEYS or not all(isinstance(value, str) for value in table.values()):
+            raise ValueError(f"{family}: mutant {number} has {', '.join(sorted(table))}, expected texts {', '.join(sorted(KEYS))}")
+        found.append(Mutant(family, table["name"], table["file"], table["was"], table["is"], table["what"]))
+    return found
+
+
+def all_mutants():
+    """Of every family, in the order of FAMILIES."""
+    return [mutant for family in FAMILIES for mutant in mutants_of(family, (HERE / f"{family}.toml").read_text())]

@@ -1,0 +1,34 @@
+"""A copy of the project that is changed and built on its own.
+
+A file of the copy that stays the same is not written again, so that a build of it goes on where it was.
+"""
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "dbc", "docs", "target", "tests")
+
+
+def copy_tree(target, changed=lambda name, content: content, made=()):
+    """Copies the project into the folder `target`: of each file what changed(name, content) gives, and nothing that it has not.
+
+    What the copy makes itself, `made`, is copied once and then left to it."""
+    names = set()
+    for part in PARTS:
+        path = ROOT / part
+        for file in [path] if path.is_file() else sorted(path.rglob("*")):
+            if file.is_dir() or "__pycache__" in file.parts:
+                continue
+            name = file.relative_to(ROOT).as_posix()
+            names.add(name)
+            to, content = target / name, changed(name, file.read_bytes())
+            if name in made and to.exists():
+                continue
+            if to.exists() and to.read_bytes() == content:
+                continue
+            to.parent.mkdir(parents=True, exist_ok=True)
+            to.write_bytes(content)
+            to.chmod(file.stat().st_mode)
+    for part in PARTS:
+        for file in (target / part).rglob("*"):
+            if file.is_file() and file.relative_to(target).as_posix() not in names:
+                file.unlink()  # no longer in the project

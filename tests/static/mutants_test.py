@@ -1,0 +1,146 @@
+"""The seeded defects of tests/mutants: each can be put into the target, and what reads and chooses them."""
+
+import re
+import sys
+import tempfile
+import unittest
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests/mutants"), str(ROOT / "tests/static")]
+import copied_tree  # noqa: E402
+import run  # noqa: E402
+import seeded  # noqa: E402
+
+ONE = """[[mutant]]
+name = "sign"
+file = "target/a.cpp"
+was = '''a + b'''
+is = '''a - b'''
+what = "The sum is a difference."
+"""
+
+
+class Mutants(unittest.TestCase):
+    def setUp(self):
+        self.mutants = seeded.all_mutants()
+
+    def test_every_file_is_a_family(self):
+        self.assertEqual({file.stem for file in seeded.HERE.glob("*.toml")}, set(seeded.FAMILIES))
+
+    def test_there_are_enough_of_each_family(self):
+        counts = Counter(mutant.family for mutant in self.mutants)
+        for family, least in seeded.FAMILIES.items():
+            self.assertGreaterEqual(counts[family], least, family)
+        self.assertGreaterEqual(len(self.mutants), seeded.AT_LEAST)
+
+    def test_names_are_unique(self):
+        self.assertEqual([name for name, n in Counter(m.full_name for m in self.mutants).items() if n > 1], [])
+
+    def test_no_two_are_the_same_defect(self):
+        made = Counter((m.file, m.applied((ROOT / m.file).read_text())) for m in self.mutants)
+        self.assertEqual(max(made.values()), 1)
+
+    def test_each_has_its_place_in_the_target(self):
+        for mutant in self.mutants:
+            with self.subTest(mutant.full_name):
+                self.assertRegex(mutant.name, r"^[a-z][a-z0-9_]*$")
+                self.assertTrue(mutant.file.startswith("target/"), mutant.file)
+                text = (ROOT / mutant.file).read_text()
+                self.assertEqual(text.count(mutant.was), 1)
+                self.assertNotEqual(mutant.applied(text), text)
+
+    def test_each_says_its_defect_in_a_sentence(self):
+        for mutant in self.mutants:
+            with self.subTest(mutant.full_name):
+                self.assertRegex(mutant.what, r"^[A-Z][^\n]*[^.]\.$")
+
+
+class Reading(unittest.TestCase):
+    def test_a_mutant_is_read(self):
+        mutant, = seeded.mutants_of("device", ONE)
+        self.assertEqual(mutant.full_name, "device.sign")
+        self.assertEqual(mutant.applied("x = a + b;"), "x = a - b;")
+
+    def test_text_that_is_not_there_once_is_refused(self):
+        mutant, = seeded.mutants_of("device", ONE)
+        for text, times in (("x = b + a;", 0), ("x = a + b; y = a + b;", 2)):
+            with self.assertRaisesRegex(ValueError, f"device.sign: its text is {times} times in target/a.cpp, expected once"):
+                mutant.applied(text)
+
+    def test_other_keys_are_refused(self):
+        for text in (ONE.replace("what", "why"), ONE + "more = 1\n", ONE.replace('"sign"', "3")):
+            with self.assertRaisesRegex(ValueError, "device: mutant 1 has"):
+                seeded.mutants_of("device", text)
+        with self.assertRaisesRegex(ValueError, "expected tables"):
+            seeded.mutants_of("device", "")
+
+
+class Choosing(unittest.TestCase):
+    def setUp(self):
+        self.mutants = seeded.all_mutants()
+
+    def test_only_those_that_the_expression_is_in(self):
+        names = {mutant.full_name for mutant in run.chosen(self.mutants, re.compile(r"^wind\..*sign"), None)}
+        self.assertIn("wind.rudder_sign", names)
+        self.assertTrue(all(name.startswith("wind.") and "sign" in name for name in names), names)
+
+    def test_one_of_each_family_by_seed(self):
+        def picked(seed):
+            return run.chosen(self.mutants, re.compile(""), seed)
+        self.assertEqual([mutant.family for mutant in picked(1)], list(seeded.FAMILIES))
+        self.assertEqual(picked(1), picked(1))
+        self.assertNotEqual(picked(1), picked(2))
+
+
+class Judging(unittest.TestCase):
+    def judged(self, code, page):
+        with tempfile.TemporaryDirectory() as folder:
+            report = Path(folder, "report.json")
+            if page is not None:
+                report.write_text(page)
+            return run.judged(code, "one\ntwo\n", report)
+
+    def page(self, outcome, completed="true"):
+        return (f'{{"checks": [{{"name": "a", "outcome": "pass", "measured": "1"}}, {{"name": "b", "outcome": "{outcome}", '
+                f'"measured": "2"}}], "ending": {{"completed": {completed}, "detail": "fault"}}, "reason": "why"}}')
+
+    def test_a_flight_that_passes_or_is_not_measured_catches_nothing(self):
+        self.assertIsNone(self.judged(0, self.page("pass")))
+        self.assertIsNone(self.judged(3, self.page("not measured")))
+
+    def test_what_was_wrong_is_named(self):
+        self.assertEqual(self.judged(1, self.page("fail")), ("b", "2"))
+        self.assertEqual(self.judged(1, self.page("not measured", "false")), ("ending", "fault"))
+        self.assertEqual(self.judged(1, self.page("pass")), ("verdict", "why"))
+        self.assertEqual(self.judged(2, None), ("no report", "exit code 2: two"))
+        self.assertEqual(self.judged(None, None), ("no end", "not within 300 s"))
+
+    def test_the_table_adds_up(self):
+        entries = [{"family": "a", "outcome": run.CAUGHT}, {"family": "a", "outcome": run.SURVIVED},
+                   {"family": "b", "outcome": run.NO_BUILD}]
+        self.assertEqual(run.table_of(entries)["a"], {"mutants": 2, "caught": 1, "survived": 1, "does not build": 0})
+        self.assertEqual(run.table_of(entries)["total"], {"mutants": 3, "caught": 1, "survived": 1, "does not build": 1})
+
+    def test_the_suite_is_all_that_is_shipped(self):
+        self.assertEqual(sorted(run.SUITE), sorted(file.stem for file in (ROOT / "bench/flights").glob("*.toml")))
+
+
+class Copying(unittest.TestCase):
+    def test_a_file_that_stays_the_same_is_not_written_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            to = Path(folder)
+            copied_tree.copy_tree(to)
+            same, changed, gone = to / "README.md", to / "target/main.cpp", to / "target/none.cpp"
+            before = same.stat().st_mtime_ns
+            changed.write_text("")
+            gone.write_text("")
+            copied_tree.copy_tree(to)
+            self.assertEqual(same.stat().st_mtime_ns, before)
+            self.assertEqual(changed.read_bytes(), (ROOT / "target/main.cpp").read_bytes())
+            self.assertFalse(gone.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
