@@ -1,4 +1,4 @@
-#include "bench/commands/doctor.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "bench/commands/report.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 

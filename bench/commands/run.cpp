@@ -1,4 +1,4 @@
-#include "bench/commands/run.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 #include <net/if.h>
