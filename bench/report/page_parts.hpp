@@ -3,20 +3,28 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "bench/report/markup.hpp"
 
 namespace canhil::report {
 
-/// A number that is not there: null in the report.
-inline constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
-
 /// A value of the report for an element.
 inline std::string text_in(const nlohmann::ordered_json& value) {
   return escaped(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+/// How an outcome of the report looks: not by its colour alone.
+struct Look {
+  const char* style;
+  const char* sign;
+};
+inline Look look_of(std::string_view outcome) {
+  return outcome == "pass"   ? Look{"yes", "&#10003;"}
+         : outcome == "fail" ? Look{"no", "&#10007;"}
+                             : Look{"unknown", "?"};
 }
 
 /// A time of a distribution in ms.

@@ -4,23 +4,12 @@
 
 #include <algorithm>
 
+#include "bench/checks/timing.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/nodes/registry.hpp"
 
 namespace canhil::report {
 namespace {
-
-std::string_view name(drive::ClockKind clock) {
-  switch (clock) {
-    case drive::ClockKind::real_time:
-      return "real time";
-    case drive::ClockKind::lockstep:
-      return "lockstep";
-    case drive::ClockKind::simulated_wire:
-      return "virtual, simulated wire";
-  }
-  return "?";
-}
 
 EstimatorResults results_of(const estimators::Estimator& estimator, const scenario::Scenario& scenario,
                             const drive::Run& run) {
@@ -53,30 +42,33 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
   return sender != nullptr && scenario.runs(sender->name);
 }
 
-Summary summarise(const scenario::Scenario& scenario, const drive::Run& run) {
-  Summary summary;
+std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run) {
+  std::vector<EstimatorResults> all;
   for (const estimators::Estimator* one : estimators::all()) {
-    if (scenario.runs(one->name)) summary.results.push_back(results_of(*one, scenario, run));
+    if (scenario.runs(one->name)) all.push_back(results_of(*one, scenario, run));
   }
-  for (const std::string_view message : closing_answers(scenario)) {
-    const auto place = std::ranges::find(messages::all_messages, message, &MessageInfo::name);
-    const checks::AnswerTiming& timing =
-        run.seen.timing.answers[static_cast<std::size_t>(place - messages::all_messages.begin())];
-    summary.latencies.push_back({.message = std::string(message),
-                                 .latency_s = checks::distribution_s(timing.latency),
-                                 .jitter_s = checks::distribution_s(timing.jitter),
-                                 .unanswered = checks::unanswered(run.seen, message)});
+  return all;
+}
+
+std::string_view clock_name(const drive::Run& run) {
+  switch (run.clock) {
+    case drive::ClockKind::real_time:
+      return "real time";
+    case drive::ClockKind::lockstep:
+      return "lockstep";
+    case drive::ClockKind::simulated_wire:
+      return "virtual, simulated wire";
   }
-  summary.lateness_s = checks::distribution_s(run.seen.timing.lateness);
-  summary.clock = name(run.clock);
-  summary.stamp_source =
-      run.clock == drive::ClockKind::lockstep         ? "virtual time"
-      : run.clock == drive::ClockKind::simulated_wire ? "the simulated wire's stamps in virtual time"
-      : checks::stamped_by_hardware(run.seen.timing)
-          ? "the controller's hardware stamps of stimulus and answer"
-      : run.seen.transmit_stamps_echoed ? "bus stamps of stimulus and answer"
-                                        : "bench's stamp of the stimulus, bus stamp of the answer";
-  return summary;
+  return "?";
+}
+
+std::string_view stamp_source(const drive::Run& run) {
+  if (run.clock == drive::ClockKind::lockstep) return "virtual time";
+  if (run.clock == drive::ClockKind::simulated_wire) return "the simulated wire's stamps in virtual time";
+  if (checks::stamped_by_hardware(run.seen.timing))
+    return "the controller's hardware stamps of stimulus and answer";
+  return run.seen.transmit_stamps_echoed ? "bus stamps of stimulus and answer"
+                                         : "bench's stamp of the stimulus, bus stamp of the answer";
 }
 
 std::vector<wire::BitRates> load_rates(const drive::Run& run) {
