@@ -252,14 +252,10 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   return page;
 }
 
-std::string text_of(const Json& document) {
-  std::string out;
-  print(out, document, 0);
-  return out + "\n";
-}
-
 std::string json(const scenario::Scenario& scenario, const drive::Run& run) {
-  return text_of(document(scenario, run));
+  std::string out;
+  print(out, document(scenario, run), 0);
+  return out + "\n";
 }
 
 }  // namespace canhil::report

@@ -17,10 +17,7 @@ inline constexpr std::string_view schema = "canhil-report-1";
 /// rad, unit in every key; docs/report.md describes it.
 nlohmann::ordered_json document(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// As text: an object a line for each key, an array of numbers on one line.
-std::string text_of(const nlohmann::ordered_json& document);
-
-/// Both in one.
+/// The same as text: an object a line for each key, an array of numbers on one line.
 std::string json(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

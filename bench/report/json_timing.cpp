@@ -18,8 +18,7 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-}  // namespace
-
+// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] of those that are not empty.
 Json object(const checks::Histogram& histogram) {
   const checks::Distribution d = checks::distribution_s(histogram);
   Json json{{"count", d.count}, {"min", d.min},   {"p50", d.p50}, {"p90", d.p90},
@@ -29,14 +28,13 @@ Json object(const checks::Histogram& histogram) {
   return json;
 }
 
+// stretch_s, and largest_s of each stretch from time 0 on; null where there was no value.
 Json object(const checks::TimeLine& line) {
   Json json{{"stretch_s", seconds(line.stretch_ns())}, {"largest_s", Json::array()}};
   for (const std::int64_t largest_ns : line.largest_ns())
     json["largest_s"].push_back(largest_ns < 0 ? Json(nullptr) : Json(seconds(largest_ns)));
   return json;
 }
-
-namespace {
 
 Json split_of(const checks::TimingRecord& timing) {
   const checks::LatencySplit& split = timing.split;

@@ -9,7 +9,6 @@
 #include "bench/report/page_parts.hpp"
 #include "bench/report/page_plots.hpp"
 #include "bench/report/page_sections.hpp"
-#include "bench/report/styles.hpp"
 #include "bench/report/whole.hpp"
 #include "dbc/files/text_file.hpp"
 

@@ -1,4 +1,4 @@
-// Values of a report on its page.
+// What the parts of a report's page share.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,6 +10,9 @@
 #include "bench/report/markup.hpp"
 
 namespace canhil::report {
+
+/// The style of the page, built into the program.
+extern const EmbeddedFiles styles;
 
 /// A value of the report for an element.
 inline std::string text_in(const nlohmann::ordered_json& value) {

@@ -9,26 +9,6 @@
 #include "bench/nodes/registry.hpp"
 
 namespace canhil::report {
-namespace {
-
-EstimatorResults results_of(const estimators::Estimator& estimator, const scenario::Scenario& scenario,
-                            const drive::Run& run) {
-  const auto target = std::ranges::find(scenario.targets, estimator.name, &scenario::TargetSetup::estimator);
-  const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
-  EstimatorResults results{estimator.name, estimator.results(run.seen, truth, target->algorithm)};
-  estimators::ResultLine answers{.name = "answers", .what = "answers by what they say"};
-  for (const estimators::Mark& mark : estimator.marks(run.seen)) {
-    const bool told = !mark.t_us.empty() || mark.name == "answers";  // programs are told of none, too
-    answers.figures.push_back({.name = std::string(mark.name),
-                               .value = static_cast<double>(mark.t_us.size()),
-                               .words = told ? fmt::format("{} {}", mark.name, mark.t_us.size()) : ""});
-  }
-  results.lines.push_back(std::move(answers));
-  return results;
-}
-
-}  // namespace
-
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
   std::vector<std::string_view> closing;
   for (const estimators::Estimator* one : estimators::all()) {
@@ -43,9 +23,21 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
 }
 
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run) {
+  const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
   std::vector<EstimatorResults> all;
   for (const estimators::Estimator* one : estimators::all()) {
-    if (scenario.runs(one->name)) all.push_back(results_of(*one, scenario, run));
+    if (!scenario.runs(one->name)) continue;
+    const auto target = std::ranges::find(scenario.targets, one->name, &scenario::TargetSetup::estimator);
+    EstimatorResults own{one->name, one->results(run.seen, truth, target->algorithm)};
+    estimators::ResultLine answers{.name = "answers", .what = "answers by what they say"};
+    for (const estimators::Mark& mark : one->marks(run.seen)) {
+      const bool told = !mark.t_us.empty() || mark.name == "answers";  // programs are told of none, too
+      answers.figures.push_back({.name = std::string(mark.name),
+                                 .value = static_cast<double>(mark.t_us.size()),
+                                 .words = told ? fmt::format("{} {}", mark.name, mark.t_us.size()) : ""});
+    }
+    own.lines.push_back(std::move(answers));
+    all.push_back(std::move(own));
   }
   return all;
 }
@@ -84,17 +76,15 @@ std::vector<wire::BitRates> load_rates(const drive::Run& run) {
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
-  const auto add = [&](const nodes::Kind* kind) {
-    const MessageInfo& closes = kind->table.closes;
-    const scenario::NodeSettings* node = scenario.node(kind->table.key);
-    if (node == nullptr || node->period_us() == closes.cycle_time_us) return;
-    lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", closes.sample_group,
-                                static_cast<double>(node->period_us()) * 1e-3,
-                                static_cast<double>(closes.cycle_time_us) * 1e-3));
-  };
   for (const bool at_every_epoch : {true, false}) {  // first the period that is the truth's interval too
     for (const nodes::Kind* kind : nodes::all()) {
-      if (kind->at_every_epoch == at_every_epoch) add(kind);
+      const MessageInfo& closes = kind->table.closes;
+      const scenario::NodeSettings* node = scenario.node(kind->table.key);
+      if (kind->at_every_epoch != at_every_epoch || node == nullptr) continue;
+      if (node->period_us() == closes.cycle_time_us) continue;
+      lines.push_back(fmt::format("{} every {:g} ms (DBC: {:g} ms)", closes.sample_group,
+                                  static_cast<double>(node->period_us()) * 1e-3,
+                                  static_cast<double>(closes.cycle_time_us) * 1e-3));
     }
   }
   return lines;
