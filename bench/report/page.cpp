@@ -74,11 +74,10 @@ std::string page_of(const Json& report) {
   const Json& provenance = report.at("provenance");
   const auto [style, sign] = look_of(verdict);
   std::string out = fmt::format("<h1>{}</h1>\n", title);
-  out += fmt::format(
-      "<p class=\"sub\">{} &middot; bus {} &middot; {} &middot; {:g} s &middot; {}</p>\n",
-      escaped(provenance.at("scenario").get<std::string>()), escaped(provenance.at("bus").get<std::string>()),
-      escaped(provenance.at("clock").get<std::string>()), report.at("duration_s").get<double>(),
-      escaped(provenance.at("date").get<std::string>()));
+  out += fmt::format("<p class=\"sub\">{} &middot; bus {} &middot; {} &middot; {:g} s &middot; {}</p>\n",
+                     text_in(provenance.at("scenario")), text_in(provenance.at("bus")),
+                     text_in(provenance.at("clock")), report.at("duration_s").get<double>(),
+                     text_in(provenance.at("date")));
   out += fmt::format("<p class=\"verdict {}\"><b>{} {}</b>{}</p>\n", style, sign, escaped(verdict),
                      escaped(report.at("reason").get<std::string>()));
   out += "<nav><a href=\"#checks\">checks</a>";

@@ -64,36 +64,11 @@ std::vector<Series::Point> thinned(const Track& track, std::int64_t duration_us,
   return points;
 }
 
-// The values of a track, or its estimates beside the truth.
-Series series_of(std::string_view estimator, const Track& track, bool estimates, std::int64_t duration_us) {
-  const quantities::Unit& unit = estimates ? track.estimate_unit : track.unit;
-  Series series{.estimator = std::string(estimator),
-                .about = track.quantity,
-                .quantity = estimates ? track.estimate_title : track.title,
-                .unit = std::string(unit.name),
-                .unit_si = unit.factor,
-                .kind = estimates ? Series::Kind::estimate : kind_of(track)};
-  series.points = thinned(track, duration_us, [&](const Told& told) {
-    const double value = (estimates ? told.estimate.value() : told.value) / unit.factor;
-    Series::Point point{.t_s = seconds(told.t_us), .low = value, .high = value};
-    (estimates ? point.truth : point.sigma) = in(unit, estimates ? told.truth : told.sigma);
-    return point;
-  });
-  if (estimates) return series;
-  series.only_if_judged = track.only_if_judged;
-  series.to_go = track.to_go;
-  if (series.kind == Series::Kind::statistic) {
-    for (const double probability : {0.025, 0.975})
-      series.between.push_back(checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
-  }
-  return series;
-}
-
 // A stretch as times of the run; none: the flight has no samples there.
-std::optional<scenario::Window> window_of(const checks::Stretch& stretch, const Series& series) {
+std::optional<scenario::Window> window_of(const checks::Stretch& stretch, const Track& track) {
   if (!stretch.to_go_s) return stretch.window;
   std::optional<scenario::Window> window;
-  for (const auto& [t_us, to_go_s] : series.to_go) {
+  for (const auto& [t_us, to_go_s] : track.to_go) {
     if (to_go_s < stretch.to_go_s->first || to_go_s >= stretch.to_go_s->second) continue;
     if (!window) window = scenario::Window{.from_us = t_us, .to_us = t_us};
     window->to_us = t_us;
@@ -101,25 +76,49 @@ std::optional<scenario::Window> window_of(const checks::Stretch& stretch, const 
   return window;
 }
 
-// Gives each series the bars of the checks that judge it.
-void add_bars(std::vector<Series>& all, const scenario::Scenario& scenario) {
+// The bars of the checks that judge the errors of a track.
+std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
+                                 const scenario::Scenario& scenario) {
+  std::vector<Series::Bar> bars;
+  if (track.kind != Track::Kind::error) return bars;
   for (const scenario::Check& check : scenario.checks) {
     const std::optional<checks::Bar> bar = check.rule->bar();
-    if (!bar) continue;
-    for (Series& series : all) {
-      const bool judged = std::ranges::any_of(bar->of, [&](const checks::Subject& subject) {
-        return series.kind == Series::Kind::error && series.estimator == subject.estimator &&
-               series.about == subject.quantity;
-      });
-      const auto window = window_of(bar->stretch, series);
-      if (!judged || !window) continue;
-      series.bars.push_back({.check = check.name,
-                             .statistic = bar->statistic,
-                             .below = bar->below / series.unit_si,
-                             .from_s = seconds(window->from_us),
-                             .to_s = seconds(std::min(window->to_us, scenario.duration_us))});
-    }
+    if (!bar || std::ranges::none_of(bar->of, [&](const checks::Subject& subject) {
+          return subject.estimator == estimator && subject.quantity == track.quantity;
+        }))
+      continue;
+    const auto window = window_of(bar->stretch, track);
+    if (!window) continue;
+    bars.push_back({.check = check.name,
+                    .statistic = bar->statistic,
+                    .below = bar->below / track.unit.factor,
+                    .from_s = seconds(window->from_us),
+                    .to_s = seconds(std::min(window->to_us, scenario.duration_us))});
   }
+  return bars;
+}
+
+// The values of a track, or its estimates beside the truth.
+Series series_of(std::string_view estimator, const Track& track, bool estimates,
+                 const scenario::Scenario& scenario) {
+  const quantities::Unit& unit = estimates ? track.estimate_unit : track.unit;
+  Series series{.estimator = std::string(estimator),
+                .about = track.quantity,
+                .quantity = estimates ? track.estimate_title : track.title,
+                .unit = std::string(unit.name),
+                .kind = estimates ? Series::Kind::estimate : kind_of(track)};
+  series.points = thinned(track, scenario.duration_us, [&](const Told& told) {
+    const double value = (estimates ? told.estimate.value() : told.value) / unit.factor;
+    Series::Point point{.t_s = seconds(told.t_us), .low = value, .high = value};
+    (estimates ? point.truth : point.sigma) = in(unit, estimates ? told.truth : told.sigma);
+    return point;
+  });
+  if (!estimates) series.bars = bars_of(estimator, track, scenario);
+  if (series.kind == Series::Kind::statistic) {
+    for (const double probability : {0.025, 0.975})
+      series.between.push_back(checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
+  }
+  return series;
 }
 
 }  // namespace
@@ -138,12 +137,11 @@ std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run&
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
     if (all.empty() || all.back().estimator != estimator) estimates_end = std::ssize(all);
     if (!track.estimate_title.empty())
-      all.insert(all.begin() + estimates_end++, series_of(estimator, track, true, scenario.duration_us));
-    all.push_back(series_of(estimator, track, false, scenario.duration_us));
+      all.insert(all.begin() + estimates_end++, series_of(estimator, track, true, scenario));
+    Series values = series_of(estimator, track, false, scenario);
+    if (!track.only_if_judged || !values.bars.empty()) all.push_back(std::move(values));
   });
-  add_bars(all, scenario);
-  std::erase_if(
-      all, [](const Series& one) { return one.points.empty() || (one.only_if_judged && one.bars.empty()); });
+  std::erase_if(all, [](const Series& one) { return one.points.empty(); });
   return all;
 }
 
