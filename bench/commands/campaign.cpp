@@ -20,7 +20,7 @@
 #include "bench/drive/session.hpp"
 #include "bench/papers/names.hpp"
 #include "bench/report/file.hpp"
-#include "bench/report/text.hpp"
+#include "bench/report/run_reports.hpp"
 
 namespace canhil::commands {
 namespace {

@@ -1,8 +1,6 @@
 #include "bench/report/latency_tests.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "bench/checks/probability.hpp"

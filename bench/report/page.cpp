@@ -2,20 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <nlohmann/json.hpp>
 
-#include "bench/report/json.hpp"
 #include "bench/report/page_parts.hpp"
-#include "bench/report/page_plots.hpp"
-#include "bench/report/page_sections.hpp"
+#include "bench/report/run_reports.hpp"
 #include "bench/report/whole.hpp"
 #include "dbc/files/text_file.hpp"
 
 namespace canhil::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int most_depth = 32;  // a report has 6
 

@@ -1,20 +1,16 @@
-#include "bench/report/page_plots.hpp"
+#include "bench/report/page_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "bench/checks/histogram.hpp"
-#include "bench/report/page_parts.hpp"
 #include "bench/report/plot.hpp"
 
 namespace canhil::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double not_there = std::numeric_limits<double>::quiet_NaN();  // null in the report
 

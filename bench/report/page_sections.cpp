@@ -1,4 +1,4 @@
-#include "bench/report/page_sections.hpp"
+#include "bench/report/page_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,10 @@
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/timing_record.hpp"
-#include "bench/report/markup.hpp"
-#include "bench/report/page_parts.hpp"
-#include "bench/report/page_plots.hpp"
 #include "bench/report/split.hpp"
 
 namespace canhil::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // The percentiles of a distribution, as cells behind a first one.
 std::vector<std::string> percentiles(std::string first, const Json& distribution) {

@@ -1,4 +1,4 @@
-#include "bench/report/text.hpp"
+#include "bench/report/run_reports.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
