@@ -60,7 +60,7 @@ std::vector<Judged> judged_in(const Json& report) {
 
 // What the runs of a side say of one check.
 struct Tally {
-  std::array<std::size_t, said.size()> saying{};  // so many runs
+  std::array<std::size_t, said.size()> saying{};  // runs, by Says
   std::string measured;                           // by the first run that failed it, else by the last
   [[nodiscard]] std::size_t runs() const {
     return std::accumulate(saying.begin(), saying.end(), std::size_t{0});
