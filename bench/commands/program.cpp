@@ -104,6 +104,7 @@ int become(const std::string& program, std::vector<std::string> words) {
   const std::string path = (own.parent_path() / program).string();
   words.insert(words.begin(), "hil-bench");  // the name that it goes by in help
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   ::execv(path.c_str(), arguments.data());

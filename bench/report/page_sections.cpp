@@ -43,7 +43,7 @@ void add_incidents(Rows& rows, const Json& object, std::string_view of) {
 void add_rows(Rows& rows, const std::string& name, const Json& value) {
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items())
-      add_rows(rows, name.empty() ? key : name + ": " + key, inner);
+      add_rows(rows, name.empty() ? key : fmt::format("{}: {}", name, key), inner);
   } else if (value.is_array()) {
     std::string list;
     for (const Json& item : value) list += (list.empty() ? "" : ", ") + text_in(item);
