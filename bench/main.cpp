@@ -3,15 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "bench/commands/become.hpp"
-#include "bench/commands/bus.hpp"
-#include "bench/commands/campaign_name.hpp"
-#include "bench/commands/diverge.hpp"
-#include "bench/commands/doctor.hpp"
+#include "bench/commands/campaign.hpp"
 #include "bench/commands/program.hpp"
-#include "bench/commands/report.hpp"
-#include "bench/commands/run.hpp"
-#include "bench/commands/schedulability.hpp"
+#include "bench/commands/subcommands.hpp"
 
 namespace {
 

@@ -13,15 +13,14 @@
 #include "bench/campaign/export.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/campaign/report.hpp"
-#include "bench/commands/become.hpp"
-#include "bench/commands/campaign_name.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/papers/names.hpp"
 #include "bench/report/file.hpp"
-#include "bench/report/text.hpp"
+#include "bench/report/run_reports.hpp"
 
 namespace canhil::commands {
 namespace {

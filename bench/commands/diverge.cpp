@@ -1,4 +1,4 @@
-#include "bench/commands/diverge.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "bench/commands/doctor.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -35,8 +35,8 @@ constexpr std::int64_t listen_ns = ns_per_s;  // ten heartbeats
 struct Arguments {
   std::string bus;
   std::string loop;
-  std::optional<int> seconds;
-  std::optional<int> frames;
+  std::optional<int> seconds = 5;
+  std::optional<int> frames = 1000;
   std::optional<int> cpu;
   std::string json;
 };
@@ -179,11 +179,10 @@ std::string json(const Arguments& arguments, const Examination& found) {
   return page.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-// local: and local:?bitrate=500000 stand for a bus of this process alone, as with hil-bench run.
-std::string named(const std::string& bus) { return named_local(bus, fmt::format("canhil-{}", getpid())); }
-
 ExitCode execute(Arguments arguments) {
-  for (std::string* bus : {&arguments.bus, &arguments.loop}) *bus = named(*bus);
+  // local: and local:?bitrate=500000 stand for a bus of this process alone, as with hil-bench run.
+  for (std::string* bus : {&arguments.bus, &arguments.loop})
+    *bus = named_local(*bus, fmt::format("canhil-{}", getpid()));
   if (auto fine = check_name("--bus", arguments.bus); !fine) return complain(fine.error());
   if (!arguments.loop.empty()) {
     if (auto fine = check_name("--loop", arguments.loop); !fine) return complain(fine.error());
@@ -212,8 +211,6 @@ ExitCode execute(Arguments arguments) {
 
 void add_doctor(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
-  arguments->seconds = 5;
-  arguments->frames = 1000;
   const auto command = app.add_subcommand(
       "doctor", "tell what this machine and its CAN interface can do; exit code 1 if something is bad");
   command.add_option("--bus", arguments->bus, "can0, vcan0, local:NAME, or local: for a private one")

@@ -12,15 +12,9 @@ namespace canhil::commands {
 enum class ExitCode : int { pass = 0, fail = 1, usage = 2, not_measured = 3 };
 
 constexpr ExitCode exit_code(checks::Outcome outcome) {
-  switch (outcome) {
-    case checks::Outcome::pass:
-      return ExitCode::pass;
-    case checks::Outcome::fail:
-      return ExitCode::fail;
-    case checks::Outcome::not_measured:
-      break;
-  }
-  return ExitCode::not_measured;
+  return outcome == checks::Outcome::pass   ? ExitCode::pass
+         : outcome == checks::Outcome::fail ? ExitCode::fail
+                                            : ExitCode::not_measured;
 }
 
 /// Says on stderr, in one line, why nothing was done.

@@ -1,10 +1,14 @@
 #include "bench/commands/program.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -92,6 +96,21 @@ int guarded(const std::function<int()>& run) {
 
 int run_program(int argc, char** argv, std::span<const AddCommand> add_commands) {
   return guarded([&] { return run(argc, argv, add_commands); });
+}
+
+int become(const std::string& program, std::vector<std::string> words) {
+  std::error_code unknown;
+  const auto own = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  const std::string path = (own.parent_path() / program).string();
+  words.insert(words.begin(), "hil-bench");  // the name that it goes by in help
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  ::execv(path.c_str(), arguments.data());
+  return static_cast<int>(
+      complain({fmt::format("{}: {}, expected it beside hil-bench: cmake --build build/default --target {}",
+                            path, std::strerror(errno), program)}));
 }
 
 }  // namespace canhil::commands

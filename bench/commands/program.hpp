@@ -1,8 +1,12 @@
-// A program of the bench: the subcommands it has, and what it says of words that are none.
+// A program of the bench: the subcommands it has, what it says of words that are none, and the programs that
+// it goes on as: who flies single runs need not build campaigns with their statistics, nor who flies
+// campaigns the papers.
 #pragma once
 
 #include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "dbc/command_line/command_line.hpp"
 
@@ -17,5 +21,9 @@ int guarded(const std::function<int()>& run);
 
 /// Parses the command line, runs what it names, and returns the exit code.
 int run_program(int argc, char** argv, std::span<const AddCommand> add_commands);
+
+/// Replaces this process by a program beside it, with these words for its command line (without its name).
+/// Returns only where that cannot be started: the exit code, after one line that says why.
+int become(const std::string& program, std::vector<std::string> words);
 
 }  // namespace canhil::commands

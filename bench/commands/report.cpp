@@ -1,4 +1,4 @@
-#include "bench/commands/report.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 
@@ -88,15 +88,9 @@ ExitCode compare_sides(Sides sides) {
   const auto compared = report::compare(*before, *after);
   if (!compared) return complain(compared.error());
   if (auto shown = report::write_stdout(compared->text); !shown) return complain(shown.error());
-  switch (compared->outcome) {
-    case report::Comparison::no_worse:
-      return ExitCode::pass;
-    case report::Comparison::worse:
-      return ExitCode::fail;
-    case report::Comparison::not_comparable:
-      break;
-  }
-  return ExitCode::not_measured;
+  return compared->outcome == report::Comparison::no_worse ? ExitCode::pass
+         : compared->outcome == report::Comparison::worse  ? ExitCode::fail
+                                                           : ExitCode::not_measured;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "bench/commands/run.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 #include <net/if.h>
@@ -19,12 +19,9 @@
 #include "bench/doctor/interface.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/session.hpp"
-#include "bench/report/csv.hpp"
 #include "bench/report/file.hpp"
-#include "bench/report/json.hpp"
-#include "bench/report/junit.hpp"
 #include "bench/report/page.hpp"
-#include "bench/report/text.hpp"
+#include "bench/report/run_reports.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/realtime/command_line.hpp"
@@ -57,15 +54,10 @@ struct Arguments {
 std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
 
 // gps, GPS and Gps are one node, as are master_ins and MasterIns.
-bool same_name(std::string_view a, std::string_view b) {
-  const auto plain = [](std::string_view name) {
-    std::string letters;
-    for (const char c : name) {
-      if (c != '_') letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    }
-    return letters;
-  };
-  return plain(a) == plain(b);
+std::string plain(std::string name) {
+  std::erase(name, '_');
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return name;
 }
 
 // NODE=BUS with the node as the DBC names it. The bench's own frames and the target's stay on --bus.
@@ -77,8 +69,9 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
     if (std::ranges::find(nodes, info.sender) == nodes.end()) nodes.push_back(info.sender);
   }
   const std::size_t equals = text.find('=');
-  const auto node = std::ranges::find_if(
-      nodes, [&](std::string_view name) { return same_name(name, text.substr(0, equals)); });
+  const auto node = std::ranges::find_if(nodes, [&](std::string_view name) {
+    return plain(std::string(name)) == plain(text.substr(0, equals));
+  });
   const std::string bus = equals == std::string::npos ? "" : text.substr(equals + 1);
   if (node == nodes.end() || bus.empty() || bus == local_prefix || drive::BusName(bus).in_process)
     return failure(
@@ -227,11 +220,6 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
   return {};
 }
 
-void warn(const drive::Run& run) {
-  const std::string warning = realtime::frequency_warning(*run.host);
-  if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
-}
-
 // The contract of the bus: by the command line, by the scenario, or by both alike.
 Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario& scenario) {
   if (arguments.dbc.empty()) return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
@@ -288,7 +276,10 @@ ExitCode execute(const Arguments& arguments) {
     });
   }();
   if (!finished) return complain(with_controller(finished.error(), arguments.bus));
-  if (arguments.realtime.wanted) warn(*finished);
+  if (arguments.realtime.wanted) {
+    const std::string warning = realtime::frequency_warning(*finished->host);
+    if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
+  }
   if (auto written = write_reports(arguments, *scenario, *finished); !written)
     return complain(written.error());
   return exit_code(finished->verdict.outcome);

@@ -1,4 +1,4 @@
-#include "bench/commands/schedulability.hpp"
+#include "bench/commands/subcommands.hpp"
 
 #include <fmt/format.h>
 

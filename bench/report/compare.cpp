@@ -17,6 +17,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// What must hold, all of it, for a latency to count as worse.
+constexpr double largest_p = 0.01;  // of a test, divided by the number of tests
+constexpr double least_us = 2;      // p50, or p99, later by more than two stamps differ
+// Of one run a side, which does not show how much runs differ:
+constexpr double least_effect = 0.64;  // a 'medium' one of Vargha and Delaney (2000)
+constexpr double tail_times = 2;       // so many times as many beyond the 99 % quantile
+constexpr double least_share = 1;      // p50, or p99, later by more than this share of it
+
 Buckets buckets_of(const Json& distribution) {
   Buckets buckets;
   for (const Json& bucket : distribution.at("buckets_us"))
@@ -77,21 +85,9 @@ std::vector<std::string> values_of(const Reports& side, const char* path) {
   return values;
 }
 
-// The runs of a side: "first" and "second".
-struct Runs {
-  const Reports& reports;
-  std::string_view ordinal;
-
-  [[nodiscard]] std::string name(std::size_t i) const {
-    return reports.size() == 1 ? fmt::format("the {} run", ordinal)
-                               : fmt::format("run {} of the {} side", i + 1, ordinal);
-  }
-};
-
 class Comparer {
  public:
-  Comparer(const Reports& before, const Reports& after, const Bars& bars)
-      : before_{before, "first"}, after_{after, "second"}, bars_(bars) {}
+  Comparer(const Reports& before, const Reports& after) : before_(before), after_(after) {}
 
   Compared operator()() {
     if (auto why = not_comparable()) {
@@ -100,8 +96,8 @@ class Comparer {
       return result_;
     }
     differences();
-    const bool virtual_time = before_.reports[0].at("provenance").at("clock") == "lockstep";
-    const ChecksCompared checks = compare_checks(before_.reports, after_.reports, virtual_time);
+    const bool virtual_time = before_[0].at("provenance").at("clock") == "lockstep";
+    const ChecksCompared checks = compare_checks(before_, after_, virtual_time);
     result_.text += checks.text;
     if (checks.worse) result_.outcome = Comparison::worse;
     const bool measured = latencies(virtual_time) && !checks.unknown;
@@ -121,8 +117,8 @@ class Comparer {
 
   [[nodiscard]] std::optional<std::string> not_comparable() const {
     for (const Named& key : same) {
-      const Json first = before_.reports[0].at(Json::json_pointer(key.path));
-      for (const Reports* side : {&before_.reports, &after_.reports}) {
+      const Json first = before_[0].at(Json::json_pointer(key.path));
+      for (const Reports* side : {&before_, &after_}) {
         for (const Json& report : *side) {
           const Json& other = report.at(Json::json_pointer(key.path));
           if (other != first)
@@ -136,7 +132,7 @@ class Comparer {
   void differences() {
     std::string text;
     for (const Named& key : reasons) {
-      const auto before = values_of(before_.reports, key.path), after = values_of(after_.reports, key.path);
+      const auto before = values_of(before_, key.path), after = values_of(after_, key.path);
       if (before == after) continue;
       text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", key.name, fmt::join(before, " and "),
                           fmt::join(after, " and "));
@@ -150,32 +146,34 @@ class Comparer {
       say("latency  none in virtual time");
       return true;
     }
-    for (const Runs* side : {&before_, &after_}) {
-      for (std::size_t i = 0; i < side->reports.size(); ++i) {
-        const Json& timing = side->reports[i].at("timing");
+    for (const Reports* side : {&before_, &after_}) {
+      const char* ordinal = side == &before_ ? "first" : "second";
+      for (std::size_t i = 0; i < side->size(); ++i) {
+        const Json& timing = side->at(i).at("timing");
         if (timing.at("judged").get<bool>()) continue;
-        say("latency  not compared: in {} {}", side->name(i), timing.at("why_not").get<std::string>());
+        say("latency  not compared: in {} {}",
+            side->size() == 1 ? fmt::format("the {} run", ordinal)
+                              : fmt::format("run {} of the {} side", i + 1, ordinal),
+            timing.at("why_not").get<std::string>());
         return false;
       }
     }
     const std::vector<std::string> messages = answered_before();
     if (messages.empty()) {
-      say("latency  not compared: the first {} no answers",
-          before_.reports.size() == 1 ? "run has" : "side has");
+      say("latency  not compared: the first {} no answers", before_.size() == 1 ? "run has" : "side has");
       return false;
     }
     if (one_a_side())
       say("latency  one run a side: later counts from {:.0f} % of p50, or of p99, on, as runs differ",
-          bars_.least_share * 100);
-    const double p_bar = bars_.p / static_cast<double>(2 * messages.size());
+          least_share * 100);
+    const double p_bar = largest_p / static_cast<double>(2 * messages.size());
     for (const std::string& message : messages) {
-      if (!std::ranges::all_of(after_.reports,
-                               [&](const Json& report) { return answers(report, message); })) {
+      if (!std::ranges::all_of(after_, [&](const Json& report) { return answers(report, message); })) {
         result_.outcome = Comparison::worse;
         say("worse    latency of {}: no answers any more", message);
       } else if (one_a_side()) {
-        latency_of(message, before_.reports[0].at("latency_s").at(message),
-                   after_.reports[0].at("latency_s").at(message), p_bar);
+        latency_of(message, before_[0].at("latency_s").at(message), after_[0].at("latency_s").at(message),
+                   p_bar);
       } else {
         latency_of(message, p_bar);
       }
@@ -183,7 +181,7 @@ class Comparer {
     return true;
   }
 
-  [[nodiscard]] bool one_a_side() const { return before_.reports.size() == 1 && after_.reports.size() == 1; }
+  [[nodiscard]] bool one_a_side() const { return before_.size() == 1 && after_.size() == 1; }
 
   static bool answers(const Json& report, const std::string& message) {
     return report.contains("latency_s") && report.at("latency_s").contains(message) &&
@@ -193,11 +191,11 @@ class Comparer {
   // The messages that close their group, as the others come just before, in all runs of the first side.
   [[nodiscard]] std::vector<std::string> answered_before() const {
     std::vector<std::string> messages;
-    if (!before_.reports[0].contains("latency_s")) return messages;
-    for (const auto& [message, latency] : before_.reports[0].at("latency_s").items()) {
+    if (!before_[0].contains("latency_s")) return messages;
+    for (const auto& [message, latency] : before_[0].at("latency_s").items()) {
       if (!latency.at("closes_group").template get<bool>()) continue;
       const std::string& name = message;
-      if (std::ranges::all_of(before_.reports, [&](const Json& report) { return answers(report, name); }))
+      if (std::ranges::all_of(before_, [&](const Json& report) { return answers(report, name); }))
         messages.push_back(name);
     }
     return messages;
@@ -218,11 +216,11 @@ class Comparer {
     };
     const auto later = [&](const char* key) {
       const double was_us = us(before, key);
-      return us(after, key) - was_us > std::max(bars_.least_us, bars_.least_share * was_us);
+      return us(after, key) - was_us > std::max(least_us, least_share * was_us);
     };
-    const bool slower = ranks.p < p_bar && ranks.effect >= bars_.effect && later("p50");
+    const bool slower = ranks.p < p_bar && ranks.effect >= least_effect && later("p50");
     const bool heavier =
-        tail.p < p_bar && tail.share_b >= bars_.tail_times * std::max(tail.share_a, 0.01) && later("p99");
+        tail.p < p_bar && tail.share_b >= tail_times * std::max(tail.share_a, 0.01) && later("p99");
     conclude(
         slower || heavier, message,
         fmt::format("p50 {:.0f} -> {:.0f} us, p99 {:.0f} -> {:.0f} us; P(later) {:.3f} (p {:.2g}); beyond "
@@ -243,9 +241,9 @@ class Comparer {
         std::ranges::sort(values_us);
         return values_us;
       };
-      const std::vector<double> a_us = of_runs(before_.reports), b_us = of_runs(after_.reports);
+      const std::vector<double> a_us = of_runs(before_), b_us = of_runs(after_);
       const RunTest test = run_test(a_us, b_us);
-      worse = worse || (test.p < p_bar && test.later_us > bars_.least_us);
+      worse = worse || (test.p < p_bar && test.later_us > least_us);
       figures +=
           fmt::format("{}{} {:.0f}..{:.0f} -> {:.0f}..{:.0f} us (p {:.2g})", figures.empty() ? "" : ", ", key,
                       a_us.front(), a_us.back(), b_us.front(), b_us.back(), test.p);
@@ -253,16 +251,16 @@ class Comparer {
     conclude(worse, message, figures);
   }
 
-  const Runs before_, after_;
-  const Bars bars_;
+  const Reports& before_;
+  const Reports& after_;
   Compared result_;
 };
 
 }  // namespace
 
-Result<Compared> compare(const Reports& before, const Reports& after, const Bars& bars) {
+Result<Compared> compare(const Reports& before, const Reports& after) {
   try {
-    return Comparer(before, after, bars)();
+    return Comparer(before, after)();
   } catch (const Json::exception& error) {
     return failure(fmt::format("a report is not whole: {}", error.what()));
   } catch (const UnknownOutcome& outcome) {

@@ -1,8 +1,6 @@
-#include "bench/report/csv.hpp"
+#include "bench/report/run_reports.hpp"
 
 #include <fmt/format.h>
-
-#include <iterator>
 
 #include "bench/report/series.hpp"
 

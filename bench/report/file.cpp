@@ -32,19 +32,13 @@ Result<void> write_file(const std::string& path, std::string_view content) {
   const std::string unfinished = unfinished_name(path);
   std::FILE* file = std::fopen(unfinished.c_str(), "wb");
   if (file == nullptr) return complaint(path, errno);
-  const bool written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-  const int write_error = errno;
-  if (std::fclose(file) != 0 || !written) {
-    const int error = written ? errno : write_error;
-    std::remove(unfinished.c_str());
-    return complaint(path, error);
-  }
-  if (std::rename(unfinished.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    std::remove(unfinished.c_str());
-    return complaint(path, error);
-  }
-  return {};
+  // The first thing that went wrong is told.
+  int error = std::fwrite(content.data(), 1, content.size(), file) == content.size() ? 0 : errno;
+  if (std::fclose(file) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(unfinished.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) return {};
+  std::remove(unfinished.c_str());
+  return complaint(path, error);
 }
 
 Result<void> write(const std::string& path, std::string_view content) {

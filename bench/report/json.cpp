@@ -1,7 +1,8 @@
-#include "bench/report/json.hpp"
+#include "bench/report/run_reports.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -85,24 +86,18 @@ Json object(const realtime::Standing& host, std::int64_t spin_ns) {
           {"spin_us", spin_ns / 1000}};
 }
 
-constexpr std::string_view kind_name(Series::Kind kind) {
-  switch (kind) {
-    case Series::Kind::estimate:
-      return "estimate";
-    case Series::Kind::error:
-      return "error";
-    case Series::Kind::innovation:
-      return "innovation";
-    case Series::Kind::statistic:
-      break;
-  }
-  return "statistic";
-}
+// By Series::Kind.
+constexpr std::array<std::string_view, 4> kind_names{"estimate", "error", "innovation", "statistic"};
 
 Json object(const Series& series) {
-  Json json{{"estimator", series.estimator}, {"name", series.about->name},     {"quantity", series.quantity},
-            {"unit", series.unit},           {"kind", kind_name(series.kind)}, {"t_s", Json::array()},
-            {"low", Json::array()},          {"high", Json::array()}};
+  Json json{{"estimator", series.estimator},
+            {"name", series.about->name},
+            {"quantity", series.quantity},
+            {"unit", series.unit},
+            {"kind", kind_names[static_cast<std::size_t>(series.kind)]},
+            {"t_s", Json::array()},
+            {"low", Json::array()},
+            {"high", Json::array()}};
   // An estimate is looked at beside a truth that differs in its last digits.
   const int digits = series.kind == Series::Kind::estimate ? 8 : 5;
   const auto or_null = [&](const std::optional<double>& value) {
@@ -158,7 +153,7 @@ Json target(const drive::Run& run) {
   return json;
 }
 
-Json provenance(const scenario::Scenario& scenario, const drive::Run& run, const Summary& summary) {
+Json provenance(const scenario::Scenario& scenario, const drive::Run& run) {
   Json json{{"scenario", scenario.file},
             {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
             {"contract", name_of(run.options.format)},
@@ -166,8 +161,8 @@ Json provenance(const scenario::Scenario& scenario, const drive::Run& run, const
             {"seed", scenario.seed},
             {"run", run.options.run_index},
             {"bus", run.options.bus.text},
-            {"clock", summary.clock},
-            {"latency_stamps", summary.stamp_source},
+            {"clock", clock_name(run)},
+            {"latency_stamps", stamp_source(run)},
             {"period_overrides", period_overrides(scenario)},
             {"date", date_utc(run.started_s)},
             {"revision", revision()},
@@ -207,13 +202,12 @@ void print(std::string& out, const Json& json, std::size_t indent) {
 }  // namespace
 
 Json document(const scenario::Scenario& scenario, const drive::Run& run) {
-  const Summary summary = summarise(scenario, run);
   Json page;
   page["schema"] = schema;
   page["title"] = scenario.title;
   page["verdict"] = checks::name(run.verdict.outcome);
   page["reason"] = run.verdict.reason;
-  page["provenance"] = provenance(scenario, run, summary);
+  page["provenance"] = provenance(scenario, run);
   page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
   page["wall_s"] = run.wall_s;
   page["ending"] = {{"completed", run.ending.kind == drive::Ending::Kind::completed},
@@ -228,7 +222,7 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
                               {"measured", check.measured},
                               {"expected", check.expected}});
   }
-  for (const EstimatorResults& one : summary.results)
+  for (const EstimatorResults& one : results(scenario, run))
     page["results"][std::string(one.estimator)] = object(one.lines);
   page["timing"] = timing_judged(run);
   if (run.clock != drive::ClockKind::lockstep) add_timing(page, scenario, run);
@@ -258,14 +252,10 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   return page;
 }
 
-std::string text_of(const Json& document) {
-  std::string out;
-  print(out, document, 0);
-  return out + "\n";
-}
-
 std::string json(const scenario::Scenario& scenario, const drive::Run& run) {
-  return text_of(document(scenario, run));
+  std::string out;
+  print(out, document(scenario, run), 0);
+  return out + "\n";
 }
 
 }  // namespace canhil::report

@@ -14,8 +14,11 @@ namespace {
 
 constexpr std::array<std::string_view, 5> stamp_names{"hardware", "kernel", "hub", "process", "virtual_time"};
 
-}  // namespace
+double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] of those that are not empty.
 Json object(const checks::Histogram& histogram) {
   const checks::Distribution d = checks::distribution_s(histogram);
   Json json{{"count", d.count}, {"min", d.min},   {"p50", d.p50}, {"p90", d.p90},
@@ -25,22 +28,19 @@ Json object(const checks::Histogram& histogram) {
   return json;
 }
 
+// stretch_s, and largest_s of each stretch from time 0 on; null where there was no value.
 Json object(const checks::TimeLine& line) {
-  Json json{{"stretch_s", static_cast<double>(line.stretch_ns()) * 1e-9}, {"largest_s", Json::array()}};
+  Json json{{"stretch_s", seconds(line.stretch_ns())}, {"largest_s", Json::array()}};
   for (const std::int64_t largest_ns : line.largest_ns())
-    json["largest_s"].push_back(largest_ns < 0 ? Json(nullptr)
-                                               : Json(static_cast<double>(largest_ns) * 1e-9));
+    json["largest_s"].push_back(largest_ns < 0 ? Json(nullptr) : Json(seconds(largest_ns)));
   return json;
 }
-
-namespace {
 
 Json split_of(const checks::TimingRecord& timing) {
   const checks::LatencySplit& split = timing.split;
   Json json{{"stimuli", split.stimuli}, {"told_by_target", split.told}, {"total_s", total_s(split)}};
-  for (const SplitPart& part : parts(timing))
-    json["parts_s"][std::string(part.key)] = part.mean_s ? Json(*part.mean_s) : Json(nullptr);
   for (const SplitPart& part : parts(timing)) {
+    json["parts_s"][std::string(part.key)] = or_null(part.mean_s);
     if (part.bound == Bound::at_least) json["at_least"].push_back(part.key);
     if (part.bound == Bound::at_most) json["at_most"].push_back(part.key);
   }
@@ -48,14 +48,14 @@ Json split_of(const checks::TimingRecord& timing) {
     Json& one = json["groups"][std::string(group)];
     one = {{"stimuli", of_group.stimuli}, {"total_s", total_s(of_group)}};
     for (const SplitPart& part : group_parts(timing, of_group))
-      one["parts_s"][std::string(part.key)] = part.mean_s ? Json(*part.mean_s) : Json(nullptr);
+      one["parts_s"][std::string(part.key)] = or_null(part.mean_s);
   }
   const checks::SlowestAnswer& slowest = timing.slowest;
   if (!slowest.message.empty()) {
     json["slowest"] = {{"message", slowest.message},
-                       {"t_s", static_cast<double>(slowest.t_ns) * 1e-9},
-                       {"latency_s", static_cast<double>(slowest.latency_ns) * 1e-9},
-                       {"reply_wire_s", static_cast<double>(slowest.reply_wire_ns) * 1e-9},
+                       {"t_s", seconds(slowest.t_ns)},
+                       {"latency_s", seconds(slowest.latency_ns)},
+                       {"reply_wire_s", seconds(slowest.reply_wire_ns)},
                        {"queue_max_us", slowest.queue_max_us},
                        {"compute_max_us", slowest.compute_max_us}};
   }
@@ -71,10 +71,10 @@ Json wire_of(const checks::Observations& seen) {
     json["messages"].push_back(
         {{"name", bound.message},
          {"count", bound.count},
-         {"longest_s", static_cast<double>(bound.longest_ns) * 1e-9},
+         {"longest_s", seconds(bound.longest_ns)},
          {"at_least", bound.of_target},
-         {"frame_s", static_cast<double>(bound.frame_ns) * 1e-9},
-         {"bound_s", bound.bound_ns ? Json(static_cast<double>(*bound.bound_ns) * 1e-9) : Json(nullptr)}});
+         {"frame_s", seconds(bound.frame_ns)},
+         {"bound_s", bound.bound_ns ? Json(seconds(*bound.bound_ns)) : Json(nullptr)}});
   }
   return json;
 }
@@ -115,7 +115,7 @@ Json timing_judged(const drive::Run& run) {
   Json json{{"judged", run.timing_unfit.empty()},
             {"why_not", run.timing_unfit},
             {"answer_stamps", Json::object()},
-            {"clock_step_s", static_cast<double>(run.seen.host.clock_step_ns) * 1e-9},
+            {"clock_step_s", seconds(run.seen.host.clock_step_ns)},
             {"cpu_run_s", run.seen.host.cpu_run_s},
             {"cpu_wait_s", run.seen.host.cpu_wait_s},
             {"cpu_stolen_share", run.seen.host.stolen_share},

@@ -1,8 +1,7 @@
-#include "bench/report/junit.hpp"
+#include "bench/report/run_reports.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <iterator>
 
 #include "bench/report/markup.hpp"
 #include "bench/report/provenance.hpp"

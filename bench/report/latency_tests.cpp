@@ -1,8 +1,6 @@
 #include "bench/report/latency_tests.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "bench/checks/probability.hpp"
@@ -10,11 +8,15 @@
 namespace canhil::report {
 namespace {
 
-double count_of(const Buckets& sample) {
-  double count = 0;
-  for (const auto& bucket : sample) count += static_cast<double>(bucket.count);
-  return count;
+// Of the buckets behind that one.
+double count_beyond(const Buckets& sample, std::int64_t from_us) {
+  double beyond = 0;
+  for (const auto& bucket : sample)
+    if (bucket.from_us > from_us) beyond += static_cast<double>(bucket.count);
+  return beyond;
 }
+
+double count_of(const Buckets& sample) { return count_beyond(sample, -1); }
 
 // Where the 99 % quantile is, by nearest rank.
 std::int64_t p99_bucket(const Buckets& sample) {
@@ -24,13 +26,6 @@ std::int64_t p99_bucket(const Buckets& sample) {
     if (left <= 0) return bucket.from_us;
   }
   return sample.empty() ? 0 : sample.back().from_us;
-}
-
-double share_beyond(const Buckets& sample, std::int64_t from_us) {
-  double beyond = 0;
-  for (const auto& bucket : sample)
-    if (bucket.from_us > from_us) beyond += static_cast<double>(bucket.count);
-  return beyond / count_of(sample);
 }
 
 double mean_of(std::span<const double> values) {
@@ -72,7 +67,7 @@ TailTest tail_test(const Buckets& a, const Buckets& b) {
   const double m = count_of(a), n = count_of(b);
   if (m == 0 || n == 0) return {};
   const std::int64_t bar_us = p99_bucket(a);
-  TailTest test{.share_a = share_beyond(a, bar_us), .share_b = share_beyond(b, bar_us)};
+  TailTest test{.share_a = count_beyond(a, bar_us) / m, .share_b = count_beyond(b, bar_us) / n};
   const double pooled = (test.share_a * m + test.share_b * n) / (m + n);
   const double variance = pooled * (1 - pooled) * (1 / m + 1 / n);
   if (variance > 0) test.p = checks::normal_above((test.share_b - test.share_a) / std::sqrt(variance));

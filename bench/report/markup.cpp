@@ -2,33 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 namespace canhil::report {
 
 std::string escaped(std::string_view plain) {
+  constexpr std::string_view special = "&<>\"";
+  constexpr std::array<std::string_view, special.size()> entities{"&amp;", "&lt;", "&gt;", "&quot;"};
   std::string safe;
   for (const char c : plain) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
+    const std::size_t place = special.find(c);
+    if (place != std::string_view::npos)
+      safe += entities[place];
+    else
+      safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return safe;
 }
 
-std::string table(const std::vector<std::string>& head, const std::vector<std::vector<std::string>>& rows,
-                  std::string_view style) {
+std::string table(const std::vector<std::string>& head, const Rows& rows, std::string_view style) {
   std::string out = fmt::format("<table class=\"{}\"><thead><tr>", style);
   for (const std::string& cell : head) out += fmt::format("<th>{}</th>", cell);
   out += "</tr></thead><tbody>\n";
@@ -41,10 +33,9 @@ std::string table(const std::vector<std::string>& head, const std::vector<std::v
   return out + "</tbody></table>\n";
 }
 
-std::string figure(std::string_view title, std::string_view drawing, std::string_view note,
-                   std::string_view id) {
-  return fmt::format("<figure{}><h3>{}</h3>{}<figcaption>{}</figcaption></figure>\n",
-                     id.empty() ? "" : fmt::format(" id=\"{}\"", id), escaped(title), drawing, escaped(note));
+std::string figure(std::string_view title, std::string_view drawing, std::string_view note) {
+  return fmt::format("<figure><h3>{}</h3>{}<figcaption>{}</figcaption></figure>\n", escaped(title), drawing,
+                     escaped(note));
 }
 
 std::string whole_page(std::string_view title, EmbeddedFiles styles, std::string_view body) {

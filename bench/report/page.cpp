@@ -2,21 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <nlohmann/json.hpp>
 
-#include "bench/report/json.hpp"
-#include "bench/report/markup.hpp"
-#include "bench/report/page_results.hpp"
-#include "bench/report/page_sections.hpp"
-#include "bench/report/styles.hpp"
+#include "bench/report/page_parts.hpp"
+#include "bench/report/run_reports.hpp"
 #include "bench/report/whole.hpp"
 #include "dbc/files/text_file.hpp"
 
 namespace canhil::report {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int most_depth = 32;  // a report has 6
 
@@ -33,22 +27,56 @@ std::string length_differs(const Json& report) {
   return {};
 }
 
+// What the run made of each estimator as a whole.
+std::string results_section(const Json& report) {
+  if (!report.contains("results")) return "";
+  std::string out = "<section id=\"results\"><h2>Results</h2>\n";
+  for (const auto& [estimator, lines] : report.at("results").items()) {
+    Rows rows;
+    for (const Json& line : lines) {
+      std::string words;
+      for (const Json& figure : line.at("figures")) {
+        const std::string one = text_in(figure.at("words"));
+        if (!one.empty()) words += (words.empty() ? "" : ", ") + one;
+      }
+      rows.push_back({text_in(line.at("what")), words.empty() ? "none" : words});
+    }
+    out += fmt::format("<h3>{}</h3>\n", escaped(estimator)) + table({"what", "value"}, rows, "pairs");
+  }
+  return out + "</section>\n";
+}
+
+// The course of the estimates against the truth.
+std::string estimates_section(const Json& report) {
+  if (report.at("series").empty()) return "";
+  std::string out = "<section id=\"estimates\"><h2>Estimates against the truth</h2>\n";
+  std::string estimator;
+  for (const Json& series : report.at("series")) {
+    const std::string own = series.at("estimator").get<std::string>();
+    if (own != estimator) {
+      if (!estimator.empty()) out += "</div>\n";
+      out += fmt::format("<h3>{}</h3>\n<div class=\"grid\">\n", escaped(own));
+      estimator = own;
+    }
+    out += estimate(series);
+  }
+  return out + "</div></section>\n";
+}
+
 std::string page_of(const Json& report) {
   const std::string verdict = report.at("verdict").get<std::string>();
   const std::string title = escaped(report.at("title").get<std::string>());
   const Json& provenance = report.at("provenance");
-  const char* kind = verdict == "pass" ? "yes" : verdict == "fail" ? "no" : "unknown";
-  const char* sign = verdict == "pass" ? "&#10003;" : verdict == "fail" ? "&#10007;" : "?";
+  const auto [style, sign] = look_of(verdict);
   std::string out = fmt::format("<h1>{}</h1>\n", title);
-  out += fmt::format(
-      "<p class=\"sub\">{} &middot; bus {} &middot; {} &middot; {:g} s &middot; {}</p>\n",
-      escaped(provenance.at("scenario").get<std::string>()), escaped(provenance.at("bus").get<std::string>()),
-      escaped(provenance.at("clock").get<std::string>()), report.at("duration_s").get<double>(),
-      escaped(provenance.at("date").get<std::string>()));
-  out += fmt::format("<p class=\"verdict {}\"><b>{} {}</b>{}</p>\n", kind, sign, escaped(verdict),
+  out += fmt::format("<p class=\"sub\">{} &middot; bus {} &middot; {} &middot; {:g} s &middot; {}</p>\n",
+                     text_in(provenance.at("scenario")), text_in(provenance.at("bus")),
+                     text_in(provenance.at("clock")), report.at("duration_s").get<double>(),
+                     text_in(provenance.at("date")));
+  out += fmt::format("<p class=\"verdict {}\"><b>{} {}</b>{}</p>\n", style, sign, escaped(verdict),
                      escaped(report.at("reason").get<std::string>()));
   out += "<nav><a href=\"#checks\">checks</a>";
-  if (has_results(report)) out += "<a href=\"#results\">results</a>";
+  if (report.contains("results")) out += "<a href=\"#results\">results</a>";
   out += "<a href=\"#timing\">latency and jitter</a>";
   if (!report.at("series").empty()) out += "<a href=\"#estimates\">estimates</a>";
   out += "<a href=\"#bus\">bus</a><a href=\"#provenance\">provenance</a></nav>\n";

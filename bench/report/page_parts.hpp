@@ -1,27 +1,65 @@
-// Values of a report on its page.
+// What a report's page is put together from, each as HTML from the report's JSON: values, pictures, sections.
 #pragma once
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 #include "bench/report/markup.hpp"
 
 namespace canhil::report {
 
-/// A number that is not there: null in the report.
-inline constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
+using Json = nlohmann::ordered_json;
+
+/// The style of the page, built into the program.
+extern const EmbeddedFiles styles;
 
 /// A value of the report for an element.
-inline std::string text_in(const nlohmann::ordered_json& value) {
+inline std::string text_in(const Json& value) {
   return escaped(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
+/// How an outcome of the report looks: not by its colour alone.
+struct Look {
+  const char* style;
+  const char* sign;
+};
+inline Look look_of(std::string_view outcome) {
+  return outcome == "pass"   ? Look{"yes", "&#10003;"}
+         : outcome == "fail" ? Look{"no", "&#10007;"}
+                             : Look{"unknown", "?"};
+}
+
 /// A time of a distribution in ms.
-inline std::string ms(const nlohmann::ordered_json& distribution, const char* key) {
+inline std::string ms(const Json& distribution, const char* key) {
   return fmt::format("{:.3f}", distribution.at(key).get<double>() * 1e3);
 }
+
+// The pictures.
+
+/// A distribution of times.
+std::string histogram(const std::string& title, const Json& distribution);
+
+/// The largest time of each stretch of the run.
+std::string course(const std::string& title, const Json& line);
+
+/// The drawing alone of the largest value of each stretch of the run, from zero; `scale` makes the unit of
+/// the numbers.
+std::string from_zero(const std::string& title, const std::string& unit, double stretch_s,
+                      const Json& largest, double scale);
+
+/// A quantity over the run; a second picture of its late course where the first instants hide that.
+std::string estimate(const Json& series);
+
+// The sections.
+
+std::string checks_section(const Json& report);
+/// Latency, jitter and lateness; what is missing. Nothing in virtual time but the reason.
+std::string timing_section(const Json& report);
+/// Load, drops and errors.
+std::string bus_section(const Json& report);
+std::string provenance_section(const Json& report);
 
 }  // namespace canhil::report

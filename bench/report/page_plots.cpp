@@ -1,19 +1,18 @@
-#include "bench/report/page_plots.hpp"
+#include "bench/report/page_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "bench/checks/histogram.hpp"
-#include "bench/report/page_parts.hpp"
 #include "bench/report/plot.hpp"
 
 namespace canhil::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();  // null in the report
 
 // As many as there are times.
 std::vector<double> numbers(const Json& array, std::size_t size) {
@@ -103,25 +102,28 @@ std::optional<Part> judged_course(const Course& course) {
   return part;
 }
 
-// What the bars ask, in words.
-std::string asked(const Json& series) {
+// Gives the plot the bars, and tells in words what they ask.
+std::string bars(const Json& series, LinePlot& plot) {
   if (!series.contains("bars")) return "";
   std::string words;
   for (const Json& bar : series.at("bars")) {
+    const LinePlot::Bar own{.below = bar.at("below").get<double>(),
+                            .from_s = bar.at("from_s").get<double>(),
+                            .to_s = bar.at("to_s").get<double>()};
     const std::string statistic = bar.at("statistic").get<std::string>();
     words += fmt::format("; bar of '{}': {}{:g} {} from {:g} to {:g} s", bar.at("check").get<std::string>(),
-                         statistic == "max" ? "" : statistic + " below ", bar.at("below").get<double>(),
-                         series.at("unit").get<std::string>(), bar.at("from_s").get<double>(),
-                         bar.at("to_s").get<double>());
+                         statistic == "max" ? "" : statistic + " below ", own.below, plot.unit, own.from_s,
+                         own.to_s);
+    plot.bars.push_back(own);
   }
   return words;
 }
 
 std::string beyond_words(const LinePlot& plot) {
-  std::size_t beyond = 0;
-  for (const LinePlot::Bar& bar : plot.bars) beyond += shows(plot, bar) ? 0 : 1;
-  if (beyond == 0) return "";
-  return beyond == plot.bars.size() ? " (beyond this picture)" : " (some beyond this picture)";
+  const auto shown =
+      std::ranges::count_if(plot.bars, [&](const LinePlot::Bar& bar) { return shows(plot, bar); });
+  if (shown == std::ssize(plot.bars)) return "";
+  return shown == 0 ? " (beyond this picture)" : " (some beyond this picture)";
 }
 
 // What the lines are, for all kinds of series.
@@ -162,8 +164,8 @@ std::string histogram(const std::string& title, const Json& distribution) {
         width_us > 0 ? static_cast<double>(from_us + width_us) : distribution.at("max").get<double>() * 1e6;
     plot.bars.push_back({static_cast<double>(from_us), to_us, bucket.at(1).get<double>()});
   }
-  for (const auto& [label, key] : {std::pair("p50", "p50"), std::pair("p99", "p99"), std::pair("max", "max")})
-    plot.marks.push_back({label, distribution.at(key).get<double>() * 1e6});
+  for (const char* key : {"p50", "p99", "max"})
+    plot.marks.push_back({key, distribution.at(key).get<double>() * 1e6});
   return figure(title, svg(plot),
                 fmt::format("p50 {}, p99 {}, p99.9 {}, max {} ms of {}", ms(distribution, "p50"),
                             ms(distribution, "p99"), ms(distribution, "p999"), ms(distribution, "max"),
@@ -200,14 +202,8 @@ std::string estimate(const Json& series) {
                 .around_zero = kind == "error" || kind == "innovation"};
   LinePlot& plot = course.plot;
   const std::string note = lines(series, plot);
-  if (series.contains("bars")) {
-    for (const Json& bar : series.at("bars"))
-      plot.bars.push_back({.below = bar.at("below").get<double>(),
-                           .from_s = bar.at("from_s").get<double>(),
-                           .to_s = bar.at("to_s").get<double>()});
-  }
-  const std::string bars = asked(series);
-  std::string out = figure(title, svg(plot), note + bars + beyond_words(plot));
+  const std::string asked = bars(series, plot);
+  std::string out = figure(title, svg(plot), note + asked + beyond_words(plot));
   if (kind == "statistic") return out;
   auto part = late_course(course);
   if (!part) part = judged_course(course);
@@ -225,7 +221,7 @@ std::string estimate(const Json& series) {
                       fmt::format("the same {}, where the axis is {:.0f} times as fine{}{}{}", when,
                                   extent_of(plot).size() / shown.size(),
                                   band_beyond ? "; 3 sigma lies beyond this picture" : "",
-                                  second.bars.empty() ? "" : bars, beyond_words(second)));
+                                  second.bars.empty() ? "" : asked, beyond_words(second)));
 }
 
 }  // namespace canhil::report

@@ -1,52 +1,49 @@
-#include "bench/report/page_sections.hpp"
+#include "bench/report/page_parts.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/timing_record.hpp"
-#include "bench/report/markup.hpp"
-#include "bench/report/page_parts.hpp"
-#include "bench/report/page_plots.hpp"
 #include "bench/report/split.hpp"
 
 namespace canhil::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::vector<std::string> percentiles(const Json& distribution) {
-  std::vector<std::string> cells{distribution.at("count").dump()};
+// The percentiles of a distribution, as cells behind a first one.
+std::vector<std::string> percentiles(std::string first, const Json& distribution) {
+  std::vector<std::string> cells{std::move(first), distribution.at("count").dump()};
   const bool none = distribution.at("count").get<std::uint64_t>() == 0;
   for (const char* key : {"min", "p50", "p90", "p99", "p999", "max"})
     cells.push_back(none ? "&ndash;" : ms(distribution, key));
   return cells;
 }
 
-const std::vector<std::string> percentile_head{"count", "min ms", "p50", "p90", "p99", "p99.9", "max"};
+std::vector<std::string> percentile_head(const char* first) {
+  return {first, "count", "min ms", "p50", "p90", "p99", "p99.9", "max"};
+}
 
-std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+// A table that is there for who asks.
+std::string folded(std::string_view summary, const std::vector<std::string>& head, const Rows& rows) {
+  return fmt::format("<details><summary>{}</summary>\n{}</details>", summary, table(head, rows, "figures"));
 }
 
 // What happened, as rows of a name and a number; those that are 0 are left out.
-std::vector<std::vector<std::string>> incidents(const Json& object, std::string_view of) {
-  std::vector<std::vector<std::string>> rows;
+void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   for (const auto& [key, value] : object.items()) {
     if (value.is_number() && value.get<double>() != 0)
       rows.push_back({escaped(fmt::format("{}: {}", of, key)), text_in(value)});
   }
-  return rows;
 }
 
 // Nested objects as rows "a: b".
-void add_rows(std::vector<std::vector<std::string>>& rows, const std::string& name, const Json& value) {
+void add_rows(Rows& rows, const std::string& name, const Json& value) {
   if (value.is_object()) {
     for (const auto& [key, inner] : value.items())
-      add_rows(rows, name.empty() ? key : name + ": " + key, inner);
+      add_rows(rows, name.empty() ? key : fmt::format("{}: {}", name, key), inner);
   } else if (value.is_array()) {
     std::string list;
     for (const Json& item : value) list += (list.empty() ? "" : ", ") + text_in(item);
@@ -62,20 +59,18 @@ std::string ms_or_none(const Json& seconds) {
 
 // "&ge; " or "&le; " where a part is known so far only.
 const char* bound_of(const Json& split, const std::string& part) {
-  for (const auto& [key, sign] : {std::pair("at_least", "&ge; "), std::pair("at_most", "&le; ")}) {
-    if (!split.contains(key)) continue;
-    for (const Json& one : split.at(key)) {
-      if (one == part) return sign;
-    }
-  }
-  return "";
+  const auto listed = [&](const char* key) {
+    return split.contains(key) &&
+           std::ranges::any_of(split.at(key), [&](const Json& one) { return one == part; });
+  };
+  return listed("at_least") ? "&ge; " : listed("at_most") ? "&le; " : "";
 }
 
 // The same way for each group of stimuli: one that is answered rarely is lost in the mean of all.
 std::string group_table(const Json& split) {
   if (!split.contains("groups") || split.at("groups").size() < 2) return "";
   std::vector<std::string> head{"part, by stimulus"};
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   for (const auto& [group, one] : split.at("groups").items()) {
     head.push_back(fmt::format("{} ms ({})", escaped(group), one.at("stimuli").dump()));
     std::size_t row = 0;
@@ -96,7 +91,7 @@ std::string split_table(const Json& report) {
   if (!report.contains("split")) return "";
   const Json& split = report.at("split");
   const double total_s = split.at("total_s").get<double>();
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   for (const auto& [key, mean] : split.at("parts_s").items()) {
     const std::string share =
         mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
@@ -134,7 +129,7 @@ std::string wire_table(const Json& report) {
   std::string out = fmt::format("<h3>Over the bus at {}, beside the bound</h3>\n", checks::words(rates));
   if (const std::string why = text_in(wire.at("no_bounds")); !why.empty())
     out += fmt::format("<p class=\"unknown\">? Bounds do not hold in this run: {}.</p>\n", why);
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   for (const Json& message : wire.at("messages")) {
     const double longest_s = message.at("longest_s").get<double>();
     const Json& bound = message.at("bound_s");
@@ -153,11 +148,10 @@ std::string wire_table(const Json& report) {
 }  // namespace
 
 std::string checks_section(const Json& report) {
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   for (const Json& check : report.at("checks")) {
     const std::string outcome = check.at("outcome").get<std::string>();
-    const char* style = outcome == "pass" ? "yes" : outcome == "fail" ? "no" : "unknown";
-    const char* sign = outcome == "pass" ? "&#10003;" : outcome == "fail" ? "&#10007;" : "?";
+    const auto [style, sign] = look_of(outcome);
     const std::string requirement = text_in(check.at("requirement"));
     rows.push_back({text_in(check.at("name")),
                     fmt::format("<span class=\"{}\">{} {}</span>", style, sign, escaped(outcome)),
@@ -183,13 +177,13 @@ std::string timing_section(const Json& report) {
   const Json& latencies = report.contains("latency_s") ? report.at("latency_s") : none;
   const Json& jitters = report.contains("jitter_s") ? report.at("jitter_s") : none;
   // What closes a group of answers stands for it; the others are there for who asks.
-  std::vector<std::vector<std::string>> rows, others;
+  Rows rows, others;
   std::string figures;
   for (const auto& [message, latency] : latencies.items()) {
     const bool closes = latency.at("closes_group").get<bool>();
-    (closes ? rows : others)
-        .push_back(
-            joined(joined({escaped(message)}, percentiles(latency)), {latency.at("unanswered").dump()}));
+    std::vector<std::string>& row = (closes ? rows : others).emplace_back();
+    row = percentiles(escaped(message), latency);
+    row.push_back(latency.at("unanswered").dump());
     if (!closes) continue;
     figures += fmt::format("<h3>{}</h3>\n", escaped(message));
     if (latency.at("count").get<std::uint64_t>() == 0) {
@@ -206,28 +200,24 @@ std::string timing_section(const Json& report) {
   figures += "<h3>The bench itself</h3>\n<div class=\"grid\">\n";
   figures += histogram("Lateness", report.at("bench_lateness_s"));
   figures += course("Lateness over time", report.at("bench_lateness_s").at("line")) + "</div>\n";
-  const auto head = joined(joined({"latency of"}, percentile_head), {"never came"});
+  auto head = percentile_head("latency of");
+  head.push_back("never came");
   if (!rows.empty()) out += table(head, rows, "figures");
-  if (!others.empty()) {
-    out += "<details><summary>Latency of the frames before the last of each answer</summary>\n" +
-           table(head, others, "figures") + "</details>\n";
-  }
+  if (!others.empty())
+    out += folded("Latency of the frames before the last of each answer", head, others) + "\n";
   out += split_table(report) + figures;
   rows.clear();
-  for (const auto& [message, jitter] : jitters.items())
-    rows.push_back(joined({escaped(message)}, percentiles(jitter)));
-  out += "<details><summary>Deviation from the period, by message</summary>\n" +
-         table(joined({"deviation of"}, percentile_head), rows, "figures") + "</details>\n";
+  for (const auto& [message, jitter] : jitters.items()) rows.push_back(percentiles(escaped(message), jitter));
+  out += folded("Deviation from the period, by message", percentile_head("deviation of"), rows) + "\n";
   rows.clear();
   if (report.contains("transmit_lateness_s")) {
     for (const auto& [message, lateness] : report.at("transmit_lateness_s").items()) {
-      rows.push_back(joined({escaped(message) + ", handed over"}, percentiles(lateness.at("handed_over"))));
+      rows.push_back(percentiles(escaped(message) + ", handed over", lateness.at("handed_over")));
       if (lateness.contains("echoed"))
-        rows.push_back(joined({escaped(message) + ", on the bus"}, percentiles(lateness.at("echoed"))));
+        rows.push_back(percentiles(escaped(message) + ", on the bus", lateness.at("echoed")));
     }
   }
-  return out + "<details><summary>Lateness of the bench, by message</summary>\n" +
-         table(joined({"message"}, percentile_head), rows, "figures") + "</details></section>\n";
+  return out + folded("Lateness of the bench, by message", percentile_head("message"), rows) + "</section>\n";
 }
 
 std::string bus_section(const Json& report) {
@@ -244,11 +234,10 @@ std::string bus_section(const Json& report) {
           "the only one: the run ends within it",
           stretch_s));
   out += "</div>\n" + wire_table(report) + "<h3>Lost and broken</h3>\n";
-  std::vector<std::vector<std::string>> rows = incidents(report.at("bus"), "bus");
-  for (auto& row : incidents(report.at("from_target"), "from the target")) rows.push_back(std::move(row));
-  if (report.contains("target_counters")) {
-    for (auto& row : incidents(report.at("target_counters"), "to the target")) rows.push_back(std::move(row));
-  }
+  Rows rows;
+  add_incidents(rows, report.at("bus"), "bus");
+  add_incidents(rows, report.at("from_target"), "from the target");
+  if (report.contains("target_counters")) add_incidents(rows, report.at("target_counters"), "to the target");
   if (report.contains("latency_s")) {
     for (const auto& [message, latency] : report.at("latency_s").items()) {
       if (latency.at("unanswered").get<std::uint64_t>() > 0)
@@ -267,7 +256,7 @@ std::string bus_section(const Json& report) {
 }
 
 std::string provenance_section(const Json& report) {
-  std::vector<std::vector<std::string>> rows;
+  Rows rows;
   add_rows(rows, "", report.at("provenance"));
   add_rows(rows, "duration_s", report.at("duration_s"));
   add_rows(rows, "wall_s", report.at("wall_s"));

@@ -190,7 +190,6 @@ std::vector<double> round_values(double from, double to, int most) {
 std::string svg(const HistogramPlot& plot) {
   if (plot.bars.empty()) return "<p class=\"note\">nothing measured</p>";
   constexpr std::size_t column_count = 92;
-  double most = 0;
   Extent extent;
   for (const HistogramPlot::Bar& bar : plot.bars) {
     extent.add(std::log10(std::max(bar.from_us, 1.0)));
@@ -202,7 +201,7 @@ std::string svg(const HistogramPlot& plot) {
   }
   const Axis x{extent.low, extent.high, left, right};
   const std::vector<double> counts = columns(plot, x, column_count);
-  most = *std::ranges::max_element(counts);
+  const double most = std::ranges::max(counts);
   // One answer is a bar of its own height.
   const Axis y{std::log10(0.5), std::log10(most) + 0.12, bottom, top};
   std::string out = begin(plot.title);
@@ -230,9 +229,9 @@ std::string svg(const HistogramPlot& plot) {
   for (const HistogramPlot::Mark& mark : plot.marks) {
     const double at = x(std::log10(std::max(mark.at_us, 1.0)));
     out += line("mark", at, top - 4, at, bottom);
-    const bool room = at - last_mark > 30;
-    if (room) out += words(std::min(at, right - 8), top - 9, "middle", mark.label);
-    if (room) last_mark = at;
+    if (at - last_mark <= 30) continue;
+    out += words(std::min(at, right - 8), top - 9, "middle", mark.label);
+    last_mark = at;
   }
   out += frame();
   out +=

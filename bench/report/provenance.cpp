@@ -1,5 +1,6 @@
 #include "bench/report/provenance.hpp"
 
+#include <fmt/chrono.h>
 #include <sys/utsname.h>
 
 #include <ctime>
@@ -43,12 +44,7 @@ std::string cpu_model() {
 
 std::string date_utc(std::int64_t seconds_since_1970) {
   if (seconds_since_1970 == 0) return "unknown";
-  const auto seconds = static_cast<std::time_t>(seconds_since_1970);
-  std::tm fields{};
-  gmtime_r(&seconds, &fields);
-  char date[32];
-  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", &fields);
-  return date;
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time_t{seconds_since_1970}));
 }
 
 }  // namespace canhil::report

@@ -1,11 +1,12 @@
 #include "bench/report/series.hpp"
 
-#include <iterator>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "bench/checks/probability.hpp"
+#include "bench/checks/rule.hpp"
 #include "bench/estimators/registry.hpp"
-#include "bench/report/series_bars.hpp"
-#include "bench/report/thinned.hpp"
 
 namespace canhil::report {
 namespace {
@@ -13,80 +14,112 @@ namespace {
 using quantities::Told;
 using quantities::Track;
 
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+
 std::optional<double> in(const quantities::Unit& unit, const std::optional<double>& value) {
   return value ? std::optional(*value / unit.factor) : std::nullopt;
 }
 
 Series::Kind kind_of(const Track& track) {
-  switch (track.kind) {
-    case Track::Kind::innovation:
-      return Series::Kind::innovation;
-    case Track::Kind::statistic:
-      return Series::Kind::statistic;
-    case Track::Kind::error:
-      break;
-  }
-  return Series::Kind::error;
+  return track.kind == Track::Kind::innovation  ? Series::Kind::innovation
+         : track.kind == Track::Kind::statistic ? Series::Kind::statistic
+                                                : Series::Kind::error;
 }
 
-// The pictures of one estimator: estimates beside the truth first.
-class Pictures {
- public:
-  Pictures(std::string_view estimator, std::int64_t duration_us)
-      : estimator_(estimator), duration_us_(duration_us) {}
-
-  void add(const Track& track) {
-    if (!track.estimate_title.empty()) {
-      Series series = empty(track, track.estimate_title, track.estimate_unit);
-      series.kind = Series::Kind::estimate;
-      estimates_.push_back(thinned(std::move(series), track, [&](const Told& told) {
-        return Sample{.value = *in(track.estimate_unit, told.estimate),
-                      .sigma = {},
-                      .truth = in(track.estimate_unit, told.truth)};
-      }));
+// What a track told, put together into stretches of equal length, with a gap where nothing came for too long.
+template <class PointOf>
+std::vector<Series::Point> thinned(const Track& track, std::int64_t duration_us, PointOf point_of) {
+  const std::int64_t stretch_us =
+      std::max<std::int64_t>(1, duration_us / static_cast<std::int64_t>(Series::max_points));
+  std::vector<Series::Point> points;
+  std::int64_t last_us = 0;
+  const auto silent_until = [&](std::int64_t t_us) {
+    return !points.empty() && static_cast<double>(t_us - last_us) > track.longest_wait_us;
+  };
+  const auto add_silence = [&points](std::int64_t from_us) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    points.push_back({.t_s = seconds(from_us), .low = none, .high = none});
+  };
+  for (const Told& told : track.told) {
+    if (told.t_us > track.drawn_until_us) continue;
+    const Series::Point point = point_of(told);
+    if (!std::isfinite(point.low)) continue;
+    if (silent_until(told.t_us)) add_silence(last_us + 1);
+    const bool follows =
+        !points.empty() && told.t_us / stretch_us == last_us / stretch_us && std::isfinite(points.back().low);
+    last_us = told.t_us;
+    if (!follows) {
+      points.push_back(point);
+      continue;
     }
-    Series series = empty(track, track.title, track.unit);
-    series.kind = kind_of(track);
-    series.only_if_judged = track.only_if_judged;
-    series.to_go = track.to_go;
-    if (series.kind == Series::Kind::statistic) {
-      for (const double probability : {0.025, 0.975})
-        series.between.push_back(
-            checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
-    }
-    values_.push_back(thinned(std::move(series), track, [&](const Told& told) {
-      return Sample{.value = told.value / track.unit.factor, .sigma = in(track.unit, told.sigma)};
-    }));
+    Series::Point& all = points.back();
+    all.low = std::min(all.low, point.low);
+    all.high = std::max(all.high, point.high);
+    if (point.sigma) all.sigma = std::max(all.sigma.value_or(0), *point.sigma);
   }
-
-  void move_to(std::vector<Series>& all) {
-    std::ranges::move(estimates_, std::back_inserter(all));
-    std::ranges::move(values_, std::back_inserter(all));
+  if (silent_until(track.answers_end_us)) {
+    add_silence(last_us + 1);
+    add_silence(track.answers_end_us);
   }
+  return points;
+}
 
- private:
-  [[nodiscard]] Series empty(const Track& track, std::string title, const quantities::Unit& unit) const {
-    return {.estimator = std::string(estimator_),
-            .about = track.quantity,
-            .quantity = std::move(title),
-            .unit = std::string(unit.name),
-            .unit_si = unit.factor};
+// A stretch as times of the run; none: the flight has no samples there.
+std::optional<scenario::Window> window_of(const checks::Stretch& stretch, const Track& track) {
+  if (!stretch.to_go_s) return stretch.window;
+  std::optional<scenario::Window> window;
+  for (const auto& [t_us, to_go_s] : track.to_go) {
+    if (to_go_s < stretch.to_go_s->first || to_go_s >= stretch.to_go_s->second) continue;
+    if (!window) window = scenario::Window{.from_us = t_us, .to_us = t_us};
+    window->to_us = t_us;
   }
+  return window;
+}
 
-  template <class AsSample>
-  Series thinned(Series series, const Track& track, AsSample sample) const {
-    Thinned points({.duration_us = duration_us_, .end_us = track.answers_end_us}, track.longest_wait_us);
-    for (const Told& told : track.told) {
-      if (told.t_us <= track.drawn_until_us) points.add(told.t_us, sample(told));
-    }
-    series.points = std::move(points).points();
-    return series;
+// The bars of the checks that judge the errors of a track.
+std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
+                                 const scenario::Scenario& scenario) {
+  std::vector<Series::Bar> bars;
+  if (track.kind != Track::Kind::error) return bars;
+  for (const scenario::Check& check : scenario.checks) {
+    const std::optional<checks::Bar> bar = check.rule->bar();
+    if (!bar || std::ranges::none_of(bar->of, [&](const checks::Subject& subject) {
+          return subject.estimator == estimator && subject.quantity == track.quantity;
+        }))
+      continue;
+    const auto window = window_of(bar->stretch, track);
+    if (!window) continue;
+    bars.push_back({.check = check.name,
+                    .statistic = bar->statistic,
+                    .below = bar->below / track.unit.factor,
+                    .from_s = seconds(window->from_us),
+                    .to_s = seconds(std::min(window->to_us, scenario.duration_us))});
   }
+  return bars;
+}
 
-  std::string_view estimator_;
-  std::int64_t duration_us_;
-  std::vector<Series> estimates_, values_;
-};
+// The values of a track, or its estimates beside the truth.
+Series series_of(std::string_view estimator, const Track& track, bool estimates,
+                 const scenario::Scenario& scenario) {
+  const quantities::Unit& unit = estimates ? track.estimate_unit : track.unit;
+  Series series{.estimator = std::string(estimator),
+                .about = track.quantity,
+                .quantity = estimates ? track.estimate_title : track.title,
+                .unit = std::string(unit.name),
+                .kind = estimates ? Series::Kind::estimate : kind_of(track)};
+  series.points = thinned(track, scenario.duration_us, [&](const Told& told) {
+    const double value = (estimates ? told.estimate.value() : told.value) / unit.factor;
+    Series::Point point{.t_s = seconds(told.t_us), .low = value, .high = value};
+    (estimates ? point.truth : point.sigma) = in(unit, estimates ? told.truth : told.sigma);
+    return point;
+  });
+  if (!estimates) series.bars = bars_of(estimator, track, scenario);
+  if (series.kind == Series::Kind::statistic) {
+    for (const double probability : {0.025, 0.975})
+      series.between.push_back(checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
+  }
+  return series;
+}
 
 }  // namespace
 
@@ -100,19 +133,15 @@ void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, cons
 
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run) {
   std::vector<Series> all;
-  std::string_view of;
-  std::optional<Pictures> pictures;
+  std::ptrdiff_t estimates_end = 0;  // those of an estimator stand before its other series
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
-    if (!pictures || of != estimator) {
-      if (pictures) pictures->move_to(all);
-      pictures.emplace(of = estimator, scenario.duration_us);
-    }
-    pictures->add(track);
+    if (all.empty() || all.back().estimator != estimator) estimates_end = std::ssize(all);
+    if (!track.estimate_title.empty())
+      all.insert(all.begin() + estimates_end++, series_of(estimator, track, true, scenario));
+    Series values = series_of(estimator, track, false, scenario);
+    if (!track.only_if_judged || !values.bars.empty()) all.push_back(std::move(values));
   });
-  if (pictures) pictures->move_to(all);
-  add_bars(all, scenario);
-  std::erase_if(
-      all, [](const Series& one) { return one.points.empty() || (one.only_if_judged && one.bars.empty()); });
+  std::erase_if(all, [](const Series& one) { return one.points.empty(); });
   return all;
 }
 

@@ -33,13 +33,10 @@ struct Series {
   const quantities::Quantity* about = nullptr;
   std::string quantity;  ///< in words
   std::string unit;
-  double unit_si = 1;  ///< one of the unit in SI
   Kind kind = Kind::error;
   std::vector<Point> points{};
   std::vector<double> between{};  ///< of a statistic: 95 % of the values of a consistent filter lie here
   std::vector<Bar> bars{};
-  bool only_if_judged = false;                   ///< of no interest without a bar
-  std::vector<quantities::Track::ToGo> to_go{};  ///< see Track
 };
 
 /// Takes a track of the estimator of this name.

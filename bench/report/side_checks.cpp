@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
-#include <optional>
+#include <numeric>
+#include <string_view>
 
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/checks/other_senders.hpp"
@@ -17,9 +19,14 @@ using Json = nlohmann::ordered_json;
 using Reports = std::vector<Json>;
 using checks::Outcome;
 
-Outcome outcome_of(const std::string& name, const std::string& of) {
-  for (const Outcome outcome : {Outcome::pass, Outcome::fail, Outcome::not_measured}) {
-    if (checks::name(outcome) == name) return outcome;
+// What a run says of a check.
+enum Says : std::uint8_t { pass, fail, not_measured, not_there };
+constexpr std::array<std::string_view, 4> said{checks::name(Outcome::pass), checks::name(Outcome::fail),
+                                               checks::name(Outcome::not_measured), "not there"};
+
+Says outcome_of(const std::string& name, const std::string& of) {
+  for (const Says one : {pass, fail, not_measured}) {
+    if (said[one] == name) return one;
   }
   throw UnknownOutcome{
       fmt::format("outcome '{}' of {}, expected 'pass', 'fail' or 'not measured'", name, of)};
@@ -34,7 +41,7 @@ struct Key {
 };
 struct Judged {
   Key key;
-  Outcome outcome = Outcome::pass;
+  Says outcome = pass;
   std::string measured;
 };
 
@@ -44,7 +51,7 @@ std::vector<Judged> judged_in(const Json& report) {
     Key key{check.at("name").get<std::string>(), check.at("kind").get<std::string>()};
     key.nth = static_cast<std::size_t>(std::ranges::count_if(
         all, [&](const Judged& j) { return j.key.name == key.name && j.key.kind == key.kind; }));
-    const Outcome outcome =
+    const Says outcome =
         outcome_of(check.at("outcome").get<std::string>(), fmt::format("check '{}'", key.name));
     all.push_back({std::move(key), outcome, check.at("measured").get<std::string>()});
   }
@@ -53,27 +60,18 @@ std::vector<Judged> judged_in(const Json& report) {
 
 // What the runs of a side say of one check.
 struct Tally {
-  std::size_t passed = 0, failed = 0, not_measured = 0, missing = 0;
-  std::string measured;  // by the first run that failed it, else by the last
-  [[nodiscard]] std::size_t runs() const { return passed + failed + not_measured + missing; }
-  [[nodiscard]] bool all_the_same() const {
-    return std::max({passed, failed, not_measured, missing}) == runs();
+  std::array<std::size_t, said.size()> saying{};  // runs, by Says
+  std::string measured;                           // by the first run that failed it, else by the last
+  [[nodiscard]] std::size_t runs() const {
+    return std::accumulate(saying.begin(), saying.end(), std::size_t{0});
   }
   [[nodiscard]] std::string text() const {
-    if (all_the_same())
-      return passed > 0 ? "pass" : failed > 0 ? "fail" : missing > 0 ? "not there" : "not measured";
     std::string parts;
-    const auto add = [&parts](std::size_t count, std::string_view name) {
-      if (count > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", count, name);
-    };
-    add(passed, "pass");
-    add(failed, "fail");
-    add(not_measured, "not measured");
-    add(missing, "not there");
+    for (std::size_t i = 0; i < said.size(); ++i) {
+      if (saying[i] == runs()) return std::string(said[i]);
+      if (saying[i] > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", saying[i], said[i]);
+    }
     return parts;
-  }
-  void add(Outcome outcome) {
-    ++(outcome == Outcome::pass ? passed : outcome == Outcome::fail ? failed : not_measured);
   }
 };
 
@@ -85,18 +83,18 @@ Tally tally_of(const std::vector<std::vector<Judged>>& side, const Key& key) {
   for (const auto& run : side) {
     const auto found = std::ranges::find(run, key, &Judged::key);
     if (found == run.end()) {
-      ++(implied ? tally.passed : tally.missing);
+      ++tally.saying[implied ? pass : not_there];
       continue;
     }
-    if (tally.failed == 0) tally.measured = found->measured;
-    tally.add(found->outcome);
+    if (tally.saying[fail] == 0) tally.measured = found->measured;
+    ++tally.saying[found->outcome];
   }
   return tally;
 }
 
 bool got_worse(const Tally& before, const Tally& after) {
-  const auto mostly = [](const Tally& tally) { return 2 * tally.failed > tally.runs(); };
-  return (before.failed == 0 && after.failed > 0) || (mostly(after) && !mostly(before));
+  const auto mostly = [](const Tally& tally) { return 2 * tally.saying[fail] > tally.runs(); };
+  return (before.saying[fail] == 0 && after.saying[fail] > 0) || (mostly(after) && !mostly(before));
 }
 
 std::vector<std::vector<Judged>> judged_in_all(const Reports& side) {
@@ -108,8 +106,8 @@ std::vector<std::vector<Judged>> judged_in_all(const Reports& side) {
 Tally verdicts(const Reports& side) {
   Tally tally;
   for (const Json& report : side) {
-    if (tally.failed == 0) tally.measured = report.at("reason").get<std::string>();
-    tally.add(outcome_of(report.at("verdict").get<std::string>(), "a run"));
+    if (tally.saying[fail] == 0) tally.measured = report.at("reason").get<std::string>();
+    ++tally.saying[outcome_of(report.at("verdict").get<std::string>(), "a run")];
   }
   return tally;
 }
@@ -129,10 +127,10 @@ ChecksCompared compare_checks(const Reports& before, const Reports& after, bool 
   ChecksCompared result;
   for (const Key& key : keys) {
     const Tally was = tally_of(first, key), is = tally_of(second, key);
-    const bool never_judged = was.not_measured == was.runs() && is.not_measured == is.runs() && virtual_time;
+    const auto together = [&](Says what) { return was.saying[what] + is.saying[what]; };
+    const bool never_judged = together(not_measured) == was.runs() + is.runs() && virtual_time;
     const bool worse = got_worse(was, is);
-    const bool unknown =
-        was.missing + is.missing > 0 || (was.not_measured + is.not_measured > 0 && !never_judged);
+    const bool unknown = together(not_there) > 0 || (together(not_measured) > 0 && !never_judged);
     result.worse = result.worse || worse;
     result.unknown = result.unknown || unknown;
     const std::string from = was.text(), to = is.text();

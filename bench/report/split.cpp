@@ -10,31 +10,21 @@ std::optional<double> mean_s(std::int64_t sum_ns, std::uint64_t count) {
   return static_cast<double>(sum_ns) / static_cast<double>(count) * 1e-9;
 }
 
-// What both kinds of a split begin with.
+// The parts of both kinds of a split.
 struct OnTheBus {
-  std::optional<double> wait, stimulus_wire, reply_wire;
+  SplitPart wait, stimulus, reply;
 };
 OnTheBus on_the_bus(const checks::TimingRecord& timing, const checks::LatencySplit& split) {
   const bool wire_known = timing.wire.rates.nominal > 0;
   const auto on_wire = [&](std::int64_t sum_ns, std::uint64_t count) {
     return wire_known ? mean_s(sum_ns, count) : std::nullopt;
   };
-  OnTheBus bus{.wait = mean_s(split.to_echo_ns, split.echoed),
-               .stimulus_wire = on_wire(split.stimulus_wire_ns, split.echoed),
-               .reply_wire = on_wire(split.reply_wire_ns, split.stimuli)};
-  if (bus.wait) *bus.wait -= bus.stimulus_wire.value_or(0);
-  return bus;
-}
-
-constexpr SplitPart wait_part{.key = "stimulus_wait",
-                              .what = "stimulus: driver of the bench, wait for the bus"};
-constexpr SplitPart stimulus_part{.key = "stimulus_wire", .what = "stimulus: its last frame on the wire"};
-constexpr SplitPart reply_part{.key = "reply_wire", .what = "answer: its frames on the wire"};
-
-SplitPart with(SplitPart part, const std::optional<double>& mean, Bound bound = Bound::exact) {
-  part.mean_s = mean;
-  part.bound = bound;
-  return part;
+  const auto stimulus = on_wire(split.stimulus_wire_ns, split.echoed);
+  auto wait = mean_s(split.to_echo_ns, split.echoed);
+  if (wait) *wait -= stimulus.value_or(0);
+  return {{"stimulus_wait", "stimulus: driver of the bench, wait for the bus", wait},
+          {"stimulus_wire", "stimulus: its last frame on the wire", stimulus},
+          {"reply_wire", "answer: its frames on the wire", on_wire(split.reply_wire_ns, split.stimuli)}};
 }
 
 }  // namespace
@@ -45,14 +35,14 @@ std::vector<SplitPart> parts(const checks::TimingRecord& timing) {
   const auto queue = mean_s(split.target_queue_ns, split.told);
   const auto compute = mean_s(split.target_compute_ns, split.told);
   std::optional<double> rest = mean_s(split.latency_ns, split.stimuli);
-  if (rest) *rest -= queue.value_or(0) + compute.value_or(0) + bus.reply_wire.value_or(0);
+  if (rest) *rest -= queue.value_or(0) + compute.value_or(0) + bus.reply.mean_s.value_or(0);
   const auto told = [](bool clipped) { return clipped ? Bound::at_least : Bound::exact; };
   const bool clipped = split.queue_clipped || split.compute_clipped;
-  return {with(wait_part, bus.wait),
-          with(stimulus_part, bus.stimulus_wire),
+  return {bus.wait,
+          bus.stimulus,
           {"target_queue", "target: from its stamp to its turn", queue, told(split.queue_clipped)},
           {"target_compute", "target: computing", compute, told(split.compute_clipped)},
-          with(reply_part, bus.reply_wire),
+          bus.reply,
           {"not_explained", "not explained: drivers, sending, wait for the bus", rest,
            clipped ? Bound::at_most : Bound::exact}};
 }
@@ -60,10 +50,10 @@ std::vector<SplitPart> parts(const checks::TimingRecord& timing) {
 std::vector<SplitPart> group_parts(const checks::TimingRecord& timing, const checks::LatencySplit& split) {
   const OnTheBus bus = on_the_bus(timing, split);
   std::optional<double> rest = mean_s(split.latency_ns, split.stimuli);
-  if (rest) *rest -= bus.reply_wire.value_or(0);
-  return {with(wait_part, bus.wait),
-          with(stimulus_part, bus.stimulus_wire),
-          with(reply_part, bus.reply_wire),
+  if (rest) *rest -= bus.reply.mean_s.value_or(0);
+  return {bus.wait,
+          bus.stimulus,
+          bus.reply,
           {"target_and_waits", "target, drivers, sending, wait for the bus", rest}};
 }
 

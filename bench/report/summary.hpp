@@ -1,4 +1,4 @@
-// What a run measured, apart from its checks: the figures that every report shows.
+// What every report of a run tells, apart from its checks.
 #pragma once
 
 #include <string>
@@ -6,18 +6,9 @@
 #include <vector>
 
 #include "bench/checks/results.hpp"
-#include "bench/checks/timing.hpp"
 #include "bench/drive/session.hpp"
 
 namespace canhil::report {
-
-/// Latency of one message of the target.
-struct MessageLatency {
-  std::string message;
-  checks::Distribution latency_s;
-  checks::Distribution jitter_s;
-  std::size_t unanswered = 0;
-};
 
 /// What an estimator made of the run; its last line counts its answers by their marks.
 struct EstimatorResults {
@@ -25,15 +16,14 @@ struct EstimatorResults {
   std::vector<estimators::ResultLine> lines;
 };
 
-struct Summary {
-  std::vector<EstimatorResults> results;  ///< one for each that the scenario runs
-  std::vector<MessageLatency> latencies;  ///< of the closing message of each group
-  checks::Distribution lateness_s;        ///< of the bench's own transmissions
-  std::string_view clock;                 ///< by which the run went
-  std::string stamp_source;               ///< what the latencies were measured with
-};
+/// Of each estimator that the scenario runs.
+std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run);
 
-Summary summarise(const scenario::Scenario& scenario, const drive::Run& run);
+/// By which the run went.
+std::string_view clock_name(const drive::Run& run);
+
+/// What the latencies were measured with.
+std::string_view stamp_source(const drive::Run& run);
 
 /// The message that closes each group of answers of the estimators in use.
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario);

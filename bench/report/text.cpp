@@ -1,10 +1,12 @@
-#include "bench/report/text.hpp"
+#include "bench/report/run_reports.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cctype>
 #include <iterator>
 
 #include "bench/checks/bus_load.hpp"
+#include "bench/checks/timing.hpp"
 #include "bench/checks/wire_bounds.hpp"
 #include "bench/report/split.hpp"
 #include "bench/report/summary.hpp"
@@ -12,16 +14,11 @@
 namespace canhil::report {
 namespace {
 
-std::string_view label(checks::Outcome outcome) {
-  switch (outcome) {
-    case checks::Outcome::pass:
-      return "PASS";
-    case checks::Outcome::fail:
-      return "FAIL";
-    case checks::Outcome::not_measured:
-      return "NOT MEASURED";
-  }
-  return "?";
+// "PASS", "NOT MEASURED".
+std::string label(checks::Outcome outcome) {
+  std::string label(checks::name(outcome));
+  for (char& c : label) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return label;
 }
 
 std::string words(const estimators::ResultLine& line) {
@@ -53,6 +50,8 @@ std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
   return lines;
 }
 
+double ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
+
 std::string milliseconds(const checks::Distribution& d) {
   return fmt::format("p50 {:.3f}  p90 {:.3f}  p99 {:.3f}  p99.9 {:.3f}  max {:.3f} ms", d.p50 * 1e3,
                      d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
@@ -70,6 +69,32 @@ std::string load_words(const drive::Run& run) {
                          checks::words(rates), load.mean * 100, load.busiest * 100);
   }
   return lines;
+}
+
+// Latency of the message that closes each group; first of those that have none.
+std::string latency_words(const scenario::Scenario& scenario, const checks::Observations& seen,
+                          bool virtual_time) {
+  std::string none, lines;
+  for (const std::string_view message : closing_answers(scenario)) {
+    const auto place = std::ranges::find(messages::all_messages, message, &MessageInfo::name);
+    const checks::AnswerTiming& timing =
+        seen.timing.answers[static_cast<std::size_t>(place - messages::all_messages.begin())];
+    const std::uint64_t answers = timing.latency.count();
+    const std::size_t unanswered = checks::unanswered(seen, message);
+    const std::string missing = unanswered > 0 ? fmt::format(", {} never came", unanswered) : "";
+    if (answers == 0) {
+      none += fmt::format("  latency {:<22}no answers{}\n", message, missing);
+    } else if (!virtual_time) {
+      lines += fmt::format("  latency {:<22}{}  of {} answers{}\n", message,
+                           milliseconds(checks::distribution_s(timing.latency)), answers, missing);
+      lines += fmt::format("    its period's deviation      {}\n",
+                           milliseconds(checks::distribution_s(timing.jitter)));
+    } else if (unanswered > 0) {
+      none +=
+          fmt::format("  latency {:<22}none in virtual time, of {} answers{}\n", message, answers, missing);
+    }
+  }
+  return none + lines;
 }
 
 // Where the mean latency went, and the slowest answer beside what the target said of that time.
@@ -93,9 +118,8 @@ std::string split_words(const checks::TimingRecord& timing) {
   lines += fmt::format(
       "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
       "{}, its longest computing {}\n",
-      slowest.message, static_cast<double>(slowest.latency_ns) * 1e-6,
-      static_cast<double>(slowest.t_ns) * 1e-9, told_us(slowest.queue_max_us),
-      told_us(slowest.compute_max_us));
+      slowest.message, ms(slowest.latency_ns), static_cast<double>(slowest.t_ns) * 1e-9,
+      told_us(slowest.queue_max_us), told_us(slowest.compute_max_us));
   return lines;
 }
 
@@ -104,44 +128,35 @@ std::string wire_words(const checks::Observations& seen) {
   if (seen.bit_rates.nominal == 0) return "";
   if (const std::string why = checks::no_bounds(seen); !why.empty())
     return fmt::format("  over the bus                  not compared with bounds: {}\n", why);
-  std::string beyond;
-  std::size_t bounded = 0;
-  const std::vector<checks::WireBound> bounds = checks::wire_bounds(seen);
-  const checks::WireBound* nearest = nullptr;
-  const auto share = [](const checks::WireBound& bound) {
-    return static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns);
-  };
+  std::vector<checks::WireBound> bounds = checks::wire_bounds(seen);
+  const std::string messages = fmt::format("{} message{}", bounds.size(), bounds.size() == 1 ? "" : "s");
+  std::erase_if(bounds, [](const checks::WireBound& bound) { return !bound.bound_ns; });
+  if (bounds.empty())
+    return fmt::format("  over the bus                  {}, the analysis finds a bound for none\n", messages);
+  const checks::WireBound& nearest =
+      *std::ranges::max_element(bounds, {}, [](const checks::WireBound& bound) {
+        return static_cast<double>(bound.longest_ns) / static_cast<double>(*bound.bound_ns);
+      });
+  std::string lines =
+      fmt::format("  over the bus                  bounds for {} of {}; nearest {}: {:.3f} of {:.3f} ms\n",
+                  bounds.size(), messages, nearest.message, ms(nearest.longest_ns), ms(*nearest.bound_ns));
   for (const checks::WireBound& bound : bounds) {
-    if (!bound.bound_ns) continue;
-    ++bounded;
-    if (nearest == nullptr || share(bound) > share(*nearest)) nearest = &bound;
-    if (bound.longest_ns <= *bound.bound_ns) continue;
-    beyond += fmt::format("    beyond: {} {:.3f} ms, bound {:.3f} ms\n", bound.message,
-                          static_cast<double>(bound.longest_ns) * 1e-6,
-                          static_cast<double>(*bound.bound_ns) * 1e-6);
+    if (bound.longest_ns > *bound.bound_ns)
+      lines += fmt::format("    beyond: {} {:.3f} ms, bound {:.3f} ms\n", bound.message, ms(bound.longest_ns),
+                           ms(*bound.bound_ns));
   }
-  if (nearest == nullptr)
-    return fmt::format("  over the bus                  {} message{}, the analysis finds a bound for none\n",
-                       bounds.size(), bounds.size() == 1 ? "" : "s");
-  return fmt::format(
-             "  over the bus                  bounds for {} of {} message{}; nearest {}: {:.3f} of {:.3f} "
-             "ms\n",
-             bounded, bounds.size(), bounds.size() == 1 ? "" : "s", nearest->message,
-             static_cast<double>(nearest->longest_ns) * 1e-6,
-             static_cast<double>(*nearest->bound_ns) * 1e-6) +
-         beyond;
+  return lines;
 }
 
 }  // namespace
 
 std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
-  const Summary summary = summarise(scenario, run);
   std::string page;
 
   page += fmt::format("{}\n", scenario.title);
   page +=
       fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus.text,
-                  run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", summary.clock,
+                  run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", clock_name(run),
                   static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
@@ -161,30 +176,16 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   }
 
   page += '\n';
-  for (const EstimatorResults& results : summary.results) {
-    if (scenario.targets.size() > 1) page += fmt::format("  {}\n", results.estimator);
-    for (const estimators::ResultLine& line : results.lines) page += words(line);
+  for (const EstimatorResults& one : results(scenario, run)) {
+    if (scenario.targets.size() > 1) page += fmt::format("  {}\n", one.estimator);
+    for (const estimators::ResultLine& line : one.lines) page += words(line);
   }
   const bool virtual_time = run.clock == drive::ClockKind::lockstep;
-  for (const MessageLatency& row : summary.latencies) {
-    if (row.latency_s.count == 0) {
-      page += fmt::format("  latency {:<22}no answers{}\n", row.message,
-                          row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
-    } else if (virtual_time && row.unanswered > 0) {
-      page += fmt::format("  latency {:<22}none in virtual time, of {} answers, {} never came\n", row.message,
-                          row.latency_s.count, row.unanswered);
-    }
-  }
+  page += latency_words(scenario, run.seen, virtual_time);
   if (!virtual_time) {
-    for (const MessageLatency& row : summary.latencies) {
-      if (row.latency_s.count == 0) continue;
-      page += fmt::format("  latency {:<22}{}  of {} answers{}\n", row.message, milliseconds(row.latency_s),
-                          row.latency_s.count,
-                          row.unanswered > 0 ? fmt::format(", {} never came", row.unanswered) : "");
-      page += fmt::format("    its period's deviation      {}\n", milliseconds(row.jitter_s));
-    }
+    const checks::Distribution lateness_s = checks::distribution_s(run.seen.timing.lateness);
     page += fmt::format("  bench's own lateness          {}  of {} frames  (latency by {})\n",
-                        milliseconds(summary.lateness_s), summary.lateness_s.count, summary.stamp_source);
+                        milliseconds(lateness_s), lateness_s.count, stamp_source(run));
     page += split_words(run.seen.timing) + wire_words(run.seen);
     if (run.seen.target_timing_seen) {
       page += fmt::format("  target's own account          queue max {}  compute max {}\n",

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/estimators/transfer_alignment/answers.hpp"
-#include "bench/report/json.hpp"
+#include "bench/report/run_reports.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "dbc/realtime/process.hpp"
 

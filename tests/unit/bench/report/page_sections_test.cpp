@@ -3,9 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/report/json.hpp"
 #include "bench/report/page.hpp"
-#include "bench/report/text.hpp"
+#include "bench/report/run_reports.hpp"
 #include "tests/unit/bench/report/finished_run.hpp"
 
 namespace canhil::report {

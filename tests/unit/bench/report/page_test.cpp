@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "bench/report/json.hpp"
 #include "bench/report/plot.hpp"
 #include "bench/report/provenance.hpp"
+#include "bench/report/run_reports.hpp"
 #include "tests/unit/bench/report/finished_run.hpp"
 
 namespace canhil::report {

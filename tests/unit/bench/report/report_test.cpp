@@ -19,9 +19,7 @@
 #include "bench/nodes/seeker.hpp"
 #include "bench/nodes/slave_imu.hpp"
 #include "bench/report/file.hpp"
-#include "bench/report/json.hpp"
-#include "bench/report/junit.hpp"
-#include "bench/report/text.hpp"
+#include "bench/report/run_reports.hpp"
 #include "bench/world/motion/rest.hpp"
 
 namespace canhil::report {

@@ -12,8 +12,8 @@
 
 #include "bench/checks/kinds/convergence.hpp"
 #include "bench/quantities/list.hpp"
-#include "bench/report/json.hpp"
 #include "bench/report/page.hpp"
+#include "bench/report/run_reports.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
 
