@@ -33,9 +33,10 @@ std::string table(const std::vector<std::string>& head, const Rows& rows, std::s
   return out + "</tbody></table>\n";
 }
 
-std::string figure(std::string_view title, std::string_view drawing, std::string_view note) {
-  return fmt::format("<figure><h3>{}</h3>{}<figcaption>{}</figcaption></figure>\n", escaped(title), drawing,
-                     escaped(note));
+std::string figure(std::string_view title, std::string_view drawing, std::string_view note,
+                   std::string_view id) {
+  return fmt::format("<figure{}><h3>{}</h3>{}<figcaption>{}</figcaption></figure>\n",
+                     id.empty() ? "" : fmt::format(" id=\"{}\"", id), escaped(title), drawing, escaped(note));
 }
 
 std::string whole_page(std::string_view title, EmbeddedFiles styles, std::string_view body) {

@@ -18,8 +18,9 @@ using Rows = std::vector<std::vector<std::string>>;
 /// Rows of cells that are HTML already; on a phone each cell says which column it is of.
 std::string table(const std::vector<std::string>& head, const Rows& rows, std::string_view style = "");
 
-/// A drawing with its plain title and note.
-std::string figure(std::string_view title, std::string_view drawing, std::string_view note);
+/// A drawing with its plain title and note; `id` of the element: empty, none.
+std::string figure(std::string_view title, std::string_view drawing, std::string_view note,
+                   std::string_view id = "");
 
 /// One HTML file that needs nothing outside itself; title and body are HTML already.
 std::string whole_page(std::string_view title, EmbeddedFiles styles, std::string_view body);
