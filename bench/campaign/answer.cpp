@@ -4,25 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
 
 namespace canhil::campaign {
 namespace {
 
-using Runs = std::vector<RunSeries>;
-
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
-double in_unit(double value, const Quantity& quantity) { return value / quantity.unit.factor; }
-
-std::string with_unit(double value, const Quantity& quantity) {
-  const std::string_view unit = quantity.unit.name;
-  return fmt::format("{:.4g}{}{}", in_unit(value, quantity), unit.empty() ? "" : " ", unit);
+std::string with_unit(double value, const quantities::Unit& unit) {
+  return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
 }
 
-std::string figure(std::string_view stem, const Quantity& quantity) {
-  return fmt::format("{}{}", stem, quantity.unit.ending);
+/// A value in its unit, under a name that ends in the unit.
+std::pair<std::string, std::optional<double>> figure(std::string_view stem, double value,
+                                                     const quantities::Unit& unit) {
+  return {fmt::format("{}{}", stem, unit.ending), value / unit.factor};
 }
 
 std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
@@ -32,13 +29,35 @@ std::string missing_note(std::size_t missing) {
   return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
 }
 
-/// The bars of an answer: each adds what it expects and whether it holds.
+/// What the number of a bar is, in words.
+using Words = std::function<std::string(double)>;
+Words in(const quantities::Unit& unit) {
+  return [unit](double bar) { return with_unit(bar, unit); };
+}
+std::string percent(double fraction) { return fmt::format("{:g} %", 100 * fraction); }
+std::string times(double ratio) { return fmt::format("{:g} times", ratio); }
+
+/// The bars of an answer: each that there is adds what it expects and whether it holds.
 class Bars {
  public:
   Bars(Answer& answer, bool complete) : answer_(answer), complete_(complete) {}
   void expect(bool holds, const std::string& words) {
     answer_.expected += (answer_.expected.empty() ? "" : ", ") + words;
     answer_.passed = answer_.passed.value_or(true) && complete_ && holds;
+  }
+  /// `what`: ahead of "at most", with a space.
+  void at_most(double value, const std::optional<double>& bar, const Words& words,
+               std::string_view what = {}) {
+    if (bar) expect(value <= *bar, fmt::format("{}at most {}", what, words(*bar)));
+  }
+  void at_least(double value, const std::optional<double>& bar, const Words& words,
+                std::string_view what = {}) {
+    if (bar) expect(value >= *bar, fmt::format("{}at least {}", what, words(*bar)));
+  }
+  void between(double mean, const std::optional<std::pair<double, double>>& ends) {
+    if (!ends) return;
+    const auto [low, high] = *ends;
+    expect(mean >= low && mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
   }
 
  private:
@@ -60,7 +79,7 @@ void answer(const RmsCurve& rule, const Runs& runs, const Runs& /*other*/, Answe
   }
   const CurvePoint& last = out.curve.back();
   out.measured = fmt::format("{} updates, {} at the last{}", out.curve.size(),
-                             with_unit(last.rms, *rule.quantity), missing_note(last.missing));
+                             with_unit(last.rms, rule.quantity->unit), missing_note(last.missing));
 }
 
 void answer(const TimeWithin& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
@@ -96,115 +115,85 @@ void answer(const Lead& rule, const Runs& runs, const Runs& other, Answer& out) 
 }
 
 void answer(const ValueAt& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const quantities::Unit& unit = rule.quantity->unit;
   const auto point = value_at(rms_curve(runs, *rule.quantity), rule.at_us);
   const double rms = point ? point->rms : std::nan("");
   const std::size_t missing = point ? point->missing : runs.size();
-  out.measured = with_unit(rms, *rule.quantity) + missing_note(missing);
-  out.figures = {{figure("rms", *rule.quantity), in_unit(rms, *rule.quantity)}};
+  out.measured = with_unit(rms, unit) + missing_note(missing);
+  out.figures = {figure("rms", rms, unit)};
   Bars bars(out, missing == 0);
-  if (rule.at_most) bars.expect(rms <= *rule.at_most, "at most " + with_unit(*rule.at_most, *rule.quantity));
-  if (rule.at_least)
-    bars.expect(rms >= *rule.at_least, "at least " + with_unit(*rule.at_least, *rule.quantity));
+  bars.at_most(rms, rule.at_most, in(unit));
+  bars.at_least(rms, rule.at_least, in(unit));
 }
 
 void answer(const Distribution& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
   const quantities::Unit& unit = rule.unit;
   const RunDistribution found = run_distribution(runs, *rule.quantity, rule.at_us, rule.below.value_or(0),
                                                  static_cast<std::size_t>(rule.batch));
-  const auto words = [&](double value) {
-    return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
-  };
-  out.measured = fmt::format("RMS {} (of {} runs: {:.4g} to {:.4g}), median {}, p90 {}", words(found.rms),
-                             found.batch, found.rms_low / unit.factor, found.rms_high / unit.factor,
-                             words(found.median), words(found.p90));
+  out.measured =
+      fmt::format("RMS {} (of {} runs: {:.4g} to {:.4g}), median {}, p90 {}", with_unit(found.rms, unit),
+                  found.batch, found.rms_low / unit.factor, found.rms_high / unit.factor,
+                  with_unit(found.median, unit), with_unit(found.p90, unit));
   if (rule.below)
-    out.measured += fmt::format(", below {} in {:.1f} %", words(*rule.below), 100 * found.below);
+    out.measured += fmt::format(", below {} in {:.1f} %", with_unit(*rule.below, unit), 100 * found.below);
   out.measured += missing_note(found.missing);
-  const auto add = [&](std::string_view stem, double value) {
-    out.figures.emplace_back(fmt::format("{}{}", stem, unit.ending), value / unit.factor);
-  };
-  add("rms", found.rms);
-  add("rms_low", found.rms_low);
-  add("rms_high", found.rms_high);
-  add("mean", found.mean);
-  add("median", found.median);
-  add("p90", found.p90);
+  out.figures = {figure("rms", found.rms, unit),           figure("rms_low", found.rms_low, unit),
+                 figure("rms_high", found.rms_high, unit), figure("mean", found.mean, unit),
+                 figure("median", found.median, unit),     figure("p90", found.p90, unit)};
   if (rule.below) out.figures.emplace_back("fraction_below", found.below);
   Bars bars(out, found.missing == 0);
-  const auto at_most = [&](std::string_view what, double value, const std::optional<double>& bar) {
-    if (bar) bars.expect(value <= *bar, fmt::format("{} at most {}", what, words(*bar)));
-  };
-  const auto at_least = [&](std::string_view what, double value, const std::optional<double>& bar) {
-    if (bar) bars.expect(value >= *bar, fmt::format("{} at least {}", what, words(*bar)));
-  };
-  at_most("RMS", found.rms, rule.rms_at_most);
-  at_least("RMS", found.rms, rule.rms_at_least);
-  at_most("median", found.median, rule.median_at_most);
-  at_least("median", found.median, rule.median_at_least);
-  at_most("p90", found.p90, rule.p90_at_most);
-  if (rule.fraction_at_least)
-    bars.expect(found.below >= *rule.fraction_at_least,
-                fmt::format("below in at least {:g} %", 100 * *rule.fraction_at_least));
-  if (rule.fraction_at_most)
-    bars.expect(found.below <= *rule.fraction_at_most,
-                fmt::format("below in at most {:g} %", 100 * *rule.fraction_at_most));
+  bars.at_most(found.rms, rule.rms_at_most, in(unit), "RMS ");
+  bars.at_least(found.rms, rule.rms_at_least, in(unit), "RMS ");
+  bars.at_most(found.median, rule.median_at_most, in(unit), "median ");
+  bars.at_least(found.median, rule.median_at_least, in(unit), "median ");
+  bars.at_most(found.p90, rule.p90_at_most, in(unit), "p90 ");
+  bars.at_least(found.below, rule.fraction_at_least, percent, "below in ");
+  bars.at_most(found.below, rule.fraction_at_most, percent, "below in ");
 }
 
 void answer(const WindowMoments& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
+  const quantities::Unit& unit = rule.quantity->unit;
   const auto [mean, deviation, count, missing] =
       window_statistics(runs, *rule.quantity, rule.from_us, rule.to_us);
-  out.measured = fmt::format("mean {}, standard deviation {}{}", with_unit(mean, *rule.quantity),
-                             with_unit(deviation, *rule.quantity), missing_note(missing));
-  out.figures = {{figure("mean", *rule.quantity), in_unit(mean, *rule.quantity)},
-                 {figure("standard_deviation", *rule.quantity), in_unit(deviation, *rule.quantity)},
+  out.measured = fmt::format("mean {}, standard deviation {}{}", with_unit(mean, unit),
+                             with_unit(deviation, unit), missing_note(missing));
+  out.figures = {figure("mean", mean, unit),
+                 figure("standard_deviation", deviation, unit),
                  {"values", static_cast<double>(count)}};
   Bars bars(out, missing == 0);
-  if (rule.mean_at_most) {
-    bars.expect(std::abs(mean) <= *rule.mean_at_most,
-                "|mean| at most " + with_unit(*rule.mean_at_most, *rule.quantity));
-  }
-  if (rule.standard_deviation_at_most) {
-    bars.expect(deviation <= *rule.standard_deviation_at_most,
-                "standard deviation at most " + with_unit(*rule.standard_deviation_at_most, *rule.quantity));
-  }
+  bars.at_most(std::abs(mean), rule.mean_at_most, in(unit), "|mean| ");
+  bars.at_most(deviation, rule.standard_deviation_at_most, in(unit), "standard deviation ");
 }
 
 void answer(const RunMean& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const quantities::Unit& unit = rule.quantity->unit;
   const RunMeans found = run_means(runs, *rule.quantity, rule.from_us, rule.to_us);
-  out.measured =
-      fmt::format("mean {}, standard deviation {} over runs, largest {}{}",
-                  with_unit(found.mean, *rule.quantity), with_unit(found.standard_deviation, *rule.quantity),
-                  with_unit(found.largest, *rule.quantity), missing_note(found.missing));
-  out.figures = {
-      {figure("mean", *rule.quantity), in_unit(found.mean, *rule.quantity)},
-      {figure("standard_deviation", *rule.quantity), in_unit(found.standard_deviation, *rule.quantity)},
-      {figure("largest", *rule.quantity), in_unit(found.largest, *rule.quantity)},
-      {"missing", static_cast<double>(found.missing)}};
+  out.measured = fmt::format("mean {}, standard deviation {} over runs, largest {}{}",
+                             with_unit(found.mean, unit), with_unit(found.standard_deviation, unit),
+                             with_unit(found.largest, unit), missing_note(found.missing));
+  out.figures = {figure("mean", found.mean, unit),
+                 figure("standard_deviation", found.standard_deviation, unit),
+                 figure("largest", found.largest, unit),
+                 {"missing", static_cast<double>(found.missing)}};
   Bars bars(out, found.missing == 0);
-  if (rule.at_most)
-    bars.expect(found.mean <= *rule.at_most, "at most " + with_unit(*rule.at_most, *rule.quantity));
-  if (rule.at_least)
-    bars.expect(found.mean >= *rule.at_least, "at least " + with_unit(*rule.at_least, *rule.quantity));
+  bars.at_most(found.mean, rule.at_most, in(unit));
+  bars.at_least(found.mean, rule.at_least, in(unit));
   if (rule.other.empty()) return;
   const RunMeans others = run_means(other, *rule.quantity, rule.from_us, rule.to_us);
   const double ratio = found.mean / others.mean;
   out.measured += fmt::format(", {:.3g} times that of {}", ratio, rule.other);
   out.figures.emplace_back("ratio", ratio);
   Bars both(out, found.missing + others.missing == 0);
-  if (rule.ratio_at_most)
-    both.expect(ratio <= *rule.ratio_at_most,
-                fmt::format("at most {:g} times {}", *rule.ratio_at_most, rule.other));
-  if (rule.ratio_at_least)
-    both.expect(ratio >= *rule.ratio_at_least,
-                fmt::format("at least {:g} times {}", *rule.ratio_at_least, rule.other));
+  const auto times_other = [&](double bar) { return fmt::format("{} {}", times(bar), rule.other); };
+  both.at_most(ratio, rule.ratio_at_most, times_other);
+  both.at_least(ratio, rule.ratio_at_least, times_other);
 }
 
 void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const quantities::Unit& unit = rule.quantity->unit;
   const ToGoStatistics found = to_go_statistics(runs, *rule.quantity, rule.least, rule.most);
-  out.measured = fmt::format("RMS {}, mean {}", with_unit(found.rms, *rule.quantity),
-                             with_unit(found.mean, *rule.quantity));
-  out.figures = {{figure("rms", *rule.quantity), in_unit(found.rms, *rule.quantity)},
-                 {figure("mean", *rule.quantity), in_unit(found.mean, *rule.quantity)}};
+  out.measured = fmt::format("RMS {}, mean {}", with_unit(found.rms, unit), with_unit(found.mean, unit));
+  out.figures = {figure("rms", found.rms, unit), figure("mean", found.mean, unit)};
   std::size_t missing = found.missing;
   double ratio = std::nan("");
   if (!rule.other.empty()) {
@@ -216,31 +205,24 @@ void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) 
   }
   out.measured += missing_note(missing);
   Bars bars(out, missing == 0);
-  if (rule.rms_at_most)
-    bars.expect(found.rms <= *rule.rms_at_most,
-                "RMS at most " + with_unit(*rule.rms_at_most, *rule.quantity));
-  if (rule.mean_between) {
-    const auto [low, high] = *rule.mean_between;
-    bars.expect(found.mean >= low && found.mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
-  }
-  if (rule.ratio_at_most)
-    bars.expect(ratio <= *rule.ratio_at_most, fmt::format("at most {:g} times", *rule.ratio_at_most));
-  if (rule.ratio_at_least)
-    bars.expect(ratio >= *rule.ratio_at_least, fmt::format("at least {:g} times", *rule.ratio_at_least));
+  bars.at_most(found.rms, rule.rms_at_most, in(unit), "RMS ");
+  bars.between(found.mean, rule.mean_between);
+  bars.at_most(ratio, rule.ratio_at_most, times);
+  bars.at_least(ratio, rule.ratio_at_least, times);
 }
 
 void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& out) {
+  const quantities::Unit& unit = rule.quantity->unit;
   const auto rms_of = [&](const Runs& some) {
     return run_distribution(some, *rule.quantity, std::numeric_limits<std::int64_t>::max(), 0, 1);
   };
   const RunDistribution own = rms_of(runs), against = rms_of(other);
   const double ratio = own.rms / against.rms;
   const std::size_t missing = own.missing + against.missing;
-  out.measured = fmt::format("{} against {}: {:.4g} times{}", with_unit(own.rms, *rule.quantity),
-                             with_unit(against.rms, *rule.quantity), ratio, missing_note(missing));
+  out.measured = fmt::format("{} against {}: {:.4g} times{}", with_unit(own.rms, unit),
+                             with_unit(against.rms, unit), ratio, missing_note(missing));
   out.figures = {{"ratio", ratio}};
-  if (rule.at_most)
-    Bars(out, missing == 0).expect(ratio <= *rule.at_most, fmt::format("at most {:g} times", *rule.at_most));
+  Bars(out, missing == 0).at_most(ratio, rule.at_most, times);
 }
 
 // A run without a value counts as worse than any, so nothing is missing here.
@@ -254,10 +236,8 @@ void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out
                  {"high", paired.high},
                  {"pairs", static_cast<double>(paired.pairs)}};
   Bars bars(out, true);
-  if (rule.at_least)
-    bars.expect(paired.fraction >= *rule.at_least, fmt::format("at least {:g} %", 100 * *rule.at_least));
-  if (rule.at_most)
-    bars.expect(paired.fraction <= *rule.at_most, fmt::format("at most {:g} %", 100 * *rule.at_most));
+  bars.at_least(paired.fraction, rule.at_least, percent);
+  bars.at_most(paired.fraction, rule.at_most, percent);
 }
 
 void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
@@ -268,14 +248,8 @@ void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, An
                   found.high, 100 * found.inside, found.updates, missing_note(found.missing));
   out.figures = {{"mean", found.mean}, {"low", found.low}, {"high", found.high}, {"inside", found.inside}};
   Bars bars(out, found.missing == 0);
-  if (rule.mean_between) {
-    const auto [low, high] = *rule.mean_between;
-    bars.expect(found.mean >= low && found.mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
-  }
-  if (rule.inside_at_least) {
-    bars.expect(found.inside >= *rule.inside_at_least,
-                fmt::format("inside in at least {:g} %", 100 * *rule.inside_at_least));
-  }
+  bars.between(found.mean, rule.mean_between);
+  bars.at_least(found.inside, rule.inside_at_least, percent, "inside in ");
 }
 
 void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {

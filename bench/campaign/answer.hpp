@@ -19,11 +19,11 @@ struct Answer {
   std::string kind;
   std::string requirement;
   std::string variant;
-  std::string measured;                                                ///< with its unit
-  std::string expected;                                                ///< the bars in words; empty: none
-  std::optional<bool> passed;                                          ///< none: without a bar
-  std::vector<std::pair<std::string, std::optional<double>>> figures;  ///< by name with unit; none: never
-  std::vector<CurvePoint> curve;                                       ///< of rms_curve, else empty
+  std::string measured{};                                                ///< with its unit
+  std::string expected{};                                                ///< the bars in words; empty: none
+  std::optional<bool> passed{};                                          ///< none: without a bar
+  std::vector<std::pair<std::string, std::optional<double>>> figures{};  ///< by name with unit; none: never
+  std::vector<CurvePoint> curve{};                                       ///< of rms_curve, else empty
   const Quantity* quantity = nullptr;
 };
 

@@ -1,69 +1,40 @@
-// SQLite with values: errors are Results, handles close themselves.
+// A file of SQLite that a user named: what is wrong with it, in one line.
 #pragma once
 
-#include <sqlite3.h>
+#include <SQLiteCpp/Database.h>
 
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <span>
+#include <stdexcept>
 #include <string>
-#include <string_view>
 
 #include "dbc/wire/result.hpp"
 
 namespace canhil::campaign {
 
-/// A prepared statement. Errors of binding show in step().
-class Statement {
- public:
-  Statement& bind(int place, std::int64_t value);
-  Statement& bind(int place, std::string_view text);
-  Statement& bind(int place, std::span<const std::uint8_t> bytes);
-  /// Runs to the next row; false: there is none. Error: one line.
-  Result<bool> step();
-  /// Makes it ready for the next values.
-  void reset();
-
-  // Columns of the row that step() has reached, from 0.
-  [[nodiscard]] std::int64_t integer(int column) const;
-  [[nodiscard]] std::string text(int column) const;
-  [[nodiscard]] std::span<const std::uint8_t> bytes(int column) const;  ///< until the next step
-  [[nodiscard]] const std::string& file() const { return file_; }
-
- private:
-  friend class Database;
-  struct Finalise {
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-  };
-  Statement(sqlite3_stmt* statement, std::string file) : statement_(statement), file_(std::move(file)) {}
-
-  std::unique_ptr<sqlite3_stmt, Finalise> statement_;
-  std::string file_;
+/// What SQLite does not mind is wrong with a file: in words, without its name.
+struct Unfit : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
-/// An open file.
-class Database {
- public:
-  enum class Access : std::uint8_t { read, write, create };
-  static Result<Database> open(const std::filesystem::path& path, Access access);
+/// `flags`: those of SQLite::Database.
+Result<SQLite::Database> open_database(const std::filesystem::path& path, int flags);
 
-  /// Statements without values or rows.
-  Result<void> run(const std::string& sql);
-  [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
-  /// Error: the file has not the size that it says it has: its end is missing, or it grew.
-  [[nodiscard]] Result<void> check_size() const;
-  Result<void> close();
-  [[nodiscard]] const std::string& file() const { return file_; }
+/// Unfit: the file has not the size that it says it has: its end is missing, or it grew.
+void check_size(const SQLite::Database& database);
 
- private:
-  struct Close {
-    void operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
-  };
-  Database(sqlite3* handle, std::string file) : handle_(handle), file_(std::move(file)) {}
+/// In words, what SQLite said of a file; `database`: null where it could not be opened.
+Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3* database);
 
-  std::unique_ptr<sqlite3, Close> handle_;
-  std::string file_;
-};
+/// What `work` on an open file gives: exceptions end here.
+template <class Work>
+auto attempt(const SQLite::Database& database, const Work& work) -> Result<decltype(work())> {
+  try {
+    return Result<void>().map(work);
+  } catch (const SQLite::Exception& error) {
+    return tl::unexpected(in_words(error, database.getFilename(), database.getHandle()));
+  } catch (const Unfit& error) {
+    return failure(database.getFilename() + ": " + error.what());
+  }
+}
 
 }  // namespace canhil::campaign

@@ -40,12 +40,7 @@ Answer answer_of(const Campaign& campaign, const Metric& metric, std::size_t var
   Answer out{.metric = metric.name,
              .kind = std::string(kind(metric)),
              .requirement = metric.requirement,
-             .variant = campaign.variants[variant].name,
-             .measured = {},
-             .expected = {},
-             .passed = {},
-             .figures = {},
-             .curve = {}};
+             .variant = campaign.variants[variant].name};
   const std::string other = other_of(metric);
   const Runs& others = other.empty() ? runs[variant] : runs[counterpart(campaign, variant, other)];
   answer(metric, runs[variant], others, out);

@@ -198,7 +198,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
     work.halt = true;
   }
   if (!written) return tl::unexpected(written.error());
-  if (auto closed = store->close(); !closed) return tl::unexpected(closed.error());
+  store->close();
   if (const auto error = finishing.error()) return tl::unexpected(*error);
   return work.next < work.tasks.size() ? Execution::interrupted : Execution::complete;
 }

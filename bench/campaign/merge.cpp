@@ -88,10 +88,9 @@ Result<Finished> take(const Shards& shards, const Key& key) {
 }
 
 /// One transaction a variant: the bytes of the file depend on it.
-Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign,
-                   const Sources& sources) {
+Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign) {
   const Identity& identity = shards.stores[0].identity();
-  auto merged = Store::create(file, identity, sources);
+  auto merged = Store::create(file, identity, shards.stores[0].sources());
   if (!merged) return tl::unexpected(merged.error());
   for (std::size_t variant = 0; variant < campaign.variants.size(); ++variant) {
     std::vector<Finished> runs;
@@ -102,7 +101,8 @@ Result<void> write(const std::filesystem::path& file, const Shards& shards, cons
     }
     if (auto added = merged->add(runs); !added) return added;
   }
-  return merged->close();
+  merged->close();
+  return {};
 }
 
 /// Error: something else than results of this campaign would be lost.
@@ -121,9 +121,7 @@ Result<void> merge(const std::filesystem::path& out, std::span<const std::filesy
   if (!shards) return tl::unexpected(shards.error());
   if (shards->stores.empty()) return failure("no shard to merge, expected at least one");
   if (auto free = check_replaceable(out, shards->stores[0].identity()); !free) return free;
-  const auto sources = shards->stores[0].sources();
-  if (!sources) return tl::unexpected(sources.error());
-  const auto campaign = parse_campaign(*sources);
+  const auto campaign = parse_campaign(shards->stores[0].sources());
   if (!campaign) return tl::unexpected(campaign.error());
   if (auto complete = check_complete(*shards, *campaign); !complete) return complete;
 
@@ -135,7 +133,7 @@ Result<void> merge(const std::filesystem::path& out, std::span<const std::filesy
     std::filesystem::remove(unfinished.string() + "-journal", ignored);
   };
   remove_unfinished();
-  if (auto written = write(unfinished, *shards, *campaign, *sources); !written) {
+  if (auto written = write(unfinished, *shards, *campaign); !written) {
     remove_unfinished();
     return written;
   }

@@ -7,7 +7,6 @@
 
 #include "bench/checks/read_quantity.hpp"
 #include "bench/scenario/rule.hpp"
-#include "bench/world/units.hpp"
 
 namespace canhil::campaign {
 namespace {
@@ -96,11 +95,9 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
 }
 
 quantities::Unit read_unit(Section& section, const Quantity& quantity) {
-  const quantities::Unit usual = quantity.unit;
-  if (usual.name != "mrad") return usual;
+  if (quantity.unit.name != "mrad") return quantity.unit;
   const std::vector<std::string> units{"mrad", "deg"};
-  return section.one_of("unit", units, "mrad") == "deg" ? quantities::Unit{"deg", "_deg", world::units::deg}
-                                                        : usual;
+  return section.one_of("unit", units, "mrad") == "deg" ? quantities::degrees : quantity.unit;
 }
 
 Distribution read(Section& section, const Context& context, Distribution rule) {
@@ -181,8 +178,7 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   rule.to_us = to_us;
   rule.at_most = optional_number(section, key_of("at_most", *rule.quantity), Limits::at_least(0));
   rule.at_least = optional_number(section, key_of("at_least", *rule.quantity), Limits::at_least(0));
-  if (section.has("other")) rule.other = section.one_of("other", context.variants);
-  section.optional("other");
+  rule.other = section.one_of("other", context.variants, "");
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::above(0));
   rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::above(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
@@ -202,8 +198,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
     });
   });
   std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));
-  if (section.has("other")) rule.other = section.one_of("other", context.variants);
-  section.optional("other");
+  rule.other = section.one_of("other", context.variants, "");
   rule.rms_at_most = optional_number(section, key_of("rms_at_most", *rule.quantity), Limits::at_least(0));
   if (section.has("mean_between")) rule.mean_between = section.interval("mean_between", Limits::at_least(0));
   section.optional("mean_between");
@@ -238,16 +233,12 @@ std::string subject(const Lead& rule) {
 }
 std::string subject(const ValueAt& rule) { return fmt::format(" at {:g} s", seconds(rule.at_us)); }
 std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s", seconds(rule.at_us)); }
-std::string subject(const WindowMoments& rule) {
-  return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
-}
-std::string subject(const RunMean& rule) {
-  return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
-}
 std::string subject(const Paired& rule) {
   return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
 }
-std::string subject(const Consistency& rule) {
+/// Of a rule with a window.
+template <class Windowed>
+std::string subject(const Windowed& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
 }
 std::string subject(const Diverged& rule) { return " beyond " + in_unit(rule.beyond, *rule.quantity); }
@@ -256,25 +247,6 @@ std::string subject(const ToGo& rule) {
   return rule.other.empty() ? window : fmt::format("{} against {}", window, rule.other);
 }
 std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
-
-}  // namespace
-
-std::string_view kind(const Metric& metric) { return scenario::kind_of(metric.rule); }
-
-const Quantity& quantity_of(const Metric& metric) {
-  return *std::visit([](const auto& rule) { return rule.quantity; }, metric.rule);
-}
-
-std::string other_of(const Metric& metric) {
-  if (const auto* paired = std::get_if<Paired>(&metric.rule)) return paired->other;
-  if (const auto* lead = std::get_if<Lead>(&metric.rule)) return lead->other;
-  if (const auto* mean = std::get_if<RunMean>(&metric.rule)) return mean->other;
-  if (const auto* to_go = std::get_if<ToGo>(&metric.rule)) return to_go->other;
-  if (const auto* ratio = std::get_if<RmsRatio>(&metric.rule)) return ratio->other;
-  return {};
-}
-
-namespace {
 
 /// Whoever is compared with himself is as good, whatever he does.
 void expect_another(Section& section, const Metric& metric, const std::vector<std::string>& variants) {
@@ -287,6 +259,21 @@ void expect_another(Section& section, const Metric& metric, const std::vector<st
 }
 
 }  // namespace
+
+std::string_view kind(const Metric& metric) { return scenario::kind_of(metric.rule); }
+
+const Quantity& quantity_of(const Metric& metric) {
+  return *std::visit([](const auto& rule) { return rule.quantity; }, metric.rule);
+}
+
+std::string other_of(const Metric& metric) {
+  return std::visit(
+      [](const auto& rule) -> std::string {
+        if constexpr (requires { rule.other; }) return rule.other;
+        return {};
+      },
+      metric.rule);
+}
 
 Metric read_metric(Section& section, const std::vector<std::string>& variants, std::int64_t duration_us) {
   Metric metric;

@@ -19,9 +19,6 @@ std::string_view label(const Answer& answer) {
 
 std::string_view verdict(const Evaluation& evaluation) { return checks::name(evaluation.outcome()); }
 
-// JSON has no NaN.
-ordered_json number(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
-
 ordered_json json_of(const Endings& endings) {
   ordered_json json{{"name", endings.variant},
                     {"runs", endings.runs},
@@ -43,13 +40,14 @@ ordered_json json_of(const Answer& answer) {
     json["expected"] = answer.expected;
     json["outcome"] = *answer.passed ? "pass" : "fail";
   }
-  for (const auto& [figure, value] : answer.figures) json[figure] = value ? number(*value) : ordered_json();
+  // What is no finite number is null in JSON.
+  for (const auto& [figure, value] : answer.figures) json[figure] = value.value_or(std::nan(""));
   if (answer.curve.empty()) return json;
   const quantities::Unit unit = answer.quantity->unit;
   ordered_json times = ordered_json::array(), values = ordered_json::array(), missing = ordered_json::array();
   for (const CurvePoint& point : answer.curve) {
     times.push_back(static_cast<double>(point.t_us) / 1e6);
-    values.push_back(number(point.rms / unit.factor));
+    values.push_back(point.rms / unit.factor);
     missing.push_back(point.missing);
   }
   json["curve"] = {{"t_s", times}, {fmt::format("rms{}", unit.ending), values}, {"missing", missing}};

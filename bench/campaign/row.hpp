@@ -7,9 +7,11 @@
 #include <string>
 #include <string_view>
 
-#include "bench/campaign/database.hpp"
 #include "bench/campaign/series.hpp"
-#include "dbc/wire/result.hpp"
+
+namespace SQLite {
+class Statement;
+}
 
 namespace canhil::campaign {
 
@@ -49,11 +51,11 @@ inline constexpr std::string_view row_places = "?, ?, ?, ?, ?, ?, ?, ?, ?";
 inline constexpr std::string_view key_columns = "id, variant, run";
 
 /// Binds the columns of a row.
-void bind_row(Statement& statement, std::uint64_t runs, const Finished& finished);
-/// The key of a row that a statement for key_columns, or row_columns, has reached. Error: it is none of the
+void bind_row(SQLite::Statement& statement, std::uint64_t runs, const Finished& finished);
+/// The key of a row that a statement for key_columns, or row_columns, has reached. Unfit: it is none of the
 /// file's, which was damaged.
-Result<Key> key_of(const Statement& row, std::uint64_t runs);
-/// The run in a row that a statement for row_columns has reached. Error: it is not as it was written.
-Result<Finished> read_row(const Statement& row, std::uint64_t runs);
+Key key_of(const SQLite::Statement& row, std::uint64_t runs);
+/// The run in a row that a statement for row_columns has reached. Unfit: it is not as it was written.
+Finished read_row(const SQLite::Statement& row, std::uint64_t runs);
 
 }  // namespace canhil::campaign

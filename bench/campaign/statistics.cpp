@@ -27,13 +27,22 @@ double median(std::vector<double> values) {
   return (values[below] + values[above]) / 2;
 }
 
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// About the mean, with n - 1; NaN of too few values.
+double variance(const std::vector<double>& values, double mean) {
+  if (values.size() < 2) return nan;
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return squares / static_cast<double>(values.size() - 1);
+}
+
 // Of the root of the mean of some squares, by their own scatter: d(sqrt(m)) = dm / (2 sqrt(m)).
 double standard_error_of_rms(const std::vector<double>& squares, double mean) {
-  if (squares.size() < 2 || mean <= 0) return nan;
-  double sum = 0;
-  for (const double square : squares) sum += (square - mean) * (square - mean);
-  const auto count = static_cast<double>(squares.size());
-  return std::sqrt(sum / (count - 1) / count) / (2 * std::sqrt(mean));
+  if (mean <= 0) return nan;
+  return std::sqrt(variance(squares, mean) / static_cast<double>(squares.size())) / (2 * std::sqrt(mean));
 }
 
 }  // namespace
@@ -52,8 +61,7 @@ std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, const Quantit
     if (squares.empty()) {
       point.rms = nan;
     } else {
-      const auto count = static_cast<double>(squares.size());
-      const double mean = std::accumulate(squares.begin(), squares.end(), 0.0) / count;
+      const double mean = sum_of(squares) / static_cast<double>(point.runs);
       point.rms = std::sqrt(mean);
       point.rms_error = standard_error_of_rms(squares, mean);
     }
@@ -90,17 +98,11 @@ RunDistribution run_distribution(std::span<const RunSeries> runs, const Quantity
     return found;
   }
   const auto n = static_cast<double>(values.size());
-  double sum = 0, squares = 0;
-  std::size_t inside = 0;
-  for (const double value : values) {
-    sum += value;
-    squares += value * value;
-    inside += value < bound ? 1 : 0;
-  }
-  found.mean = sum / n;
-  found.rms = std::sqrt(squares / n);
+  found.mean = sum_of(values) / n;
+  found.rms = std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / n);
   found.median = median(values);
   found.p90 = checks::quantile(values, 0.9);
+  const auto inside = std::ranges::count_if(values, [&](double value) { return value < bound; });
   found.below = static_cast<double>(inside) / static_cast<double>(runs.size());
   world::Stream stream(1, 0, "bootstrap");
   std::vector<double> resampled(resamples);
@@ -132,12 +134,8 @@ WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quanti
     }
   }
   statistics.count = values.size();
-  const auto n = static_cast<double>(values.size());
-  double sum = 0, squares = 0;
-  for (const double value : values) sum += value;
-  statistics.mean = values.empty() ? nan : sum / n;
-  for (const double value : values) squares += (value - statistics.mean) * (value - statistics.mean);
-  statistics.standard_deviation = values.size() < 2 ? nan : std::sqrt(squares / (n - 1));
+  statistics.mean = values.empty() ? nan : sum_of(values) / static_cast<double>(values.size());
+  statistics.standard_deviation = std::sqrt(variance(values, statistics.mean));
   return statistics;
 }
 
@@ -162,9 +160,7 @@ RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, st
   }
   const auto n = static_cast<double>(means.size());
   for (const double mean : means) found.mean += mean / n;
-  double squares = 0;
-  for (const double mean : means) squares += (mean - found.mean) * (mean - found.mean);
-  found.standard_deviation = means.size() < 2 ? nan : std::sqrt(squares / (n - 1));
+  found.standard_deviation = std::sqrt(variance(means, found.mean));
   found.largest = *std::ranges::max_element(means);
   return found;
 }

@@ -2,16 +2,16 @@
 // what they are merged into, have the same form; the texts of the campaign are inside.
 #pragma once
 
+#include <SQLiteCpp/Database.h>
+
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/campaign/campaign.hpp"
-#include "bench/campaign/database.hpp"
 #include "bench/campaign/row.hpp"
 #include "bench/campaign/series.hpp"
 #include "dbc/wire/result.hpp"
@@ -45,7 +45,7 @@ class Store {
   static Result<Store> open(const std::filesystem::path& path);
 
   [[nodiscard]] const Identity& identity() const { return identity_; }
-  [[nodiscard]] Result<Sources> sources() const;
+  [[nodiscard]] const Sources& sources() const { return sources_; }
   /// What is there, ascending. Errors of this and of load(): a row is not as it was written.
   [[nodiscard]] Result<std::vector<Key>> keys() const;
   /// All series of a variant, in order of runs.
@@ -55,18 +55,16 @@ class Store {
   /// Commits runs, all or none.
   Result<void> add(std::span<const Finished> runs);
   /// Writes everything to the disk and lets go of the file.
-  Result<void> close();
+  void close();
 
  private:
-  explicit Store(Database database) : database_(std::move(database)) {}
-  static Result<Store> open_to_write(const std::filesystem::path& path);
-  Result<void> initialise(const Identity& identity, const Sources& sources);
-  [[nodiscard]] Result<bool> blank() const;
-  Result<void> check_format() const;
-  Result<void> read_identity();
+  explicit Store(SQLite::Database database) : database_(std::move(database)) {}
+  void initialise(const Identity& identity, const Sources& sources);
+  void read_identity();
 
-  Database database_;
+  SQLite::Database database_;
   Identity identity_;
+  Sources sources_;
 };
 
 }  // namespace canhil::campaign

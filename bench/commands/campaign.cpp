@@ -179,9 +179,7 @@ ExitCode merge(const MergeArguments& arguments) {
 
 // The campaign whose results these are.
 Result<campaign::Campaign> campaign_of(const campaign::Store& store) {
-  const auto sources = store.sources();
-  if (!sources) return tl::unexpected(sources.error());
-  auto campaign = campaign::parse_campaign(*sources);
+  auto campaign = campaign::parse_campaign(store.sources());
   if (!campaign) return campaign;
   campaign->runs = store.identity().runs;
   campaign->rounding = store.identity().rounding;

@@ -12,7 +12,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libkainjow-mustache-dev
+  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libsqlitecpp-dev libkainjow-mustache-dev
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # CMake configures the tests too
 )
 test_packages=(
