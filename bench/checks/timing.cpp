@@ -30,11 +30,27 @@ bool same(const scenario::Window& a, const scenario::Window& b) {
   return a.from_us == b.from_us && a.to_us == b.to_us;
 }
 
+// The place of a quantile, by the nearest rank, in a sample in order.
+std::size_t place_of(double q, std::size_t count) {
+  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(count)));
+  return std::max<std::size_t>(rank, 1) - 1;
+}
+
+template <class At>
+Distribution distribution_of(std::size_t count, double min, double max, At at) {
+  return {.count = count,
+          .min = min,
+          .p50 = at(0.5),
+          .p90 = at(0.9),
+          .p99 = at(0.99),
+          .p999 = at(0.999),
+          .max = max};
+}
+
 }  // namespace
 
 double quantile(std::vector<double> sample, double q) {
-  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
-  const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  const auto nth = sample.begin() + static_cast<std::ptrdiff_t>(place_of(q, sample.size()));
   std::nth_element(sample.begin(), nth, sample.end());
   return *nth;
 }
@@ -42,28 +58,14 @@ double quantile(std::vector<double> sample, double q) {
 Distribution distribution(std::vector<double> sample) {
   if (sample.empty()) return {};
   std::ranges::sort(sample);
-  const auto at = [&](double q) {
-    const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(sample.size())));
-    return sample[std::max<std::size_t>(rank, 1) - 1];
-  };
-  return {.count = sample.size(),
-          .min = sample.front(),
-          .p50 = at(0.5),
-          .p90 = at(0.9),
-          .p99 = at(0.99),
-          .p999 = at(0.999),
-          .max = sample.back()};
+  return distribution_of(sample.size(), sample.front(), sample.back(),
+                         [&](double q) { return sample[place_of(q, sample.size())]; });
 }
 
 Distribution distribution_s(const Histogram& histogram) {
-  const auto at = [&](double q) { return histogram.quantile_ns(q) * 1e-9; };
-  return {.count = histogram.count(),
-          .min = static_cast<double>(histogram.min_ns()) * 1e-9,
-          .p50 = at(0.5),
-          .p90 = at(0.9),
-          .p99 = at(0.99),
-          .p999 = at(0.999),
-          .max = static_cast<double>(histogram.max_ns()) * 1e-9};
+  return distribution_of(histogram.count(), static_cast<double>(histogram.min_ns()) * 1e-9,
+                         static_cast<double>(histogram.max_ns()) * 1e-9,
+                         [&](double q) { return histogram.quantile_ns(q) * 1e-9; });
 }
 
 const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,

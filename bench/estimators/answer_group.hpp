@@ -1,20 +1,22 @@
-// A group of messages that tells an answer.
+// Groups of messages that tell answers, and how they are put together.
 #pragma once
 
 #include <array>
+#include <tuple>
 #include <type_traits>
 
 #include "bench/checks/reception.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/sample_group.hpp"
+#include "dbc/wire/time_base.hpp"
 #include "dbc/wire/transmit.hpp"
 
 namespace canhil::estimators {
 
+/// In the order of transmission: the last message carries the time of the cause.
 template <class... Messages>
 class AnswerGroup {
  public:
-  static constexpr std::array<std::size_t, sizeof...(Messages)> messages{message_index<Messages>()...};
   [[nodiscard]] static constexpr bool has(std::size_t message) {
     return ((message_index<Messages>() == message) || ...);
   }
@@ -30,13 +32,42 @@ class AnswerGroup {
     (try_one(std::type_identity<Messages>{}), ...);
     return complete;
   }
+  /// What it answers, once it is whole.
+  [[nodiscard]] Whole whole(std::int64_t now_us) const {
+    using Last = std::tuple_element_t<sizeof...(Messages) - 1, std::tuple<Messages...>>;
+    return {.messages = messages,
+            .cause_us = unwrap_us(get<Last>().cause_time_us, now_us),
+            .cause_group = Last::info.answers.front()};
+  }
   template <class Message>
   [[nodiscard]] const Message& get() const {
     return group_.template get<Message>();
   }
 
  private:
+  static constexpr std::array<std::size_t, sizeof...(Messages)> messages{message_index<Messages>()...};
   SampleGroup<Messages...> group_;
+};
+
+/// Of groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`.
+template <class Answers, class... Groups>
+class ReceptionOf : public Reception {
+ public:
+  [[nodiscard]] bool takes(std::size_t message) const final { return (Groups::has(message) || ...); }
+  std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
+                            checks::Observations& seen) final {
+    std::optional<Whole> whole;
+    const auto try_one = [&]<class Group>(Group& group) {
+      if (!Group::has(message) || !group.put(frame)) return;
+      whole = group.whole(now_us);
+      group.add(whole->cause_us, seen.of<Answers>());
+    };
+    std::apply([&](Groups&... group) { (try_one(group), ...); }, groups_);
+    return whole;
+  }
+
+ private:
+  std::tuple<Groups...> groups_;
 };
 
 }  // namespace canhil::estimators

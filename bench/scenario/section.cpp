@@ -122,6 +122,12 @@ struct Section::State {
     if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
   }
+  /// The same for a key that is missing if it is not there, unless it may be absent.
+  const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
+    const toml::node* node = ask(key);
+    if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
+    return node;
+  }
   [[nodiscard]] std::string path_of(std::string_view key) const {
     return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
   }
@@ -131,6 +137,23 @@ struct Section::State {
   }
   void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
     file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
+  }
+  /// The text of a key; null: it is not there, or is none, and that has been said.
+  const std::string* text(std::string_view key, std::string_view expected, bool may_be_absent) {
+    const toml::node* node = ask(key, expected, may_be_absent);
+    if (node == nullptr) return nullptr;
+    const auto* value = node->as_string();
+    if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
+    return value == nullptr ? nullptr : &value->get();
+  }
+  /// What an array holds; nothing where it is none, or empty, and that has been said.
+  const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
+    static const toml::array none;
+    if (node == nullptr) return none;
+    const toml::array* array = node->as_array();
+    if (array != nullptr && !array->empty()) return *array;
+    fail(key, line_of(*node), array == nullptr ? type_of(*node) : "is empty", expected);
+    return none;
   }
   /// The numbers of an array, or zeros if it is missing or wrong.
   template <std::size_t n>
@@ -196,11 +219,8 @@ double Section::number(std::string_view key, Limits limits, std::optional<double
 
 double Section::plain_number(std::string_view key, Limits limits, std::optional<double> fallback) {
   const std::string expected = description(limits, "a number");
-  const toml::node* node = state_->ask(key);
-  if (node == nullptr) {
-    if (!fallback) state_->missing.emplace_back(key, expected);
-    return fallback.value_or(0.0);
-  }
+  const toml::node* node = state_->ask(key, expected, fallback.has_value());
+  if (node == nullptr) return fallback.value_or(0.0);
   const std::optional<double> value = as_number(*node);
   if (value && holds(limits, *value)) return *value;
   reject(key, value ? fmt::format("{} is out of range", *value) : type_of(*node), expected);
@@ -253,52 +273,30 @@ std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limi
 
 std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
   constexpr std::string_view expected = "text on one line";
-  const toml::node* node = state_->ask(key);
-  if (node == nullptr) {
-    if (!fallback) state_->missing.emplace_back(key, expected);
-    return fallback.value_or("");
-  }
-  const auto* value = node->as_string();
-  if (value == nullptr) {
-    reject(key, type_of(*node), expected);
-    return {};
-  }
+  const std::string* value = state_->text(key, expected, fallback.has_value());
+  if (value == nullptr) return fallback.value_or("");
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' '; };
-  if (value->get().empty()) reject(key, "is empty", expected);
-  if (std::ranges::any_of(value->get(), is_control)) reject(key, "has a line break or tab", expected);
-  return value->get();
+  if (value->empty()) reject(key, "is empty", expected);
+  if (std::ranges::any_of(*value, is_control)) reject(key, "has a line break or tab", expected);
+  return *value;
 }
 
 std::string Section::one_of(std::string_view key, std::span<const std::string> names,
                             const std::optional<std::string>& fallback) {
-  const toml::node* node = state_->ask(key);
-  if (node == nullptr) {
-    if (!fallback) state_->missing.emplace_back(key, fmt::format("{}", expected_instead("", names)));
-    return fallback.value_or("");
-  }
-  const auto* value = node->as_string();
-  if (value == nullptr) {
-    reject(key, type_of(*node), expected_instead("", names));
-    return {};
-  }
-  if (std::ranges::find(names, value->get()) != names.end()) return value->get();
-  reject(key, fmt::format("'{}' is unknown", value->get()), expected_instead(value->get(), names));
+  const std::string* value = state_->text(key, expected_instead("", names), fallback.has_value());
+  if (value == nullptr) return fallback.value_or("");
+  if (std::ranges::find(names, *value) != names.end()) return *value;
+  reject(key, fmt::format("'{}' is unknown", *value), expected_instead(*value, names));
   return {};
 }
 
 std::vector<std::string> Section::some_of(std::string_view key, std::span<const std::string> names) {
-  const toml::node* node = state_->ask(key);
+  constexpr std::string_view expected = "an array of names";
   std::vector<std::string> chosen;
-  if (node == nullptr) return chosen;
-  const toml::array* array = node->as_array();
-  if (array == nullptr || array->empty()) {
-    reject(key, array == nullptr ? type_of(*node) : "is empty", "an array of names");
-    return chosen;
-  }
-  for (const toml::node& element : *array) {
+  for (const toml::node& element : state_->elements(key, state_->ask(key), expected)) {
     const auto* name = element.as_string();
     if (name == nullptr) {
-      reject(key, "holds what is no name", "an array of names");
+      reject(key, "holds what is no name", expected);
     } else if (std::ranges::find(names, name->get()) == names.end()) {
       reject(key, fmt::format("'{}' is unknown", name->get()), expected_instead(name->get(), names));
     } else {
@@ -326,9 +324,7 @@ Section Section::inside(std::string_view key, const Node& node, std::string path
 }
 
 Section Section::table(std::string_view key) {
-  const toml::node* node = state_->ask(key);
-  if (node == nullptr) state_->missing.emplace_back(key, "a table");
-  return inside(key, {node}, state_->path_of(key));
+  return inside(key, {state_->ask(key, "a table")}, state_->path_of(key));
 }
 
 std::optional<Section> Section::optional_table(std::string_view key) {
@@ -340,17 +336,7 @@ std::optional<Section> Section::optional_table(std::string_view key) {
 std::vector<Section> Section::tables(std::string_view key) {
   const std::string expected = fmt::format("at least one [[{}]]", key);
   std::vector<Section> sections;
-  const toml::node* node = state_->ask(key);
-  if (node == nullptr) {
-    state_->missing.emplace_back(key, expected);
-    return sections;
-  }
-  const toml::array* array = node->as_array();
-  if (array == nullptr || array->empty()) {
-    reject(key, array == nullptr ? type_of(*node) : "is empty", expected);
-    return sections;
-  }
-  for (const toml::node& element : *array) {
+  for (const toml::node& element : state_->elements(key, state_->ask(key, expected), expected)) {
     sections.push_back(
         inside(key, {&element}, fmt::format("{}[{}]", state_->path_of(key), sections.size() + 1)));
   }

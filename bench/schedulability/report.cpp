@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace canhil::schedulability {
@@ -12,17 +13,8 @@ using Json = nlohmann::ordered_json;
 using Time = std::optional<std::int64_t>;
 
 std::string_view name_of(Release release) {
-  switch (release) {
-    case Release::cycle:
-      return "cycle";
-    case Release::interval:
-      return "interval";
-    case Release::option:
-      return "option";
-    case Release::once:
-      break;
-  }
-  return "once";
+  constexpr std::array<std::string_view, 4> names{"cycle", "interval", "option", "once"};
+  return names.at(static_cast<std::size_t>(release));
 }
 
 /// In ms, to the microsecond.

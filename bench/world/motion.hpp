@@ -1,4 +1,4 @@
-// The motions a truth may follow. A new one is a file in motion/ and a name in this variant.
+// The motions a truth may follow. A new one is a struct in motion/ and a name in this variant.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,9 @@
 #include <vector>
 
 #include "bench/world/earth.hpp"
+#include "bench/world/motion/along_the_nose.hpp"
 #include "bench/world/motion/level_acceleration.hpp"
-#include "bench/world/motion/racetrack.hpp"
 #include "bench/world/motion/rest.hpp"
-#include "bench/world/motion/rest_then_go.hpp"
-#include "bench/world/motion/s_path.hpp"
-#include "bench/world/motion/spiral.hpp"
 #include "bench/world/motion/weave.hpp"
 
 namespace canhil::world {

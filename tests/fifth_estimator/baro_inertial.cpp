@@ -5,11 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "bench/checks/silence.hpp"
-#include "bench/checks/timing.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/marks.hpp"
 #include "bench/estimators/names.hpp"
+#include "bench/estimators/tracks.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 #include "tests/fifth_estimator/answers.hpp"
@@ -40,39 +39,34 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const HeightAnswers& answers = seen.of<HeightAnswers>();
-  const double wait_us =
-      checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::HeightUpdate::info.name));
-  const auto track = [&](const Quantity& quantity, const char* title, Track::Kind kind, auto told) {
-    Track of{.quantity = &quantity,
-             .kind = kind,
-             .unit = quantity.unit,
-             .title = title,
-             .longest_wait_us = wait_us,
-             .answers_end_us = truth.duration_us};
+  const Answering of{longest_wait_us(seen, messages::HeightUpdate::info.name), truth.duration_us};
+  const auto values = [&](auto told) {
+    std::vector<Told> all;
     for (const HeightAnswer& answer : answers) {
-      of.told.push_back(told(answer, error_of(answer, truth.flight)));
-      of.told.back().t_us = answer.cause_us;
+      all.push_back(told(answer, error_of(answer, truth.flight)));
+      all.back().t_us = answer.cause_us;
     }
-    return of;
+    return all;
   };
-  using enum Track::Kind;
-  Track of_height = track(height, "height error", error, [](const HeightAnswer& a, const HeightError& e) {
+  Track of_height = of.track(height, "height error");
+  of_height.estimate_title = "height";
+  of_height.estimate_unit = metres;
+  of_height.told = values([](const HeightAnswer& a, const HeightError& e) {
     return Told{
         .value = e.height, .sigma = a.height_sigma, .estimate = a.height, .truth = a.height - e.height};
   });
-  of_height.estimate_title = "height";
-  of_height.estimate_unit = metres;
   give(std::move(of_height));
-  give(track(velocity_down, "velocity error down", error, [](const HeightAnswer& a, const HeightError& e) {
+  Track of_velocity = of.track(velocity_down, "velocity error down");
+  of_velocity.told = values([](const HeightAnswer& a, const HeightError& e) {
     return Told{.value = e.velocity_down, .sigma = a.velocity_down_sigma};
-  }));
-  give(track(height_nis, "normalised innovation squared", statistic,
-             [](const HeightAnswer& a, const HeightError&) { return Told{.value = a.nis}; }));
-  Track of_nees =
-      track(height_nees, "normalised error squared", statistic,
-            [](const HeightAnswer& a, const HeightError& e) { return Told{.value = nees_of(a, e.height)}; });
-  of_nees.only_if_judged = true;
-  give(std::move(of_nees));
+  });
+  give(std::move(of_velocity));
+  give(of.statistic(height_nis, "normalised innovation squared",
+                    values([](const HeightAnswer& a, const HeightError&) { return Told{.value = a.nis}; })));
+  give(judged(of.statistic(height_nees, "normalised error squared",
+                           values([](const HeightAnswer& a, const HeightError& e) {
+                             return Told{.value = nees_of(a, e.height)};
+                           }))));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {

@@ -17,82 +17,68 @@ using world::units::deg;
 using world::units::degph;
 using world::units::ug;
 
-using FixGroup = AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLongitude, FixAttitudeSigma,
-                             FixVelocitySigma, FixPositionSigma, FixGyroBias, FixGyroBiasSigma, FixAccelBias,
-                             FixAccelBiasSigma, FixBias, FixBiasSigma, FixStatus, FixUpdate>;
-using Navigation = NavigationGroup<FixAttitude, FixVelocityNE, FixVelocityD>;
-
 std::string_view group_of(FixSource source) {
   return source == FixSource::gps ? messages::GpsTime::info.sample_group
                                   : messages::SsblRelativeD::info.sample_group;
 }
 
-Whole add(const FixGroup& fix, std::int64_t now_us, InflightAnswers& answers) {
-  const auto& innovation = fix.get<FixInnovation>();
-  const auto& latitude = fix.get<FixPositionLatitude>();
-  const auto& attitude = fix.get<FixAttitudeSigma>();
-  const auto& velocity = fix.get<FixVelocitySigma>();
-  const auto& position = fix.get<FixPositionSigma>();
-  const auto& gyro = fix.get<FixGyroBias>();
-  const auto& accel = fix.get<FixAccelBias>();
-  const auto& bias = fix.get<FixBias>();
-  const auto& bias_sigma = fix.get<FixBiasSigma>();
-  const auto& status = fix.get<FixStatus>();
-  const auto& update = fix.get<FixUpdate>();
-  const std::int64_t cause_us = unwrap_us(update.cause_time_us, now_us);
-  answers.fixes.push_back(
-      {.cause_us = cause_us,
-       .navigation_us = answers.navigation.empty() ? -1 : answers.navigation.back().cause_us,
-       .source = status.source,
-       .outcome = status.outcome,
-       .nis = update.nis,
-       .innovation = {innovation.innovation_north_m, innovation.innovation_east_m,
-                      innovation.innovation_down_m},
-       .position = {.latitude = latitude.latitude_deg * deg,
-                    .longitude = fix.get<FixPositionLongitude>().longitude_deg * deg,
-                    .height = latitude.height_m},
-       .tilt_sigma_north = attitude.tilt_sigma_north_deg * deg,
-       .tilt_sigma_east = attitude.tilt_sigma_east_deg * deg,
-       .heading_sigma = attitude.heading_sigma_deg * deg,
-       .velocity_sigma = {velocity.velocity_sigma_north_mps, velocity.velocity_sigma_east_mps,
-                          velocity.velocity_sigma_down_mps},
-       .position_sigma = {position.position_sigma_north_m, position.position_sigma_east_m,
-                          position.position_sigma_down_m},
-       .gyro_bias = Vector3(gyro.gyro_bias_x_degph, gyro.gyro_bias_y_degph, gyro.gyro_bias_z_degph) * degph,
-       .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug,
-       .fix_bias = {bias.fix_bias_north_m, bias.fix_bias_east_m, bias.fix_bias_down_m},
-       .fix_bias_sigma = {bias_sigma.fix_bias_sigma_north_m, bias_sigma.fix_bias_sigma_east_m,
-                          bias_sigma.fix_bias_sigma_down_m},
-       .handed_over = status.handed_over != 0,
-       .repairs = status.repairs,
-       .gated = status.gated,
-       .refused = status.refused});
-  return {.messages = FixGroup::messages, .cause_us = cause_us, .cause_group = group_of(status.source)};
-}
+struct FixGroup : AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLongitude, FixAttitudeSigma,
+                              FixVelocitySigma, FixPositionSigma, FixGyroBias, FixGyroBiasSigma, FixAccelBias,
+                              FixAccelBiasSigma, FixBias, FixBiasSigma, FixStatus, FixUpdate> {
+  /// It answers the one source or the other.
+  [[nodiscard]] Whole whole(std::int64_t now_us) const {
+    Whole answer = AnswerGroup::whole(now_us);
+    answer.cause_group = group_of(get<FixStatus>().source);
+    return answer;
+  }
+  void add(std::int64_t cause_us, InflightAnswers& answers) const {
+    const auto& innovation = get<FixInnovation>();
+    const auto& latitude = get<FixPositionLatitude>();
+    const auto& attitude = get<FixAttitudeSigma>();
+    const auto& velocity = get<FixVelocitySigma>();
+    const auto& position = get<FixPositionSigma>();
+    const auto& gyro = get<FixGyroBias>();
+    const auto& accel = get<FixAccelBias>();
+    const auto& bias = get<FixBias>();
+    const auto& bias_sigma = get<FixBiasSigma>();
+    const auto& status = get<FixStatus>();
+    answers.fixes.push_back(
+        {.cause_us = cause_us,
+         .navigation_us = last_cause_us(answers.navigation),
+         .source = status.source,
+         .outcome = status.outcome,
+         .nis = get<FixUpdate>().nis,
+         .innovation = {innovation.innovation_north_m, innovation.innovation_east_m,
+                        innovation.innovation_down_m},
+         .position = {.latitude = latitude.latitude_deg * deg,
+                      .longitude = get<FixPositionLongitude>().longitude_deg * deg,
+                      .height = latitude.height_m},
+         .attitude_sigma = {attitude.tilt_sigma_north_deg * deg, attitude.tilt_sigma_east_deg * deg,
+                            attitude.heading_sigma_deg * deg},
+         .velocity_sigma = {velocity.velocity_sigma_north_mps, velocity.velocity_sigma_east_mps,
+                            velocity.velocity_sigma_down_mps},
+         .position_sigma = {position.position_sigma_north_m, position.position_sigma_east_m,
+                            position.position_sigma_down_m},
+         .gyro_bias = Vector3(gyro.gyro_bias_x_degph, gyro.gyro_bias_y_degph, gyro.gyro_bias_z_degph) * degph,
+         .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug,
+         .fix_bias = {bias.fix_bias_north_m, bias.fix_bias_east_m, bias.fix_bias_down_m},
+         .fix_bias_sigma = {bias_sigma.fix_bias_sigma_north_m, bias_sigma.fix_bias_sigma_east_m,
+                            bias_sigma.fix_bias_sigma_down_m},
+         .handed_over = status.handed_over != 0,
+         .repairs = status.repairs,
+         .gated = status.gated,
+         .refused = status.refused});
+  }
+};
+using Navigation = NavigationGroup<FixAttitude, FixVelocityNE, FixVelocityD>;
 
-class InflightReception final : public Reception {
- public:
-  [[nodiscard]] bool takes(std::size_t message) const override {
-    return Navigation::Group::has(message) || FixGroup::has(message);
-  }
-  std::optional<Whole> take(const Frame& frame, std::size_t message, std::int64_t now_us,
-                            checks::Observations& seen) override {
-    if (Navigation::Group::has(message)) {
-      if (!navigation_.put(frame)) return std::nullopt;
-      return navigation_.add(now_us, seen.of<InflightAnswers>().navigation);
-    }
-    return fix_.put(frame) ? std::optional(add(fix_, now_us, seen.of<InflightAnswers>())) : std::nullopt;
-  }
+class InflightReception final : public ReceptionOf<InflightAnswers, Navigation, FixGroup> {
   void sent(std::string_view group, std::int64_t valid_us, checks::Observations& seen) override {
     for (const FixSource source : {FixSource::ssbl, FixSource::gps}) {
       if (group == group_of(source))
         seen.of<InflightAnswers>().sent.push_back({.source = source, .valid_us = valid_us});
     }
   }
-
- private:
-  Navigation navigation_;
-  FixGroup fix_;
 };
 
 }  // namespace

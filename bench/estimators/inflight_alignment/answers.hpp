@@ -16,10 +16,9 @@ struct FixAnswer {
   messages::FixSource source = messages::FixSource::ssbl;
   messages::FixOutcome outcome = messages::FixOutcome::accepted;
   double nis = 0;
-  world::Vector3 innovation = world::Vector3::Zero();  ///< NED [m]
-  world::Position position{};                          ///< at the time of validity of the fix
-  double tilt_sigma_north = 0, tilt_sigma_east = 0;    ///< of the misalignment
-  double heading_sigma = 0;
+  world::Vector3 innovation = world::Vector3::Zero();      ///< NED [m]
+  world::Position position{};                              ///< at the time of validity of the fix
+  world::Vector3 attitude_sigma = world::Vector3::Zero();  ///< of the misalignment, NED
   world::Vector3 velocity_sigma = world::Vector3::Zero();  ///< NED
   world::Vector3 position_sigma = world::Vector3::Zero();  ///< NED [m]
   world::Vector3 gyro_bias = world::Vector3::Zero();       ///< body

@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/estimators/alignment_results.hpp"
-#include "bench/estimators/alignment_tracks.hpp"
+#include "bench/estimators/alignment.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/inflight_alignment/quantities.hpp"
@@ -62,22 +61,16 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  p.x(),
                                                  p.y(),
                                                  p.z(),
-                                                 update.heading_sigma,
+                                                 update.attitude_sigma.z(),
                                                  static_cast<double>(update.repairs)};
     samples.add(update.cause_us, values);
   }
   return samples;
 }
 
-constexpr AlignmentWords words{
-    .angle = degrees,
-    .navigation_closes = messages::FixVelocityD::info.name,
-    .innovation = {&position_innovation_north, &position_innovation_east, &position_innovation_down}};
-
 // The longest time that is no silence between answers to fixes: so many in a row may go unanswered. By the
 // median, as the bench may keep fixes back on purpose; of two sources the slower one counts.
-double longest_wait_us(const checks::Observations& seen) {
-  const InflightAnswers& answers = seen.of<InflightAnswers>();
+double wait_for_fixes_us(const InflightAnswers& answers) {
   double period_us = 0;
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {
     std::vector<std::int64_t> periods_us;
@@ -95,28 +88,9 @@ double longest_wait_us(const checks::Observations& seen) {
   return checks::longest_wait_us(period_us, checks::tolerated_fixes + 1);
 }
 
-double misalignment_sigma(const FixAnswer& answer, int axis) {
-  return axis == 0 ? answer.tilt_sigma_north : axis == 1 ? answer.tilt_sigma_east : answer.heading_sigma;
-}
-
-// The bench may keep fixes back on purpose: those that it did not send need no answer.
-std::function<std::string(std::int64_t, std::int64_t)> owed_to(const checks::Observations& seen) {
-  return [&seen](std::int64_t from_us, std::int64_t to_us) {
-    return unanswered_fixes(seen.of<InflightAnswers>(), {.from_us = from_us, .to_us = to_us});
-  };
-}
-
-void give_position(const checks::Observations& seen, const Truth& truth, double wait_us,
-                   const TrackSink& give) {
-  const InflightAnswers& answers = seen.of<InflightAnswers>();
-  const auto add = [&](const Quantity& quantity, std::string title, bool only_if_judged, auto told) {
-    Track track{.quantity = &quantity,
-                .unit = metres,
-                .title = "position error " + std::move(title),
-                .only_if_judged = only_if_judged,
-                .unanswered = owed_to(seen),
-                .longest_wait_us = wait_us,
-                .answers_end_us = truth.duration_us};
+void give_positions(const InflightAnswers& answers, const Answering& filters, const Truth& truth,
+                    const TrackSink& give) {
+  const auto fill = [&](Track track, auto told) {
     for (const FixAnswer& fix : answers.fixes) {
       if (!tells_of_its_time(fix, truth.flight)) continue;
       track.told.push_back(told(fix, position_error(fix, truth.flight)));
@@ -124,39 +98,45 @@ void give_position(const checks::Observations& seen, const Truth& truth, double 
     }
     give(std::move(track));
   };
-  const auto component = [](int axis) {
-    return [axis](const FixAnswer& fix, const world::Vector3& error) {
-      return Told{.value = error(axis), .sigma = fix.position_sigma(axis)};
-    };
-  };
-  add(position_north, "north", false, component(0));
-  add(position_east, "east", false, component(1));
-  add(position_down, "down", false, component(2));
-  add(position_horizontal, "horizontal", true,
-      [](const auto&, const world::Vector3& error) { return Told{.value = error.head<2>().norm()}; });
-  add(position_norm, "norm", true,
-      [](const auto&, const world::Vector3& error) { return Told{.value = error.norm()}; });
+  each_axis({&position_north, &position_east, &position_down},
+            [&](const Quantity& quantity, const std::string& name, int axis) {
+              fill(filters.track(quantity, "position error " + name),
+                   [=](const FixAnswer& fix, const world::Vector3& error) {
+                     return Told{.value = error(axis), .sigma = fix.position_sigma(axis)};
+                   });
+            });
+  fill(judged(filters.track(position_horizontal, "position error horizontal")),
+       [](const auto&, const world::Vector3& error) { return Told{.value = error.head<2>().norm()}; });
+  fill(judged(filters.track(position_norm, "position error norm")),
+       [](const auto&, const world::Vector3& error) { return Told{.value = error.norm()}; });
 }
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
-  const double wait_us = longest_wait_us(seen);
   const InflightAnswers& answers = seen.of<InflightAnswers>();
-  const AlignmentTracks tracks(words, seen, answers.navigation, truth.flight, truth.duration_us,
-                               answers.fixes, wait_us, misalignment_sigma, owed_to(seen));
-  std::vector<Normalised> nis, of_heading;
+  const auto errors = navigation_errors(answers.navigation, truth.flight);
+  // The bench may keep fixes back on purpose: those that it did not send need no answer.
+  const auto unanswered = [&answers](std::int64_t from_us, std::int64_t to_us) {
+    return unanswered_fixes(answers, {.from_us = from_us, .to_us = to_us});
+  };
+  const Alignment alignment{
+      .angle = degrees,
+      .innovation = {&position_innovation_north, &position_innovation_east, &position_innovation_down},
+      .navigation = answers.navigation,
+      .errors = errors,
+      .navigates = {longest_wait_us(seen, messages::FixVelocityD::info.name), truth.duration_us},
+      .filters = {wait_for_fixes_us(answers), truth.duration_us, unanswered}};
+  give_alignment(alignment, answers.fixes, give);
+  std::vector<Told> nis, of_heading;
   for (const FixAnswer& answer : answers.fixes) {
     if (!used(answer.outcome)) continue;
-    nis.push_back({answer.cause_us, answer.nis});
-    add_heading_nees(of_heading, tracks.errors(), answer, answer.heading_sigma);
+    nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
+    add_heading_nees(of_heading, errors, answer);
   }
-  tracks.give(
-      give,
-      {{.quantity = &innovation_nis, .title = "normalised innovation squared", .series = std::move(nis)},
-       {.quantity = &heading_nees,
-        .title = "normalised error squared of the heading",
-        .series = std::move(of_heading),
-        .only_if_judged = true}});
-  give_position(seen, truth, wait_us, give);
+  const Answering& filters = alignment.filters;
+  give(filters.statistic(innovation_nis, "normalised innovation squared", std::move(nis)));
+  give(judged(
+      filters.statistic(heading_nees, "normalised error squared of the heading", std::move(of_heading))));
+  give_positions(answers, filters, truth, give);
 }
 
 // Navigation answers that bridged lost input; fixes by what became of them, whose answers after which the
@@ -197,9 +177,9 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
     filter.figures.push_back({.name = "resolved", .words = "heading not fed back to the INS by the end"});
   }
   filter.figures.push_back({.name = "heading_sigma",
-                            .value = last.heading_sigma,
+                            .value = last.attitude_sigma.z(),
                             .words = fmt::format("heading sigma told at the end {:.3f} deg",
-                                                 last.heading_sigma / degrees.factor)});
+                                                 last.attitude_sigma.z() / degrees.factor)});
   lines.push_back(std::move(filter));
   return lines;
 }

@@ -5,44 +5,28 @@ namespace {
 
 using namespace messages;
 
-using LosGroup = AnswerGroup<LosRateEstimate, LosRateSigma, LosRateTarget>;
-
-Whole add(const LosGroup& group, std::int64_t now_us, LosAnswers& answers) {
-  const auto& estimate = group.get<LosRateEstimate>();
-  const auto& sigma = group.get<LosRateSigma>();
-  const auto& target = group.get<LosRateTarget>();
-  const std::int64_t cause_us = unwrap_us(target.cause_time_us, now_us);
-  answers.push_back(
-      {.cause_us = cause_us,
-       .outcome = estimate.outcome,
-       .fault = estimate.fault,
-       .blind = estimate.blind != 0,
-       .rate = {.pitch = estimate.los_rate_pitch_radps, .yaw = estimate.los_rate_yaw_radps},
-       .rate_sigma = {.pitch = sigma.los_rate_sigma_pitch_radps, .yaw = sigma.los_rate_sigma_yaw_radps},
-       .target = {.pitch = target.target_acceleration_z_mps2, .yaw = target.target_acceleration_y_mps2},
-       .target_sigma = {.pitch = sigma.target_acceleration_sigma_z_mps2,
-                        .yaw = sigma.target_acceleration_sigma_y_mps2},
-       .nis = sigma.nis});
-  return {.messages = LosGroup::messages,
-          .cause_us = cause_us,
-          .cause_group = LosRateTarget::info.answers.front()};
-}
-
-class LosReception final : public Reception {
- public:
-  [[nodiscard]] bool takes(std::size_t message) const override { return LosGroup::has(message); }
-  std::optional<Whole> take(const Frame& frame, std::size_t /*message*/, std::int64_t now_us,
-                            checks::Observations& seen) override {
-    return group_.put(frame) ? std::optional(add(group_, now_us, seen.of<LosAnswers>())) : std::nullopt;
+struct LosGroup : AnswerGroup<LosRateEstimate, LosRateSigma, LosRateTarget> {
+  void add(std::int64_t cause_us, LosAnswers& answers) const {
+    const auto& estimate = get<LosRateEstimate>();
+    const auto& sigma = get<LosRateSigma>();
+    const auto& target = get<LosRateTarget>();
+    answers.push_back(
+        {.cause_us = cause_us,
+         .outcome = estimate.outcome,
+         .fault = estimate.fault,
+         .blind = estimate.blind != 0,
+         .rate = {.pitch = estimate.los_rate_pitch_radps, .yaw = estimate.los_rate_yaw_radps},
+         .rate_sigma = {.pitch = sigma.los_rate_sigma_pitch_radps, .yaw = sigma.los_rate_sigma_yaw_radps},
+         .target = {.pitch = target.target_acceleration_z_mps2, .yaw = target.target_acceleration_y_mps2},
+         .target_sigma = {.pitch = sigma.target_acceleration_sigma_z_mps2,
+                          .yaw = sigma.target_acceleration_sigma_y_mps2},
+         .nis = sigma.nis});
   }
-
- private:
-  LosGroup group_;
 };
 
 }  // namespace
 
-std::unique_ptr<Reception> los_reception() { return std::make_unique<LosReception>(); }
+std::unique_ptr<Reception> los_reception() { return std::make_unique<ReceptionOf<LosAnswers, LosGroup>>(); }
 
 std::vector<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement) {
   std::vector<LosError> errors;
@@ -58,8 +42,8 @@ std::vector<LosError> los_errors(const LosAnswers& answers, const world::Engagem
   return errors;
 }
 
-std::vector<Normalised> nis_of(const LosAnswers& answers) {
-  std::vector<Normalised> series;
+std::vector<quantities::Told> nis_of(const LosAnswers& answers) {
+  std::vector<quantities::Told> series;
   for (const LosAnswer& answer : answers) {
     if (updated(answer.outcome)) series.push_back({answer.cause_us, answer.nis});
   }

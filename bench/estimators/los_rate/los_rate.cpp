@@ -10,14 +10,13 @@
 #include <string>
 #include <utility>
 
-#include "bench/checks/silence.hpp"
-#include "bench/checks/timing.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/los_rate/answers.hpp"
 #include "bench/estimators/los_rate/miss_distance.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
 #include "bench/estimators/marks.hpp"
 #include "bench/estimators/names.hpp"
+#include "bench/estimators/tracks.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -67,7 +66,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     stretch.yaw_squares += error.rate.yaw * error.rate.yaw;
     ++stretch.rates;
   }
-  for (const Normalised& update : nis_of(seen.of<LosAnswers>())) {
+  for (const Told& update : nis_of(seen.of<LosAnswers>())) {
     const world::EngagementTruth* epoch = engagement.at(update.t_us);
     if (epoch == nullptr) continue;
     Stretch& stretch = at(epoch->time_to_go());
@@ -94,25 +93,19 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   constexpr double least_to_go_s = 0.08;
   const auto last = std::find_if(errors.rbegin(), errors.rend(),
                                  [](const LosError& e) { return e.time_to_go >= least_to_go_s; });
-  const auto empty = [&](const Quantity& quantity) {
-    return Track{.quantity = &quantity,
-                 .unit = quantity.unit,
-                 .longest_wait_us = checks::longest_wait_us(
-                     1e6 * checks::nominal_period_s(seen, messages::LosRateTarget::info.name)),
-                 .answers_end_us = engagement.miss_n ? std::min(truth.duration_us, engagement.passage_us)
-                                                     : truth.duration_us};
-  };
+  const Answering of{
+      longest_wait_us(seen, messages::LosRateTarget::info.name),
+      engagement.miss_n ? std::min(truth.duration_us, engagement.passage_us) : truth.duration_us};
   const auto plane = [&](const Quantity& quantity, const std::string& name,
                          double world::Planes<double>::*member) {
-    Track track = empty(quantity);
+    Track track = of.track(quantity, "LOS rate error, " + name);
     track.drawn_until_us = last == errors.rend() ? 0 : last->t_us;
-    track.title = "LOS rate error, " + name;
     track.estimate_title = "LOS rate, " + name;
     track.estimate_unit = mradps;
     for (const world::EngagementTruth& epoch : engagement.epochs)
       track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
     for (const LosError& e : errors) {
-      const auto& answer = *std::ranges::lower_bound(answers, e.t_us, {}, &LosAnswer::cause_us);
+      const LosAnswer& answer = answer_to(answers, e.t_us);
       track.told.push_back({.t_us = e.t_us,
                             .value = e.rate.*member,
                             .sigma = answer.rate_sigma.*member,
@@ -123,11 +116,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   };
   plane(los_rate_pitch, "pitch", &world::Planes<double>::pitch);
   plane(los_rate_yaw, "yaw", &world::Planes<double>::yaw);
-  Track statistic = empty(los_nis);
-  statistic.kind = Track::Kind::statistic;
-  statistic.title = "normalised innovation squared";
-  for (const Normalised& n : nis_of(answers)) statistic.told.push_back({.t_us = n.t_us, .value = n.value});
-  give(std::move(statistic));
+  give(of.statistic(los_nis, "normalised innovation squared", nis_of(answers)));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {

@@ -27,8 +27,8 @@ struct TransferAnswers {
 };
 
 /// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of phi from first_after().
-std::vector<Normalised> nees_of(const std::vector<FilterAnswer>& filter,
-                                const std::vector<NavigationError>& errors);
+std::vector<quantities::Told> nees_of(const std::vector<FilterAnswer>& filter,
+                                      const std::vector<NavigationError>& errors);
 
 std::unique_ptr<Reception> transfer_reception();
 

@@ -3,8 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "bench/estimators/alignment_results.hpp"
-#include "bench/estimators/alignment_tracks.hpp"
+#include "bench/estimators/alignment.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/names.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
@@ -33,7 +32,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const TransferAnswers& answers = seen.of<TransferAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
   // One value an update, in order, up to the last one that a navigation answer follows.
-  const std::vector<Normalised> nees = nees_of(answers.filter, errors);
+  const std::vector<Told> nees = nees_of(answers.filter, errors);
   for (std::size_t i = 0; i < nees.size(); ++i) {
     const FilterAnswer& update = answers.filter[i];
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
@@ -47,34 +46,28 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   return samples;
 }
 
-constexpr AlignmentWords words{
-    .angle = mrad,
-    .navigation_closes = messages::AlignVelocityD::info.name,
-    .innovation = {&velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down}};
-
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
-  const double wait_us =
-      checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::AlignUpdate::info.name));
   const TransferAnswers& answers = seen.of<TransferAnswers>();
-  const AlignmentTracks tracks(words, seen, answers.navigation, truth.flight, truth.duration_us,
-                               answers.filter, wait_us,
-                               [](const FilterAnswer& a, int axis) { return a.attitude_sigma(axis); });
-  std::vector<Normalised> nis, of_heading;
+  const auto errors = navigation_errors(answers.navigation, truth.flight);
+  const Alignment alignment{
+      .angle = mrad,
+      .innovation = {&velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down},
+      .navigation = answers.navigation,
+      .errors = errors,
+      .navigates = {longest_wait_us(seen, messages::AlignVelocityD::info.name), truth.duration_us},
+      .filters = {longest_wait_us(seen, messages::AlignUpdate::info.name), truth.duration_us}};
+  give_alignment(alignment, answers.filter, give);
+  std::vector<Told> nis, of_heading;
   for (const FilterAnswer& answer : answers.filter) {
-    nis.push_back({answer.cause_us, answer.nis});
-    add_heading_nees(of_heading, tracks.errors(), answer, answer.attitude_sigma.z());
+    nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
+    add_heading_nees(of_heading, errors, answer);
   }
-  tracks.give(
-      give,
-      {{.quantity = &innovation_nis, .title = "normalised innovation squared", .series = std::move(nis)},
-       {.quantity = &attitude_nees,
-        .title = "normalised error squared of the attitude",
-        .series = nees_of(answers.filter, tracks.errors()),
-        .only_if_judged = true},
-       {.quantity = &heading_nees,
-        .title = "normalised error squared of the heading",
-        .series = std::move(of_heading),
-        .only_if_judged = true}});
+  const Answering& filters = alignment.filters;
+  give(filters.statistic(innovation_nis, "normalised innovation squared", std::move(nis)));
+  give(judged(filters.statistic(attitude_nees, "normalised error squared of the attitude",
+                                nees_of(answers.filter, errors))));
+  give(judged(
+      filters.statistic(heading_nees, "normalised error squared of the heading", std::move(of_heading))));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {

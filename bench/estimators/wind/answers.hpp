@@ -14,7 +14,6 @@ struct WindAnswer {
   std::int64_t cause_us = 0;
   bool started = false;  ///< the filter runs; else only the wind counts
   messages::WindOutcome outcome = messages::WindOutcome::waiting;
-  messages::WindFault fault = messages::WindFault::none;
   bool outside = false;  ///< of the range of the model, in any of its variables
   bool fins_late = false;
   bool fins_missing = false;
@@ -25,8 +24,7 @@ struct WindAnswer {
   world::Vector3 correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down
   double along_track_sigma = 0;
   double cross_track_sigma = 0;
-  world::Vector3 v_a = world::Vector3::Zero();  ///< air velocity, body
-  double nis = 0;                               ///< of 9 degrees of freedom; 0: without an update
+  double nis = 0;  ///< of 9 degrees of freedom; 0: without an update
 };
 
 using WindAnswers = std::vector<WindAnswer>;
@@ -45,9 +43,9 @@ struct WindError {
 std::vector<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide);
 
 /// NIS (9 degrees of freedom) of each update.
-std::vector<Normalised> nis_of(const WindAnswers& answers);
+std::vector<quantities::Told> nis_of(const WindAnswers& answers);
 /// NEES of the wind (3 degrees of freedom), with the covariance that the bus carries.
-std::vector<Normalised> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
+std::vector<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
 
 std::unique_ptr<Reception> wind_reception();
 

@@ -9,11 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "bench/checks/silence.hpp"
-#include "bench/checks/timing.hpp"
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/marks.hpp"
 #include "bench/estimators/names.hpp"
+#include "bench/estimators/tracks.hpp"
 #include "bench/estimators/wind/answers.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -61,58 +60,37 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   if (truth.glide == nullptr) return;
   const WindAnswers& answers = seen.of<WindAnswers>();
   const auto errors = wind_errors(answers, *truth.glide);
-  const double wait_us =
-      checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, messages::WindUpdate::info.name));
-  const auto empty = [&](const Quantity& quantity, std::string title) {
-    return Track{.quantity = &quantity,
-                 .unit = mps,
-                 .title = std::move(title),
-                 .longest_wait_us = wait_us,
-                 .answers_end_us = truth.glide->end_us()};
-  };
+  const Answering of{longest_wait_us(seen, messages::WindUpdate::info.name), truth.glide->end_us()};
   const auto fill = [&](Track track, auto told) {
     for (const WindError& e : errors) {
-      track.told.push_back(told(*std::ranges::lower_bound(answers, e.t_us, {}, &WindAnswer::cause_us), e));
+      track.told.push_back(told(answer_to(answers, e.t_us), e));
       track.told.back().t_us = e.t_us;
     }
     give(std::move(track));
   };
-  const std::array ned{std::pair{&wind_north, "north"}, std::pair{&wind_east, "east"},
-                       std::pair{&wind_down, "down"}};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& [quantity, name] = ned[static_cast<std::size_t>(axis)];
-    Track track = empty(*quantity, std::string("wind error ") + name);
-    track.estimate_title = std::string("wind ") + name;
-    track.estimate_unit = mps;
-    fill(std::move(track), [=](const WindAnswer& answer, const WindError& e) {
-      const double estimate = answer.wind_n(axis);
-      return Told{.value = e.error_n(axis),
-                  .sigma = answer.sigma(axis),
-                  .estimate = estimate,
-                  .truth = estimate - e.error_n(axis)};
-    });
-  }
-  const auto judged = [&](const Quantity& quantity, std::string title) {
-    Track track = empty(quantity, std::move(title));
-    track.only_if_judged = true;
-    return track;
-  };
-  fill(judged(wind_along, "wind error along track"), [](const auto& answer, const WindError& e) {
+  each_axis({&wind_north, &wind_east, &wind_down},
+            [&](const Quantity& quantity, const std::string& name, int axis) {
+              Track track = of.track(quantity, "wind error " + name);
+              track.estimate_title = "wind " + name;
+              track.estimate_unit = mps;
+              fill(std::move(track), [=](const WindAnswer& answer, const WindError& e) {
+                const double estimate = answer.wind_n(axis);
+                return Told{.value = e.error_n(axis),
+                            .sigma = answer.sigma(axis),
+                            .estimate = estimate,
+                            .truth = estimate - e.error_n(axis)};
+              });
+            });
+  fill(judged(of.track(wind_along, "wind error along track")), [](const auto& answer, const WindError& e) {
     return Told{.value = e.along_track, .sigma = answer.along_track_sigma};
   });
-  fill(judged(wind_cross, "wind error cross track"), [](const auto& answer, const WindError& e) {
+  fill(judged(of.track(wind_cross, "wind error cross track")), [](const auto& answer, const WindError& e) {
     return Told{.value = e.cross_track, .sigma = answer.cross_track_sigma};
   });
-  fill(judged(wind_norm, "wind error norm"),
+  fill(judged(of.track(wind_norm, "wind error norm")),
        [](const auto&, const WindError& e) { return Told{.value = e.error_n.norm()}; });
-  const auto statistic = [&](Track track, const std::vector<Normalised>& series) {
-    track.kind = Track::Kind::statistic;
-    track.unit = plain;
-    for (const Normalised& n : series) track.told.push_back({.t_us = n.t_us, .value = n.value});
-    give(std::move(track));
-  };
-  statistic(empty(wind_nis, "normalised innovation squared"), nis_of(answers));
-  statistic(judged(wind_nees, "normalised error squared"), nees_of(answers, *truth.glide));
+  give(of.statistic(wind_nis, "normalised innovation squared", nis_of(answers)));
+  give(judged(of.statistic(wind_nees, "normalised error squared", nees_of(answers, *truth.glide))));
 }
 
 std::vector<Mark> marks_of(const checks::Observations& seen) {

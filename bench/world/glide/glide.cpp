@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "bench/world/glide/atmosphere.hpp"
-#include "bench/world/glide/autopilot.hpp"
 #include "bench/world/units.hpp"
 
 namespace canhil::world {
@@ -28,6 +27,18 @@ Vector3 three(const State& x, int at) { return x.segment<3>(at); }
 Eigen::Quaterniond attitude(const State& x) {
   return Eigen::Quaterniond(x(quaternion_at), x(quaternion_at + 1), x(quaternion_at + 2),
                             x(quaternion_at + 3));
+}
+
+constexpr double fin_lag = 0.05;  // of the actuators [s]
+
+// Attitude hold: deflections that hold pitch and roll at zero and damp the yaw, within 20 degrees. A positive
+// elevator pitches down, a positive rudder yaws to the left, a positive aileron rolls to the right.
+// `pitch_integral`: of the pitch over time [rad s].
+Fins commanded(const Euler& angles, const Vector3& omega, double pitch_integral) {
+  constexpr double limit = 20 * units::deg;
+  const Fins wanted(1.0 * angles.pitch + 0.4 * pitch_integral + 0.30 * omega.y(),
+                    -0.8 * angles.roll - 0.25 * omega.x(), 0.30 * omega.z());
+  return wanted.cwiseMax(-limit).cwiseMin(limit);
 }
 
 // What holds over one step.
@@ -61,7 +72,7 @@ State derivative(const State& x, double share, const Step& step) {
   const Eigen::Quaterniond turning = attitude(x) * spin;  // q' = q (0, omega) / 2
   rate.segment<4>(quaternion_at) << 0.5 * turning.w(), 0.5 * turning.vec();
   rate.segment<3>(rates_at) = I_inverse * (loads.moment - omega.cross(I * omega));
-  rate.segment<3>(fins_at) = (glide::commanded(angles, omega, x(integral_at)) - fins) / glide::fin_lag;
+  rate.segment<3>(fins_at) = (commanded(angles, omega, x(integral_at)) - fins) / fin_lag;
   rate(integral_at) = angles.pitch;
   return rate;
 }

@@ -160,7 +160,7 @@ TEST(Series, AFixHasAPositionAndASigmaButNoCovariance) {
         {.cause_us = t_us, .angles = {.heading = 1e-6 * static_cast<double>(t_us)}});
   estimators::FixAnswer fix{.cause_us = 500'000, .navigation_us = 1'000'000, .nis = 4};
   fix.position = displaced(start, {1, 2, 3});
-  fix.heading_sigma = 0.5;
+  fix.attitude_sigma.z() = 0.5;
   fix.repairs = 6;
   flown.seen.of<estimators::InflightAnswers>().fixes.push_back(fix);
   fix.outcome = messages::FixOutcome::wrong_source;

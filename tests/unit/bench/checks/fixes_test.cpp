@@ -31,7 +31,7 @@ class Fixed : public testing::Test {
       seen_.of<InflightAnswers>().navigation.push_back({.cause_us = t_us, .angles = {}});
       FixAnswer fix{.cause_us = t_us, .navigation_us = t_us, .nis = 3};
       fix.position = start;
-      fix.heading_sigma = 0.1;
+      fix.attitude_sigma.z() = 0.1;
       seen_.of<InflightAnswers>().fixes.push_back(fix);
     }
   }
@@ -131,7 +131,7 @@ TEST_F(Fixed, HeadingNeesFailsAnOverconfidentFilter) {
   for (NavigationAnswer& answer : seen_.of<InflightAnswers>().navigation) answer.angles.heading = 0.1;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).measured, "mean 1.000 of 19");
-  for (FixAnswer& fix : seen_.of<InflightAnswers>().fixes) fix.heading_sigma = 0.05;
+  for (FixAnswer& fix : seen_.of<InflightAnswers>().fixes) fix.attitude_sigma.z() = 0.05;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 

@@ -53,7 +53,7 @@ TEST(SeveralEstimators, AnswerAsTheyDoAlone) {
                   &estimators::NavigationAnswer::v_eb_n);
       expect_same(together.of<estimators::InflightAnswers>().fixes,
                   alone.of<estimators::InflightAnswers>().fixes, &estimators::FixAnswer::cause_us,
-                  &estimators::FixAnswer::nis, &estimators::FixAnswer::heading_sigma);
+                  &estimators::FixAnswer::nis, &estimators::FixAnswer::attitude_sigma);
     } else if (target.estimator == "los_rate") {
       expect_same(together.of<estimators::LosAnswers>(), alone.of<estimators::LosAnswers>(),
                   &estimators::LosAnswer::cause_us, &estimators::LosAnswer::nis,

@@ -188,9 +188,9 @@ TEST_F(Watched, AFixGroupIsOneAnswerInSiUnits) {
   EXPECT_NEAR(fix.position.latitude, 0.62831853, 1e-8);
   EXPECT_NEAR(fix.position.longitude, 2.25147474, 1e-8);
   EXPECT_NEAR(fix.position.height, -20, 1e-9);
-  EXPECT_NEAR(fix.tilt_sigma_north, 1.7453293e-3, 1e-9);
-  EXPECT_NEAR(fix.tilt_sigma_east, 3.4906585e-3, 1e-9);
-  EXPECT_NEAR(fix.heading_sigma, 1.5707963, 1e-7);
+  EXPECT_NEAR(fix.attitude_sigma.x(), 1.7453293e-3, 1e-9);
+  EXPECT_NEAR(fix.attitude_sigma.y(), 3.4906585e-3, 1e-9);
+  EXPECT_NEAR(fix.attitude_sigma.z(), 1.5707963, 1e-7);
   EXPECT_NEAR(fix.velocity_sigma.y(), 0.25, 1e-12);
   EXPECT_NEAR(fix.position_sigma.z(), 5, 1e-12);
   EXPECT_NEAR(fix.gyro_bias.x(), 1.7453293e-5, 1e-12);

@@ -146,7 +146,7 @@ TEST(Reports, TellWhatBecameOfFixes) {
       {.estimator = "inflight_alignment", .algorithm = "sin_cos", .initial_sigma = {}, .parameters = {}}};
   EXPECT_THAT(text(scenario, run), AllOf(HasSubstr("answers 0\n"), Not(HasSubstr("accepted"))));
   estimators::FixAnswer fix{.cause_us = 100'000};
-  fix.heading_sigma = 0.01;
+  fix.attitude_sigma.z() = 0.01;
   run.seen.of<estimators::InflightAnswers>().fixes = {fix, fix, fix};
   EXPECT_THAT(
       text(scenario, run),
@@ -172,7 +172,7 @@ TEST(Reports, TellWhatBecameOfFixes) {
 
 TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
   drive::Run run = run_of();
-  run.seen.of<estimators::InflightAnswers>().fixes = {{.cause_us = 100'000, .heading_sigma = 0.01}};
+  run.seen.of<estimators::InflightAnswers>().fixes = {{.cause_us = 100'000, .attitude_sigma = {0, 0, 0.01}}};
   scenario::Scenario scenario = scenario_of();
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "ukf", .initial_sigma = {}, .parameters = {}}};

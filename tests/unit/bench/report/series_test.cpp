@@ -149,7 +149,8 @@ TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
   for (std::int64_t t_us = 1'000'000; t_us <= duration_us; t_us += 1'000'000) {
     if (t_us > 5'000'000 && t_us < 15'000'000) continue;
     run.seen.of<estimators::InflightAnswers>().sent.push_back({.valid_us = t_us});
-    run.seen.of<estimators::InflightAnswers>().fixes.push_back({.cause_us = t_us, .heading_sigma = 0.01});
+    run.seen.of<estimators::InflightAnswers>().fixes.push_back(
+        {.cause_us = t_us, .attitude_sigma = {0, 0, 0.01}});
   }
   const auto all = series(scenario, run);
   for (const Series::Point& point : find(all, "attitude error about down")->points) {

@@ -1,4 +1,4 @@
-#include "bench/estimators/alignment_results.hpp"
+#include "bench/estimators/alignment.hpp"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,140 @@
+// What estimators of attitude and velocity have in common: what follows from their samples, their tracks, and
+// what people are told.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/checks/results.hpp"
+#include "bench/estimators/marks.hpp"
+#include "bench/estimators/navigation.hpp"
+#include "bench/estimators/tracks.hpp"
+#include "bench/quantities/list.hpp"
+#include "bench/quantities/samples.hpp"
+
+namespace canhil::estimators {
+
+/// The error of the heading over the sigma that the target tells.
+inline double heading_over_its_sigma(const quantities::Samples& samples, std::size_t place) {
+  return samples.value(place, quantities::attitude_heading) / samples.value(place, quantities::heading_sigma);
+}
+inline constexpr std::array alignment_derived{
+    quantities::Derived{.quantity = &quantities::heading_over_sigma, .of = heading_over_its_sigma}};
+
+/// What give_alignment() gives of any of them, beside its innovations.
+inline constexpr std::array<const quantities::Quantity*, 10> alignment_told{
+    &quantities::attitude_heading,  &quantities::misalignment_north, &quantities::misalignment_east,
+    &quantities::misalignment_down, &quantities::attitude_roll,      &quantities::attitude_pitch,
+    &quantities::velocity_north,    &quantities::velocity_east,      &quantities::velocity_down,
+    &quantities::velocity_norm};
+
+/// These and what one of them tells alone.
+template <std::size_t count>
+constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, count>& own) {
+  std::array<const quantities::Quantity*, alignment_told.size() + count> all{};
+  std::ranges::copy(own, std::ranges::copy(alignment_told, all.begin()).out);
+  return all;
+}
+
+/// What one of them answered.
+struct Alignment {
+  const quantities::Unit& angle;                            ///< in which people read its angles
+  std::array<const quantities::Quantity*, 3> innovation{};  ///< north, east, down
+  const std::vector<NavigationAnswer>& navigation;
+  const std::vector<NavigationError>& errors;  ///< of these
+  Answering navigates;
+  Answering filters;
+};
+
+/// Gives attitude, velocity and innovations. `filter`: the answers of the filter, with cause_us,
+/// attitude_sigma, velocity_sigma and innovation.
+template <class Answers>
+void give_alignment(const Alignment& of, const Answers& filter, const quantities::TrackSink& give) {
+  using namespace quantities;
+  // Errors with the sigma of the last filter answer before each, as long as that one is not stale.
+  const auto fill = [&](Track track, auto error, auto sigma) {
+    auto next = filter.begin();
+    for (const NavigationError& e : of.errors) {
+      while (next != filter.end() && next->cause_us <= e.t_us) ++next;
+      Told told = error(e);
+      told.t_us = e.t_us;
+      if (next != filter.begin()) {
+        const auto& last = *std::prev(next);
+        if (static_cast<double>(e.t_us - last.cause_us) <= of.filters.longest_wait_us)
+          told.sigma = sigma(last);
+      }
+      track.told.push_back(told);
+    }
+    give(std::move(track));
+  };
+  const auto untold = [](const auto&) { return std::optional<double>(); };
+  const auto angle = [&](const Quantity& quantity, std::string title) {
+    Track track = of.navigates.track(quantity, std::move(title));
+    track.unit = of.angle;
+    return track;
+  };
+
+  // Heading and its truth, without a jump where they pass south.
+  Track heading = judged(angle(attitude_heading, "heading error"));
+  heading.estimate_title = "heading";
+  heading.estimate_unit = degrees;
+  double truth = 0;
+  fill(
+      std::move(heading),
+      [&](const NavigationError& e) {
+        const double now = answer_to(of.navigation, e.t_us).angles.heading - e.angles.heading;
+        truth += world::wrapped(now - truth);
+        return Told{.value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
+      },
+      [](const auto& a) { return a.attitude_sigma.z(); });
+  each_axis({&misalignment_north, &misalignment_east, &misalignment_down},
+            [&](const Quantity& quantity, const std::string& name, int axis) {
+              fill(
+                  angle(quantity, "attitude error about " + name),
+                  [=](const NavigationError& e) { return Told{.value = e.misalignment(axis)}; },
+                  [=](const auto& a) { return a.attitude_sigma(axis); });
+            });
+  // Sigmas of roll and pitch are not told: those of the tilts are.
+  const auto give_angle = [&](const Quantity& quantity, std::string title, double world::Euler::*member) {
+    fill(
+        judged(angle(quantity, std::move(title))),
+        [&](const NavigationError& e) {
+          const double told = answer_to(of.navigation, e.t_us).angles.*member;
+          return Told{.value = e.angles.*member, .estimate = told, .truth = told - e.angles.*member};
+        },
+        untold);
+  };
+  give_angle(attitude_roll, "roll error", &world::Euler::roll);
+  give_angle(attitude_pitch, "pitch error", &world::Euler::pitch);
+  each_axis({&velocity_north, &velocity_east, &velocity_down},
+            [&](const Quantity& quantity, const std::string& name, int axis) {
+              fill(
+                  of.navigates.track(quantity, "velocity error " + name),
+                  [&](const NavigationError& e) {
+                    const double told = answer_to(of.navigation, e.t_us).v_eb_n(axis);
+                    return Told{.value = e.v_eb_n(axis), .estimate = told, .truth = told - e.v_eb_n(axis)};
+                  },
+                  [=](const auto& a) { return a.velocity_sigma(axis); });
+            });
+  fill(
+      judged(of.navigates.track(velocity_norm, "velocity error norm")),
+      [](const NavigationError& e) { return Told{.value = e.v_eb_n.norm()}; }, untold);
+  each_axis(of.innovation, [&](const Quantity& quantity, const std::string& name, int axis) {
+    Track track = of.filters.track(quantity, "innovation " + name);
+    track.kind = Track::Kind::innovation;
+    for (const auto& a : filter) track.told.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
+    give(std::move(track));
+  });
+}
+
+/// When the heading error entered each band [angle] for good, and the errors of the last answer.
+std::vector<ResultLine> alignment_results(const std::vector<NavigationError>& errors,
+                                          std::span<const double> bands, const quantities::Unit& angle);
+
+}  // namespace canhil::estimators

@@ -1,0 +1,66 @@
+// How an estimator's folder makes its tracks of its answers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bench/checks/silence.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/quantities/track.hpp"
+
+namespace canhil::estimators {
+
+/// The longest time from one of these messages to the next that is no silence [us].
+inline double longest_wait_us(const checks::Observations& seen, std::string_view message) {
+  return checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, message));
+}
+
+/// The answer to a cause; there is one.
+template <class Answers>
+const auto& answer_to(const Answers& answers, std::int64_t cause_us) {
+  return *std::ranges::lower_bound(answers, cause_us, {}, &Answers::value_type::cause_us);
+}
+
+/// Calls visit(quantity, the axis's name, its place) for north, east and down.
+template <class Visit>
+void each_axis(const std::array<const quantities::Quantity*, 3>& ned, Visit visit) {
+  visit(*ned[0], std::string("north"), 0);
+  visit(*ned[1], std::string("east"), 1);
+  visit(*ned[2], std::string("down"), 2);
+}
+
+/// The same track, of no interest without a bar.
+inline quantities::Track judged(quantities::Track track) {
+  track.only_if_judged = true;
+  return track;
+}
+
+/// What the tracks of the same answers have in common; see quantities::Track.
+struct Answering {
+  double longest_wait_us = 0;
+  std::int64_t answers_end_us = 0;
+  std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
+
+  /// One that tells nothing yet.
+  [[nodiscard]] quantities::Track track(const quantities::Quantity& quantity, std::string title) const {
+    return {.quantity = &quantity,
+            .unit = quantity.unit,
+            .title = std::move(title),
+            .unanswered = unanswered,
+            .longest_wait_us = longest_wait_us,
+            .answers_end_us = answers_end_us};
+  }
+  [[nodiscard]] quantities::Track statistic(const quantities::Quantity& quantity, std::string title,
+                                            std::vector<quantities::Told> values) const {
+    quantities::Track of = track(quantity, std::move(title));
+    of.kind = quantities::Track::Kind::statistic;
+    of.told = std::move(values);
+    return of;
+  }
+};
+
+}  // namespace canhil::estimators
