@@ -108,7 +108,9 @@ Result<Evaluation> evaluate(const Campaign& campaign, const Load& load) {
 }
 
 Result<Evaluation> evaluate(const Campaign& campaign, const Store& store) {
-  return evaluate(campaign, [&](std::size_t variant) { return store.load(variant); });
+  auto evaluation = evaluate(campaign, [&](std::size_t variant) { return store.load(variant); });
+  if (evaluation) evaluation->target = store.identity().target;
+  return evaluation;
 }
 
 }  // namespace canhil::campaign

@@ -22,6 +22,7 @@ struct Endings {
 };
 
 struct Evaluation {
+  std::string target{};  ///< see Identity
   std::vector<Endings> endings;
   std::vector<Answer> answers;
   /// Why nothing failed and it is no pass all the same; empty: something failed, or all was judged.

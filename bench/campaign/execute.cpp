@@ -59,6 +59,7 @@ class Finishing {
 /// What the workers share: read only, but for the place of the next task.
 struct Work {
   const Campaign& campaign;
+  const std::string& target;                               ///< see Options
   std::vector<std::optional<world::FlightRecord>> truths;  ///< of the variants that fly
   std::vector<Key> tasks;
   std::atomic<std::size_t> next = 0;
@@ -77,7 +78,9 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
     const auto [variant, run] = work.tasks[place];
     const world::FlightRecord& truth = *work.truths[variant];
     const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
-    const auto flown = drive::run_in_process(scenario, truth, run, work.campaign.rounding);
+    const auto flown = work.target.empty()
+                           ? drive::run_in_process(scenario, truth, run, work.campaign.rounding)
+                           : drive::run_against(work.target, scenario, truth, run);
     if (!flown) {
       finishing.fail(in_variant(work.campaign, variant, flown.error()));
       work.halt = true;
@@ -177,14 +180,17 @@ Result<Shard> shard_of_environment() {
 }
 
 Result<Execution> execute(const Campaign& campaign, const Options& options, const std::atomic<bool>& stop) {
-  const Identity identity = identity_of(campaign);
+  const Identity identity = identity_of(campaign, options.target);
   auto store = options.resume ? Store::resume(options.file, identity, campaign.sources)
                               : Store::create(options.file, identity, campaign.sources);
   if (!store) return tl::unexpected(store.error());
   const auto stored = store->keys();
   if (!stored) return tl::unexpected(stored.error());
 
-  Work work{.campaign = campaign, .truths = {}, .tasks = open_tasks(campaign, options.shard, *stored)};
+  Work work{.campaign = campaign,
+            .target = options.target,
+            .truths = {},
+            .tasks = open_tasks(campaign, options.shard, *stored)};
   if (auto computed = compute_truths(work); !computed) return tl::unexpected(computed.error());
 
   const std::size_t cores = options.threads > 0 ? options.threads : std::thread::hardware_concurrency();

@@ -36,6 +36,8 @@ struct Options {
   Shard shard;
   unsigned threads = 0;  ///< 0: as many as there are cores
   bool resume = false;   ///< go on with the file if it is there
+  std::string
+      target{};  ///< a program to fly against, over a bus in lockstep; empty: a Device in this process
   std::function<void(const Progress&)> progress = [](const Progress&) {};
 };
 

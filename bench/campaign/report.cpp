@@ -58,8 +58,10 @@ ordered_json json_of(const Answer& answer) {
 
 std::string text(const Campaign& campaign, const Evaluation& evaluation) {
   std::string page;
-  page += fmt::format("{}\n  campaign {} · {} runs · seed {} · {}\n\n", campaign.title, campaign.sources.file,
-                      campaign.runs, campaign.seed, verdict(evaluation));
+  page += fmt::format("{}\n  campaign {} · {} runs · seed {} · {}{}\n\n", campaign.title,
+                      campaign.sources.file, campaign.runs, campaign.seed,
+                      evaluation.target.empty() ? "" : fmt::format("target {} · ", evaluation.target),
+                      verdict(evaluation));
 
   std::size_t width = 7;
   for (const Variant& variant : campaign.variants) width = std::max(width, variant.name.size());
@@ -92,6 +94,7 @@ std::string json(const Campaign& campaign, const Evaluation& evaluation) {
                     {"outcome", verdict(evaluation)},
                     {"variants", ordered_json::array()},
                     {"answers", ordered_json::array()}};
+  if (!evaluation.target.empty()) json["target"] = evaluation.target;
   for (const Endings& endings : evaluation.endings) json["variants"].push_back(json_of(endings));
   for (const Answer& answer : evaluation.answers) json["answers"].push_back(json_of(answer));
   return json.dump(2) + "\n";

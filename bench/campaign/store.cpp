@@ -13,23 +13,23 @@
 namespace canhil::campaign {
 namespace {
 
-constexpr int format = 5;
+constexpr int format = 6;
 constexpr int any_format = 0x43484300;  // "CHC": canhil campaign
 constexpr int application_id = any_format + '0' + format;
 
 // identity.hash: of its row and of all sources.
 std::string schema() {
   return fmt::format(
-      "create table identity (campaign_hash text, dbc_hash text, program text, runs integer, "
+      "create table identity (campaign_hash text, dbc_hash text, program text, target text, runs integer, "
       "unrounded integer, hash integer);"
       "create table source (kind text, name text, content text);"
       "create table run ({});",
       row_schema);
 }
 
-std::string hash_of_this_program() {
-  const auto own = drive::look_at_program("/proc/self/exe");
-  return fmt::format("{}+{:016x}", CANHIL_VERSION, own ? own->hash : 0);
+std::string with_hash(std::string_view name, const std::string& program) {
+  const auto file = drive::look_at_program(program);
+  return fmt::format("{}+{:016x}", name, file ? file->hash : 0);
 }
 
 std::int64_t hash_of(const Identity& identity, const Sources& sources) {
@@ -37,6 +37,7 @@ std::int64_t hash_of(const Identity& identity, const Sources& sources) {
   digest.add(static_cast<std::int64_t>(identity.campaign_hash))
       .add(static_cast<std::int64_t>(identity.dbc_hash))
       .add(identity.program)
+      .add(identity.target)
       .add(static_cast<std::int64_t>(identity.runs))
       .add(std::int64_t{identity.rounding == Rounding::none})
       .add(sources.file)
@@ -84,17 +85,23 @@ Sources read_sources(const SQLite::Database& database) {
 
 }  // namespace
 
-Identity identity_of(const Campaign& campaign) {
-  static const std::string program = hash_of_this_program();
-  return {.campaign_hash = campaign.hash,
-          .dbc_hash = messages::dbc_hash,
-          .rounding = campaign.rounding,
-          .program = program,
-          .runs = campaign.runs};
+Identity identity_of(const Campaign& campaign, const std::string& target) {
+  static const std::string program = with_hash(CANHIL_VERSION, "/proc/self/exe");
+  return {
+      .campaign_hash = campaign.hash,
+      .dbc_hash = messages::dbc_hash,
+      .rounding = campaign.rounding,
+      .program = program,
+      .target = target.empty() ? "" : with_hash(std::filesystem::path(target).filename().string(), target),
+      .runs = campaign.runs};
 }
 
 std::string_view in_words(Rounding rounding) {
   return rounding == Rounding::none ? "without the bus's rounding" : "with the bus's rounding";
+}
+
+std::string_view in_words(const std::string& target) {
+  return target.empty() ? "the bench's own device" : std::string_view(target);
 }
 
 std::string difference(const Identity& found, const Identity& expected) {
@@ -110,6 +117,9 @@ std::string difference(const Identity& found, const Identity& expected) {
   if (found.program != expected.program) {
     return fmt::format("is of another program ({}), expected {}", found.program, expected.program);
   }
+  if (found.target != expected.target)
+    return fmt::format("was flown against {}, expected {}", in_words(found.target),
+                       in_words(expected.target));
   if (found.runs != expected.runs) {
     return fmt::format("is of a campaign of {} runs, expected {}", found.runs, expected.runs);
   }
@@ -121,9 +131,9 @@ void Store::initialise(const Identity& identity, const Sources& sources) {
   database_.exec(fmt::format("pragma application_id = {};{}", application_id, schema()));
   identity_ = identity;
   sources_ = kept_of(sources);
-  SQLite::Statement insert(database_, "insert into identity values (?, ?, ?, ?, ?, ?)");
+  SQLite::Statement insert(database_, "insert into identity values (?, ?, ?, ?, ?, ?, ?)");
   SQLite::bind(insert, fmt::format("{:016x}", identity.campaign_hash),
-               fmt::format("{:016x}", identity.dbc_hash), identity.program,
+               fmt::format("{:016x}", identity.dbc_hash), identity.program, identity.target,
                static_cast<std::int64_t>(identity.runs), identity.rounding == Rounding::none,
                hash_of(identity_, sources_));
   insert.exec();
@@ -140,8 +150,8 @@ void Store::initialise(const Identity& identity, const Sources& sources) {
 
 void Store::read_identity() {
   check_format(database_);
-  SQLite::Statement row(database_,
-                        "select campaign_hash, dbc_hash, program, runs, unrounded, hash from identity");
+  SQLite::Statement row(
+      database_, "select campaign_hash, dbc_hash, program, target, runs, unrounded, hash from identity");
   if (!row.executeStep()) throw not_results();
   const auto hash = [&](int column) {
     std::uint64_t value = 0;
@@ -151,11 +161,12 @@ void Store::read_identity() {
   };
   identity_ = {.campaign_hash = hash(0),
                .dbc_hash = hash(1),
-               .rounding = row.getColumn(4).getInt64() == 0 ? Rounding::as_on_the_bus : Rounding::none,
+               .rounding = row.getColumn(5).getInt64() == 0 ? Rounding::as_on_the_bus : Rounding::none,
                .program = row.getColumn(2),
-               .runs = static_cast<std::uint64_t>(row.getColumn(3).getInt64())};
+               .target = row.getColumn(3),
+               .runs = static_cast<std::uint64_t>(row.getColumn(4).getInt64())};
   sources_ = read_sources(database_);
-  if (identity_.runs == 0 || hash_of(identity_, sources_) != row.getColumn(5).getInt64())
+  if (identity_.runs == 0 || hash_of(identity_, sources_) != row.getColumn(6).getInt64())
     throw Unfit(
         "what it says of its campaign has another hash, expected it as it was written: the file is damaged");
 }

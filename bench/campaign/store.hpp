@@ -24,11 +24,13 @@ struct Identity {
   std::uint64_t dbc_hash = 0;
   Rounding rounding = Rounding::as_on_the_bus;
   std::string program;  ///< version and hash of the program that ran it
+  std::string
+      target{};  ///< name and hash of the program that it was flown against; empty: a Device of its own
   std::uint64_t runs = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };
-/// Of results that this program makes of a campaign.
-Identity identity_of(const Campaign& campaign);
+/// Of results that this program makes of a campaign. `target`: see Options.
+Identity identity_of(const Campaign& campaign, const std::string& target = {});
 
 /// One line that says in what a store's identity differs from what is expected; empty: in nothing.
 std::string difference(const Identity& found, const Identity& expected);

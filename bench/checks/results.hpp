@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace canhil::estimators {
@@ -17,6 +18,10 @@ struct ResultLine {
   std::string name;  ///< for programs: "final_error"
   std::string what;  ///< for people: "error at the end"
   std::vector<Figure> figures{};
+
+  void add(std::string figure, std::optional<double> value, std::string words) {
+    figures.push_back({.name = std::move(figure), .value = value, .words = std::move(words)});
+  }
 };
 
 }  // namespace canhil::estimators

@@ -38,6 +38,7 @@ struct Arguments {
   std::optional<std::uint64_t> runs;
   bool resume = false;
   bool unrounded = false;
+  std::string target;
   std::string json;
 };
 struct MergeArguments {
@@ -131,9 +132,13 @@ ExitCode execute(const Arguments& arguments) {
   const auto shard =
       arguments.shard.empty() ? campaign::shard_of_environment() : campaign::parse_shard(arguments.shard);
   if (!shard) return complain(shard.error());
+  if (!arguments.target.empty() && !drive::look_at_program(arguments.target))
+    return complain(
+        {fmt::format("target '{}': cannot be read; expected an executable file", arguments.target)});
   const auto file = results_file(arguments, *shard);
   if (!file) return complain(file.error());
-  if (auto distinct = check_distinct(*campaign, {file->string(), arguments.json}); !distinct)
+  if (auto distinct = check_distinct(*campaign, {file->string(), arguments.json, arguments.target});
+      !distinct)
     return complain(distinct.error());
   if (!arguments.json.empty()) {
     if (shard->count > 1)
@@ -158,6 +163,7 @@ ExitCode execute(const Arguments& arguments) {
                               .shard = *shard,
                               .threads = static_cast<unsigned>(arguments.threads.value_or(0)),
                               .resume = arguments.resume,
+                              .target = arguments.target,
                               .progress = show},
                              interrupted);
   }();
@@ -305,8 +311,12 @@ void add_campaign(command_line::Command app, int& code) {
   command.add_number("--runs", arguments->runs, "another number of runs than the campaign's", 1,
                      campaign::most_runs);
   const auto resume = command.add_flag("--resume", arguments->resume, "go on with results that are there");
-  command.add_flag("--unrounded", arguments->unrounded,
-                   "frames that round nothing: the difference is what the bus's resolution costs");
+  const auto target = command.add_option(
+      "--target", arguments->target,
+      "program to fly against, over a bus in lockstep (default: the target's own code in process)");
+  const auto unrounded =
+      command.add_flag("--unrounded", arguments->unrounded,
+                       "frames that round nothing: the difference is what the bus's resolution costs");
   const auto json = command.add_option(
       "--json", arguments->json, "write the report as JSON to a file; -: to stdout, in place of the text");
   auto paper = std::make_shared<PaperArguments>();
@@ -316,7 +326,8 @@ void add_campaign(command_line::Command app, int& code) {
   command.add_option("--exact", paper->exact, "with --paper: results without the bus's rounding, to compare")
       .needs(name);
   name.excludes(file);
-  for (const auto& option : {shard, resume, threads, json}) name.excludes(option);
+  for (const auto& option : {shard, resume, threads, json, target}) name.excludes(option);
+  target.excludes(unrounded);
   command.require_subcommands(0, 1);
   add_merge(command, code);
   add_report(command, code);

@@ -98,10 +98,13 @@ int run_program(int argc, char** argv, std::span<const AddCommand> add_commands)
   return guarded([&] { return run(argc, argv, add_commands); });
 }
 
-int become(const std::string& program, std::vector<std::string> words) {
+std::string own_folder() {
   std::error_code unknown;
-  const auto own = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  const std::string path = (own.parent_path() / program).string();
+  return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().string();
+}
+
+int become(const std::string& program, std::vector<std::string> words) {
+  const std::string path = own_folder() + "/" + program;
   words.insert(words.begin(), "hil-bench");  // the name that it goes by in help
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);

@@ -22,6 +22,9 @@ int guarded(const std::function<int()>& run);
 /// Parses the command line, runs what it names, and returns the exit code.
 int run_program(int argc, char** argv, std::span<const AddCommand> add_commands);
 
+/// Where this program lies.
+std::string own_folder();
+
 /// Replaces this process by a program beside it, with these words for its command line (without its name).
 /// Returns only where that cannot be started: the exit code, after one line that says why.
 int become(const std::string& program, std::vector<std::string> words);

@@ -15,6 +15,7 @@
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/doctor/interface.hpp"
 #include "bench/drive/contract.hpp"
@@ -50,8 +51,6 @@ struct Arguments {
   std::string csv;
   std::string log;
 };
-
-std::string own_folder() { return std::filesystem::read_symlink("/proc/self/exe").parent_path().string(); }
 
 // gps, GPS and Gps are one node, as are master_ins and MasterIns.
 std::string plain(std::string name) {

@@ -18,6 +18,10 @@ void add_bus(command_line::Command app, int& code);
 /// they do.
 void add_diverge(command_line::Command app, int& code);
 
+/// `hil-bench golden record|check`: what a target answers in some flights, kept, and the first answer of a
+/// later one that is another. Exit code 1 if there is one.
+void add_golden(command_line::Command app, int& code);
+
 /// `hil-bench doctor --bus BUS`: what this machine and its interface can do, with remedies. Exit code 1 if
 /// something is bad.
 void add_doctor(command_line::Command app, int& code);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,15 +13,8 @@ namespace canhil::doctor {
 enum class Grade : std::uint8_t { good, weak, bad };
 
 constexpr std::string_view name(Grade grade) {
-  switch (grade) {
-    case Grade::good:
-      return "good";
-    case Grade::weak:
-      return "weak";
-    case Grade::bad:
-      break;
-  }
-  return "bad";
+  constexpr std::array<std::string_view, 3> names{"good", "weak", "bad"};
+  return names.at(static_cast<std::size_t>(grade));
 }
 
 /// One subject.

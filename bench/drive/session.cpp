@@ -1,6 +1,7 @@
 #include "bench/drive/session.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <utility>
 
@@ -220,6 +221,24 @@ checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::Flig
   return verdict;
 }
 
+// Without what only a verdict asks for.
+Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                   std::uint64_t run_index, Options options) {
+  static const std::atomic<bool> never = false;
+  auto flight = make_flight(scenario, truth, run_index);
+  if (!flight) {
+    return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
+                     .seen = {}};
+  }
+  options.run_index = run_index;
+  options.for_verdict = false;
+  const auto session = Session::open(scenario, truth, std::move(*flight), options);
+  if (!session) return tl::unexpected(session.error());
+  if (auto ready = (*session)->configure(never); !ready) return tl::unexpected(ready.error());
+  (*session)->drive(never, [](std::int64_t) {});
+  return (*session)->collect();
+}
+
 }  // namespace
 
 ClockKind clock_of(BusTime time, bool lockstep) {
@@ -266,21 +285,20 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 
 Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                  std::uint64_t run_index, Rounding rounding) {
-  static const std::atomic<bool> never = false;
-  auto flight = make_flight(scenario, truth, run_index);
-  if (!flight) {
-    return Collected{.ending = {.kind = Ending::Kind::not_flown, .t_us = 0, .detail = flight.error().message},
-                     .seen = {}};
-  }
   Options options;
   options.bus = BusName(std::string(rounding == Rounding::none ? unrounded_bus : in_process_bus));
-  options.run_index = run_index;
-  options.for_verdict = false;
-  const auto session = Session::open(scenario, truth, std::move(*flight), options);
-  if (!session) return tl::unexpected(session.error());
-  if (auto ready = (*session)->configure(never); !ready) return tl::unexpected(ready.error());
-  (*session)->drive(never, [](std::int64_t) {});
-  return (*session)->collect();
+  return fly_for_campaign(scenario, truth, run_index, std::move(options));
+}
+
+Result<Collected> run_against(const std::string& program, const scenario::Scenario& scenario,
+                              const world::FlightRecord& truth, std::uint64_t run_index) {
+  static std::atomic<std::uint64_t> buses = 0;  // of this process: flights in other threads have others
+  Options options;
+  options.bus =
+      BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
+  options.target = program;
+  options.lockstep = true;
+  return fly_for_campaign(scenario, truth, run_index, std::move(options));
 }
 
 }  // namespace canhil::drive

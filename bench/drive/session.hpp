@@ -79,4 +79,9 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 Result<Collected> run_in_process(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                  std::uint64_t run_index, Rounding rounding = Rounding::as_on_the_bus);
 
+/// The same against a program, started for this run on a private local bus, in lockstep: a target that
+/// behaves as the Device gives the same samples. Error: also a program that does not start or answer.
+Result<Collected> run_against(const std::string& program, const scenario::Scenario& scenario,
+                              const world::FlightRecord& truth, std::uint64_t run_index);
+
 }  // namespace canhil::drive

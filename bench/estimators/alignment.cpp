@@ -12,16 +12,11 @@ std::vector<ResultLine> alignment_results(const std::vector<NavigationError>& er
     const auto t_us = quantities::entered_for_good_us(
         errors, band * angle.factor, [](const NavigationError& error) { return error.angles.heading; });
     const std::optional<double> t_s = t_us ? std::optional(static_cast<double>(*t_us) * 1e-6) : std::nullopt;
-    convergence.figures.push_back(
-        {.name = name,
-         .value = t_s,
-         .words = t_s ? fmt::format("{} from {:.2f} s", name, *t_s) : name + " never"});
+    convergence.add(name, t_s, t_s ? fmt::format("{} from {:.2f} s", name, *t_s) : name + " never");
   }
   ResultLine end{.name = "final_error", .what = "error at the end"};
   const auto add = [&](const char* name, double value) {
-    end.figures.push_back({.name = name,
-                           .value = value,
-                           .words = fmt::format("{} {:+.3f} {}", name, value / angle.factor, angle.name)});
+    end.add(name, value, fmt::format("{} {:+.3f} {}", name, value / angle.factor, angle.name));
   };
   if (!errors.empty()) {
     const NavigationError& last = errors.back();
@@ -29,10 +24,9 @@ std::vector<ResultLine> alignment_results(const std::vector<NavigationError>& er
     add("pitch", last.angles.pitch);
     add("heading", last.angles.heading);
     const double velocity = last.v_eb_n.norm();
-    end.figures.push_back(
-        {.name = "velocity", .value = velocity, .words = fmt::format("velocity {:.4f} m/s", velocity)});
+    end.add("velocity", velocity, fmt::format("velocity {:.4f} m/s", velocity));
   } else {
-    end.figures.push_back({.name = "heading", .words = "the target gave no navigation answers"});
+    end.add("heading", std::nullopt, "the target gave no navigation answers");
   }
   return {std::move(convergence), std::move(end)};
 }

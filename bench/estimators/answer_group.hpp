@@ -49,7 +49,8 @@ class AnswerGroup {
   SampleGroup<Messages...> group_;
 };
 
-/// Of groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`.
+/// Of groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`. Of one
+/// run: `seen` is the same at every call.
 template <class Answers, class... Groups>
 class ReceptionOf : public Reception {
  public:
@@ -60,7 +61,8 @@ class ReceptionOf : public Reception {
     const auto try_one = [&]<class Group>(Group& group) {
       if (!Group::has(message) || !group.put(frame)) return;
       whole = group.whole(now_us);
-      group.add(whole->cause_us, seen.of<Answers>());
+      if (answers_ == nullptr) answers_ = &seen.of<Answers>();  // a look-up by type
+      group.add(whole->cause_us, *answers_);
     };
     std::apply([&](Groups&... group) { (try_one(group), ...); }, groups_);
     return whole;
@@ -68,6 +70,7 @@ class ReceptionOf : public Reception {
 
  private:
   std::tuple<Groups...> groups_;
+  Answers* answers_ = nullptr;
 };
 
 }  // namespace canhil::estimators

@@ -9,8 +9,6 @@ namespace {
 
 using world::units::deg;
 
-bool needed(const scenario::Scenario& scenario) { return scenario.glide.has_value(); }
-
 NodeSettings read(const NodeTable& table, Section& section) {
   FinsSettings node;
   node.schedule = read_glide_schedule(section);
@@ -42,8 +40,7 @@ class Fins final : public Sampler<FinsSettings> {
 constinit const Kind fins{.table = {.key = "fins",
                                     .closes = messages::FinDeflections::info,
                                     .samples = scenario::TruthOf::glide,
-                                    .read = read,
-                                    .needed = needed},
+                                    .read = read},
                           .make = make<Fins>};
 
 }  // namespace canhil::nodes

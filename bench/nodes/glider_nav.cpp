@@ -16,8 +16,6 @@ using world::units::deg;
 // Within the half turns that the bus carries.
 double angle_deg(double angle) { return std::remainder(angle / deg, 360); }
 
-bool needed(const scenario::Scenario& scenario) { return scenario.glide.has_value(); }
-
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GliderNavSettings node;
@@ -75,8 +73,7 @@ class GliderNav final : public Sampler<GliderNavSettings> {
 constinit const Kind glider_nav{.table = {.key = "glider_nav",
                                           .closes = messages::GliderNavVelocityD::info,
                                           .samples = scenario::TruthOf::glide,
-                                          .read = read,
-                                          .needed = needed},
+                                          .read = read},
                                 .make = make<GliderNav>};
 
 }  // namespace canhil::nodes

@@ -52,8 +52,6 @@ world::SeekerErrorModel read_errors(Section& section) {
           .field_of_view = section.number("field_of_view_deg", Limits::above(0, 37), 8)};
 }
 
-bool needed(const scenario::Scenario& scenario) { return scenario.engagement.has_value(); }
-
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits share = Limits::between(0, 100);
   SeekerSettings node;
@@ -225,8 +223,7 @@ void Seeker::steer() {
 constinit const Kind seeker{.table = {.key = "seeker",
                                       .closes = messages::SeekerRange::info,
                                       .samples = scenario::TruthOf::engagement,
-                                      .read = read,
-                                      .needed = needed},
+                                      .read = read},
                             .make = make<Seeker>,
                             .fits = fits};
 

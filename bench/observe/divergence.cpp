@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
@@ -42,24 +44,70 @@ class Answers {
   double t_s_ = 0;
 };
 
-template <class Message>
-std::string describe_as(const Frame& frame) {
-  const Message message = from_frame<Message>(frame);
-  std::string text(Message::info.name);
-  Message::visit(message, [&](const SignalInfo& signal, const auto& value) {
-    if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
-      text += fmt::format(" {}={}", signal.name, name_of(value));
-    } else {
-      // To 12 digits: resolves every signal, and hides what binary makes of a decimal fraction.
-      text += fmt::format(" {}={:.12g}", signal.name, static_cast<double>(value));
+// Calls visit.operator()<Message>() for the message that a frame is; not at all for one of none.
+template <class Visit>
+void as_message(const Frame& frame, Visit visit) {
+  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
+    if (frame.id == Message::info.id && frame.size == Message::size &&
+        frame.extended == Message::info.extended) {
+      visit.template operator()<Message>();
     }
+  };
+  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+    (try_one(std::type_identity<Messages>{}), ...);
+  }(std::type_identity<messages::AllMessages>{});
+}
+
+struct Value {
+  const SignalInfo* signal = nullptr;
+  double value = 0;
+  std::string words;
+};
+
+std::vector<Value> values_of(const Frame& frame) {
+  std::vector<Value> values;
+  as_message(frame, [&]<class Message>() {
+    const Message message = from_frame<Message>(frame);
+    Message::visit(message, [&](const SignalInfo& signal, const auto& value) {
+      const auto number = static_cast<double>(value);
+      if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
+        values.push_back({&signal, number, std::string(name_of(value))});
+      } else {
+        // To 12 digits: resolves every signal, and hides what binary makes of a decimal fraction.
+        values.push_back({&signal, number, fmt::format("{:.12g}", number)});
+      }
+    });
   });
-  return text;
+  return values;
+}
+
+std::string_view message_of(const Frame& frame) {
+  std::string_view name;
+  as_message(frame, [&]<class Message>() { name = Message::info.name; });
+  return name;
+}
+
+// The first signal in which two frames of a message are further apart than so many steps; none: they agree.
+std::optional<std::string> departure(const Frame& a, const Frame& b, double steps) {
+  const std::vector<Value> of_a = values_of(a), of_b = values_of(b);
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    const double step = wire::lsb(*of_a[i].signal);
+    const double tolerance = step == 1 ? 0 : (steps + 0.5) * step;  // values lie on steps, but for rounding
+    const bool equal = of_a[i].value == of_b[i].value;
+    if (equal || (steps > 0 && std::abs(of_a[i].value - of_b[i].value) <= tolerance)) continue;
+    return fmt::format("{}.{} is {} in one, {} in the other", message_of(a), of_a[i].signal->name,
+                       of_a[i].words, of_b[i].words);
+  }
+  return std::nullopt;
+}
+
+bool same_message(const Frame& a, const Frame& b) {
+  return a.id == b.id && a.size == b.size && a.extended == b.extended && !message_of(a).empty();
 }
 
 }  // namespace
 
-Result<Comparison> compare(const std::string& log_a, const std::string& log_b) {
+Result<Comparison> compare(const std::string& log_a, const std::string& log_b, double steps) {
   auto reader_a = LogReader::open(log_a);
   if (!reader_a) return tl::unexpected(reader_a.error());
   auto reader_b = LogReader::open(log_b);
@@ -72,26 +120,29 @@ Result<Comparison> compare(const std::string& log_a, const std::string& log_b) {
     auto next_b = b.next();
     if (!next_b) return tl::unexpected(next_b.error());
     if (!*next_a && !*next_b) return comparison;
-    if (*next_a && *next_b && (*next_a)->frame == (*next_b)->frame) continue;
+    std::optional<std::string> signal;
+    if (*next_a && *next_b) {
+      const Frame &frame_a = (*next_a)->frame, &frame_b = (*next_b)->frame;
+      if (frame_a == frame_b) continue;
+      if (same_message(frame_a, frame_b)) {
+        signal = departure(frame_a, frame_b, steps);
+        if (!signal && steps > 0) continue;
+      }
+    }
     comparison.first = Divergence{.index = comparison.compared,
                                   .a = std::move(*next_a),
                                   .b = std::move(*next_b),
-                                  .t_s = *next_a ? a.t_s() : b.t_s()};
+                                  .t_s = *next_a ? a.t_s() : b.t_s(),
+                                  .signal = signal.value_or("")};
     return comparison;
   }
 }
 
 std::string describe(const Frame& frame) {
-  std::string text = fmt::format("frame {:03X}, {} bytes", frame.id, frame.size);
-  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
-    if (frame.id == Message::info.id && frame.size == Message::size &&
-        frame.extended == Message::info.extended) {
-      text = describe_as<Message>(frame);
-    }
-  };
-  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
-    (try_one(std::type_identity<Messages>{}), ...);
-  }(std::type_identity<messages::AllMessages>{});
+  const std::string_view message = message_of(frame);
+  if (message.empty()) return fmt::format("frame {:03X}, {} bytes", frame.id, frame.size);
+  std::string text(message);
+  for (const Value& value : values_of(frame)) text += fmt::format(" {}={}", value.signal->name, value.words);
   return text;
 }
 

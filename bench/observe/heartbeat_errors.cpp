@@ -7,16 +7,12 @@
 namespace canhil::observe {
 
 std::string errors_of(const messages::TargetHeartbeat& heartbeat) {
+  constexpr std::string_view error = "error_";
   std::string text;
-  const auto add = [&](bool set, std::string_view name) {
-    if (set) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
-  };
-  add(heartbeat.error_dbc_mismatch != 0, "dbc_mismatch");
-  add(heartbeat.error_not_initialised != 0, "not_initialised");
-  add(heartbeat.error_input_lost != 0, "input_lost");
-  add(heartbeat.error_input_silent != 0, "input_silent");
-  add(heartbeat.error_numeric != 0, "numeric");
-  add(heartbeat.error_command != 0, "command");
+  messages::TargetHeartbeat::visit(heartbeat, [&](const SignalInfo& signal, const auto& value) {
+    if (signal.name.starts_with(error) && static_cast<int>(value) != 0)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", signal.name.substr(error.size()));
+  });
   return text.empty() ? "none" : text;
 }
 

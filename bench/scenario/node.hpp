@@ -16,9 +16,9 @@ namespace canhil::scenario {
 
 class NodeSettings;
 class Section;
-struct Scenario;
 
-/// Whose truth a node samples: that of [truth], [glide] or [engagement].
+/// Whose truth a node samples: that of [truth], [glide] or [engagement]. The two of their own are nothing
+/// without their nodes: where they are, those are needed.
 enum class TruthOf : std::uint8_t { navigation, glide, engagement };
 
 /// What an estimator that is aided has of a node's fixes.
@@ -35,8 +35,6 @@ struct NodeTable {
   TruthOf samples;
   /// Reads the table; what nobody asked for is found afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
-  /// Whether a scenario whose estimators and truths are read cannot do without it; null: all can.
-  bool (*needed)(const Scenario& scenario) = nullptr;
   std::optional<Aid> aid{};
 };
 

@@ -33,10 +33,11 @@ bool any_runs(const Scenario& scenario, const Contract& contract, Holds holds) {
 
 /// Reads the nodes that sample a truth.
 void read_nodes(Section& root, Scenario& scenario, const Contract& contract, TruthOf truth) {
+  const bool own_truth =
+      (truth == TruthOf::glide && scenario.glide) || (truth == TruthOf::engagement && scenario.engagement);
   for (const NodeTable* node : contract.nodes) {
     if (node->samples != truth) continue;
-    const bool needed = (node->needed != nullptr && node->needed(scenario)) ||
-                        any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
+    const bool needed = own_truth || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
                           return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
                         });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);

@@ -106,10 +106,6 @@ struct Section::File {
   }
 };
 
-struct Section::Node {
-  const toml::node* there;  ///< may be null
-};
-
 struct Section::State {
   std::shared_ptr<File> file;
   const toml::table* table = nullptr;  // null: the table is missing, and that has been said
@@ -154,6 +150,17 @@ struct Section::State {
     if (array != nullptr && !array->empty()) return *array;
     fail(key, line_of(*node), array == nullptr ? type_of(*node) : "is empty", expected);
     return none;
+  }
+  /// The table at a node, which may be null.
+  [[nodiscard]] Section inside(std::string_view key, const toml::node* node, std::string inner_path) const {
+    auto state = std::make_shared<State>();
+    state->file = file;
+    state->path = std::move(inner_path);
+    if (node == nullptr) return Section(std::move(state));
+    state->line = line_of(*node);
+    state->table = node->as_table();
+    if (state->table == nullptr) fail(key, state->line, type_of(*node), "a table");
+    return Section(std::move(state));
   }
   /// The numbers of an array, or zeros if it is missing or wrong.
   template <std::size_t n>
@@ -312,19 +319,8 @@ std::vector<Setting> Section::settings() {
   return all;
 }
 
-Section Section::inside(std::string_view key, const Node& node, std::string path) {
-  auto state = std::make_shared<State>();
-  state->file = state_->file;
-  state->path = std::move(path);
-  if (node.there == nullptr) return Section(std::move(state));
-  state->line = line_of(*node.there);
-  state->table = node.there->as_table();
-  if (state->table == nullptr) state_->fail(key, state->line, type_of(*node.there), "a table");
-  return Section(std::move(state));
-}
-
 Section Section::table(std::string_view key) {
-  return inside(key, {state_->ask(key, "a table")}, state_->path_of(key));
+  return state_->inside(key, state_->ask(key, "a table"), state_->path_of(key));
 }
 
 std::optional<Section> Section::optional_table(std::string_view key) {
@@ -338,7 +334,7 @@ std::vector<Section> Section::tables(std::string_view key) {
   std::vector<Section> sections;
   for (const toml::node& element : state_->elements(key, state_->ask(key, expected), expected)) {
     sections.push_back(
-        inside(key, {&element}, fmt::format("{}[{}]", state_->path_of(key), sections.size() + 1)));
+        state_->inside(key, &element, fmt::format("{}[{}]", state_->path_of(key), sections.size() + 1)));
   }
   return sections;
 }

@@ -88,8 +88,6 @@ class Section {
  private:
   struct State;
   struct File;
-  struct Node;
-  Section inside(std::string_view key, const Node& node, std::string path);
   explicit Section(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
   std::shared_ptr<State> state_;

@@ -163,23 +163,18 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   if (answers.fixes.empty()) return lines;
   const FixAnswer& last = answers.fixes.back();
   ResultLine filter{.name = "filter", .what = "filter"};
-  filter.figures.push_back({.name = "repairs",
-                            .value = last.repairs,
-                            .words = fmt::format("repairs of the covariance {}", last.repairs)});
+  filter.add("repairs", last.repairs, fmt::format("repairs of the covariance {}", last.repairs));
   // The algorithm keeps the heading apart from the INS until it is resolved.
   const auto resolved = std::ranges::find(answers.fixes, true, &FixAnswer::handed_over);
   if (resolved != answers.fixes.end()) {
     const double t_s = static_cast<double>(resolved->cause_us) / 1e6;
-    filter.figures.push_back({.name = "resolved",
-                              .value = t_s,
-                              .words = fmt::format("heading fed back to the INS at {:g} s", t_s)});
+    filter.add("resolved", t_s, fmt::format("heading fed back to the INS at {:g} s", t_s));
   } else if (algorithm == name_of(messages::Algorithm::sin_cos)) {
-    filter.figures.push_back({.name = "resolved", .words = "heading not fed back to the INS by the end"});
+    filter.add("resolved", std::nullopt, "heading not fed back to the INS by the end");
   }
-  filter.figures.push_back({.name = "heading_sigma",
-                            .value = last.attitude_sigma.z(),
-                            .words = fmt::format("heading sigma told at the end {:.3f} deg",
-                                                 last.attitude_sigma.z() / degrees.factor)});
+  const double heading_sigma_deg = last.attitude_sigma.z() / degrees.factor;
+  filter.add("heading_sigma", last.attitude_sigma.z(),
+             fmt::format("heading sigma told at the end {:.3f} deg", heading_sigma_deg));
   lines.push_back(std::move(filter));
   return lines;
 }

@@ -135,16 +135,14 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   ResultLine end{.name = "end", .what = "end of the flight"};
   if (engagement.miss_n) {
     const double miss = engagement.miss_n->norm();
-    end.figures.push_back({.name = "miss", .value = miss, .words = fmt::format("miss {:.3f} m", miss)});
-    end.figures.push_back(
-        {.name = "passage", .value = passage_s, .words = fmt::format("at {:.3f} s", passage_s)});
+    end.add("miss", miss, fmt::format("miss {:.3f} m", miss));
+    end.add("passage", passage_s, fmt::format("at {:.3f} s", passage_s));
   } else {
-    end.figures.push_back({.name = "miss", .words = "the target was not passed"});
+    end.add("miss", std::nullopt, "the target was not passed");
   }
   if (engagement.late_commands > 0) {
-    end.figures.push_back({.name = "late_commands",
-                           .value = static_cast<double>(engagement.late_commands),
-                           .words = fmt::format("{} answers too late to guide", engagement.late_commands)});
+    end.add("late_commands", static_cast<double>(engagement.late_commands),
+            fmt::format("{} answers too late to guide", engagement.late_commands));
   }
   ResultLine rms{.name = "rms", .what = "RMS [mrad/s] by s to go"};
   constexpr std::array<std::pair<double, double>, 6> windows{
@@ -153,10 +151,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   for (const auto& [most, least] : windows) {
     const std::optional<double> value = los_rms(errors, least, most);
     const std::string name = fmt::format("{:g} to {:g}", most, least);
-    rms.figures.push_back(
-        {.name = name,
-         .value = value,
-         .words = name + (value ? fmt::format(": {:.2f}", *value / mradps.factor) : ": no answers")});
+    rms.add(name, value, name + (value ? fmt::format(": {:.2f}", *value / mradps.factor) : ": no answers"));
   }
   return {std::move(end), std::move(rms)};
 }

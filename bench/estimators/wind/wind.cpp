@@ -117,11 +117,10 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
     double sum = 0;
     for (const WindError& error : errors) sum += std::abs(component(error));
     if (errors.empty()) {
-      mean.figures.push_back({.name = name, .words = std::string(words) + " none judged"});
+      mean.add(name, std::nullopt, std::string(words) + " none judged");
     } else {
       const double value = sum / static_cast<double>(errors.size());
-      mean.figures.push_back(
-          {.name = name, .value = value, .words = fmt::format("{} {:.3f} m/s", words, value)});
+      mean.add(name, value, fmt::format("{} {:.3f} m/s", words, value));
     }
   };
   add("norm", "of the vector", [](const WindError& error) { return error.error_n.norm(); });
@@ -131,9 +130,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   ResultLine told{.name = "told", .what = "told at the end"};
   if (!seen.of<WindAnswers>().empty()) {
     const double sigma = seen.of<WindAnswers>().back().along_track_sigma;
-    told.figures.push_back({.name = "along_track_sigma",
-                            .value = sigma,
-                            .words = fmt::format("sigma along track {:.3f} m/s", sigma)});
+    told.add("along_track_sigma", sigma, fmt::format("sigma along track {:.3f} m/s", sigma));
   }
   return {std::move(mean), std::move(told)};
 }

@@ -18,6 +18,7 @@ namespace canhil::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 namespace fs = std::filesystem;
 
 /// Two variants of the quick flight, with a sweep.
@@ -233,6 +234,34 @@ TEST(Replay, IsOneRunWithItsLog) {
   EXPECT_EQ(target_frames(log), frames);
   expect_one_line(hil_bench(fmt::format("campaign replay {} 3 --variant H3", campaign_file())),
                   "variant 'H3' is unknown, expected one of 'KF master_ins.latency_ms=0'");
+}
+
+TEST(Target, AProgramGivesTheSamplesOfTheDeviceInProcess) {
+  const std::string file = campaign_file(3);
+  const auto table = [&](const std::string& in, const std::string& arguments) {
+    const Ended ended = hil_bench(fmt::format("campaign {} --out {} {}", file, in, arguments));
+    expect_done(ended);
+    return std::pair(ended.out, hil_bench(fmt::format("campaign export {}/campaign3.sqlite", in)).out);
+  };
+  const std::string against = folder("against");
+  const auto [in_words, in_process] = table(folder("in_process"), "");
+  const auto [against_words, over_the_bus] = table(against, "--threads 2 --target " HIL_TARGET);
+  EXPECT_GT(in_process.size(), 1000U);
+  EXPECT_TRUE(in_process == over_the_bus);
+  EXPECT_THAT(in_words, Not(HasSubstr("target")));
+  EXPECT_THAT(against_words, HasSubstr("target hil-target+"));
+  expect_one_line(hil_bench(fmt::format("campaign {} --out {} --resume", file, against)),
+                  "expected the bench's own device");
+}
+
+TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
+  const auto against = [](const std::string& arguments) {
+    return hil_bench(fmt::format("campaign {} --out {} {}", campaign_file(3), folder("nobody"), arguments));
+  };
+  expect_one_line(against("--target /no/such/program"), "target '/no/such/program': cannot be read");
+  expect_one_line(against("--target " + campaign_file(3)), "is named twice");
+  expect_one_line(against("--target /usr/bin/true"), "target");
+  expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
 TEST(CampaignBadInput, IsOneLine) {

@@ -161,7 +161,7 @@ TEST_F(Damaged, RowsAreRefusedByWhatIsWrong) {
   EXPECT_THAT(complaint_after("update source set name = 'other.toml' where kind = 'campaign'"),
               HasSubstr("another hash"));
   EXPECT_THAT(complaint_after("pragma application_id = 0x43484333"),
-              HasSubstr("is of format 3, expected 5: it must be flown again"));
+              HasSubstr("is of format 3, expected 6: it must be flown again"));
 }
 
 TEST_F(Damaged, IsRefusedByMergeAndResumeToo) {

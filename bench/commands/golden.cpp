@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/interrupt.hpp"
+#include "bench/commands/program.hpp"
+#include "bench/commands/progress_line.hpp"
+#include "bench/commands/subcommands.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/session.hpp"
+#include "bench/observe/divergence.hpp"
+#include "bench/report/file.hpp"
+#include "dbc/ports/fd_groups.hpp"
+#include "dbc/ports/local_bus.hpp"
+
+namespace canhil::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As typed.
+struct Arguments {
+  std::string folder;
+  std::vector<std::string> scenarios;
+  std::string target;  // empty: the hil-target beside this program
+  std::optional<std::uint64_t> tolerance;
+  std::string json;
+};
+
+// What is kept of a flight: the scenario, as it was, and every frame.
+struct Golden {
+  fs::path scenario, log;
+  [[nodiscard]] std::string name() const { return scenario.stem().string(); }
+};
+Golden golden(const fs::path& folder, const fs::path& scenario) {
+  const std::string name = scenario.stem().string();
+  return {.scenario = folder / (name + ".toml"), .log = folder / (name + ".log")};
+}
+
+// In lockstep on a bus of its own. Error: it was not flown to the end, in one line.
+Result<void> fly(const fs::path& file, const Arguments& arguments, const fs::path& log) {
+  const auto scenario = scenario::read_file(file, drive::contract());
+  if (!scenario) return tl::unexpected(scenario.error());
+  drive::Options options;
+  options.bus = drive::BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}", getpid())));
+  options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
+  options.lockstep = true;
+  options.log_path = log.string();
+  if (scenario->fd.value_or(false)) {
+    options.format = BusFormat::fd;
+    options.target_arguments = {"--dbc", std::string(name_of(BusFormat::fd))};
+  }
+  const ProgressLine line;
+  const auto run = drive::run(*scenario, options, interrupted, [&](std::int64_t t_us) {
+    line.show([&] { return fmt::format("{} {:.0f} s", scenario->title, 1e-6 * static_cast<double>(t_us)); });
+  });
+  if (!run) return tl::unexpected(run.error());
+  if (run->log_error) return tl::unexpected(*run->log_error);
+  if (run->ending.kind != drive::Ending::Kind::completed)
+    return failure(fmt::format("{}: {}", file.string(), run->ending.detail));
+  return {};
+}
+
+ExitCode record(const Arguments& arguments) {
+  const fs::path folder = arguments.folder;
+  std::vector<std::string> names;
+  for (const std::string& scenario : arguments.scenarios) {
+    const Golden kept = golden(folder, scenario);
+    std::error_code unknown;
+    if (std::ranges::find(names, kept.name()) != names.end())
+      return complain({fmt::format("scenario '{}': is named twice, expected each name once", kept.name())});
+    if (fs::exists(kept.scenario, unknown) || fs::exists(kept.log, unknown))
+      return complain({fmt::format("{}: exists already, expected a folder without it", kept.log.string())});
+    names.push_back(kept.name());
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return complain({fmt::format("{}: cannot be a folder: {}", folder.string(), error.message())});
+  for (const std::string& scenario : arguments.scenarios) {
+    const Golden kept = golden(folder, scenario);
+    if (auto flown = fly(scenario, arguments, kept.log); !flown) {
+      fs::remove(kept.log, error);
+      return complain(flown.error());
+    }
+    fs::copy_file(scenario, kept.scenario, error);
+    if (error)
+      return complain({fmt::format("{}: cannot be written: {}", kept.scenario.string(), error.message())});
+    fmt::print("recorded {}\n", kept.log.string());
+  }
+  return ExitCode::pass;
+}
+
+// Where and how the answers left those that are kept; empty: nowhere.
+std::string difference(const observe::Comparison& comparison) {
+  if (!comparison.first) return {};
+  const observe::Divergence& first = *comparison.first;
+  const std::string where = fmt::format("at t={:.3f} s after {} frames: ", first.t_s, comparison.compared);
+  if (!first.a) return where + "recorded no more, now " + observe::describe(first.b->frame);
+  if (!first.b) return where + "now no more, recorded " + observe::describe(first.a->frame);
+  if (!first.signal.empty()) return where + first.signal;
+  return where + fmt::format("recorded {}, now {}", observe::describe(first.a->frame),
+                             observe::describe(first.b->frame));
+}
+
+ExitCode check(const Arguments& arguments) {
+  const fs::path folder = arguments.folder;
+  std::vector<fs::path> scenarios;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".toml") scenarios.push_back(entry.path());
+  }
+  if (error) return complain({fmt::format("{}: cannot be read: {}", folder.string(), error.message())});
+  if (scenarios.empty())
+    return complain({fmt::format("{}: has no scenario, expected what golden record made", folder.string())});
+  std::ranges::sort(scenarios);
+  auto results = nlohmann::ordered_json::array();
+  bool same = true;
+  for (const fs::path& scenario : scenarios) {
+    const Golden kept = golden(folder, scenario);
+    const fs::path log = folder / (kept.name() + ".check.log");
+    std::string what;
+    std::size_t frames = 0;
+    if (const auto flown = fly(scenario, arguments, log)) {
+      const auto comparison = observe::compare(kept.log.string(), log.string(),
+                                               static_cast<double>(arguments.tolerance.value_or(0)));
+      if (!comparison) return complain(comparison.error());
+      frames = comparison->compared;
+      what = difference(*comparison);
+    } else if (interrupted) {
+      fmt::print(stderr, "hil-bench: interrupted\n");
+      return ExitCode::not_measured;
+    } else {
+      what = flown.error().message;
+    }
+    if (what.empty()) fs::remove(log, error);
+    same = same && what.empty();
+    results.push_back(
+        {{"scenario", kept.name()}, {"outcome", what.empty() ? "pass" : "fail"}, {"frames", frames}});
+    if (!what.empty()) results.back()["difference"] = what;
+    if (arguments.json == report::to_stdout) continue;
+    fmt::print("  {}  {:<24} {}\n", what.empty() ? "PASS" : "FAIL", kept.name(),
+               what.empty() ? fmt::format("{} frames as recorded", frames)
+                            : fmt::format("{}; all frames in {}", what, log.string()));
+  }
+  if (!arguments.json.empty()) {
+    if (auto written = report::write(arguments.json, results.dump(2) + "\n"); !written)
+      return complain(written.error());
+  }
+  return same ? ExitCode::pass : ExitCode::fail;
+}
+
+}  // namespace
+
+void add_golden(command_line::Command app, int& code) {
+  const auto command =
+      app.add_subcommand("golden", "keep what a target answers, and find the first answer that changes");
+  command.require_subcommands(1, 1);
+  const auto add = [&](const char* name, const char* summary, ExitCode (*execute)(const Arguments&)) {
+    auto arguments = std::make_shared<Arguments>();
+    const auto own = command.add_subcommand(name, summary);
+    own.add_option("FOLDER", arguments->folder, "where scenarios and frames are kept").required();
+    own.add_option("--target", arguments->target, "program (default: hil-target beside hil-bench)");
+    own.on_given([&code, arguments, execute] {
+      catch_interrupts();
+      code = static_cast<int>(execute(*arguments));
+    });
+    return std::pair(own, arguments);
+  };
+  const auto [recording, recorded] = add("record", "fly scenarios in lockstep and keep every frame", record);
+  recording.add_option("SCENARIO", recorded->scenarios, "scenario files (TOML)").required();
+  const auto [checking, checked] = add("check", "fly them again and compare the target's frames", check);
+  checking.add_number("--tolerance", checked->tolerance,
+                      "steps of its resolution by which a signal may be off (default: 0, no bit)", 0,
+                      1'000'000);
+  checking.add_option("--json", checked->json, "also as JSON, to a file; -: to stdout, in place of the text");
+}
+
+}  // namespace canhil::commands

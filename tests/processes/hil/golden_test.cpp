@@ -1,0 +1,91 @@
+// hil-bench golden: the first answer that is another.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class Golden : public testing::Test {
+ protected:
+  Golden() {
+    fs::remove_all(folder_);
+    const Ended ended = record(scenario("transfer_alignment_quick") + " " + scenario("los_quick"));
+    EXPECT_EQ(ended.code, 0) << ended.err;
+  }
+  [[nodiscard]] Ended record(const std::string& more) const {
+    return hil_bench(fmt::format("golden record {} {}", folder_, more));
+  }
+  [[nodiscard]] Ended check(const std::string& more = "") const {
+    return hil_bench(fmt::format("golden check {} {}", folder_, more));
+  }
+  /// Changes a scenario that is kept: the frames in are others then.
+  void change(const std::string& name, const std::string& line, const std::string& instead) const {
+    const std::string file = fmt::format("{}/{}.toml", folder_, name);
+    std::string text = read(file);
+    const auto at = text.find(line);
+    ASSERT_NE(at, std::string::npos);
+    std::ofstream(file) << text.replace(at, line.size(), instead);
+  }
+
+  const std::string folder_ = scratch("golden");
+};
+
+TEST_F(Golden, TheSameTargetAnswersTheSame) {
+  const Ended ended = check();
+  EXPECT_EQ(ended.code, 0) << ended.out;
+  EXPECT_TRUE(std::regex_search(ended.out, std::regex("PASS +los_quick +[0-9]{3,} frames as recorded")))
+      << ended.out;
+  EXPECT_TRUE(std::regex_search(ended.out, std::regex("PASS +transfer_alignment_quick +[0-9]{3,} frames")));
+}
+
+TEST_F(Golden, NamesTheFirstSignalThatLeftItsToleranceAndKeepsTheFrames) {
+  change("transfer_alignment_quick", "velocity_noise_m2ps = 0.00025", "velocity_noise_m2ps = 0.00026");
+  const std::string report = scratch("golden.json");
+  const Ended ended = check("--json " + report);
+  EXPECT_EQ(ended.code, 1) << ended.out;
+  EXPECT_TRUE(std::regex_search(
+      ended.out,
+      std::regex(
+          "FAIL +transfer_alignment_quick +at t=[0-9.]+ s after [0-9]+ frames: Align[A-Za-z]+[.][a-z_]+ is "
+          "[-0-9.e]+ in one, [-0-9.e]+ in the other; all frames in ")))
+      << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("PASS  los_quick"));
+  EXPECT_TRUE(fs::exists(folder_ + "/transfer_alignment_quick.check.log"));
+  const nlohmann::json results = read_json(report);
+  EXPECT_EQ(results[0]["outcome"], "pass");
+  EXPECT_EQ(results[1]["outcome"], "fail");
+  // Within a tolerance that is wide enough it is the same again, within a narrow one it is not.
+  EXPECT_EQ(check("--tolerance 1").code, 1);
+  EXPECT_EQ(check("--tolerance 1000000").code, 0);
+}
+
+TEST_F(Golden, ATargetThatGivesUpIsAFailure) {
+  const Ended ended = check("--target /usr/bin/true");
+  EXPECT_EQ(ended.code, 1) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("FAIL  los_quick"));
+}
+
+TEST_F(Golden, BadInputIsOneLine) {
+  expect_one_line(record(scenario("los_quick")), "los_quick.log: exists already");
+  expect_one_line(record("none.toml"), "none.toml: cannot be read");
+  expect_one_line(hil_bench(fmt::format("golden record {0}/new {1} {1}", folder_, scenario("los_quick"))),
+                  "is named twice");
+  expect_one_line(hil_bench("golden check /no/such/folder"), "/no/such/folder: cannot be read");
+  fs::create_directories(folder_ + "/empty");
+  expect_one_line(hil_bench(fmt::format("golden check {}/empty", folder_)), "has no scenario");
+  expect_one_line(hil_bench("golden"), "golden");
+  expect_one_line(check("--tolerance -1"), "--tolerance");
+  EXPECT_FALSE(fs::exists(folder_ + "/none.log"));
+}
+
+}  // namespace
+}  // namespace canhil::test
