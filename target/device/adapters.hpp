@@ -13,8 +13,7 @@ std::unique_ptr<Adapter> make_inflight_alignment_adapter();
 std::unique_ptr<Adapter> make_los_rate_adapter();
 std::unique_ptr<Adapter> make_wind_adapter();
 
-/// One of each: the list that a new estimator joins. Each is made for_overwrite: their constructors set what
-/// must be set, and zeroing tables of megabytes before would be a tenth of a short flight.
+/// One of each: the list that a new estimator joins.
 inline std::vector<std::unique_ptr<Adapter>> make_adapters() {
   std::vector<std::unique_ptr<Adapter>> adapters;
   adapters.push_back(make_transfer_alignment_adapter());

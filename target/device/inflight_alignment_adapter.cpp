@@ -10,6 +10,7 @@
 #include "target/device/group_intake.hpp"
 #include "target/device/imu_stream.hpp"
 #include "target/device/inflight_alignment_parameters.hpp"
+#include "target/device/tuned_adapter.hpp"
 #include "target/estimators/inflight_alignment/history.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/strapdown/earth.hpp"
@@ -57,29 +58,21 @@ double maximum(std::string_view signal) {
   return std::ranges::find(Message::signals(), signal, &SignalInfo::name)->maximum;
 }
 
-class InflightAlignmentAdapter final : public Adapter {
+class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
  public:
+  InflightAlignmentAdapter() : TunedAdapter(inflight_alignment_parameters) {}
+
   [[nodiscard]] Estimator estimator() const override { return Estimator::inflight_alignment; }
 
   bool reset(Algorithm algorithm) override {
     const auto chosen = algorithm_of(algorithm);
     if (!chosen) return false;
-    parameters_.reset(tuning_);
+    reset_parameters();
     tuning_.filter.algorithm = *chosen;
     imu_.reset();
     ssbl_group_.discard();
     gps_group_.discard();
     return true;
-  }
-
-  ParameterStatus set(Parameter parameter, double value, bool running) override {
-    return parameters_.set(tuning_, parameter, value, running);
-  }
-  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
-    return parameters_.get(parameter);
-  }
-  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
-    return parameters_.range(parameter);
   }
 
   void start(const InitialState& initial) override {
@@ -294,8 +287,6 @@ class InflightAlignmentAdapter final : public Adapter {
         FixUpdate{.cause_time_us = wrap_us(fix.t_us), .cause_counter = fix.counter, .nis = result.nis});
   }
 
-  ParameterTable<InflightTuning> parameters_{inflight_alignment_parameters};
-  InflightTuning tuning_;
   ImuStream imu_;
   SampleGroup<SsblRelativeNE, SsblShipLatitude, SsblShipLongitude, SsblRelativeD> ssbl_group_;
   SampleGroup<GpsLatitude, GpsLongitude, GpsTime> gps_group_;
@@ -309,7 +300,7 @@ class InflightAlignmentAdapter final : public Adapter {
 }  // namespace
 
 std::unique_ptr<Adapter> make_inflight_alignment_adapter() {
-  return std::make_unique_for_overwrite<InflightAlignmentAdapter>();
+  return std::make_unique<InflightAlignmentAdapter>();
 }
 
 }  // namespace canhil::target

@@ -7,7 +7,7 @@
 #include "dbc/wire/time_base.hpp"
 #include "target/device/adapters.hpp"
 #include "target/device/group_intake.hpp"
-#include "target/device/parameter_table.hpp"
+#include "target/device/tuned_adapter.hpp"
 #include "target/estimators/los_rate/filter.hpp"
 
 namespace canhil::target {
@@ -117,31 +117,23 @@ static_assert(on_bus(los::Fault::range_stale) == LosRateFault::range_stale);
 static_assert(on_bus(los::Fault::range_jump) == LosRateFault::range_jump);
 static_assert(on_bus(los::Fault::closing_speed_invalid) == LosRateFault::closing_speed_invalid);
 
-class LosRateAdapter final : public Adapter {
+class LosRateAdapter final : public TunedAdapter<Tuning> {
  public:
+  LosRateAdapter() : TunedAdapter(rows) {}
+
   [[nodiscard]] Estimator estimator() const override { return Estimator::los_rate; }
 
   bool reset(Algorithm algorithm) override {
     const auto chosen = algorithm_of(algorithm);
     if (!chosen) return false;
-    parameters_.reset(settings_);
-    settings_.algorithm = *chosen;
+    reset_parameters();
+    tuning_.algorithm = *chosen;
     return true;
-  }
-
-  ParameterStatus set(Parameter parameter, double value, bool running) override {
-    return parameters_.set(settings_, parameter, value, running);
-  }
-  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
-    return parameters_.get(parameter);
-  }
-  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
-    return parameters_.range(parameter);
   }
 
   // The first usable sample starts the estimate; of the initial state only the time counts, for silence.
   void start(const InitialState& initial) override {
-    design_ = los::make_design(settings_);
+    design_ = los::make_design(tuning_);
     acquire();
     now_us_ = initial.t_us;
     group_.discard();
@@ -177,8 +169,8 @@ class LosRateAdapter final : public Adapter {
   void acquire() {
     state_ = los::initial();
     last_ = {};
-    last_.sigma.pitch.rate = last_.sigma.yaw.rate = settings_.rate_sigma_0;
-    last_.sigma.pitch.acceleration = last_.sigma.yaw.acceleration = settings_.acceleration_sigma_0;
+    last_.sigma.pitch.rate = last_.sigma.yaw.rate = tuning_.rate_sigma_0;
+    last_.sigma.pitch.acceleration = last_.sigma.yaw.acceleration = tuning_.acceleration_sigma_0;
     tracking_ = false;
   }
 
@@ -263,8 +255,6 @@ class LosRateAdapter final : public Adapter {
                                .cause_time_us = wrap_us(t_us)});
   }
 
-  ParameterTable<Tuning> parameters_{rows};
-  los::Settings settings_;
   los::Design design_;
   los::State state_;
   los::UpdateResult last_;
@@ -275,6 +265,6 @@ class LosRateAdapter final : public Adapter {
 
 }  // namespace
 
-std::unique_ptr<Adapter> make_los_rate_adapter() { return std::make_unique_for_overwrite<LosRateAdapter>(); }
+std::unique_ptr<Adapter> make_los_rate_adapter() { return std::make_unique<LosRateAdapter>(); }
 
 }  // namespace canhil::target

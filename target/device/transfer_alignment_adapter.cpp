@@ -9,7 +9,7 @@
 #include "target/device/fix_queue.hpp"
 #include "target/device/group_intake.hpp"
 #include "target/device/imu_stream.hpp"
-#include "target/device/parameter_table.hpp"
+#include "target/device/tuned_adapter.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/transfer_alignment/filter.hpp"
 #include "target/estimators/transfer_alignment/history.hpp"
@@ -68,28 +68,20 @@ constexpr std::array rows{
         [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
 };
 
-class TransferAlignmentAdapter final : public Adapter {
+class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
  public:
+  TransferAlignmentAdapter() : TunedAdapter(rows) {}
+
   [[nodiscard]] Estimator estimator() const override { return Estimator::transfer_alignment; }
 
   bool reset(Algorithm algorithm) override {
     if (algorithm != Algorithm::kalman && algorithm != Algorithm::robust_h2) return false;
-    parameters_.reset(tuning_);
+    reset_parameters();
     tuning_.filter.algorithm =
         algorithm == Algorithm::kalman ? ta::Algorithm::kalman : ta::Algorithm::robust_h2;
     imu_.reset();
     master_group_.discard();
     return true;
-  }
-
-  ParameterStatus set(Parameter parameter, double value, bool running) override {
-    return parameters_.set(tuning_, parameter, value, running);
-  }
-  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
-    return parameters_.get(parameter);
-  }
-  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
-    return parameters_.range(parameter);
   }
 
   void start(const InitialState& initial) override {
@@ -236,8 +228,6 @@ class TransferAlignmentAdapter final : public Adapter {
         AlignUpdate{.cause_time_us = wrap_us(fix.t_us), .cause_counter = fix.counter, .nis = result.nis});
   }
 
-  ParameterTable<Tuning> parameters_{rows};
-  Tuning tuning_;
   ImuStream imu_;
   MasterGroup master_group_;
   ta::State state_;
@@ -249,7 +239,7 @@ class TransferAlignmentAdapter final : public Adapter {
 }  // namespace
 
 std::unique_ptr<Adapter> make_transfer_alignment_adapter() {
-  return std::make_unique_for_overwrite<TransferAlignmentAdapter>();
+  return std::make_unique<TransferAlignmentAdapter>();
 }
 
 }  // namespace canhil::target

@@ -9,6 +9,7 @@
 #include "dbc/wire/time_base.hpp"
 #include "target/device/adapters.hpp"
 #include "target/device/group_intake.hpp"
+#include "target/device/tuned_adapter.hpp"
 #include "target/device/wind_parameters.hpp"
 #include "target/estimators/wind/filter.hpp"
 
@@ -51,8 +52,10 @@ double angle(double value_deg) {
 
 Eigen::Vector3d vector(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-class WindAdapter final : public Adapter {
+class WindAdapter final : public TunedAdapter<WindTuning> {
  public:
+  WindAdapter() : TunedAdapter(wind_parameters) {}
+
   [[nodiscard]] Estimator estimator() const override { return Estimator::wind; }
 
   bool reset(Algorithm algorithm) override {
@@ -63,23 +66,16 @@ class WindAdapter final : public Adapter {
     tuning_.filter.sample_period = 1e-6 * static_cast<double>(GliderNavVelocityD::info.cycle_time_us);
     tuning_.filter.ground_speed_most = ground_speed_most;
     tuning_.filter.rate_most = rate_most;
-    parameters_.reset(tuning_);
+    reset_parameters();
     design_ = wind::make_design(tuning_.filter);
     return true;
   }
 
   ParameterStatus set(Parameter parameter, double value, bool running) override {
-    const ParameterStatus status = parameters_.set(tuning_, parameter, value, running);
+    const ParameterStatus status = TunedAdapter::set(parameter, value, running);
     design_ = wind::make_design(tuning_.filter);
     return status;
   }
-  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
-    return parameters_.get(parameter);
-  }
-  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
-    return parameters_.range(parameter);
-  }
-
   // Where the air velocity at release is not known, the wind is not: the first usable sample starts the
   // filter.
   void start(const InitialState& initial) override {
@@ -251,8 +247,6 @@ class WindAdapter final : public Adapter {
         WindUpdate{.cause_time_us = wrap_us(t_us), .cause_counter = group_.counter(), .nis = result.nis});
   }
 
-  ParameterTable<WindTuning> parameters_{wind_parameters};
-  WindTuning tuning_;
   wind::Design design_ = wind::make_design({});
   wind::State state_;
   wind::FinHistory fins_;
@@ -264,6 +258,6 @@ class WindAdapter final : public Adapter {
 
 }  // namespace
 
-std::unique_ptr<Adapter> make_wind_adapter() { return std::make_unique_for_overwrite<WindAdapter>(); }
+std::unique_ptr<Adapter> make_wind_adapter() { return std::make_unique<WindAdapter>(); }
 
 }  // namespace canhil::target

@@ -6,6 +6,7 @@
 #include "target/device/adapters.hpp"
 #include "target/device/fix_queue.hpp"
 #include "target/device/imu_stream.hpp"
+#include "target/device/tuned_adapter.hpp"
 #include "tests/fifth_estimator/vertical_channel.hpp"
 
 namespace canhil::target {
@@ -27,44 +28,36 @@ constexpr std::array rows{
         [](baro_inertial::Settings& s, double v) { s.gate = v; }},
 };
 
-class BaroInertialAdapter final : public Adapter {
+class BaroInertialAdapter final : public TunedAdapter<baro_inertial::Settings> {
  public:
+  BaroInertialAdapter() : TunedAdapter(rows) {}
+
   [[nodiscard]] Estimator estimator() const override { return Estimator::baro_inertial; }
 
   bool reset(Algorithm algorithm) override {
     if (algorithm != Algorithm::kalman) return false;
-    parameters_.reset(settings_);
+    reset_parameters();
     imu_.reset();
     group_.discard();
     return true;
   }
 
-  ParameterStatus set(Parameter parameter, double value, bool running) override {
-    return parameters_.set(settings_, parameter, value, running);
-  }
-  [[nodiscard]] std::optional<double> get(Parameter parameter) const override {
-    return parameters_.get(parameter);
-  }
-  [[nodiscard]] std::optional<ParameterRange> range(Parameter parameter) const override {
-    return parameters_.range(parameter);
-  }
-
   void start(const InitialState& initial) override {
-    settings_.height_sigma_0 = initial.position_sigma;
-    settings_.velocity_sigma_0 = initial.velocity_sigma;
+    tuning_.height_sigma_0 = initial.position_sigma;
+    tuning_.velocity_sigma_0 = initial.velocity_sigma;
     channel_.start({.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
                     .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
                     .latitude = initial.latitude,
                     .longitude = initial.longitude,
                     .height = initial.height},
-                   settings_);
+                   tuning_);
     imu_.start(initial.t_us, 0);
     pending_.clear();
   }
 
   Health receive(const Frame& frame, std::uint8_t counter, Context context) override {
     switch (imu_.receive(frame, counter, context, [this](const strapdown::ImuIncrement& imu, std::int64_t) {
-      channel_.propagate(imu, settings_);
+      channel_.propagate(imu, tuning_);
     })) {
       case ImuStream::Taken::stepped:
         if (!channel_.finite()) return numeric_fault(context);
@@ -94,7 +87,7 @@ class BaroInertialAdapter final : public Adapter {
 
  private:
   Health answer(const At<double>& fix, Context& context) {
-    const bool used = channel_.update(fix.value, settings_) == baro_inertial::Outcome::used;
+    const bool used = channel_.update(fix.value, tuning_) == baro_inertial::Outcome::used;
     const Eigen::Vector3d sigma = channel_.P().diagonal().cwiseMax(0).cwiseSqrt();
     context.answers.send(
         HeightEstimate{.height_m = channel_.nav().height, .velocity_down_mps = channel_.nav().v_eb_n.z()});
@@ -108,8 +101,6 @@ class BaroInertialAdapter final : public Adapter {
     return Health::good;
   }
 
-  ParameterTable<baro_inertial::Settings> parameters_{rows};
-  baro_inertial::Settings settings_;
   baro_inertial::VerticalChannel channel_;
   ImuStream imu_;
   SampleGroup<BarometerHeight> group_;
