@@ -5,8 +5,8 @@
 
 The defects are in tests/mutants/*.toml, a file a family; seeded.py says what they are made of. In a copy of the project,
 build/mutants, a defect is put into its file, hil-target is built, and build/default/hil-bench, which has to be there, flies the
-suite against it: in lockstep, on a private bus, up to the first check that fails. Then the file is put back. Before all that the
-suite flies against the target as it is, which must pass.
+suite against it, flights and then the campaigns of bench/acceptance: in lockstep, on a private bus, up to the first check that
+fails. Then the file is put back. Before all that the suite flies against the target as it is, which must pass.
 
 A mutant is caught when a check fails or a flight comes to no good end, and survives when the suite passes. A check that was not
 measured, such as those of timing, which lockstep does not have, catches nothing.
@@ -44,11 +44,19 @@ SUITE = ("transfer_alignment_quick", "los_quick", "wind_quick", "inflight_quick"
          "transfer_alignment", "los_closed_loop", "los_closed_loop_500hz", "wind_ekf", "wind_h_infinity", "inflight_gps",
          "inflight_ssbl", "inflight_ssbl_180")
 
+# Many flights, a minute each: errors and honesty within bars of both ends.
+ACCEPTANCE = ("transfer_alignment", "inflight_alignment", "wind")
 
-def suite(report):
-    """[(scenario, command)]: what a target is to pass; each writes its report as JSON to the file `report`."""
-    return [(name, [str(BENCH), "run", str(ROOT / f"bench/flights/{name}.toml"), "--lockstep", "--target", str(TARGET),
-                    "--json", str(report)]) for name in SUITE]
+
+def suite(report, family=None):
+    """[(name, command)]: what a target is to pass; each writes its report as JSON to the file `report`. What is wrong with one
+    estimator, its family, no campaign of another shows."""
+    flights = [(name, [str(BENCH), "run", str(ROOT / f"bench/flights/{name}.toml"), "--lockstep", "--target", str(TARGET),
+                       "--json", str(report)]) for name in SUITE]
+    campaigns = [(f"acceptance of {name}", [str(BENCH), "campaign", str(ROOT / f"bench/acceptance/{name}.toml"), "--target",
+                                            str(TARGET), "--json", str(report), "--out", f"{report}.sqlite"])
+                 for name in ACCEPTANCE if family in (name, None) or family not in (*ACCEPTANCE, "los_rate")]
+    return flights + campaigns
 
 
 class Failure(Exception):
@@ -112,23 +120,24 @@ def judged(code, output, report):
         page = json.loads(report.read_text())
     except (OSError, ValueError):
         return "no report", f"exit code {code}: {(output.strip().splitlines() or ['no output'])[-1]}"
-    for check in page["checks"]:
-        if check["outcome"] == "fail":
-            return check["name"], check["measured"]
-    if not page["ending"]["completed"]:
+    for check in page.get("checks", page.get("answers")):
+        if check.get("outcome") == "fail":
+            return check.get("name", check.get("metric")), check["measured"]
+    if not page.get("ending", {"completed": True})["completed"]:
         return "ending", page["ending"]["detail"]
     if code not in (0, 3):  # pass, or none failed but some were not measured
-        return "verdict", page["reason"]
+        return "verdict", page.get("reason", page["outcome"] if "outcome" in page else "")
     return None
 
 
-def fly_suite(progress):
+def fly_suite(progress, family=None):
     """(scenario, check, what was measured) of the first thing wrong; None: passed."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder, "report.json")
-        for scenario, command in suite(report):
+        for scenario, command in suite(report, family):
             progress.say(f"flies {scenario}")
             report.unlink(missing_ok=True)
+            Path(f"{report}.sqlite").unlink(missing_ok=True)
             wrong = judged(*run(command, LONGEST_FLIGHT_S), report)
             if wrong:
                 return scenario, *wrong
@@ -146,7 +155,7 @@ def outcome_of(mutant, jobs, progress):
         built, output = build(jobs)
         if not built:
             return {**entry, "outcome": NO_BUILD, "error": error_of(output)}
-        wrong = fly_suite(progress)
+        wrong = fly_suite(progress, mutant.family)
     finally:
         file.write_text(text)
     if wrong is None:
