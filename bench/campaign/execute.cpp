@@ -116,7 +116,7 @@ Result<void> compute_truths(Work& work) {
 }
 
 /// Commits what the workers finish, until they end.
-Result<void> write_all(Store& store, Finishing& finishing, Progress progress, const Options& options) {
+Result<void> write_all(Store& store, Finishing& finishing, Progress& progress, const Options& options) {
   while (const auto runs = finishing.take()) {
     if (!runs->empty()) {
       if (auto added = store.add(*runs); !added) {
@@ -197,15 +197,21 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
   const std::size_t workers = std::clamp<std::size_t>(cores, 1, std::max<std::size_t>(1, work.tasks.size()));
   Finishing finishing(workers);
   Result<void> written;
+  Progress progress{.stored = stored->size(), .total = work.tasks.size()};
   {
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < workers; ++i) threads.emplace_back([&] { fly(work, finishing, stop); });
-    written = write_all(*store, finishing, {.stored = stored->size(), .total = work.tasks.size()}, options);
+    written = write_all(*store, finishing, progress, options);
     work.halt = true;
   }
   if (!written) return tl::unexpected(written.error());
   store->close();
-  if (const auto error = finishing.error()) return tl::unexpected(*error);
+  if (const auto error = finishing.error()) {
+    // A file of no runs would be in the way of the next try.
+    std::error_code ignored;
+    if (progress.stored + progress.done == 0) std::filesystem::remove(options.file, ignored);
+    return tl::unexpected(*error);
+  }
   return work.next < work.tasks.size() ? Execution::interrupted : Execution::complete;
 }
 

@@ -132,9 +132,9 @@ ExitCode execute(const Arguments& arguments) {
   const auto shard =
       arguments.shard.empty() ? campaign::shard_of_environment() : campaign::parse_shard(arguments.shard);
   if (!shard) return complain(shard.error());
-  if (!arguments.target.empty() && !drive::look_at_program(arguments.target))
-    return complain(
-        {fmt::format("target '{}': cannot be read; expected an executable file", arguments.target)});
+  if (!arguments.target.empty()) {
+    if (auto fine = drive::check_target(arguments.target); !fine) return complain(fine.error());
+  }
   const auto file = results_file(arguments, *shard);
   if (!file) return complain(file.error());
   if (auto distinct = check_distinct(*campaign, {file->string(), arguments.json, arguments.target});

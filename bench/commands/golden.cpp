@@ -13,6 +13,7 @@
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/drive/contract.hpp"
+#include "bench/drive/program_file.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/observe/divergence.hpp"
 #include "bench/report/file.hpp"
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string folder;
   std::vector<std::string> scenarios;
-  std::string target;  // empty: the hil-target beside this program
+  std::string target = own_folder() + "/hil-target";
   std::optional<std::uint64_t> tolerance;
   std::string json;
 };
@@ -49,7 +50,7 @@ Result<void> fly(const fs::path& file, const Arguments& arguments, const fs::pat
   if (!scenario) return tl::unexpected(scenario.error());
   drive::Options options;
   options.bus = drive::BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}", getpid())));
-  options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
+  options.target = arguments.target;
   options.lockstep = true;
   options.log_path = log.string();
   if (scenario->fd.value_or(false)) {
@@ -72,6 +73,7 @@ ExitCode record(const Arguments& arguments) {
   std::vector<std::string> names;
   for (const std::string& scenario : arguments.scenarios) {
     const Golden kept = golden(folder, scenario);
+    if (auto read = scenario::read_file(scenario, drive::contract()); !read) return complain(read.error());
     std::error_code unknown;
     if (std::ranges::find(names, kept.name()) != names.end())
       return complain({fmt::format("scenario '{}': is named twice, expected each name once", kept.name())});
@@ -139,14 +141,14 @@ ExitCode check(const Arguments& arguments) {
       what = flown.error().message;
     }
     if (what.empty()) fs::remove(log, error);
+    if (!what.empty() && fs::exists(log, error)) what += fmt::format("; all frames in {}", log.string());
     same = same && what.empty();
     results.push_back(
         {{"scenario", kept.name()}, {"outcome", what.empty() ? "pass" : "fail"}, {"frames", frames}});
     if (!what.empty()) results.back()["difference"] = what;
     if (arguments.json == report::to_stdout) continue;
     fmt::print("  {}  {:<24} {}\n", what.empty() ? "PASS" : "FAIL", kept.name(),
-               what.empty() ? fmt::format("{} frames as recorded", frames)
-                            : fmt::format("{}; all frames in {}", what, log.string()));
+               what.empty() ? fmt::format("{} frames as recorded", frames) : what);
   }
   if (!arguments.json.empty()) {
     if (auto written = report::write(arguments.json, results.dump(2) + "\n"); !written)
@@ -167,6 +169,10 @@ void add_golden(command_line::Command app, int& code) {
     own.add_option("FOLDER", arguments->folder, "where scenarios and frames are kept").required();
     own.add_option("--target", arguments->target, "program (default: hil-target beside hil-bench)");
     own.on_given([&code, arguments, execute] {
+      if (auto fine = drive::check_target(arguments->target); !fine) {
+        code = static_cast<int>(complain(fine.error()));
+        return;
+      }
       catch_interrupts();
       code = static_cast<int>(execute(*arguments));
     });

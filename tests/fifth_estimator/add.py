@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a copy of the project with a fifth estimator in it: python3 tests/fifth_estimator/add.py FOLDER
 
-What is changed outside tests/fifth_estimator is here, whole: a line a registry, and the contract, which gets what contract.dbc
+What is changed outside tests/fifth_estimator to build it in is here, whole: a line a registry, and the contract, which gets what contract.dbc
 says.
 """
 import pathlib
