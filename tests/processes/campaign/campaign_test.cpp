@@ -265,6 +265,17 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
+// With two runs: that each is read and flown to its end. Its bars are for as many as it says.
+TEST(Acceptance, EveryCampaignFlies) {
+  for (const char* name : {"transfer_alignment", "inflight_alignment", "wind"}) {
+    const Ended ended = hil_bench(fmt::format("campaign {}/bench/acceptance/{}.toml --runs 2 --out {}",
+                                              SOURCE_DIR, name, folder(name)));
+    EXPECT_LT(ended.code, 2) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("2 of 2 runs completed"));
+    EXPECT_THAT(ended.out, Not(HasSubstr("nan")));
+  }
+}
+
 TEST(CampaignBadInput, IsOneLine) {
   const std::string file = campaign_file(), at = folder("bad");
   const auto campaign = [&](const std::string& arguments) {
