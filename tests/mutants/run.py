@@ -241,7 +241,7 @@ def fly(mutants, jobs):
     progress = Progress()
     start = time.monotonic()
     prepare(jobs, progress)
-    progress.line(f"the target as it is passes ({len(SUITE)} flights)")
+    progress.line(f"the target as it is passes ({len(SUITE)} flights, {len(ACCEPTANCE)} campaigns)")
     entries = []
     for number, mutant in enumerate(mutants, 1):
         gone = int(time.monotonic() - start)
