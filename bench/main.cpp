@@ -11,15 +11,17 @@ namespace {
 
 using namespace canhil::commands;
 
-// For help alone: the subcommand itself is hil-bench-campaign.
+// For help alone: the subcommands themselves are of hil-bench-campaign.
 void name_campaign(canhil::command_line::Command program, int& /*code*/) {
+  program.add_subcommand(std::string(accept_name), std::string(accept_summary));
   program.add_subcommand(std::string(campaign_name), std::string(campaign_summary));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && argv[1] == campaign_name) return become("hil-bench-campaign", {argv + 1, argv + argc});
+  if (argc > 1 && (argv[1] == campaign_name || argv[1] == accept_name))
+    return become("hil-bench-campaign", {argv + 1, argv + argc});
   constexpr std::array<AddCommand, 8> commands{add_run,     add_report, add_bus,    name_campaign,
                                                add_diverge, add_golden, add_doctor, add_schedulability};
   return run_program(argc, argv, commands);

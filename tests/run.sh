@@ -106,7 +106,8 @@ build() { # build PRESET [TARGET...]
 run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
   local preset=$1 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
   shift
-  logged "testing $preset" "$log" "${personality[@]}" ctest --test-dir "build/$preset" -j "$jobs" --timeout 300 \
+  # One more than there are cores: many tests fly in real time or wait for a guest, and leave theirs idle.
+  logged "testing $preset" "$log" "${personality[@]}" ctest --test-dir "build/$preset" -j $((jobs + 1)) --timeout 300 \
     --output-on-failure --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" || code=$?
   progress_rest "$log"
   if ! counts=$(python3 tests/static/junit_counts.py "$junit"); then failure "no results of ctest for $preset"; return; fi

@@ -54,10 +54,13 @@ class Bars {
                 std::string_view what = {}) {
     if (bar) expect(value >= *bar, fmt::format("{}at least {}", what, words(*bar)));
   }
-  void between(double mean, const std::optional<std::pair<double, double>>& ends) {
+  void between(double mean, const std::optional<std::pair<double, double>>& ends,
+               const quantities::Unit& unit) {
     if (!ends) return;
     const auto [low, high] = *ends;
-    expect(mean >= low && mean <= high, fmt::format("mean from {:g} to {:g}", low, high));
+    expect(mean >= low && mean <= high,
+           fmt::format("mean from {:g} to {:g}{}{}", low / unit.factor, high / unit.factor,
+                       unit.name.empty() ? "" : " ", unit.name));
   }
 
  private:
@@ -206,7 +209,7 @@ void answer(const ToGo& rule, const Runs& runs, const Runs& other, Answer& out) 
   out.measured += missing_note(missing);
   Bars bars(out, missing == 0);
   bars.at_most(found.rms, rule.rms_at_most, in(unit), "RMS ");
-  bars.between(found.mean, rule.mean_between);
+  bars.between(found.mean, rule.mean_between, unit);
   bars.at_most(ratio, rule.ratio_at_most, times);
   bars.at_least(ratio, rule.ratio_at_least, times);
 }
@@ -248,7 +251,7 @@ void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, An
                   found.high, 100 * found.inside, found.updates, missing_note(found.missing));
   out.figures = {{"mean", found.mean}, {"low", found.low}, {"high", found.high}, {"inside", found.inside}};
   Bars bars(out, found.missing == 0);
-  bars.between(found.mean, rule.mean_between);
+  bars.between(found.mean, rule.mean_between, rule.quantity->unit);
   bars.at_least(found.inside, rule.inside_at_least, percent, "inside in ");
 }
 

@@ -200,8 +200,9 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));
   rule.other = section.one_of("other", context.variants, "");
   rule.rms_at_most = optional_number(section, key_of("rms_at_most", *rule.quantity), Limits::at_least(0));
-  if (section.has("mean_between")) rule.mean_between = section.interval("mean_between", Limits::at_least(0));
-  section.optional("mean_between");
+  const std::string mean_between = key_of("mean_between", *rule.quantity);
+  if (section.has(mean_between)) rule.mean_between = section.interval(mean_between, Limits::at_least(0));
+  section.optional(mean_between);
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::at_least(0));
   rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);

@@ -97,7 +97,8 @@ std::string json(const Campaign& campaign, const Evaluation& evaluation) {
   if (!evaluation.target.empty()) json["target"] = evaluation.target;
   for (const Endings& endings : evaluation.endings) json["variants"].push_back(json_of(endings));
   for (const Answer& answer : evaluation.answers) json["answers"].push_back(json_of(answer));
-  return json.dump(2) + "\n";
+  // File names, and what a run ended with, need not be UTF-8.
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace canhil::campaign

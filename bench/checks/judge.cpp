@@ -66,12 +66,13 @@ std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::s
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks) {
   TimingRecord timing;
   for (const scenario::Check& check : checks) {
-    const std::optional<Timed> asked = check.rule->timed();
-    if (!asked || find_window(timing, asked->message, asked->window) != nullptr) continue;
-    const auto info = std::ranges::find(messages::all_messages, asked->message, &MessageInfo::name);
-    if (info == messages::all_messages.end()) continue;
-    timing.windows.push_back({.message = static_cast<std::size_t>(info - messages::all_messages.begin()),
-                              .window = asked->window});
+    for (const Timed& asked : check.rule->timed()) {
+      const auto info = std::ranges::find(messages::all_messages, asked.message, &MessageInfo::name);
+      if (info == messages::all_messages.end() || find_window(timing, asked.message, asked.window) != nullptr)
+        continue;
+      timing.windows.push_back({.message = static_cast<std::size_t>(info - messages::all_messages.begin()),
+                                .window = asked.window});
+    }
   }
   return std::move(timing.windows);
 }

@@ -7,7 +7,7 @@
 //   std::string subject() const                  what tells one check of the kind from another
 //   std::vector<Subject> subjects() const        the quantities that it looks at
 //   std::optional<Bar> bar() const               what it asks of them, for pictures
-//   std::optional<Timed> timed() const           the message whose times it looks at
+//   std::vector<Timed> timed() const             the messages whose times it looks at, and when
 #pragma once
 
 #include <memory>
@@ -64,7 +64,7 @@ class Rule {
   [[nodiscard]] virtual Finding judge(const Evidence& evidence) const = 0;
   [[nodiscard]] virtual std::vector<Subject> subjects() const = 0;
   [[nodiscard]] virtual std::optional<Bar> bar() const = 0;
-  [[nodiscard]] virtual std::optional<Timed> timed() const = 0;
+  [[nodiscard]] virtual std::vector<Timed> timed() const = 0;
 };
 
 template <class Kind>
@@ -80,9 +80,9 @@ class RuleOf final : public Rule {
     if constexpr (requires { kind_.bar(); }) return kind_.bar();
     return std::nullopt;
   }
-  [[nodiscard]] std::optional<Timed> timed() const override {
+  [[nodiscard]] std::vector<Timed> timed() const override {
     if constexpr (requires { kind_.timed(); }) return kind_.timed();
-    return std::nullopt;
+    return {};
   }
   [[nodiscard]] const Kind& kind() const { return kind_; }
 

@@ -1,4 +1,4 @@
-// The subcommand of hil-bench that is a program of its own, and what hil-bench itself says of it.
+// The subcommands of hil-bench that are a program of their own, and what hil-bench itself says of them.
 #pragma once
 
 #include <string_view>
@@ -9,6 +9,12 @@ namespace canhil::commands {
 
 inline constexpr std::string_view campaign_name = "campaign";
 inline constexpr std::string_view campaign_summary = "fly variants of scenarios many times, and compare them";
+inline constexpr std::string_view accept_name = "accept";
+inline constexpr std::string_view accept_summary = "what a target must do, requirement by requirement";
+
+/// `hil-bench accept`: the suites of bench/acceptance against a target. Exit code 1 if a requirement is not
+/// met.
+void add_accept(command_line::Command app, int& code);
 
 /// `hil-bench campaign FILE` and its subcommands merge, report, replay: many runs in process, and statistics.
 void add_campaign(command_line::Command app, int& code);

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,8 +16,6 @@
 #include "bench/drive/session.hpp"
 #include "bench/observe/divergence.hpp"
 #include "bench/report/file.hpp"
-#include "dbc/ports/fd_groups.hpp"
-#include "dbc/ports/local_bus.hpp"
 
 namespace canhil::commands {
 namespace {
@@ -45,52 +42,47 @@ Golden golden(const fs::path& folder, const fs::path& scenario) {
 }
 
 // In lockstep on a bus of its own. Error: it was not flown to the end, in one line.
-Result<void> fly(const fs::path& file, const Arguments& arguments, const fs::path& log) {
-  const auto scenario = scenario::read_file(file, drive::contract());
-  if (!scenario) return tl::unexpected(scenario.error());
-  drive::Options options;
-  options.bus = drive::BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}", getpid())));
-  options.target = arguments.target;
-  options.lockstep = true;
+Result<void> fly(const scenario::Scenario& scenario, const Arguments& arguments, const fs::path& log) {
+  drive::Options options = drive::in_lockstep_against(arguments.target);
   options.log_path = log.string();
-  if (scenario->fd.value_or(false)) {
-    options.format = BusFormat::fd;
-    options.target_arguments = {"--dbc", std::string(name_of(BusFormat::fd))};
-  }
+  if (scenario.fd.value_or(false)) options.format = BusFormat::fd;
   const ProgressLine line;
-  const auto run = drive::run(*scenario, options, interrupted, [&](std::int64_t t_us) {
-    line.show([&] { return fmt::format("{} {:.0f} s", scenario->title, 1e-6 * static_cast<double>(t_us)); });
+  const auto run = drive::run(scenario, options, interrupted, [&](std::int64_t t_us) {
+    line.show([&] { return fmt::format("{} {:.0f} s", scenario.title, 1e-6 * static_cast<double>(t_us)); });
   });
   if (!run) return tl::unexpected(run.error());
   if (run->log_error) return tl::unexpected(*run->log_error);
   if (run->ending.kind != drive::Ending::Kind::completed)
-    return failure(fmt::format("{}: {}", file.string(), run->ending.detail));
+    return failure(fmt::format("{}: {}", scenario.file, run->ending.detail));
   return {};
 }
 
 ExitCode record(const Arguments& arguments) {
   const fs::path folder = arguments.folder;
   std::vector<std::string> names;
+  std::vector<scenario::Scenario> scenarios;
   for (const std::string& scenario : arguments.scenarios) {
     const Golden kept = golden(folder, scenario);
-    if (auto read = scenario::read_file(scenario, drive::contract()); !read) return complain(read.error());
+    auto read = scenario::read_file(scenario, drive::contract());
+    if (!read) return complain(read.error());
     std::error_code unknown;
     if (std::ranges::find(names, kept.name()) != names.end())
       return complain({fmt::format("scenario '{}': is named twice, expected each name once", kept.name())});
     if (fs::exists(kept.scenario, unknown) || fs::exists(kept.log, unknown))
       return complain({fmt::format("{}: exists already, expected a folder without it", kept.log.string())});
     names.push_back(kept.name());
+    scenarios.push_back(std::move(*read));
   }
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return complain({fmt::format("{}: cannot be a folder: {}", folder.string(), error.message())});
-  for (const std::string& scenario : arguments.scenarios) {
-    const Golden kept = golden(folder, scenario);
+  for (const scenario::Scenario& scenario : scenarios) {
+    const Golden kept = golden(folder, scenario.file);
     if (auto flown = fly(scenario, arguments, kept.log); !flown) {
       fs::remove(kept.log, error);
       return complain(flown.error());
     }
-    fs::copy_file(scenario, kept.scenario, error);
+    fs::copy_file(scenario.file, kept.scenario, error);
     if (error)
       return complain({fmt::format("{}: cannot be written: {}", kept.scenario.string(), error.message())});
     fmt::print("recorded {}\n", kept.log.string());
@@ -112,19 +104,25 @@ std::string difference(const observe::Comparison& comparison) {
 
 ExitCode check(const Arguments& arguments) {
   const fs::path folder = arguments.folder;
-  std::vector<fs::path> scenarios;
+  std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".toml") scenarios.push_back(entry.path());
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
   }
   if (error) return complain({fmt::format("{}: cannot be read: {}", folder.string(), error.message())});
-  if (scenarios.empty())
+  if (files.empty())
     return complain({fmt::format("{}: has no scenario, expected what golden record made", folder.string())});
-  std::ranges::sort(scenarios);
+  std::ranges::sort(files);
+  std::vector<scenario::Scenario> scenarios;
+  for (const fs::path& file : files) {
+    auto read = scenario::read_file(file, drive::contract());
+    if (!read) return complain(read.error());  // the target had no part in it: bad input
+    scenarios.push_back(std::move(*read));
+  }
   auto results = nlohmann::ordered_json::array();
   bool same = true;
-  for (const fs::path& scenario : scenarios) {
-    const Golden kept = golden(folder, scenario);
+  for (const scenario::Scenario& scenario : scenarios) {
+    const Golden kept = golden(folder, scenario.file);
     const fs::path log = folder / (kept.name() + ".check.log");
     std::string what;
     std::size_t frames = 0;
@@ -151,8 +149,10 @@ ExitCode check(const Arguments& arguments) {
                what.empty() ? fmt::format("{} frames as recorded", frames) : what);
   }
   if (!arguments.json.empty()) {
-    if (auto written = report::write(arguments.json, results.dump(2) + "\n"); !written)
-      return complain(written.error());
+    // Names of files need not be UTF-8.
+    const std::string text =
+        results.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    if (auto written = report::write(arguments.json, text); !written) return complain(written.error());
   }
   return same ? ExitCode::pass : ExitCode::fail;
 }

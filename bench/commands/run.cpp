@@ -105,9 +105,6 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
     if (arguments.target.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
   }
-  // Every target is told, ours or another: it is to speak the same contract.
-  if (format != BusFormat::classic)
-    options.target_arguments.insert(options.target_arguments.end(), {"--dbc", std::string(name_of(format))});
   for (const std::string& text : arguments.bus_of) {
     options.bus_of.push_back(*node_and_bus(text));
     for (const std::string& word : {std::string("--bus"), options.bus_of.back().second})

@@ -75,6 +75,7 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
+  if (const auto faults = FrameFaults::make(scenario.faults); !faults) return tl::unexpected(faults.error());
   // What every run tells its target; its draws are checked run by run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");
@@ -110,7 +111,8 @@ Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRe
                        .flight = truth,
                        .glide = own_truth.glide ? &*own_truth.glide : nullptr,
                        .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr}),
-          std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding};
+          std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
+          FrameFaults::make(scenario.faults).value_or(FrameFaults())};  // make_truth() has refused wrong ones
 }
 
 }  // namespace canhil::drive

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "bench/drive/frame_faults.hpp"
 #include "bench/drive/link.hpp"
 #include "bench/nodes/node.hpp"
 
@@ -16,8 +17,8 @@ class Schedule final : public observe::Observer {
  public:
   /// `keeper` closes every step, so it comes last among equals.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
-           Rounding rounding = Rounding::as_on_the_bus)
-      : nodes_(std::move(sensors)), out_(rounding) {
+           Rounding rounding = Rounding::as_on_the_bus, FrameFaults faults = {})
+      : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
     nodes_.push_back(std::move(keeper));
     for (const auto& node : nodes_) {
       due_us_.push_back(node->due_us());
@@ -33,9 +34,10 @@ class Schedule final : public observe::Observer {
   std::span<const Frame> take() {
     out_.clear();
     nodes_[next_]->transmit(out_);
+    const std::int64_t t_us = due_us_[next_];
     due_us_[next_] = nodes_[next_]->due_us();
     find_next();
-    return out_.frames();
+    return faults_.befall(out_.frames(), t_us);
   }
 
   /// Whether any node does.
@@ -60,6 +62,7 @@ class Schedule final : public observe::Observer {
   std::vector<nodes::Node*> listeners_;
   std::size_t next_ = 0;
   nodes::Transmission out_;
+  FrameFaults faults_;
 };
 
 }  // namespace canhil::drive

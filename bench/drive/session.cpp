@@ -106,6 +106,8 @@ class Session {
       load_watched.emplace(link_, load_);
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
     }
+    std::optional<Attached> looking_on;
+    if (options_.onlooker != nullptr) looking_on.emplace(link_, *options_.onlooker);
     std::optional<Attached> listening;
     if (schedule_.listens()) listening.emplace(link_, schedule_);
     if (options_.realtime && target_)
@@ -156,7 +158,11 @@ class Session {
   Result<void> start_target(const std::vector<int>& cpus) {
     if (!options_.target || bus_.in_process) return {};
     target_file_ = look_at_program(*options_.target);
-    return TargetProcess::start(*options_.target, options_.bus.text, options_.target_arguments, cpus)
+    std::vector<std::string> arguments = options_.target_arguments;
+    // Every target is told, ours or another: it is to speak the same contract.
+    if (options_.format != BusFormat::classic)
+      arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
+    return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
         .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
   }
 
@@ -246,6 +252,16 @@ ClockKind clock_of(BusTime time, bool lockstep) {
   return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
 }
 
+Options in_lockstep_against(std::string program) {
+  static std::atomic<std::uint64_t> buses = 0;  // of this process: flights in other threads have others
+  Options options;
+  options.bus =
+      BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
+  options.target = std::move(program);
+  options.lockstep = true;
+  return options;
+}
+
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress) {
   const auto in_file = [&](const Error& error) {
@@ -292,13 +308,7 @@ Result<Collected> run_in_process(const scenario::Scenario& scenario, const world
 
 Result<Collected> run_against(const std::string& program, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index) {
-  static std::atomic<std::uint64_t> buses = 0;  // of this process: flights in other threads have others
-  Options options;
-  options.bus =
-      BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
-  options.target = program;
-  options.lockstep = true;
-  return fly_for_campaign(scenario, truth, run_index, std::move(options));
+  return fly_for_campaign(scenario, truth, run_index, in_lockstep_against(program));
 }
 
 }  // namespace canhil::drive

@@ -34,12 +34,16 @@ struct Options {
   bool lockstep = false;                      ///< rather than real time
   std::optional<std::string> log_path;        ///< candump log of every frame from the first command on
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments
-  std::vector<std::string> target_arguments;  ///< besides --bus
+  std::vector<std::string> target_arguments;  ///< besides --bus, and --dbc, which follows from the format
   std::optional<int> target_cpu;              ///< none: those of the bench before it was pinned
   std::int64_t spin_ns = 0;                   ///< before each deadline the bench polls instead of sleeping
   std::uint64_t run_index = 0;  ///< of a campaign: selects the random numbers together with the seed
+  observe::Observer* onlooker = nullptr;  ///< sees every frame of the flight too; none: null
   bool for_verdict = true;  ///< false: only what the target says is observed, not times, load, bus and host
 };
+
+/// Of a flight in lockstep against this program, started for it on a local bus of its own.
+Options in_lockstep_against(std::string program);
 
 /// What a session has seen.
 struct Collected {

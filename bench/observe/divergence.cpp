@@ -3,20 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <tuple>
 #include <vector>
 
+#include "bench/observe/values.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::observe {
 namespace {
-
-constexpr Routes comparable([](const MessageInfo& info) {
-  return info.sender == messages::TargetHeartbeat::info.sender &&
-         info.id != messages::TargetTiming::info.id && info.id != messages::StepDone::info.id;
-});
 
 // The frames of one log that count, one after the other.
 class Answers {
@@ -33,7 +28,7 @@ class Answers {
         t_s_ = 1e-6 * static_cast<double>(from_frame<messages::Sync>(frame).time_us);
         synchronised_ = true;
       }
-      if (synchronised_ && comparable(frame) != Routes::nowhere) return entry;
+      if (synchronised_ && is_answer(frame)) return entry;
     }
   }
   [[nodiscard]] double t_s() const { return t_s_; }
@@ -43,49 +38,6 @@ class Answers {
   bool synchronised_ = false;
   double t_s_ = 0;
 };
-
-// Calls visit.operator()<Message>() for the message that a frame is; not at all for one of none.
-template <class Visit>
-void as_message(const Frame& frame, Visit visit) {
-  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
-    if (frame.id == Message::info.id && frame.size == Message::size &&
-        frame.extended == Message::info.extended) {
-      visit.template operator()<Message>();
-    }
-  };
-  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
-    (try_one(std::type_identity<Messages>{}), ...);
-  }(std::type_identity<messages::AllMessages>{});
-}
-
-struct Value {
-  const SignalInfo* signal = nullptr;
-  double value = 0;
-  std::string words;
-};
-
-std::vector<Value> values_of(const Frame& frame) {
-  std::vector<Value> values;
-  as_message(frame, [&]<class Message>() {
-    const Message message = from_frame<Message>(frame);
-    Message::visit(message, [&](const SignalInfo& signal, const auto& value) {
-      const auto number = static_cast<double>(value);
-      if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
-        values.push_back({&signal, number, std::string(name_of(value))});
-      } else {
-        // To 12 digits: resolves every signal, and hides what binary makes of a decimal fraction.
-        values.push_back({&signal, number, fmt::format("{:.12g}", number)});
-      }
-    });
-  });
-  return values;
-}
-
-std::string_view message_of(const Frame& frame) {
-  std::string_view name;
-  as_message(frame, [&]<class Message>() { name = Message::info.name; });
-  return name;
-}
 
 // The first signal in which two frames of a message are further apart than so many steps; none: they agree.
 std::optional<std::string> departure(const Frame& a, const Frame& b, double steps) {

@@ -18,28 +18,15 @@ std::string property(std::string_view name, std::string_view value) {
 
 }  // namespace
 
-std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
-  // The run as a whole is a case of its own: a run that ended early fails even if no check does.
-  std::vector<CheckResult> cases = run.verdict.checks;
-  const bool early = run.ending.kind != drive::Ending::Kind::completed;
-  const bool interrupted = run.ending.kind == drive::Ending::Kind::interrupted;
-  cases.insert(cases.begin(), CheckResult{.name = "run completes",
-                                          .kind = "run",
-                                          .requirement = "",
-                                          .outcome = interrupted ? Outcome::not_measured
-                                                     : early     ? Outcome::fail
-                                                                 : Outcome::pass,
-                                          .measured = early ? run.ending.detail : "completed",
-                                          .expected = "completed"});
+std::string junit_suite(std::string_view name, const std::vector<CheckResult>& cases, double wall_s,
+                        std::int64_t started_s) {
   const auto count = [&](Outcome outcome) {
     return std::ranges::count(cases, outcome, &CheckResult::outcome);
   };
-  std::string page;
-  page += "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
-  page += fmt::format(
-      "  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\"{}>\n",
-      escaped(scenario.title), cases.size(), count(Outcome::fail), count(Outcome::not_measured), run.wall_s,
-      run.started_s == 0 ? "" : fmt::format(" timestamp=\"{}\"", date_utc(run.started_s)));
+  std::string page =
+      fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" time=\"{:.3f}\"{}>\n",
+                  escaped(name), cases.size(), count(Outcome::fail), count(Outcome::not_measured), wall_s,
+                  started_s == 0 ? "" : fmt::format(" timestamp=\"{}\"", date_utc(started_s)));
   for (const CheckResult& check : cases) {
     page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
                         escaped(check.name));
@@ -54,8 +41,27 @@ std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
       page += fmt::format("      <skipped message=\"not measured: {}\"/>\n", message);
     page += "    </testcase>\n";
   }
-  page += "  </testsuite>\n</testsuites>\n";
-  return page;
+  return page + "  </testsuite>\n";
+}
+
+std::string junit_whole(std::string_view suites) {
+  return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n{}</testsuites>\n", suites);
+}
+
+std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
+  // The run as a whole is a case of its own: a run that ended early fails even if no check does.
+  std::vector<CheckResult> cases = run.verdict.checks;
+  const bool early = run.ending.kind != drive::Ending::Kind::completed;
+  const bool interrupted = run.ending.kind == drive::Ending::Kind::interrupted;
+  cases.insert(cases.begin(), CheckResult{.name = "run completes",
+                                          .kind = "run",
+                                          .requirement = "",
+                                          .outcome = interrupted ? Outcome::not_measured
+                                                     : early     ? Outcome::fail
+                                                                 : Outcome::pass,
+                                          .measured = early ? run.ending.detail : "completed",
+                                          .expected = "completed"});
+  return junit_whole(junit_suite(scenario.title, cases, run.wall_s, run.started_s));
 }
 
 }  // namespace canhil::report

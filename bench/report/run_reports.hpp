@@ -17,6 +17,10 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 /// measured, what was expected and requirement ids are properties. The suite's time stamp is the start of the
 /// run (UTC).
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run);
+/// One test suite of such a file, a case a check, and the file around suites. `started_s`: 0: not known.
+std::string junit_suite(std::string_view name, const std::vector<checks::CheckResult>& cases, double wall_s,
+                        std::int64_t started_s);
+std::string junit_whole(std::string_view suites);
 
 /// A table that anybody can read, a line an answer and quantity. Comma-separated: t_s (time of validity),
 /// estimator, quantity, unit, estimate, truth, error, sigma, in SI and rad. Empty fields were not told. A

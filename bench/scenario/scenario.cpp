@@ -186,6 +186,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
     if (node.table().samples == TruthOf::engagement && !scenario.engagement)
       root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));
   }
+  scenario.faults = read_faults(root, contract);
   scenario.checks = read_checks(root, scenario, contract);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);

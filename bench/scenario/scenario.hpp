@@ -18,6 +18,7 @@
 
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/contract.hpp"
+#include "bench/scenario/faults.hpp"
 #include "bench/scenario/glide.hpp"
 #include "bench/scenario/node.hpp"
 #include "bench/scenario/setting.hpp"
@@ -43,6 +44,7 @@ struct Scenario {
   std::optional<Glide> glide;              ///< the truth of a glider, beside the navigation's
   std::optional<world::EngagementPlan> engagement;
   std::vector<NodeSettings> nodes;  ///< those on the bus
+  std::vector<Fault> faults;
   std::vector<Check> checks;
 
   [[nodiscard]] bool runs(std::string_view estimator) const {

@@ -153,7 +153,7 @@ std::string json(const Analysis& analysis) {
                   {"utilisation", utilisation(analysis.streams, bus.rates)},
                   {"schedulable", schedulable(analysis)},
                   {"messages", std::move(messages)}};
-  return root.dump(2) + "\n";
+  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // a file name need not be UTF-8
 }
 
 }  // namespace canhil::schedulability

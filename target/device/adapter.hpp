@@ -11,9 +11,9 @@
 
 namespace canhil::target {
 
-/// Answers to one frame: at the most a navigation group and the filter groups of as many fixes as may wait
-/// for the IMU.
-using Answers = Outbox<96>;
+/// Answers to one frame: at the most, of each estimator that an IMU drives, a navigation group and the filter
+/// groups of as many fixes as may wait for the IMU. One sample may bring them all, of two estimators 134.
+using Answers = Outbox<160>;
 
 /// What was lost, by cause, since reset.
 struct Losses {

@@ -21,6 +21,15 @@ inline Health numeric_fault(Context& context) {
   return Health::fault;
 }
 
+/// Where an INS starts that was told this.
+inline strapdown::NavState nav_of(const InitialState& initial) {
+  return {.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
+          .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
+          .latitude = initial.latitude,
+          .longitude = initial.longitude,
+          .height = initial.height};
+}
+
 class ImuStream {
  public:
   enum class Taken : std::uint8_t {
@@ -94,6 +103,7 @@ class ImuStream {
 
   static constexpr double us = 1e-6;
   static constexpr std::int64_t bridge_limit_us = 200'000;   // a longer gap ends the run
+  static constexpr std::int64_t most_parts = 400;            // of a gap: it is bridged within one frame
   static constexpr std::int64_t silence_limit_us = 500'000;  // an IMU that stays away this long is named
 
   template <class Message, class Step>
@@ -141,7 +151,8 @@ class ImuStream {
   template <class Step>
   void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
     coasting_ = true;
-    const std::int64_t missing = std::max<std::int64_t>(1, (gap_us + interval_us_ / 2) / interval_us_);
+    const std::int64_t missing =
+        std::clamp<std::int64_t>((gap_us + interval_us_ / 2) / interval_us_, 1, most_parts);
     const strapdown::ImuIncrement before = previous_.dt > 0 ? previous_ : after;
     const double dt = static_cast<double>(gap_us) * us / static_cast<double>(missing);
     const strapdown::ImuIncrement mean{

@@ -12,7 +12,6 @@
 #include "target/device/inflight_alignment_parameters.hpp"
 #include "target/device/tuned_adapter.hpp"
 #include "target/estimators/inflight_alignment/history.hpp"
-#include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/strapdown/earth.hpp"
 
 namespace canhil::target {
@@ -82,12 +81,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     filter.velocity_sigma_0.setConstant(initial.velocity_sigma);
     filter.tilt_sigma_0 = initial.tilt_sigma;
     filter.heading_sigma_0 = initial.heading_sigma;
-    state_ = ia::initial({.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
-                          .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
-                          .latitude = initial.latitude,
-                          .longitude = initial.longitude,
-                          .height = initial.height},
-                         filter);
+    state_ = ia::initial(nav_of(initial), filter);
     start_us_ = initial.t_us;
     history_.restart(initial.t_us);
     imu_.start(initial.t_us, tuning_.output_interval_us);

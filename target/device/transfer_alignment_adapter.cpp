@@ -10,7 +10,6 @@
 #include "target/device/group_intake.hpp"
 #include "target/device/imu_stream.hpp"
 #include "target/device/tuned_adapter.hpp"
-#include "target/estimators/strapdown/attitude.hpp"
 #include "target/estimators/transfer_alignment/filter.hpp"
 #include "target/estimators/transfer_alignment/history.hpp"
 
@@ -88,12 +87,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     ta::Settings& filter = tuning_.filter;
     filter.velocity_sigma_0.setConstant(initial.velocity_sigma);
     filter.attitude_sigma_0 = {initial.tilt_sigma, initial.tilt_sigma, initial.heading_sigma};
-    state_ = ta::initial({.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
-                          .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
-                          .latitude = initial.latitude,
-                          .longitude = initial.longitude,
-                          .height = initial.height},
-                         filter);
+    state_ = ta::initial(nav_of(initial), filter);
     history_.restart(initial.t_us);
     imu_.start(initial.t_us, tuning_.output_interval_us);
     pending_.clear();

@@ -45,12 +45,7 @@ class BaroInertialAdapter final : public TunedAdapter<baro_inertial::Settings> {
   void start(const InitialState& initial) override {
     tuning_.height_sigma_0 = initial.position_sigma;
     tuning_.velocity_sigma_0 = initial.velocity_sigma;
-    channel_.start({.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
-                    .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
-                    .latitude = initial.latitude,
-                    .longitude = initial.longitude,
-                    .height = initial.height},
-                   tuning_);
+    channel_.start(nav_of(initial), tuning_);
     imu_.start(initial.t_us, 0);
     pending_.clear();
   }

@@ -1,21 +1,22 @@
 #!/usr/bin/env python3
-"""What do the bench's suites catch? Seeds one defect after the other into the target and flies the suite against each.
+"""What does `hil-bench accept` catch? Seeds one defect after the other into the target and flies the acceptance suites against each.
 
-  python3 tests/mutants/run.py [--only REGEX] [--a-family-each SEED] [--list] [--json FILE] [--jobs N]
+  python3 tests/mutants/run.py [--only REGEX] [--dozen SEED] [--list] [--json FILE] [--jobs N] [--target-passes]
 
-The defects are in tests/mutants/*.toml, a file a family; seeded.py says what they are made of. In a copy of the project,
-build/mutants, a defect is put into its file, hil-target is built, and build/default/hil-bench, which has to be there, flies the
-suite against it, flights and then the campaigns of bench/acceptance: in lockstep, on a private bus, up to the first check that
-fails. Then the file is put back. Before all that the suite flies against the target as it is, which must pass.
+The defects are in tests/mutants/*.toml, a file a family; seeded.py says what they are made of. The project is left as it is: build/default,
+which has to be built, says how the target is compiled and linked; overlaid.py compiles again what a defect touches, from a file beside
+the project's, and links it with the rest. The suites are flown up to the first requirement that is not met, that of the defect's family
+first. Before all that they are flown against the target as it is, which must pass.
 
-A mutant is caught when a check fails or a flight comes to no good end, and survives when the suite passes. A check that was not
-measured, such as those of timing, which lockstep does not have, catches nothing.
+A mutant is caught when a requirement is not met, and survives when all are, or were not measured.
 
---only takes those whose FAMILY.NAME the regular expression is found in; --a-family-each one of each family, the same ones for the
-same seed; --list says what they are and flies nothing. A line a mutant, at the end a table by family, to FILE as JSON.
+--only takes those whose FAMILY.NAME the regular expression is found in; --dozen twelve, one of each family at the least, the same ones for
+the same seed (today: the day's date); --target-passes leaves out the flights against the target as it is, which somebody else has flown; --list says what they are and flies nothing; --jobs is how many are flown at once (1: also those of timing can be measured).
+A line a mutant, at the end a table by family, to FILE as JSON. Those that equivalent.toml proves to be equivalent are not flown.
 Exit code: 0 all caught, 1 one survived or does not build, 2 wrong usage, or the target does not pass as it is.
 """
 import argparse
+import concurrent.futures
 import json
 import os
 import random
@@ -28,35 +29,21 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/static"))
-import copied_tree  # noqa: E402
+sys.path.insert(0, str(ROOT / "tests/mutants"))
+import overlaid  # noqa: E402
 import seeded  # noqa: E402
 
-BENCH = ROOT / "build/default/hil-bench"
-COPY = ROOT / "build/mutants"
-TARGET = COPY / "build/default/hil-target"
-LONGEST_FLIGHT_S = 300
+BUILD = ROOT / "build/default"
+BENCH = BUILD / "hil-bench"
+LONGEST_S = 900  # of the suites together
 
 CAUGHT, SURVIVED, NO_BUILD = "caught", "survived", "does not build"
 
-# Short ones first: what they catch needs no long one.
-SUITE = ("transfer_alignment_quick", "los_quick", "wind_quick", "inflight_quick", "transfer_alignment_h2", "all_four",
-         "transfer_alignment", "los_closed_loop", "los_closed_loop_500hz", "wind_ekf", "wind_h_infinity", "inflight_gps",
-         "inflight_ssbl", "inflight_ssbl_180")
-
-# Many flights, a minute each: errors and honesty within bars of both ends.
-ACCEPTANCE = ("transfer_alignment", "inflight_alignment", "wind")
-
-
-def suite(report, family=None):
-    """[(name, command)]: what a target is to pass; each writes its report as JSON to the file `report`. What is wrong with one
-    estimator, its family, no campaign of another shows."""
-    flights = [(name, [str(BENCH), "run", str(ROOT / f"bench/flights/{name}.toml"), "--lockstep", "--target", str(TARGET),
-                       "--json", str(report)]) for name in SUITE]
-    campaigns = [(f"acceptance of {name}", [str(BENCH), "campaign", str(ROOT / f"bench/acceptance/{name}.toml"), "--target",
-                                            str(TARGET), "--json", str(report), "--out", f"{report}.sqlite"])
-                 for name in ACCEPTANCE if family in (name, None) or family not in (*ACCEPTANCE, "los_rate")]
-    return flights + campaigns
+# What takes the least time comes first; times come last, and by themselves.
+SINGLE_FLIGHTS = ("algorithms", "parameters", "flags and states", "protocol")
+CAMPAIGNS = ("errors", "honesty")
+TIMES = ("timing",)
+SUITES = ("several", "transfer_alignment", "inflight_alignment", "los_rate", "wind")  # the first flies all four in a second
 
 
 class Failure(Exception):
@@ -68,11 +55,10 @@ class Progress:
 
     def __init__(self):
         self.shown = sys.stdout.isatty()
-        self.before = ""
 
     def say(self, what):
         if self.shown:
-            print(f"\r\x1b[K{self.before}{what}", end="", flush=True)
+            print(f"\r\x1b[K{what}", end="", flush=True)
 
     def line(self, what):
         self.say("")
@@ -96,77 +82,58 @@ def run(command, longest_s=None, **more):
         process.wait()
 
 
-def build(jobs):
-    """(done, output)"""
-    if not (COPY / "build/default/CMakeCache.txt").exists():
-        code, output = run(["cmake", "--preset", "default"], cwd=COPY)
-        if code != 0:
-            return False, output
-    code, output = run(["cmake", "--build", "--preset", "default", "--target", "hil-target", "-j", str(jobs)], cwd=COPY)
-    return code == 0, output
-
-
-def error_of(output):
-    """The line of a build's output that says what is wrong."""
-    lines = [line for line in output.splitlines() if re.search(r"\berror\b", line)] or output.splitlines()[-1:] or ["no output"]
-    return lines[0]
-
-
-def judged(code, output, report):
-    """What was wrong with a flight, as (check, what was measured); None: nothing."""
+def accept(target, estimator, families, folder):
+    """(requirement, what was seen) of the first that the target does not meet; None: it meets all that were measured."""
+    report = Path(folder, "report.json")
+    report.unlink(missing_ok=True)
+    wanted = [word for family in families for word in ("--family", family)]
+    code, output = run([str(BENCH), "accept", "--first-failure", "--target", str(target), "--json", str(report), "--estimator", estimator,
+                        *wanted], LONGEST_S)
     if code is None:
-        return "no end", f"not within {LONGEST_FLIGHT_S} s"
-    try:
-        page = json.loads(report.read_text())
-    except (OSError, ValueError):
+        return "no end", f"not within {LONGEST_S} s"
+    if code in (0, 3):
+        return None
+    if not report.exists():
         return "no report", f"exit code {code}: {(output.strip().splitlines() or ['no output'])[-1]}"
-    for check in page.get("checks", page.get("answers")):
-        if check.get("outcome") == "fail":
-            return check.get("name", check.get("metric")), check["measured"]
-    if not page.get("ending", {"completed": True})["completed"]:
-        return "ending", page["ending"]["detail"]
-    if code not in (0, 3):  # pass, or none failed but some were not measured
-        return "verdict", page.get("reason", page["outcome"] if "outcome" in page else "")
-    return None
+    for suite in json.loads(report.read_text())["suites"]:
+        for requirement in suite["requirements"]:
+            for item in requirement["items"]:
+                if item["outcome"] == "fail":
+                    return requirement["id"], f"{item['name']}: {item['measured']}"
+    return "no requirement", f"exit code {code}"
 
 
-def fly_suite(progress, family=None):
-    """(scenario, check, what was measured) of the first thing wrong; None: passed."""
+def fly_suites(target, first, stages):
+    """As accept(), of all suites, stage by stage, that of the mutant's family right after the quick one."""
     with tempfile.TemporaryDirectory() as folder:
-        report = Path(folder, "report.json")
-        for scenario, command in suite(report, family):
-            progress.say(f"flies {scenario}")
-            report.unlink(missing_ok=True)
-            Path(f"{report}.sqlite").unlink(missing_ok=True)
-            wrong = judged(*run(command, LONGEST_FLIGHT_S), report)
-            if wrong:
-                return scenario, *wrong
+        for families in stages:
+            for estimator in sorted(SUITES, key=lambda name: (name != SUITES[0], name != first)):
+                wrong = accept(target, estimator, families, folder)
+                if wrong:
+                    return wrong
     return None
 
 
-def outcome_of(mutant, jobs, progress):
+def outcome_of(mutant, stages):
     """What became of it, as its entry in the JSON file."""
     entry = {"family": mutant.family, "name": mutant.name, "file": mutant.file, "what": mutant.what}
-    file = COPY / mutant.file
-    text = file.read_text()
-    file.write_text(mutant.applied(text))
     try:
-        progress.say("builds")
-        built, output = build(jobs)
-        if not built:
-            return {**entry, "outcome": NO_BUILD, "error": error_of(output)}
-        wrong = fly_suite(progress, mutant.family)
+        target = overlaid.build(BUILD, mutant.full_name, mutant.file, mutant.applied((ROOT / mutant.file).read_text()))
+    except overlaid.DoesNotBuild as error:
+        return {**entry, "outcome": NO_BUILD, "error": str(error)}
+    try:
+        wrong = fly_suites(target, mutant.family, stages)
     finally:
-        file.write_text(text)
+        overlaid.remove(target)
     if wrong is None:
         return {**entry, "outcome": SURVIVED}
-    return {**entry, "outcome": CAUGHT, **dict(zip(("scenario", "check", "measured"), wrong))}
+    return {**entry, "outcome": CAUGHT, "requirement": wrong[0], "seen": wrong[1]}
 
 
 def line_of(entry):
     said = entry["outcome"]
     if said == CAUGHT:
-        said = f"caught by {entry['scenario']}: {entry['check']}"
+        said = f"caught by {entry['requirement']}: {entry['seen']}"
     elif said == NO_BUILD:
         said += f": {entry['error']}"
     return f"{entry['family']:<18} {entry['name']:<44} {said}"
@@ -192,15 +159,23 @@ def print_table(table):
 
 
 def chosen(mutants, only, seed):
-    """Those that --only leaves, and of them one of each family where there is a seed."""
+    """Those that --only leaves, and of them a dozen where there is a seed: one of each family, then any. Of the dozen none only shows
+    in times: beside other tests these are not measured."""
     left = [mutant for mutant in mutants if only.search(mutant.full_name)]
     if seed is None:
         return left
+    left = [mutant for mutant in left if not mutant.real_time]
     dice = random.Random(seed)
     families = {}
     for mutant in left:
         families.setdefault(mutant.family, []).append(mutant)
-    return [dice.choice(those) for those in families.values()]
+    ones = [dice.choice(those) for those in families.values()]
+    rest = [mutant for mutant in left if mutant not in ones]
+    return ones + dice.sample(rest, max(0, min(12 - len(ones), len(rest))))
+
+
+def seed_of(text):
+    return int(time.strftime("%Y%m%d")) if text == "today" else int(text)
 
 
 def regex(text):
@@ -213,58 +188,66 @@ def regex(text):
 def options():
     parser = argparse.ArgumentParser(prog="run.py", description=__doc__.splitlines()[0])
     parser.add_argument("--only", metavar="REGEX", type=regex, default=regex(""), help="those whose FAMILY.NAME it is found in")
-    parser.add_argument("--a-family-each", metavar="SEED", type=int, help="one of each family, the same ones for the same seed")
+    parser.add_argument("--dozen", metavar="SEED", type=seed_of, help="twelve, of each family one, the same ones for the same seed; today")
+    parser.add_argument("--target-passes", action="store_true", help="leave out the flights against the target as it is")
     parser.add_argument("--list", action="store_true", help="say what they are, and fly nothing")
     parser.add_argument("--json", metavar="FILE", type=Path, help="what became of each, and the table, as JSON")
-    parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="how many compilers at once")
+    parser.add_argument("--jobs", metavar="N", type=int, default=1, help="how many are flown at once")
     return parser.parse_args()
 
 
-def prepare(jobs, progress):
-    """The copy, with the target as it is built in it and flown."""
+def prepare(progress):
+    """Sees to it that the target passes as it is."""
     if not BENCH.exists():
         raise Failure(f"{BENCH}: is not there, expected the project built (cmake --preset default; cmake --build --preset default)")
-    copied_tree.copy_tree(COPY)
-    progress.say("the target as it is: builds")
-    built, output = build(jobs)
-    if not built:
-        raise Failure(f"the target as it is does not build in {COPY}: {error_of(output)}")
-    progress.before = "the target as it is: "
-    wrong = fly_suite(progress)
-    progress.before = ""
+    progress.say("the target as it is")
+    wrong = fly_suites(BUILD / "hil-target", None, (SINGLE_FLIGHTS, CAMPAIGNS, TIMES))
     if wrong:
-        scenario, check, measured = wrong
-        raise Failure(f"the target as it is does not pass {scenario}: {check}: {measured}; expected it to")
+        raise Failure(f"the target as it is does not meet {wrong[0]}: {wrong[1]}; expected it to")
+    progress.line(f"the target as it is meets every requirement that was measured ({len(SUITES)} suites)")
 
 
-def fly(mutants, jobs):
+def fly(mutants, jobs, target_passes):
+    """Several at once by what is in virtual time; who survives that by times, one after the other: they disturb each other there."""
     progress = Progress()
     start = time.monotonic()
-    prepare(jobs, progress)
-    progress.line(f"the target as it is passes ({len(SUITE)} flights, {len(ACCEPTANCE)} campaigns)")
+    if not target_passes:
+        prepare(progress)
     entries = []
-    for number, mutant in enumerate(mutants, 1):
-        gone = int(time.monotonic() - start)
-        progress.before = f"{number} of {len(mutants)} ({gone // 60}:{gone % 60:02d}) {mutant.full_name} "
-        entries.append(outcome_of(mutant, jobs, progress))
-        progress.line(line_of(entries[-1]))
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for entry in pool.map(lambda mutant: outcome_of(mutant, (SINGLE_FLIGHTS, CAMPAIGNS)), mutants):
+            entries.append(entry)
+            if entry["outcome"] != SURVIVED:
+                progress.line(line_of(entry))
+            gone = int(time.monotonic() - start)
+            progress.say(f"{len(entries)} of {len(mutants)} ({gone // 60}:{gone % 60:02d})")
+    for place, mutant in enumerate(mutants):
+        if entries[place]["outcome"] == SURVIVED:
+            progress.say(f"{mutant.full_name} in real time")
+            entries[place] = outcome_of(mutant, (TIMES,))
+            progress.line(line_of(entries[place]))
+    progress.say("")
     return entries
 
 
 def main():
     asked = options()
-    mutants = chosen(seeded.all_mutants(), asked.only, asked.a_family_each)
+    equivalent = seeded.equivalents()
+    mutants = chosen([one for one in seeded.all_mutants() if one.full_name not in equivalent], asked.only, asked.dozen)
     if not mutants:
         raise Failure(f"--only: no mutant has '{asked.only.pattern}' in its name, expected one (see --list)")
     if asked.list:
         for mutant in mutants:
             print(f"{mutant.family:<18} {mutant.name:<44} {mutant.what}")
         return 0
-    entries = fly(mutants, asked.jobs)
+    for name, proof in equivalent.items():
+        if asked.only.search(name) and asked.dozen is None:
+            print(f"{name}: not flown, equivalent: {proof}", flush=True)
+    entries = fly(mutants, asked.jobs, asked.target_passes)
     table = table_of(entries)
     print_table(table)
     if asked.json:
-        page = {"suite": list(SUITE), "families": {name: counts for name, counts in table.items() if name != "total"},
+        page = {"suites": list(SUITES), "families": {name: counts for name, counts in table.items() if name != "total"},
                 "total": table["total"], "mutants": entries}
         asked.json.write_text(json.dumps(page, indent=1) + "\n")
     return 0 if table["total"][CAUGHT] == len(entries) else 1

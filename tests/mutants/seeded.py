@@ -1,6 +1,7 @@
 """The seeded defects of the target, as the files beside this one say them: a file a family, a table [[mutant]] a defect.
 
-A mutant is a `name`, a `file`, the text that `was` there (once) and that `is` there instead, and `what` is then wrong.
+A mutant is a `name`, a `file`, the text that `was` there (once) and that `is` there instead, and `what` is then wrong; one that only shows
+in times has `real_time = true`.
 """
 import pathlib
 import tomllib
@@ -23,6 +24,7 @@ class Mutant:
     was: str
     then: str
     what: str
+    real_time: bool = False
 
     @property
     def full_name(self):
@@ -43,10 +45,17 @@ def mutants_of(family, text):
         raise ValueError(f"{family}: holds {', '.join(sorted(read)) or 'nothing'}, expected tables [[mutant]] and nothing else")
     found = []
     for number, table in enumerate(read["mutant"], 1):
-        if set(table) != KEYS or not all(isinstance(value, str) for value in table.values()):
+        real_time = table.pop("real_time", False)
+        if set(table) != KEYS or not all(isinstance(value, str) for value in table.values()) or not isinstance(real_time, bool):
             raise ValueError(f"{family}: mutant {number} has {', '.join(sorted(table))}, expected texts {', '.join(sorted(KEYS))}")
-        found.append(Mutant(family, table["name"], table["file"], table["was"], table["is"], table["what"]))
+        found.append(Mutant(family, table["name"], table["file"], table["was"], table["is"], table["what"], real_time))
     return found
+
+
+def equivalents():
+    """{full name: proof} of those that equivalent.toml proves to be equivalent."""
+    read = tomllib.loads((HERE / "equivalent.toml").read_text())
+    return {one["name"]: " ".join(one["proof"].split()) for one in read["equivalent"]}
 
 
 def all_mutants():

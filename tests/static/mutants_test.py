@@ -6,6 +6,7 @@ import tempfile
 import unittest
 from collections import Counter
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/mutants"), str(ROOT / "tests/static")]
@@ -27,7 +28,7 @@ class Mutants(unittest.TestCase):
         self.mutants = seeded.all_mutants()
 
     def test_every_file_is_a_family(self):
-        self.assertEqual({file.stem for file in seeded.HERE.glob("*.toml")}, set(seeded.FAMILIES))
+        self.assertEqual({file.stem for file in seeded.HERE.glob("*.toml")} - {"equivalent"}, set(seeded.FAMILIES))
 
     def test_there_are_enough_of_each_family(self):
         counts = Counter(mutant.family for mutant in self.mutants)
@@ -37,6 +38,12 @@ class Mutants(unittest.TestCase):
 
     def test_names_are_unique(self):
         self.assertEqual([name for name, n in Counter(m.full_name for m in self.mutants).items() if n > 1], [])
+
+    def test_equivalents_are_mutants_with_a_proof(self):
+        names = {mutant.full_name for mutant in self.mutants}
+        for name, proof in seeded.equivalents().items():
+            self.assertIn(name, names)
+            self.assertGreater(len(proof), 100, name)
 
     def test_no_two_are_the_same_defect(self):
         made = Counter((m.file, m.applied((ROOT / m.file).read_text())) for m in self.mutants)
@@ -86,36 +93,40 @@ class Choosing(unittest.TestCase):
         self.assertIn("wind.rudder_sign", names)
         self.assertTrue(all(name.startswith("wind.") and "sign" in name for name in names), names)
 
-    def test_one_of_each_family_by_seed(self):
+    def test_a_dozen_with_one_of_each_family_by_seed(self):
         def picked(seed):
             return run.chosen(self.mutants, re.compile(""), seed)
-        self.assertEqual([mutant.family for mutant in picked(1)], list(seeded.FAMILIES))
+        self.assertEqual([mutant.family for mutant in picked(1)][:len(seeded.FAMILIES)], list(seeded.FAMILIES))
+        self.assertEqual(len(set(picked(1))), 12)
         self.assertEqual(picked(1), picked(1))
         self.assertNotEqual(picked(1), picked(2))
 
 
+PAGE = """{"suites": [{"requirements": [
+    {"id": "A", "items": [{"name": "a", "outcome": "pass", "measured": "1"}]},
+    {"id": "B", "items": [{"name": "b", "outcome": "not measured", "measured": "2"}, {"name": "c", "outcome": "fail", "measured": "3"}]}]}]}"""
+
+
 class Judging(unittest.TestCase):
-    def judged(self, code, page):
+    """With a program in the bench's place that writes a report and ends with a code."""
+
+    def judged(self, code, page=None):
         with tempfile.TemporaryDirectory() as folder:
-            report = Path(folder, "report.json")
-            if page is not None:
-                report.write_text(page)
-            return run.judged(code, "one\ntwo\n", report)
+            bench = Path(folder, "bench")
+            write = f"cat > \"$6\" <<'END'\n{page}\nEND\n" if page else ""
+            bench.write_text(f"#!/bin/sh\n{write}echo one; echo two; exit {code}\n")
+            bench.chmod(0o755)
+            with mock.patch.object(run, "BENCH", bench):
+                return run.accept("target", "wind", ("errors",), folder)
 
-    def page(self, outcome, completed="true"):
-        return (f'{{"checks": [{{"name": "a", "outcome": "pass", "measured": "1"}}, {{"name": "b", "outcome": "{outcome}", '
-                f'"measured": "2"}}], "ending": {{"completed": {completed}, "detail": "fault"}}, "reason": "why"}}')
+    def test_what_passes_or_is_not_measured_catches_nothing(self):
+        self.assertIsNone(self.judged(0))
+        self.assertIsNone(self.judged(3))
 
-    def test_a_flight_that_passes_or_is_not_measured_catches_nothing(self):
-        self.assertIsNone(self.judged(0, self.page("pass")))
-        self.assertIsNone(self.judged(3, self.page("not measured")))
-
-    def test_what_was_wrong_is_named(self):
-        self.assertEqual(self.judged(1, self.page("fail")), ("b", "2"))
-        self.assertEqual(self.judged(1, self.page("not measured", "false")), ("ending", "fault"))
-        self.assertEqual(self.judged(1, self.page("pass")), ("verdict", "why"))
-        self.assertEqual(self.judged(2, None), ("no report", "exit code 2: two"))
-        self.assertEqual(self.judged(None, None), ("no end", "not within 300 s"))
+    def test_the_first_requirement_that_is_not_met_is_named(self):
+        self.assertEqual(self.judged(1, PAGE), ("B", "c: 3"))
+        self.assertEqual(self.judged(2), ("no report", "exit code 2: two"))
+        self.assertEqual(self.judged(1, '{"suites": []}'), ("no requirement", "exit code 1"))
 
     def test_the_table_adds_up(self):
         entries = [{"family": "a", "outcome": run.CAUGHT}, {"family": "a", "outcome": run.SURVIVED},
@@ -123,8 +134,8 @@ class Judging(unittest.TestCase):
         self.assertEqual(run.table_of(entries)["a"], {"mutants": 2, "caught": 1, "survived": 1, "does not build": 0})
         self.assertEqual(run.table_of(entries)["total"], {"mutants": 3, "caught": 1, "survived": 1, "does not build": 1})
 
-    def test_the_suite_is_all_that_is_shipped(self):
-        self.assertEqual(sorted(run.SUITE), sorted(file.stem for file in (ROOT / "bench/flights").glob("*.toml")))
+    def test_every_suite_is_flown(self):
+        self.assertEqual(sorted(run.SUITES), sorted(file.parent.name for file in (ROOT / "bench/acceptance").glob("*/suite.toml")))
 
 
 class Copying(unittest.TestCase):

@@ -14,15 +14,20 @@ namespace canhil::checks {
 
 using scenario::Limits;
 
-Latency Latency::read(scenario::Section& section, const scenario::CheckContext& context) {
-  Latency rule;
+std::string read_answer(scenario::Section& section, const scenario::CheckContext& context) {
   const std::vector<std::string>& answers = context.contract.answers;
-  rule.message = section.one_of("message", context.contract.messages);
-  if (std::ranges::find(answers, rule.message) == answers.end()) {
-    section.reject("message", fmt::format("'{}' answers nothing", rule.message),
+  std::string message = section.one_of("message", context.contract.messages);
+  if (std::ranges::find(answers, message) == answers.end()) {
+    section.reject("message", fmt::format("'{}' answers nothing", message),
                    fmt::format("one of: {}", fmt::join(answers, ", ")));
   }
-  expect_sent(section, context, rule.message);
+  expect_sent(section, context, message);
+  return message;
+}
+
+Latency Latency::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Latency rule;
+  rule.message = read_answer(section, context);
   rule.window = scenario::read_window(section, context.duration_us);
   rule.below_us = section.time_us("below_ms", Limits::above(0));
   rule.quantile = section.number("quantile", Limits::above(0, 1), 1);

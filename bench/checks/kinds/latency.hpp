@@ -14,8 +14,11 @@ struct Latency {
 
   static Latency read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return message; }
-  [[nodiscard]] std::optional<Timed> timed() const { return Timed{message, window}; }
+  [[nodiscard]] std::vector<Timed> timed() const { return {{message, window}}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
+
+/// The key "message": one that answers something and is sent in this scenario.
+std::string read_answer(scenario::Section& section, const scenario::CheckContext& context);
 
 }  // namespace canhil::checks

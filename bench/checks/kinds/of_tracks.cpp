@@ -30,6 +30,21 @@ bool lies_in(const std::pair<double, double>& to_go_s, double value) {
   return value >= to_go_s.first && value < to_go_s.second;
 }
 
+std::string key_of(std::string_view stem, const quantities::Unit& unit) {
+  return fmt::format("{}{}", stem, unit.ending);
+}
+
+// The unit that the key has which begins with the stem.
+quantities::Unit read_unit(scenario::Section& section, std::string_view stem, const Quantity& quantity) {
+  if (quantity.unit.name != quantities::mrad.name) return quantity.unit;
+  const std::string mrad = key_of(stem, quantities::mrad), degrees = key_of(stem, quantities::degrees);
+  const bool in_degrees = section.has(degrees);
+  if (in_degrees && section.has(mrad))
+    section.reject(mrad, fmt::format("is given beside {}", degrees), "one of the two");
+  section.optional(in_degrees ? mrad : degrees);
+  return in_degrees ? quantities::degrees : quantities::mrad;
+}
+
 }  // namespace
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
@@ -79,18 +94,15 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
 
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
                                              const Quantity& quantity) {
-  const auto key = [&](const quantities::Unit& unit) { return fmt::format("{}{}", stem, unit.ending); };
-  const auto number = [&](const quantities::Unit& unit) {
-    return std::pair{section.number(key(unit), scenario::Limits::above(0)), unit};
-  };
-  const bool angle = quantity.unit.name == quantities::mrad.name;
-  if (!angle) return number(quantity.unit);
-  const bool in_degrees = section.has(key(quantities::degrees));
-  if (in_degrees && section.has(key(quantities::mrad)))
-    section.reject(key(quantities::mrad), fmt::format("is given beside {}", key(quantities::degrees)),
-                   "one of the two");
-  section.optional(key(in_degrees ? quantities::mrad : quantities::degrees));
-  return number(in_degrees ? quantities::degrees : quantities::mrad);
+  const quantities::Unit unit = read_unit(section, stem, quantity);
+  return {section.number(key_of(stem, unit), scenario::Limits::above(0)), unit};
+}
+
+std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Section& section,
+                                                                  std::string_view stem,
+                                                                  const Quantity& quantity) {
+  const quantities::Unit unit = read_unit(section, stem, quantity);
+  return {section.interval(key_of(stem, unit), scenario::Limits::at_least(0)), unit};
 }
 
 std::vector<const Quantity*> parts_of(const Quantity& quantity) {

@@ -27,6 +27,11 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
                                              const quantities::Quantity& quantity);
 
+/// The same of two values, [low, high].
+std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Section& section,
+                                                                  std::string_view stem,
+                                                                  const quantities::Quantity& quantity);
+
 /// What a quantity is made of: its parts, or itself.
 std::vector<const quantities::Quantity*> parts_of(const quantities::Quantity& quantity);
 

@@ -14,7 +14,7 @@ struct OutputPeriod {
 
   static OutputPeriod read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return message; }
-  [[nodiscard]] std::optional<Timed> timed() const { return Timed{message, window}; }
+  [[nodiscard]] std::vector<Timed> timed() const { return {{message, window}}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

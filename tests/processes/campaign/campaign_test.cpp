@@ -265,14 +265,20 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
-// With two runs: that each is read and flown to its end. Its bars are for as many as it says.
-TEST(Acceptance, EveryCampaignFlies) {
-  for (const char* name : {"transfer_alignment", "inflight_alignment", "wind"}) {
-    const Ended ended = hil_bench(fmt::format("campaign {}/bench/acceptance/{}.toml --runs 2 --out {}",
-                                              SOURCE_DIR, name, folder(name)));
-    EXPECT_LT(ended.code, 2) << ended.err;
-    EXPECT_THAT(ended.out, HasSubstr("2 of 2 runs completed"));
-    EXPECT_THAT(ended.out, Not(HasSubstr("nan")));
+// In process: against the program it is the same to the last bit, and takes ten times as long. Under a
+// sanitizer two runs are enough to look at memory; the bars are for as many as the file says.
+TEST(Acceptance, TheTargetIsWithinTheBarsOfEveryCampaign) {
+#ifdef CANHIL_SANITIZED
+  constexpr int runs = 2, worst_code = 1;
+#else
+  constexpr int runs = 60, worst_code = 0;
+#endif
+  for (const char* name : {"transfer_alignment", "inflight_alignment", "los_rate", "wind"}) {
+    const Ended ended =
+        hil_bench(fmt::format("campaign {}/bench/acceptance/{}/campaign.toml --runs {} --out {}", SOURCE_DIR,
+                              name, runs, folder(name)));
+    EXPECT_LE(ended.code, worst_code) << ended.out << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr(fmt::format("{0} of {0} runs completed", runs)));
   }
 }
 

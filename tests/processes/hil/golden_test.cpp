@@ -74,6 +74,26 @@ TEST_F(Golden, ATargetThatGivesUpIsAFailure) {
   EXPECT_THAT(ended.out, HasSubstr("FAIL  los_quick"));
 }
 
+// A log has the frames of the contract on either bus: what the target was told shows which one it was.
+TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
+  const std::string file = scratch("on_fd.toml"), target = scratch("told.sh"), told = scratch("told.txt");
+  std::ofstream(file) << "dbc = \"canhil-fd\"\n" << read(scenario("los_quick"));
+  std::ofstream(target) << fmt::format("#!/bin/sh\necho \"$@\" > {}\nexec {} \"$@\"\n", told, HIL_TARGET);
+  fs::permissions(target, fs::perms::owner_all);
+  const Ended ended = record(fmt::format("{} --target {}", file, target));
+  EXPECT_EQ(ended.code, 0) << ended.err;
+  EXPECT_TRUE(std::regex_match(read(told), std::regex("--bus local:[^ ]+ --dbc canhil-fd\n"))) << read(told);
+  EXPECT_EQ(check().code, 0);
+}
+
+// What is kept and cannot be read says nothing about the target: no scenario failed, and none is flown.
+TEST_F(Golden, AKeptScenarioThatIsBrokenIsBadInput) {
+  change("transfer_alignment_quick", "velocity_noise_m2ps", "velocity_noise");
+  expect_one_line(check(), "transfer_alignment_quick.toml:");
+  std::ofstream(folder_ + "/los_quick.toml") << "no = toml = at all\n";
+  expect_one_line(check(), "los_quick.toml:1: not TOML");
+}
+
 TEST_F(Golden, BadInputIsOneLine) {
   expect_one_line(record(scenario("los_quick")), "los_quick.log: exists already");
   expect_one_line(record("none.toml"), "none.toml: cannot be read");

@@ -13,6 +13,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <map>
+#include <optional>
+#include <regex>
 #include <stdexcept>
 
 #include "dbc/ports/candump_log.hpp"
@@ -40,6 +44,28 @@ class Folder {
  private:
   const pid_t made_by_ = getpid();  // not a child of it
 };
+
+/// The bar of a check of timing, as its report words it; none: it is one of outputs.
+std::optional<double> timing_bar_s(const nlohmann::json& check) {
+  static const std::map<std::string, std::regex> bars{
+      {"latency", std::regex(".* < ([0-9.]+) (ms) .*")},
+      {"output_period", std::regex(".* every ([0-9.]+) (ms) \\+- ([0-9.]+) %.*")},
+      {"heartbeat", std::regex("never silent for more than ([0-9.]+) (s)")},
+  };
+  const auto bar = bars.find(check["kind"].get<std::string>());
+  if (bar == bars.end()) return std::nullopt;
+  std::smatch found;
+  const auto expected = check["expected"].get<std::string>();
+  if (!std::regex_match(expected, found, bar->second))
+    return std::numeric_limits<double>::infinity();  // no figure: nothing is late beside it
+  const double value = std::stod(found[1]) * (found[2] == "ms" ? 1e-3 : 1);
+  return bar->first == "output_period" ? value * std::stod(found[3]) / 100 : value;
+}
+
+/// By how much the bench was late for its own deadlines; 0 in lockstep, which has none.
+double largest_lateness_s(const nlohmann::json& report) {
+  return report.contains("bench_lateness_s") ? report["bench_lateness_s"]["max"].get<double>() : 0;
+}
 
 }  // namespace
 
@@ -101,6 +127,12 @@ std::vector<Frame> target_frames(const std::string& log_path) {
   }
 }
 
+bool whole(const nlohmann::json& report) {
+  return largest_lateness_s(report) < 1 && report["ending"]["completed"] == true &&
+         report["target_counters"]["frames_lost"] == 0 && report["from_target"]["frames_lost"] == 0 &&
+         report["from_target"]["bench_overflows"] == 0;
+}
+
 void expect_one_line(const Ended& ended, const std::string& what) {
   EXPECT_EQ(ended.code, 2) << ended.out << ended.err;
   EXPECT_THAT(ended.err, testing::HasSubstr(what));
@@ -108,18 +140,37 @@ void expect_one_line(const Ended& ended, const std::string& what) {
   EXPECT_EQ(ended.out, "");
 }
 
-void expect_outputs_passed(const Ended& ended, const nlohmann::json& report) {
-  EXPECT_TRUE(report["ending"]["completed"]) << report["ending"];
-  int outputs = 0;
+std::vector<std::string> output_complaints(const Ended& ended, const nlohmann::json& report) {
+  std::vector<std::string> complaints;
+  const auto complain = [&](bool fine, const std::string& what) {
+    if (!fine) complaints.push_back(what);
+  };
+  complain(report["ending"]["completed"] == true, report["ending"].dump());
+  int outputs = 0, excused = 0;
   for (const auto& check : report["checks"]) {
-    const auto kind = check["kind"].get<std::string>();
-    if (kind == "latency" || kind == "output_period" || kind == "heartbeat") continue;
-    EXPECT_EQ(check["outcome"], "pass") << check;
-    ++outputs;
+    const std::optional<double> bar_s = timing_bar_s(check);
+    const bool failed = check["outcome"] == "fail";
+    if (!bar_s) {
+      complain(check["outcome"] == "pass", check.dump());
+      ++outputs;
+    } else if (failed) {
+      const bool host_was_late = largest_lateness_s(report) > *bar_s / 2;
+      complain(host_was_late, check.dump() + ": the host was not late");
+      if (host_was_late) ++excused;
+    }
   }
-  EXPECT_GE(outputs, 5);
-  const int expected_code = report["verdict"] == "pass" ? 0 : report["verdict"] == "fail" ? 1 : 3;
-  EXPECT_EQ(ended.code, expected_code);
+  complain(outputs >= 5, fmt::format("{} checks of outputs, expected at least 5", outputs));
+  const std::string verdict = report["verdict"];
+  complain(verdict != "fail" || excused > 0, "the verdict is 'fail', and no check of timing is why");
+  complain(ended.code == (verdict == "pass"   ? 0
+                          : verdict == "fail" ? 1
+                                              : 3),
+           fmt::format("the verdict is '{}', the exit code {}", verdict, ended.code));
+  return complaints;
+}
+
+void expect_outputs_passed(const Ended& ended, const nlohmann::json& report) {
+  EXPECT_THAT(output_complaints(ended, report), testing::IsEmpty());
 }
 
 }  // namespace canhil::test

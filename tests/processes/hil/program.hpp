@@ -37,11 +37,20 @@ nlohmann::json json_of(const std::string& text);
 /// the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
+/// A run in real time of which counts and bits can be asked: a host that keeps a program waiting for half a
+/// second loses frames of vcan in its receive queue, or the target is silent for too long, or the bench is
+/// away for so long that the target's process speaks up itself. The programs say so; such a run is flown
+/// again.
+bool whole(const nlohmann::json& report);
+
 /// Bad input: exit code 2, one line on stderr that says `what`, nothing on stdout.
 void expect_one_line(const Ended& ended, const std::string& what);
 
-/// Outputs are judged on any host. What the clock of a shared machine did to timing is the verdict's
-/// business, not a test's.
+/// Why the outputs of a run did not all pass, in words; empty: they did. Outputs are judged on any host; what
+/// a host that was late did to timing is the verdict's business, not a test's. So a check of timing may be
+/// not measured; it may have failed where the bench itself was once late for its deadlines by more than half
+/// of the check's bar: what held up the bench may hold up the target. Then alone may the verdict be 'fail'.
+std::vector<std::string> output_complaints(const Ended& ended, const nlohmann::json& report);
 void expect_outputs_passed(const Ended& ended, const nlohmann::json& report);
 
 }  // namespace canhil::test

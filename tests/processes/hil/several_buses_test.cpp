@@ -4,39 +4,134 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
+#include <map>
+#include <string>
+#include <thread>
 
+#include "dbc/ports/local_bus.hpp"
+#include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"
 
 namespace canhil::test {
 namespace {
 
 using testing::HasSubstr;
+using Counts = std::map<std::string, int>;  // frames by message
 
-std::string two_buses() {
-  return fmt::format("run {} --bus local:main-{} --bus-of master_ins=local:aiding-{} ",
-                     scenario("transfer_alignment_quick"), getpid(), getpid());
+int of(const Counts& counts, const std::string& message) {
+  return counts.contains(message) ? counts.at(message) : 0;
+}
+
+// A bus that the test hosts: each frame on it passes here, whoever sent it, and none is lost on the way.
+class WatchedBus {
+ public:
+  explicit WatchedBus(const std::string& which)
+      : name(fmt::format("local:{}-{}", which, getpid())), hub_(host_local_bus(name, {}).value()) {}
+  WatchedBus(const WatchedBus&) = delete;
+  WatchedBus& operator=(const WatchedBus&) = delete;
+  ~WatchedBus() { frames(); }
+
+  /// What was on the bus; nobody hosts it any more.
+  const Counts& frames() {
+    stop_ = true;
+    if (host_.joinable()) host_.join();
+    hub_.reset();
+    return frames_;
+  }
+
+  const std::string name;
+
+ private:
+  void host() {
+    for (bool last = false; !last;) {
+      last = stop_;
+      while (const auto received = hub_->receive()) {
+        const MessageInfo* info = messages::find_message(received->frame.id);
+        ++frames_[info == nullptr ? fmt::format("id {:x}", received->frame.id) : std::string(info->name)];
+      }
+      if (!last) wait(*hub_, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + 20'000'000);
+    }
+  }
+
+  std::unique_ptr<LocalHub> hub_;
+  Counts frames_;
+  std::atomic<bool> stop_ = false;
+  std::thread host_{[this] { host(); }};
+};
+
+struct Flown {
+  Ended ended;
+  nlohmann::json report;
+  std::string main_name, aiding_name;
+  Counts main, aiding;
+};
+
+// The quick transfer alignment with the master INS on a bus of its own; `command` starts bench and target, of
+// the bench's words, the bus of all others and that of the master. Flown again where the host spoilt it.
+template <class Command>
+Flown fly(const Command& command) {
+  Flown flown;
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    WatchedBus main("main"), aiding("aiding");
+    const std::string report = scratch("several.json");
+    const std::string bench =
+        fmt::format("{} run {} --bus {} --bus-of master_ins={} --json {}", HIL_BENCH,
+                    scenario("transfer_alignment_quick"), main.name, aiding.name, report);
+    flown = {.ended = shell(command(bench, main.name)),
+             .report = {},
+             .main_name = main.name,
+             .aiding_name = aiding.name,
+             .main = main.frames(),
+             .aiding = aiding.frames()};
+    if (flown.ended.code == 2) break;
+    flown.report = read_json(report);
+    if (whole(flown.report)) return flown;
+  }
+  ADD_FAILURE() << "no run of four was whole: " << flown.ended.err;
+  return flown;
+}
+
+// 3 s: the slave IMU has 100 samples a second, the master INS 10, and there is a Sync with each sample and
+// one at the start. Each sample is answered, and each of the master's that the target hears.
+void expect_from_bench(const Flown& flown) {
+  EXPECT_EQ(flown.aiding, (Counts{{"MasterInsVelocityNE", 30},
+                                  {"MasterInsAttitude", 30},
+                                  {"MasterInsLatitude", 30},
+                                  {"MasterInsLongitude", 30},
+                                  {"MasterInsVelocityD", 30}}));
+  for (const auto& [message, count] : flown.aiding) EXPECT_EQ(of(flown.main, message), 0) << message;
+  for (const char* message : {"SlaveImuDeltaTheta", "SlaveImuDeltaV", "SlaveImuStatus"})
+    EXPECT_EQ(of(flown.main, message), 300) << message;
+  EXPECT_EQ(of(flown.main, "Sync"), 301);
+}
+
+void expect_answers(const Flown& flown, int navigation, int updates) {
+  EXPECT_EQ(figure(flown.report, "transfer_alignment", "answers", "answers"), navigation);
+  EXPECT_EQ(figure(flown.report, "transfer_alignment", "answers", "updates"), updates);
+  for (const char* message : {"AlignAttitude", "AlignVelocityNE", "AlignVelocityD"})
+    EXPECT_EQ(of(flown.main, message), navigation) << message;
+  for (const char* message : {"AlignInnovation", "AlignAccelBiasSigma", "AlignUpdate"})
+    EXPECT_EQ(of(flown.main, message), updates) << message;
 }
 
 TEST(SeveralBuses, ATargetOnBothIsAlignedAndTheReportsSayWhoIsWhere) {
-  const std::string report = scratch("several.json");
-  const Ended ended = hil_bench(two_buses() + "--json " + report);
-  ASSERT_NE(ended.code, 2) << ended.err;
-  const nlohmann::json page = read_json(report);
-  EXPECT_TRUE(page["ending"]["completed"]) << page["ending"];
-  EXPECT_GT(figure(page, "transfer_alignment", "answers", "answers"), 0);  // how many is the host's affair
-  EXPECT_GT(figure(page, "transfer_alignment", "answers", "updates"), 0);
-  EXPECT_EQ(page["provenance"]["bus_of"]["MasterIns"], fmt::format("local:aiding-{}", getpid()));
-  EXPECT_THAT(ended.out, HasSubstr(fmt::format("MasterIns on bus local:aiding-{}\n", getpid())));
+  const Flown flown = fly([](const std::string& bench, const std::string&) { return bench; });
+  ASSERT_NE(flown.ended.code, 2) << flown.ended.err;
+  expect_from_bench(flown);
+  expect_answers(flown, 300, 30);
+  EXPECT_EQ(flown.report["provenance"]["bus_of"]["MasterIns"], flown.aiding_name);
+  EXPECT_THAT(flown.ended.out, HasSubstr(fmt::format("MasterIns on bus {}\n", flown.aiding_name)));
 }
 
 TEST(SeveralBuses, ATargetThatListensOnTheFirstAloneHearsNothingOfTheSecond) {
-  const std::string report = scratch("first_only.json");
-  const Ended ended =
-      shell(fmt::format("{} {} --target none --json {} & sleep 0.5; {} --bus local:main-{}; wait $!",
-                        HIL_BENCH, two_buses(), report, HIL_TARGET, getpid()));
-  const nlohmann::json page = read_json(report);
-  EXPECT_EQ(figure(page, "transfer_alignment", "answers", "updates"), 0) << ended.err;
-  EXPECT_GT(figure(page, "transfer_alignment", "answers", "answers"), 0);
+  const Flown flown = fly([](const std::string& bench, const std::string& main) {
+    return fmt::format("{} --bus {} & target=$!; {} --target none; code=$?; kill $target; exit $code",
+                       HIL_TARGET, main, bench);
+  });
+  ASSERT_NE(flown.ended.code, 2) << flown.ended.err;
+  expect_from_bench(flown);
+  expect_answers(flown, 300, 0);
 }
 
 TEST(SeveralBuses, WhatCannotBeIsRefused) {

@@ -147,6 +147,16 @@ TEST(Report, OfACampaignThatAsksForNothingIsNotMeasured) {
   EXPECT_THAT(text(*campaign, *evaluation), HasSubstr("seed 3 · not measured"));
 }
 
+TEST(Report, NamesThatAreNotUtf8MakeJsonAllTheSame) {
+  auto campaign = parse(two_variants);
+  auto evaluation = evaluate(*campaign, runs_of);
+  ASSERT_TRUE(evaluation) << evaluation.error().message;
+  campaign->sources.file = "q\xFF.toml";
+  evaluation->endings[0].first_fault = "run 1: \xFF";
+  const auto root = nlohmann::json::parse(json(*campaign, *evaluation));
+  EXPECT_EQ(root["campaign"], "q\uFFFD.toml");
+}
+
 TEST(Report, OfMetricsWithoutABarIsNotMeasured) {
   const auto evaluation =
       ask("kind = 'rms_curve'\n[[metric]]\nquantity = 'attitude.roll'\nkind = 'value_at'\nat_s = 1.0\n");

@@ -103,8 +103,9 @@ TEST(Wind, StartsFromWhatTheCarrierTells) {
 TEST(Wind, DenserAirIsAWindAlongTheTrack) {
   const Flown flown =
       fly({set("airframe.density_error_percent", "3"), set("airframe.coefficient_error_percent", "0")});
-  EXPECT_NEAR(flown.mean_error(along_track), 2.7, 0.7);
-  EXPECT_LT(flown.mean_error(cross_track), 0.7);
+  // 1.5 % of the air speed. 40 runs gave 2.73 m/s with a sigma of 0.09 m/s, and across at most 0.24 m/s.
+  EXPECT_NEAR(flown.mean_error(along_track), 2.73, 0.35);
+  EXPECT_LT(flown.mean_error(cross_track), 0.35);
 }
 
 TEST(Wind, FinsThatStayAwayAreTold) {

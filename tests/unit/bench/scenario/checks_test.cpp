@@ -11,6 +11,7 @@
 #include "bench/checks/kinds/heartbeat.hpp"
 #include "bench/checks/kinds/latency.hpp"
 #include "bench/checks/kinds/output_period.hpp"
+#include "bench/checks/kinds/sigma.hpp"
 #include "bench/quantities/list.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
@@ -50,6 +51,7 @@ TEST(ScenarioChecks, NamesByDefaultSayWhatIsLookedAt) {
             "convergence attitude.roll");
   EXPECT_EQ(name("kind = 'consistency'\nquantity = 'innovation.nis'\nprobability = 0.9"),
             "consistency innovation.nis");
+  EXPECT_EQ(name("kind = 'sigma'\nquantity = 'attitude.roll'\nbetween_mrad = [1, 2]"), "sigma attitude.roll");
   EXPECT_EQ(name("kind = 'latency'\nmessage = 'AlignUpdate'\nbelow_ms = 1"), "latency AlignUpdate");
   EXPECT_EQ(name("kind = 'output_period'\nmessage = 'AlignUpdate'\nwithin_percent = 1"),
             "output_period AlignUpdate");
@@ -99,6 +101,29 @@ TEST(ScenarioChecks, Consistency) {
   EXPECT_EQ(mean.of.quantity->name, "attitude.nees");
   EXPECT_DOUBLE_EQ(std::get<checks::MeanBetween>(mean.bound).low, 0.5);
   EXPECT_DOUBLE_EQ(std::get<checks::MeanBetween>(mean.bound).high, 8.0);
+}
+
+TEST(ScenarioChecks, Sigma) {
+  const auto heading = rule_of<checks::Sigma>(
+      "kind = 'sigma'\nquantity = 'attitude.heading'\nfrom_s = 19\nbetween_mrad = [0.2, 0.4]");
+  EXPECT_EQ(heading.of.quantity, &quantities::attitude_heading);
+  EXPECT_EQ(heading.stretch.window.from_us, 19'000'000);
+  EXPECT_DOUBLE_EQ(heading.low, 0.2e-3);
+  EXPECT_DOUBLE_EQ(heading.high, 0.4e-3);
+  EXPECT_EQ(heading.unit.name, "mrad");
+  const auto in_degrees =
+      rule_of<checks::Sigma>("kind = 'sigma'\nquantity = 'attitude.roll'\nbetween_deg = [1, 2]");
+  EXPECT_DOUBLE_EQ(in_degrees.high, 2 * world::units::deg);
+  const auto velocity =
+      rule_of<checks::Sigma>("kind = 'sigma'\nquantity = 'velocity.down'\nbetween_mps = [0, 0.2]");
+  EXPECT_DOUBLE_EQ(velocity.high, 0.2);
+  const auto refused = [](std::string_view lines) { return error_of(one_check(lines)); };
+  EXPECT_THAT(refused("kind = 'sigma'\nquantity = 'attitude.roll'"),
+              HasSubstr("key 'check[1].between_mrad': is missing, expected an array [low, high]"));
+  EXPECT_THAT(refused("kind = 'sigma'\nquantity = 'attitude.roll'\nbetween_mrad = [2, 1]"),
+              HasSubstr("key 'check[1].between_mrad': is descending"));
+  EXPECT_THAT(refused("kind = 'sigma'\nquantity = 'attitude.nees'\nbetween = [1, 2]"),
+              HasSubstr("'attitude.nees' is none that this kind asks for"));
 }
 
 TEST(ScenarioChecks, OutputPeriod) {

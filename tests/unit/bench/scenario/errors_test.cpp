@@ -31,7 +31,7 @@ std::string keys_of_a_file() {
   };
   return "title, duration_s, dbc, seed, target, engagement, glide, wind, airframe, " +
          nodes_of(TruthOf::glide) + "truth, initial_error, " + nodes_of(TruthOf::navigation) +
-         nodes_of(TruthOf::engagement) + "check";
+         nodes_of(TruthOf::engagement) + "fault, check";
 }
 
 const std::string sigma =
@@ -166,7 +166,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{
             "\"heartbeat\"", "\"banana\"",
             "17: key 'check[1].kind': 'banana' is unknown, expected one of: error, convergence, consistency, "
-            "answers, latency, output_period, heartbeat, counters, bus_load, bus_errors, wire_response, "
+            "sigma, answers, latency, latency_growth, output_period, own_times, heartbeat, counters, "
+            "bus_load, bus_errors, "
+            "wire_response, "
             "miss_distance"},
         Wrong{
             "[[check]]", check("kind = 'error'\nquantity = 'yaw.of.the.body'\nbelow_mrad = 1"),

@@ -124,5 +124,11 @@ TEST(Json, HoldsTheSame) {
   EXPECT_EQ(low["meets_deadline"], true);
 }
 
+TEST(Json, NamesAFileThatIsNotUtf8) {
+  Analysis analysis = two(5 * ms);
+  analysis.file = "c\xFF.dbc";
+  EXPECT_EQ(nlohmann::json::parse(json(analysis))["file"], "c\uFFFD.dbc");
+}
+
 }  // namespace
 }  // namespace canhil::schedulability

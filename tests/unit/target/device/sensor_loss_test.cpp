@@ -1,6 +1,7 @@
 // What the device makes of frames that are lost, broken, late, or say that they are invalid.
 #include <gtest/gtest.h>
 
+#include "target/device/imu_stream.hpp"
 #include "tests/unit/target/device/bench_side.hpp"
 
 namespace canhil::target {
@@ -21,17 +22,25 @@ TEST(SensorLoss, AFrameWithAWrongCrcIsDroppedAndCounted) {
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_lost, 1);
 }
 
-TEST(SensorLoss, AFrameOfTheWrongSizeIsDroppedAndCounted) {
-  BenchSide bench;
-  bench.start();
-  Outbox<1> out;
-  out.send(BenchSide::velocity());
-  Frame frame = out.frames().front();
-  frame.size = 4;
-  bench.feed(frame);
-  bench.sync(0);
-  EXPECT_EQ(bench.last<TargetCounters>()->bad_crc, 1);
-  EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_lost, 1);
+TEST(SensorLoss, AFrameOfTheWrongSizeOrFormatIsDroppedAndCounted) {
+  const auto wrong = [](auto change) {
+    BenchSide bench;
+    bench.start();
+    Outbox<1> out;
+    out.send(BenchSide::velocity());
+    Frame frame = out.frames().front();
+    change(frame);
+    bench.feed(frame);
+    bench.sync(0);
+    EXPECT_EQ(bench.last<TargetCounters>()->bad_crc, 1);
+    EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_lost, 1);
+  };
+  wrong([](Frame& frame) { frame.size = 4; });
+  wrong([](Frame& frame) { frame.fd = true; });
+  wrong([](Frame& frame) {  // with a CRC over all of it
+    frame.size = 12;
+    frame.data[0] = e2e::crc(frame.payload(), SlaveImuDeltaV::info.e2e_data_id);
+  });
 }
 
 TEST(SensorLoss, AGroupThatMissesAFrameIsNotUsed) {
@@ -136,6 +145,31 @@ TEST(SensorLoss, AGapTooLongToBridgeEndsTheAlignment) {
   bench.imu(400'000);
   EXPECT_EQ(bench.last<TargetHeartbeat>()->state, TargetState::fault);
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_silent, 1);
+}
+
+// A gap is bridged within one frame: an interval of 10 us would make 20,000 steps of it.
+TEST(SensorLoss, AGapBeforeAVeryShortSampleIsBridgedInFewSteps) {
+  ImuStream imu;
+  imu.start(0, 10'000);
+  Answers answers;
+  Losses losses;
+  Errors errors;
+  Context context{200'000, answers, losses, errors};
+  int steps = 0;
+  double seconds = 0;
+  const auto receive = [&](const auto& message) {
+    return imu.receive(to_frame(message, 0), 0, context,
+                       [&](const strapdown::ImuIncrement& increment, std::int64_t) {
+                         ++steps;
+                         seconds += increment.dt;
+                       });
+  };
+  receive(BenchSide::theta(Validity::valid));
+  receive(BenchSide::velocity());
+  EXPECT_EQ(receive(BenchSide::status(200'000, 10)), ImuStream::Taken::stepped);
+  EXPECT_LE(steps, 500);
+  EXPECT_NEAR(seconds, 0.2, 1e-9);
+  EXPECT_EQ(imu.now_us(), 200'000);
 }
 
 TEST(SensorLoss, AFixFromTheFutureIsDropped) {

@@ -139,5 +139,27 @@ TEST(SeveralEstimators, AStartThatIsRepeatedStartsAllAnew) {
   EXPECT_EQ(first_answers(1).size(), 6U);
 }
 
+// Fixes ahead of the IMU wait; the sample that bridges the gap brings the answers to all of them.
+TEST(SeveralEstimators, AllThatWaitedIsAnsweredWithOneSample) {
+  BenchSide bench;
+  make_ready(bench).command(Command::start);
+  bench.imu(10'000);
+  for (int i = 0; i < 8; ++i) bench.master(100'000 + i * 10'000);
+  for (int i = 0; i < 4; ++i) {
+    bench.send(SsblRelativeNE{.position_validity = Validity::valid});
+    bench.send(SsblShipLatitude{.latitude_deg = 37, .height_m = 1000});
+    bench.send(SsblShipLongitude{.longitude_deg = 127});
+    bench.send(SsblRelativeD{.time_of_validity_us = static_cast<std::uint32_t>(100'000 + i * 10'000)});
+  }
+  bench.forget();
+  bench.imu(200'000);
+  EXPECT_EQ(bench.all<AlignInnovation>().size(), 8U);
+  EXPECT_EQ(bench.all<AlignUpdate>().size(), 8U);
+  EXPECT_EQ(bench.all<FixInnovation>().size(), 4U);
+  EXPECT_EQ(bench.all<FixUpdate>().size(), 4U);
+  EXPECT_EQ(bench.all<AlignVelocityD>().size(), 1U);
+  EXPECT_EQ(bench.all<FixVelocityD>().size(), 1U);
+}
+
 }  // namespace
 }  // namespace canhil::target

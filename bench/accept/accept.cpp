@@ -1,0 +1,336 @@
+#include "bench/accept/accept.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "bench/accept/dialogue.hpp"
+#include "bench/accept/profile.hpp"
+#include "bench/accept/reference.hpp"
+#include "bench/campaign/evaluate.hpp"
+#include "bench/campaign/execute.hpp"
+#include "bench/drive/session.hpp"
+
+namespace canhil::accept {
+namespace {
+
+namespace fs = std::filesystem;
+using checks::Outcome;
+using drive::Ending;
+
+Outcome worst(Outcome a, Outcome b) {
+  if (a == Outcome::fail || b == Outcome::fail) return Outcome::fail;
+  return a == Outcome::not_measured || b == Outcome::not_measured ? Outcome::not_measured : Outcome::pass;
+}
+
+drive::Options in_process(std::string_view bus) {
+  drive::Options options;
+  options.bus = drive::BusName(std::string(bus));
+  return options;
+}
+
+/// Magnitude of a signal's mean over a flight; none: no answer has it.
+std::optional<double> mean_of(const Answers& answers, const Move& move) {
+  const Series* series = answers.find(move.message);
+  if (series == nullptr) return std::nullopt;
+  const auto found = std::ranges::find(series->signals, std::string_view(move.signal), &SignalInfo::name);
+  if (found == series->signals.end()) return std::nullopt;
+  return std::abs(series->mean(static_cast<std::size_t>(found - series->signals.begin())));
+}
+
+// One suite being flown.
+class Run {
+ public:
+  Run(const Suite& suite, const Options& options, const std::atomic<bool>& stop)
+      : suite_(suite), options_(options), stop_(stop) {}
+
+  // What needs the least time comes first, and times last, which nothing else is to disturb.
+  Result<std::vector<Item>> fly() {
+    if (auto flown = fly_all(false); !flown) return tl::unexpected(flown.error());
+    if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && !done()) {
+      options_.progress(fmt::format("{}: dialogue", suite_.estimator));
+      auto said = talk(suite_, options_.target, stop_);
+      if (!said) return tl::unexpected(said.error());
+      for (Item& item : *said) add(std::move(item));
+    }
+    for (const Campaign& campaign : suite_.campaigns) {
+      if (!(wanted("errors") || wanted("honesty")) || done()) break;
+      if (auto flown = fly(campaign); !flown) return tl::unexpected(flown.error());
+    }
+    if (auto flown = fly_all(true); !flown) return tl::unexpected(flown.error());
+    return std::move(items_);
+  }
+
+ private:
+  Result<void> fly_all(bool in_real_time) {
+    for (const Flight& flight : suite_.flights) {
+      if (flight.real_time != in_real_time || !wanted(flight)) continue;
+      if (done()) break;
+      options_.progress(fmt::format("{}: flight '{}'", suite_.estimator, flight.name));
+      if (auto flown = fly(flight); !flown) return flown;
+    }
+    return {};
+  }
+
+  [[nodiscard]] bool wanted(std::string_view family) const {
+    return options_.families.empty() ||
+           std::ranges::find(options_.families, family) != options_.families.end();
+  }
+  /// Whether a requirement that is wanted asks for a flight, or one for which another is flown.
+  [[nodiscard]] bool wanted(const Flight& flight) const {
+    const auto of = [&](const std::string& id) {
+      const Requirement* requirement = suite_.find(id);
+      return requirement != nullptr && wanted(requirement->family);
+    };
+    return of(flight.requirement) || (flight.reference && of(*flight.reference)) ||
+           std::ranges::any_of(suite_.flights, [&](const Flight& other) {
+             return (other.same_as && other.same_as->flight == flight.name && wanted(other)) ||
+                    (other.moves && other.moves->flight == flight.name && wanted(other));
+           });
+  }
+  [[nodiscard]] bool done() const { return stop_ || (options_.first_failure && failed_); }
+
+  using Items = std::vector<Item>;
+
+  void add(Item item) {
+    failed_ = failed_ || item.outcome == Outcome::fail;
+    items_.push_back(std::move(item));
+  }
+  /// `wrong`: what was; empty: nothing.
+  static Item item(const std::string& requirement, const std::string& name, const std::string& wrong,
+                   const std::string& expected) {
+    return {.requirement = requirement,
+            .name = name,
+            .outcome = wrong.empty() ? Outcome::pass : Outcome::fail,
+            .measured = wrong.empty() ? "so" : wrong,
+            .expected = expected};
+  }
+
+  /// What the host does now and then is no fault of the target: in real time the best of three flights
+  /// counts.
+  Result<void> fly(const Flight& flight) {
+    constexpr int most_attempts = 3;
+    for (int left = flight.real_time ? most_attempts : 1;; --left) {
+      auto found = fly_once(flight);
+      if (!found) return tl::unexpected(found.error());
+      const bool good =
+          std::ranges::all_of(*found, [](const Item& one) { return one.outcome == Outcome::pass; });
+      if (!good && left > 1 && !stop_) continue;
+      for (Item& one : *found) add(std::move(one));
+      return {};
+    }
+  }
+
+  Result<Items> fly_once(const Flight& flight) {
+    const std::string name = fmt::format("flight '{}'", flight.name);
+    Answers& answers = flown_[flight.name];
+    answers.clear();
+    drive::Options options = drive::in_lockstep_against(options_.target);
+    options.lockstep = !flight.real_time;
+    options.onlooker = &answers;
+    const auto run = drive::run(flight.scenario, options, stop_, [&](std::int64_t) {});
+    if (!run) return Items{item(flight.requirement, name, run.error().message, flown_to_its_end)};
+    Items found = judged(flight, name, *run);
+    if (flight.reference) {
+      const auto reference = read_reference(suite_.reference_of(flight));
+      if (!reference) return tl::unexpected(reference.error());
+      found.push_back(item(*flight.reference, name + " as the reference",
+                           departure(*reference, answers, options_.share), "answers as the reference's"));
+    }
+    if (flight.same_as) {
+      const SameAs& same = *flight.same_as;
+      found.push_back(item(same.requirement, fmt::format("{} as flight '{}'", name, same.flight),
+                           difference(answers, flown_[same.flight], same.steps, same.relative),
+                           "the same answers"));
+    }
+    if (flight.moves) found.push_back(moved(*flight.moves, name, answers));
+    return found;
+  }
+
+  /// Its ending and its checks.
+  Items judged(const Flight& flight, const std::string& name, const drive::Run& run) const {
+    if (flight.faults) {
+      const bool fault = run.ending.kind == Ending::Kind::target_fault;
+      const std::string ending = run.ending.detail.empty() ? flown_to_its_end : run.ending.detail;
+      return {
+          item(flight.requirement, name + " ends", fault ? "" : ending, "a heartbeat that tells of a fault")};
+    }
+    if (run.ending.kind == Ending::Kind::interrupted) return {};
+    Items found{item(flight.requirement, name + " ends", run.ending.detail, flown_to_its_end)};
+    if (run.ending.kind != Ending::Kind::completed) return found;
+    for (const checks::CheckResult& check : run.verdict.checks) {
+      // In virtual time nobody judges times: the flights in real time do.
+      if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
+      found.push_back(
+          {.requirement = suite_.find(check.requirement) != nullptr ? check.requirement : flight.requirement,
+           .name = fmt::format("{}: {}", name, check.name),
+           .outcome = check.outcome,
+           .measured = check.measured,
+           .expected = check.expected});
+    }
+    return found;
+  }
+
+  Item moved(const Move& move, const std::string& name, const Answers& answers) {
+    const auto now = mean_of(answers, move), before = mean_of(flown_[move.flight], move);
+    const bool as_asked =
+        now && before && (move.up ? *now > least_move * *before : *before > least_move * *now);
+    return {.requirement = move.requirement,
+            .name = fmt::format("{}: {}.{}", name, move.message, move.signal),
+            .outcome = as_asked ? Outcome::pass : Outcome::fail,
+            .measured = now && before ? fmt::format("mean magnitude {:.4g}, {:.4g} in flight '{}'", *now,
+                                                    *before, move.flight)
+                                      : "no answer has this signal",
+            .expected =
+                fmt::format("{} than there by {:g} %", move.up ? "more" : "less", 100 * (least_move - 1))};
+  }
+
+  Result<void> fly(const Campaign& asked) {
+    auto campaign = campaign::read_campaign(suite_.folder / asked.file);
+    if (!campaign) return tl::unexpected(campaign.error());
+    if (options_.seed) {
+      for (campaign::Variant& variant : campaign->variants) variant.scenario.seed = *options_.seed;
+    }
+    const fs::path file =
+        fs::temp_directory_path() / fmt::format("canhil-accept-{}-{}.sqlite", getpid(), asked.file);
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    campaign::Options options;
+    options.file = file;
+    options.target = options_.target;
+    options.progress = [&](const campaign::Progress& progress) {
+      options_.progress(
+          fmt::format("{}: {} {} / {} runs", suite_.estimator, asked.file, progress.done, progress.total));
+    };
+    auto flown = campaign::execute(*campaign, options, stop_);
+    if (flown && *flown == campaign::Execution::complete) flown = judge(*campaign, asked, file);
+    fs::remove(file, ignored);
+    if (!flown) {
+      if (campaign->metrics.empty()) return tl::unexpected(flown.error());
+      add(item(requirement_of(*campaign), fmt::format("campaign {}", asked.file), flown.error().message,
+               "all runs to their end"));
+    }
+    return {};
+  }
+
+  static std::string requirement_of(const campaign::Campaign& campaign) {
+    return campaign.metrics.front().requirement;
+  }
+
+  Result<campaign::Execution> judge(const campaign::Campaign& campaign, const Campaign& asked,
+                                    const fs::path& file) {
+    const auto store = campaign::Store::open(file);
+    if (!store) return tl::unexpected(store.error());
+    const auto evaluation = campaign::evaluate(campaign, *store);
+    if (!evaluation) return tl::unexpected(evaluation.error());
+    for (const campaign::Endings& ending : evaluation->endings) {
+      if (ending.completed == ending.runs && ending.not_finite == 0) continue;
+      add(item(requirement_of(campaign), fmt::format("{}: {}", asked.file, ending.variant),
+               fmt::format("{} of {} runs completed, {} with values that are no numbers; {}",
+                           ending.completed, ending.runs, ending.not_finite, ending.first_fault),
+               "all runs to their end"));
+    }
+    for (const campaign::Answer& answer : evaluation->answers) {
+      if (!answer.passed) continue;
+      add({.requirement = answer.requirement,
+           .name = fmt::format("{}: {}", asked.file, answer.metric),
+           .outcome = *answer.passed ? Outcome::pass : Outcome::fail,
+           .measured = answer.measured,
+           .expected = answer.expected});
+    }
+    return campaign::Execution::complete;
+  }
+
+  static constexpr double least_move = 1.01;
+  static constexpr const char* flown_to_its_end = "a flight to its end";
+
+  const Suite& suite_;
+  const Options& options_;
+  const std::atomic<bool>& stop_;
+  std::map<std::string, Answers> flown_;
+  std::vector<Item> items_;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+Outcome Finding::outcome() const {
+  Outcome all = items.empty() ? Outcome::not_measured : Outcome::pass;
+  for (const Item& item : items) all = worst(all, item.outcome);
+  return all;
+}
+
+Outcome Acceptance::outcome() const {
+  Outcome all = findings.empty() ? Outcome::not_measured : Outcome::pass;
+  for (const Finding& finding : findings) all = worst(all, finding.outcome());
+  return all;
+}
+
+Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop) {
+  const auto start = std::chrono::steady_clock::now();
+  auto items = Run(suite, options, stop).fly();
+  if (!items) return tl::unexpected(items.error());
+  Acceptance acceptance{.estimator = suite.estimator, .title = suite.title, .findings = {}};
+  std::vector<Requirement> all = suite.requirements;
+  if (suite.dialogue) std::ranges::copy(protocol_requirements(suite), std::back_inserter(all));
+  const auto& asked = options.families;
+  std::erase_if(all, [&](const Requirement& one) {
+    return !asked.empty() && std::ranges::find(asked, one.family) == asked.end();
+  });
+  for (Requirement& requirement : all)
+    acceptance.findings.push_back({.requirement = std::move(requirement), .items = {}});
+  for (Item& item : *items) {
+    const auto found = std::ranges::find_if(acceptance.findings, [&](const Finding& finding) {
+      return finding.requirement.id == item.requirement;
+    });
+    if (found == acceptance.findings.end() && !asked.empty()) continue;  // of a family that nobody asked for
+    if (found == acceptance.findings.end())
+      return failure(fmt::format("{}: {} is for '{}', expected a requirement of the suite",
+                                 suite.folder.string(), item.name, item.requirement));
+    found->items.push_back(std::move(item));
+  }
+  acceptance.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return acceptance;
+}
+
+Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
+                    const std::function<void(const std::string&)>& progress) {
+  std::error_code error;
+  fs::create_directories(suite.folder / "reference", error);
+  if (error)
+    return failure(
+        fmt::format("{}: cannot be a folder: {}", (suite.folder / "reference").string(), error.message()));
+  for (const Flight& flight : suite.flights) {
+    if (!flight.reference || stop) continue;
+    progress(fmt::format("{}: flight '{}'", suite.estimator, flight.name));
+    Answers rounded, unrounded;
+    for (const auto& [bus, answers] :
+         {std::pair(drive::in_process_bus, &rounded), std::pair(drive::unrounded_bus, &unrounded)}) {
+      drive::Options options = in_process(bus);
+      options.onlooker = answers;
+      const auto run = drive::run(flight.scenario, options, stop, [](std::int64_t) {});
+      if (!run) return tl::unexpected(run.error());
+      const auto expected = flight.faults ? Ending::Kind::target_fault : Ending::Kind::completed;
+      if (run->ending.kind != expected && !stop)
+        return failure(fmt::format(
+            "flight '{}': {}", flight.name,
+            run->ending.detail.empty() ? "is flown to its end, expected a fault" : run->ending.detail));
+    }
+    if (stop) return {};
+    const std::string comment = fmt::format(
+        "What the reference target answers in flight '{}' (docs/accept.md); made by hil-bench accept "
+        "--record.\n",
+        flight.name);
+    if (auto written =
+            write(make_reference(rounded, unrounded, flight.rows), suite.reference_of(flight), comment);
+        !written)
+      return written;
+  }
+  return {};
+}
+
+}  // namespace canhil::accept

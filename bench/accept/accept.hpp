@@ -1,0 +1,60 @@
+// Flies a suite against a target and says, requirement by requirement, whether it is met.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/accept/suite.hpp"
+#include "bench/checks/verdict.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::accept {
+
+/// One thing that was looked at for a requirement.
+struct Item {
+  std::string requirement;  ///< its id
+  std::string name;         ///< "flight 'paper': error attitude.heading"
+  checks::Outcome outcome = checks::Outcome::not_measured;
+  std::string measured;
+  std::string expected;
+};
+
+struct Options {
+  std::string target;                   ///< program
+  std::optional<std::uint64_t> seed{};  ///< of the campaigns, in place of their own
+  double share = 1;                     ///< by which the tolerances of the references are multiplied
+  bool first_failure = false;           ///< stop there: what comes after is not looked at
+  std::vector<std::string> families{};  ///< only what requirements of these ask for; empty: all
+  std::function<void(const std::string&)> progress = [](const std::string&) {};
+};
+
+/// A requirement with what was found.
+struct Finding {
+  Requirement requirement;
+  std::vector<Item> items;
+  /// Fail if any did; else not measured if any was not, or there is none.
+  [[nodiscard]] checks::Outcome outcome() const;
+};
+
+/// What became of one suite.
+struct Acceptance {
+  std::string estimator;
+  std::string title;
+  std::vector<Finding> findings;  ///< in the order of the suite
+  double wall_s = 0;
+  [[nodiscard]] checks::Outcome outcome() const;
+};
+
+/// Error: the suite cannot be flown (usage or configuration). A target that fails is a finding.
+Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop);
+
+/// Flies the suite's flights in this process, with frames rounded and not, and writes their references.
+/// Error: one line.
+Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
+                    const std::function<void(const std::string&)>& progress);
+
+}  // namespace canhil::accept

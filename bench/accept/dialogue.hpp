@@ -1,0 +1,19 @@
+// The protocol of the target, asked command by command: what it must do, and what it must refuse.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "bench/accept/accept.hpp"
+#include "bench/accept/suite.hpp"
+
+namespace canhil::accept {
+
+/// Requirements that every target owes, whatever it estimates.
+std::vector<Requirement> protocol_requirements(const Suite& suite);
+
+/// Starts the target and talks to it as the estimator of suite.dialogue. Error: it does not start.
+Result<std::vector<Item>> talk(const Suite& suite, const std::string& target, const std::atomic<bool>& stop);
+
+}  // namespace canhil::accept

@@ -1,0 +1,63 @@
+#include "bench/accept/profile.hpp"
+
+#include <cmath>
+
+#include "bench/observe/values.hpp"
+#include "dbc/wire/message.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::accept {
+namespace {
+
+constexpr double full_turn_deg = 360;
+
+/// Another program may carry another version and be right.
+bool of_the_program(const SignalInfo& signal) {
+  return signal.name.starts_with("version_") || signal.name == "dbc_hash";
+}
+
+bool turns(const SignalInfo& signal) {
+  return signal.unit == "deg" && signal.maximum - signal.minimum == full_turn_deg;
+}
+
+}  // namespace
+
+double distance(const SignalInfo& signal, double a, double b) {
+  return turns(signal) ? std::abs(std::remainder(a - b, full_turn_deg)) : std::abs(a - b);
+}
+
+double Series::mean(std::size_t signal) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < size(); ++i) {
+    // An angle's turns are counted from the first one, so that a heading about south has a mean.
+    const double first = value(0, signal), now = value(i, signal);
+    sum += turns(*signals[signal]) ? first + std::remainder(now - first, full_turn_deg) : now;
+  }
+  return size() == 0 ? 0 : sum / static_cast<double>(size());
+}
+
+void Answers::transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {
+  if (frame.id == messages::Sync::info.id && !frame.extended)
+    t_s_ = 1e-6 * static_cast<double>(from_frame<messages::Sync>(frame).time_us);
+}
+
+void Answers::received(const Received& received) {
+  if (received.own || !observe::is_answer(received.frame)) return;
+  const auto values = observe::values_of(received.frame);
+  if (values.empty()) return;
+  auto& series = messages_[std::string(observe::message_of(received.frame))];
+  const bool first = series.size() == 0;
+  for (const observe::Value& value : values) {
+    if (of_the_program(*value.signal)) continue;
+    if (first) series.signals.push_back(value.signal);
+    series.values.push_back(value.value);
+  }
+  series.t_s.push_back(t_s_);
+}
+
+const Series* Answers::find(std::string_view message) const {
+  const auto found = messages_.find(message);
+  return found == messages_.end() ? nullptr : &found->second;
+}
+
+}  // namespace canhil::accept

@@ -1,0 +1,183 @@
+#include "bench/accept/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/report/page_parts.hpp"
+#include "bench/report/run_reports.hpp"
+
+namespace canhil::accept {
+namespace {
+
+using checks::Outcome;
+using nlohmann::ordered_json;
+using report::escaped;
+
+std::string label(Outcome outcome) {
+  return outcome == Outcome::pass ? "PASS" : outcome == Outcome::fail ? "FAIL" : "NOT MEASURED";
+}
+
+std::size_t count(const Acceptance& suite, Outcome outcome) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      suite.findings, [&](const Finding& finding) { return finding.outcome() == outcome; }));
+}
+
+std::string counts(const Acceptance& suite) {
+  const std::size_t failed = count(suite, Outcome::fail), open = count(suite, Outcome::not_measured);
+  std::string words =
+      fmt::format("{} of {} requirements met", count(suite, Outcome::pass), suite.findings.size());
+  if (failed > 0) words += fmt::format(", {} not met", failed);
+  if (open > 0) words += fmt::format(", {} not measured", open);
+  return words;
+}
+
+/// What is to be seen of a finding without asking: what is wrong with it.
+std::vector<const Item*> told(const Finding& finding) {
+  std::vector<const Item*> items;
+  for (const Item& item : finding.items) {
+    if (item.outcome != Outcome::pass) items.push_back(&item);
+  }
+  std::ranges::stable_sort(items, {}, [](const Item* item) { return item->outcome != Outcome::fail; });
+  return items;
+}
+
+constexpr std::size_t most_told = 5;
+
+std::string sign_of(Outcome outcome) {
+  const auto [style, sign] = report::look_of(checks::name(outcome));
+  return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, checks::name(outcome));
+}
+
+/// Everything that was looked at, folded away.
+std::string all_of(const Finding& finding) {
+  std::string list;
+  for (const Item& item : finding.items)
+    list += fmt::format("<li>{} {}: {}; expected {}</li>", report::look_of(checks::name(item.outcome)).sign,
+                        escaped(item.name), escaped(item.measured), escaped(item.expected));
+  return fmt::format("<details><summary>{} looked at</summary><ul>{}</ul></details>", finding.items.size(),
+                     list);
+}
+
+std::string section(const Acceptance& suite) {
+  std::string out = fmt::format("<section><h2>{}</h2>\n<p class=\"sub\">{} &middot; {} in {:.0f} s</p>\n",
+                                escaped(suite.title), escaped(suite.estimator), counts(suite), suite.wall_s);
+  for (const std::string& family : families) {
+    report::Rows rows;
+    for (const Finding& finding : suite.findings) {
+      if (finding.requirement.family != family) continue;
+      std::string seen = all_of(finding);
+      const auto wrong = told(finding);
+      for (std::size_t i = 0; i < std::min(wrong.size(), most_told); ++i)
+        seen += fmt::format("<p><b>{}</b>: {}; expected {}</p>", escaped(wrong[i]->name),
+                            escaped(wrong[i]->measured), escaped(wrong[i]->expected));
+      if (wrong.size() > most_told) seen += fmt::format("<p>and {} more</p>", wrong.size() - most_told);
+      rows.push_back({escaped(finding.requirement.id), escaped(finding.requirement.text),
+                      sign_of(finding.outcome()), seen});
+    }
+    if (rows.empty()) continue;
+    out += fmt::format("<h3>{}</h3>\n", family) +
+           report::table({"requirement", "what is asked", "outcome", "seen"}, rows);
+  }
+  return out + "</section>\n";
+}
+
+}  // namespace
+
+Outcome Report::outcome() const {
+  Outcome all = suites.empty() ? Outcome::not_measured : Outcome::pass;
+  for (const Acceptance& suite : suites) {
+    const Outcome one = suite.outcome();
+    if (one == Outcome::fail || (one == Outcome::not_measured && all == Outcome::pass)) all = one;
+  }
+  return all;
+}
+
+std::string text(const Report& report) {
+  std::string out;
+  for (const Acceptance& suite : report.suites) {
+    out += fmt::format("{}\n\n", suite.title);
+    for (const std::string& family : families) {
+      for (const Finding& finding : suite.findings) {
+        if (finding.requirement.family != family) continue;
+        out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", label(finding.outcome()),
+                           finding.requirement.id, finding.requirement.text, finding.items.size());
+        const auto wrong = told(finding);
+        for (std::size_t i = 0; i < std::min(wrong.size(), most_told); ++i)
+          out += fmt::format("      {} {}: {}; expected {}\n", wrong[i]->outcome == Outcome::fail ? "-" : "?",
+                             wrong[i]->name, wrong[i]->measured, wrong[i]->expected);
+        if (wrong.size() > most_told) out += fmt::format("      and {} more\n", wrong.size() - most_told);
+      }
+    }
+    out += fmt::format("\n{}: {}: {} ({:.0f} s)\n\n", suite.estimator, checks::name(suite.outcome()),
+                       counts(suite), suite.wall_s);
+  }
+  return out + fmt::format("{}: {}\n", report.target, checks::name(report.outcome()));
+}
+
+std::string json(const Report& report) {
+  ordered_json suites = ordered_json::array();
+  for (const Acceptance& suite : report.suites) {
+    ordered_json requirements = ordered_json::array();
+    for (const Finding& finding : suite.findings) {
+      ordered_json items = ordered_json::array();
+      for (const Item& item : finding.items) {
+        items.push_back({{"name", item.name},
+                         {"outcome", checks::name(item.outcome)},
+                         {"measured", item.measured},
+                         {"expected", item.expected}});
+      }
+      requirements.push_back({{"id", finding.requirement.id},
+                              {"family", finding.requirement.family},
+                              {"text", finding.requirement.text},
+                              {"outcome", checks::name(finding.outcome())},
+                              {"items", std::move(items)}});
+    }
+    suites.push_back({{"estimator", suite.estimator},
+                      {"title", suite.title},
+                      {"outcome", checks::name(suite.outcome())},
+                      {"wall_s", suite.wall_s},
+                      {"requirements", std::move(requirements)}});
+  }
+  const ordered_json all{{"schema", "canhil-acceptance-1"},
+                         {"target", report.target},
+                         {"started_s", report.started_s},
+                         {"outcome", checks::name(report.outcome())},
+                         {"suites", std::move(suites)}};
+  return all.dump(1) + "\n";
+}
+
+std::string junit(const Report& report) {
+  std::string suites;
+  for (const Acceptance& suite : report.suites) {
+    std::vector<checks::CheckResult> cases;
+    for (const Finding& finding : suite.findings) {
+      for (const Item& item : finding.items) {
+        cases.push_back({.name = item.name,
+                         .kind = finding.requirement.family,
+                         .requirement = finding.requirement.id,
+                         .outcome = item.outcome,
+                         .measured = item.measured,
+                         .expected = item.expected});
+      }
+    }
+    suites += report::junit_suite(suite.title, cases, suite.wall_s, report.started_s);
+  }
+  return report::junit_whole(suites);
+}
+
+std::string page(const Report& report) {
+  const std::string_view verdict = checks::name(report.outcome());
+  const auto [style, sign] = report::look_of(verdict);
+  std::string body = fmt::format("<h1>Acceptance</h1>\n<p class=\"sub\">{}</p>\n", escaped(report.target));
+  body += fmt::format("<p class=\"verdict {}\"><b>{} {}</b></p>\n", style, sign, verdict);
+  report::Rows rows;
+  for (const Acceptance& suite : report.suites)
+    rows.push_back({escaped(suite.estimator), sign_of(suite.outcome()), counts(suite)});
+  body += report::table({"estimator", "outcome", "requirements"}, rows);
+  for (const Acceptance& suite : report.suites) body += section(suite);
+  return report::whole_page(fmt::format("{}: acceptance", verdict), report::styles, body);
+}
+
+}  // namespace canhil::accept

@@ -1,0 +1,201 @@
+#include "bench/accept/suite.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/drive/contract.hpp"
+#include "bench/observe/values.hpp"
+#include "bench/scenario/section.hpp"
+#include "dbc/files/text_file.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::accept {
+namespace {
+
+namespace fs = std::filesystem;
+using scenario::Limits;
+using scenario::Section;
+using scenario::Setting;
+
+constexpr std::int64_t most_rows = 1000;
+
+/// Whether "Message.signal" is in the contract.
+bool names_one(std::string_view name) {
+  const std::size_t dot = std::min(name.find('.'), name.size());
+  const auto message = std::ranges::find(messages::all_messages, name.substr(0, dot), &MessageInfo::name);
+  return message != messages::all_messages.end() && dot < name.size() &&
+         observe::signal_of(*message, name.substr(dot + 1)) != nullptr;
+}
+
+// One file being read.
+class Reader {
+ public:
+  Reader(fs::path folder, std::string_view text)
+      : file_((folder / "suite.toml").string()), root_(Section::parse(text, file_)) {
+    suite_.folder = std::move(folder);
+  }
+
+  Result<Suite> read() {
+    suite_.title = root_.text("title");
+    suite_.estimator = root_.text("estimator");
+    for (Section& section : root_.tables("requirement")) read_requirement(section);
+    for (Section& section : tables("flight")) read_flight(section);
+    for (Section& section : tables("parameter")) read_parameter(section);
+    for (Section& section : tables("campaign")) {
+      suite_.campaigns.push_back({.file = section.text("file")});
+      section.finish();
+    }
+    if (auto apply = root_.optional_table("apply")) {
+      const std::string parameter = apply->one_of("parameter", drive::contract().parameters);
+      suite_.apply.emplace(parameter, apply->plain_number("value", {}));
+      apply->finish();
+    }
+    if (root_.has("dialogue")) suite_.dialogue = scenario(root_, "dialogue", {});
+    root_.optional("dialogue");
+    root_.finish();
+    if (const auto error = root_.error()) return tl::unexpected(*error);
+    if (error_) return tl::unexpected(*error_);
+    return std::move(suite_);
+  }
+
+ private:
+  std::vector<Section> tables(std::string_view key) {
+    if (root_.has(key)) return root_.tables(key);
+    root_.optional(key);
+    return {};
+  }
+
+  void read_requirement(Section& section) {
+    Requirement requirement{
+        .id = section.text("id"), .family = section.one_of("family", families), .text = section.text("text")};
+    if (suite_.find(requirement.id) != nullptr)
+      section.reject("id", fmt::format("'{}' is there twice", requirement.id), "each once");
+    suite_.requirements.push_back(std::move(requirement));
+    section.finish();
+  }
+
+  std::string requirement(Section& section, std::string_view key) {
+    std::string id = section.text(key);
+    if (suite_.find(id) == nullptr && !section.error())
+      section.reject(key, fmt::format("'{}' is no requirement of this suite", id), "the id of one above");
+    return id;
+  }
+
+  const Flight* flight(Section& section, std::string_view key) {
+    const std::string name = section.text(key);
+    const auto found = std::ranges::find(suite_.flights, name, &Flight::name);
+    if (found != suite_.flights.end()) return &*found;
+    if (!section.error())
+      section.reject(key, fmt::format("'{}' is no flight before this one", name), "the name of one");
+    return nullptr;
+  }
+
+  scenario::Scenario scenario(Section& section, std::string_view key, const std::vector<Setting>& settings) {
+    const std::string name = section.text(key);
+    if (section.error()) return {};
+    const auto refused = [&](const Error& error) {
+      if (!error_) error_ = Error{fmt::format("{}: {}", section.where(key), error.message)};
+    };
+    const auto text = read_text_file(suite_.folder / name, "a scenario file", scenario::most_toml_bytes);
+    if (!text) {
+      refused(text.error());
+      return {};
+    }
+    auto read = scenario::parse(*text, name, drive::contract(), settings);
+    if (!read) {
+      refused(read.error());
+      return {};
+    }
+    return std::move(*read);
+  }
+
+  void read_flight(Section& section) {
+    Flight flight{.name = section.text("name")};
+    if (std::ranges::find(suite_.flights, flight.name, &Flight::name) != suite_.flights.end())
+      section.reject("name", fmt::format("'{}' is there twice", flight.name), "each once");
+    std::vector<Setting> settings;
+    if (auto set = section.optional_table("set")) settings = set->settings();
+    flight.scenario = scenario(section, "scenario", settings);
+    flight.requirement = requirement(section, "requirement");
+    if (section.has("reference")) flight.reference = requirement(section, "reference");
+    section.optional("reference");
+    flight.rows = static_cast<std::size_t>(section.optional_integer("rows", 1).value_or(12));
+    if (flight.rows > most_rows) section.reject("rows", "are too many", fmt::format("at most {}", most_rows));
+    if (auto same = section.optional_table("same_as")) {
+      const Flight* other = this->flight(*same, "flight");
+      flight.same_as = SameAs{.flight = other == nullptr ? "" : other->name,
+                              .requirement = requirement(*same, "requirement"),
+                              .steps = same->plain_number("steps", Limits::at_least(0), 0),
+                              .relative = same->plain_number("relative", Limits::at_least(0), 0)};
+      same->finish();
+    }
+    if (auto moves = section.optional_table("moves")) {
+      const Flight* other = this->flight(*moves, "beside");
+      const std::string signal = moves->text("signal");
+      const std::size_t dot = signal.find('.');
+      if (!names_one(signal) && !moves->error())
+        moves->reject("signal", fmt::format("'{}' is in no message", signal),
+                      "a signal of one: Message.signal");
+      flight.moves = Move{.flight = other == nullptr ? "" : other->name,
+                          .message = signal.substr(0, dot),
+                          .signal = dot == std::string::npos ? "" : signal.substr(dot + 1),
+                          .up = moves->one_of("to", std::vector<std::string>{"more", "less"}) == "more",
+                          .requirement = requirement(*moves, "requirement")};
+      moves->finish();
+    }
+    flight.real_time = section.optional_integer("real_time", 0).value_or(0) != 0;
+    flight.faults = section.optional_integer("faults", 0).value_or(0) != 0;
+    section.finish();
+    suite_.flights.push_back(std::move(flight));
+  }
+
+  void read_parameter(Section& section) {
+    Parameter parameter{.name = section.one_of("name", drive::contract().parameters)};
+    parameter.least = section.plain_number("least", {});
+    parameter.most = section.plain_number("most", {});
+    parameter.whole = section.optional_integer("whole", 0).value_or(0) != 0;
+    parameter.in_flight = section.optional_integer("in_flight", 0).value_or(0) != 0;
+    section.finish();
+    suite_.parameters.push_back(std::move(parameter));
+  }
+
+  std::string file_;
+  Section root_;
+  Suite suite_;
+  std::optional<Error> error_;  // of a file that is named
+};
+
+}  // namespace
+
+const Requirement* Suite::find(std::string_view id) const {
+  const auto found = std::ranges::find(requirements, id, &Requirement::id);
+  return found == requirements.end() ? nullptr : &*found;
+}
+
+fs::path Suite::reference_of(const Flight& flight) const {
+  std::string name = flight.name;
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return folder / "reference" / (name + ".txt");
+}
+
+Result<Suite> read_suite(const fs::path& folder) {
+  const auto text = read_text_file(folder / "suite.toml", "a suite", scenario::most_toml_bytes);
+  if (!text) return tl::unexpected(text.error());
+  return Reader(folder, *text).read();
+}
+
+Result<std::vector<fs::path>> suites_in(const fs::path& folder) {
+  std::vector<fs::path> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (fs::exists(entry.path() / "suite.toml", error)) found.push_back(entry.path());
+  }
+  std::ranges::sort(found);
+  if (found.empty())
+    return failure(fmt::format("{}: has no suites, expected folders with suite.toml", folder.string()));
+  return found;
+}
+
+}  // namespace canhil::accept

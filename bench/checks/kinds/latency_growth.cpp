@@ -1,0 +1,46 @@
+#include "bench/checks/kinds/latency_growth.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/latency.hpp"
+#include "bench/checks/timing.hpp"
+#include "bench/scenario/rule.hpp"
+
+namespace canhil::checks {
+
+using scenario::Limits;
+
+LatencyGrowth LatencyGrowth::read(scenario::Section& section, const scenario::CheckContext& context) {
+  LatencyGrowth rule;
+  rule.message = read_answer(section, context);
+  const scenario::Window window = scenario::read_window(section, context.duration_us);
+  const std::int64_t third_us = (window.to_us - window.from_us) / 3;
+  rule.first = {.from_us = window.from_us, .to_us = window.from_us + third_us};
+  rule.last = {.from_us = window.to_us - third_us, .to_us = window.to_us};
+  rule.ratio_below = section.number("ratio_below", Limits::above(1));
+  return rule;
+}
+
+Finding LatencyGrowth::judge(const Evidence& evidence) const {
+  constexpr double median = 0.5;
+  const std::string expected = fmt::format("median latency of {} {} < {:g} times that {}", message,
+                                           seconds(last), ratio_below, seconds(first));
+  const TimedWindow* early = find_window(evidence.seen.timing, message, first);
+  const TimedWindow* late = find_window(evidence.seen.timing, message, last);
+  if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
+  if (early == nullptr || late == nullptr) return {Outcome::not_measured, "no times were taken", expected};
+  if (early->latency.count() == 0 || late->latency.count() == 0)
+    return {Outcome::fail, "no answers", expected};
+  const double before_s = early->latency.quantile_ns(median) * 1e-9;
+  const double after_s = late->latency.quantile_ns(median) * 1e-9;
+  // The bench's own lateness is to be small beside the bar, which is the early median times the ratio.
+  if (auto why = unfit(evidence, median, ratio_below * before_s); !why.empty())
+    return {Outcome::not_measured, std::move(why), expected};
+  return {pass_if(after_s < ratio_below * before_s),
+          fmt::format("{:.3f} ms of {}, before {:.3f} ms of {}", after_s * 1e3, late->latency.count(),
+                      before_s * 1e3, early->latency.count()),
+          expected};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,21 @@
+// Timing: whether answers become slower as a run goes on, as where computing time or a queue grows.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+/// The median latency of the window's last third over that of its first.
+struct LatencyGrowth {
+  static constexpr std::string_view kind = "latency_growth";
+  std::string message;
+  scenario::Window first, last;
+  double ratio_below = 0;
+
+  static LatencyGrowth read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const { return message; }
+  [[nodiscard]] std::vector<Timed> timed() const { return {{message, first}, {message, last}}; }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

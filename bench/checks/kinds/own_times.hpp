@@ -1,0 +1,16 @@
+// Timing: what the target tells of its own times (TargetTiming) beside the latency that the bench measures.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+/// The queueing and computing times told are of something, and no longer than the latencies.
+struct OwnTimes {
+  static constexpr std::string_view kind = "own_times";
+
+  static OwnTimes read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

@@ -1,0 +1,56 @@
+#include "bench/checks/kinds/sigma.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/kinds/of_tracks.hpp"
+
+namespace canhil::checks {
+
+Sigma Sigma::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Sigma rule;
+  rule.of = read_subject(section, context, [](const quantities::Quantity& quantity) {
+    return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
+  });
+  rule.stretch = read_stretch(section, context, rule.of);
+  const auto [range, unit] = read_range(section, "between", *rule.of.quantity);
+  std::tie(rule.low, rule.high) = range;
+  rule.unit = unit;
+  return rule;
+}
+
+Finding Sigma::judge(const Evidence& evidence) const {
+  const std::string expected = fmt::format("sigma between {:g} and {:g} {} {}", low / unit.factor,
+                                           high / unit.factor, unit.name, words(stretch));
+  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
+  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  const quantities::Track& track = *tracks.front();
+  const std::vector<std::size_t> part = inside(track, stretch);
+  if (auto gap = silence(track, stretch, part); !gap.empty())
+    return {Outcome::fail, std::move(gap), expected};
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  std::size_t without = 0;
+  bool within = true;
+  for (const std::size_t place : part) {
+    const std::optional<double>& sigma = track.told[place].sigma;
+    if (!sigma) {
+      ++without;
+      continue;
+    }
+    within = within && *sigma >= low && *sigma <= high;  // what is no number is not within
+    least = std::min(least, *sigma);
+    most = std::max(most, *sigma);
+  }
+  if (without > 0)
+    return {Outcome::fail, fmt::format("{} of {} answers have no sigma", without, part.size()), expected};
+  const int digits = digits_of(unit);
+  return {pass_if(within),
+          fmt::format("{:.{}f} to {:.{}f} {} of {}", least / unit.factor, digits, most / unit.factor, digits,
+                      unit.name, part.size()),
+          expected};
+}
+
+}  // namespace canhil::checks

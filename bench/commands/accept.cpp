@@ -1,0 +1,153 @@
+#include "bench/accept/accept.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <ctime>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/accept/report.hpp"
+#include "bench/commands/campaign.hpp"
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/interrupt.hpp"
+#include "bench/commands/program.hpp"
+#include "bench/commands/progress_line.hpp"
+#include "bench/drive/program_file.hpp"
+#include "bench/report/file.hpp"
+
+namespace canhil::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As typed.
+struct Arguments {
+  std::string suites = CANHIL_SUITES;
+  std::string target = own_folder() + "/hil-target";
+  std::vector<std::string> estimators, families;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::uint64_t> share;
+  bool record = false, first = false;
+  std::string json, junit, html;
+};
+
+Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
+  const auto folders = accept::suites_in(arguments.suites);
+  if (!folders) return tl::unexpected(folders.error());
+  std::vector<accept::Suite> suites;
+  std::vector<std::string> names;
+  for (const fs::path& folder : *folders) {
+    auto suite = accept::read_suite(folder);
+    if (!suite) return tl::unexpected(suite.error());
+    names.push_back(suite->estimator);
+    const auto& wanted = arguments.estimators;
+    if (wanted.empty() || std::ranges::find(wanted, suite->estimator) != wanted.end())
+      suites.push_back(std::move(*suite));
+  }
+  for (const std::string& name : arguments.families) {
+    if (std::ranges::find(accept::families, name) == accept::families.end())
+      return failure(fmt::format("--family '{}': is none, expected one of: {}", name,
+                                 fmt::join(accept::families, ", ")));
+  }
+  for (const std::string& name : arguments.estimators) {
+    if (std::ranges::find(names, name) == names.end())
+      return failure(fmt::format("--estimator '{}': has no suite in {}, expected one of: {}", name,
+                                 arguments.suites, fmt::join(names, ", ")));
+  }
+  return suites;
+}
+
+Result<void> check_outputs(const Arguments& arguments) {
+  if (auto distinct =
+          report::check_distinct({arguments.target, arguments.json, arguments.junit, arguments.html});
+      !distinct)
+    return distinct;
+  for (const std::string& path : {arguments.json, arguments.junit, arguments.html}) {
+    if (path.empty() || (path == report::to_stdout && path != arguments.html)) continue;
+    if (auto writable = report::check_writable(path); !writable) return writable;
+  }
+  return {};
+}
+
+Result<void> write_reports(const Arguments& arguments, const accept::Report& all) {
+  if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
+    if (auto shown = report::write_stdout(accept::text(all)); !shown) return shown;
+  }
+  if (!arguments.json.empty()) {
+    if (auto written = report::write(arguments.json, accept::json(all)); !written) return written;
+  }
+  if (!arguments.junit.empty()) {
+    if (auto written = report::write(arguments.junit, accept::junit(all)); !written) return written;
+  }
+  return arguments.html.empty() ? Result<void>{} : report::write_file(arguments.html, accept::page(all));
+}
+
+ExitCode execute(const Arguments& arguments) {
+  if (auto fine = drive::check_target(arguments.target); !fine) return complain(fine.error());
+  if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
+  const auto suites = read(arguments);
+  if (!suites) return complain(suites.error());
+  catch_interrupts();
+  const ProgressLine line;
+  const auto progress = [&](const std::string& what) { line.show([&] { return what; }); };
+  accept::Report all{.target = arguments.target, .started_s = std::time(nullptr), .suites = {}};
+  for (const accept::Suite& suite : *suites) {
+    if (arguments.record) {
+      if (auto recorded = accept::record(suite, interrupted, progress); !recorded)
+        return complain(recorded.error());
+      continue;
+    }
+    accept::Options options{.target = arguments.target, .seed = arguments.seed};
+    options.share = static_cast<double>(arguments.share.value_or(1));
+    options.first_failure = arguments.first;
+    options.families = arguments.families;
+    options.progress = progress;
+    auto one = accept::accept(suite, options, interrupted);
+    if (!one) return complain(one.error());
+    all.suites.push_back(std::move(*one));
+    if (interrupted || (arguments.first && all.outcome() == checks::Outcome::fail)) break;
+  }
+  line.clear();
+  if (interrupted) {
+    fmt::print(stderr, "hil-bench: interrupted\n");
+    return ExitCode::not_measured;
+  }
+  if (arguments.record) return ExitCode::pass;
+  if (auto written = write_reports(arguments, all); !written) return complain(written.error());
+  return exit_code(all.outcome());
+}
+
+}  // namespace
+
+void add_accept(command_line::Command app, int& code) {
+  auto arguments = std::make_shared<Arguments>();
+  const auto command = app.add_subcommand(std::string(accept_name), std::string(accept_summary));
+  command.add_option("--target", arguments->target, "program (default: hil-target beside hil-bench)");
+  command
+      .add_option("--estimator", arguments->estimators, "only its suite; may be given again (default: all)")
+      .one_word_each();
+  command.add_option("--suites", arguments->suites, "folder of suites (default: those of the project)");
+  command.add_number("--seed", arguments->seed, "of the campaigns, in place of their own");
+  command.add_number("--tolerance", arguments->share,
+                     "multiplies by how much an answer may differ from the reference's (default: 1)", 1,
+                     1'000'000);
+  command.add_flag("--first-failure", arguments->first, "stop at the first requirement that is not met");
+  command
+      .add_option("--family", arguments->families,
+                  fmt::format("only requirements of this family; may be given again: {}",
+                              fmt::join(accept::families, ", ")))
+      .one_word_each();
+  command.add_flag("--record", arguments->record,
+                   "make the references anew, from the target's code in this program");
+  command.add_option("--json", arguments->json,
+                     "write the report as JSON to a file; -: to stdout, in place of the text");
+  command.add_option("--junit", arguments->junit,
+                     "write it as JUnit XML to a file; -: to stdout, in place of the text");
+  command.add_option("--html", arguments->html, "write it as one HTML page to a file");
+  command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+}
+
+}  // namespace canhil::commands

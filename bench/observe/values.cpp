@@ -1,0 +1,71 @@
+#include "bench/observe/values.hpp"
+
+#include <fmt/format.h>
+
+#include <tuple>
+#include <type_traits>
+
+#include "dbc/wire/routes.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::observe {
+namespace {
+
+constexpr Routes answers([](const MessageInfo& info) {
+  return info.sender == messages::TargetHeartbeat::info.sender &&
+         info.id != messages::TargetTiming::info.id && info.id != messages::StepDone::info.id;
+});
+
+// Calls visit.operator()<Message>() for the message that a frame is; not at all for one of none.
+template <class Visit>
+void as_message(const Frame& frame, Visit visit) {
+  const auto try_one = [&]<class Message>(std::type_identity<Message>) {
+    if (frame.id == Message::info.id && frame.size == Message::size &&
+        frame.extended == Message::info.extended) {
+      visit.template operator()<Message>();
+    }
+  };
+  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+    (try_one(std::type_identity<Messages>{}), ...);
+  }(std::type_identity<messages::AllMessages>{});
+}
+
+}  // namespace
+
+bool is_answer(const Frame& frame) { return answers(frame) != Routes::nowhere; }
+
+std::vector<Value> values_of(const Frame& frame) {
+  std::vector<Value> values;
+  as_message(frame, [&]<class Message>() {
+    const Message message = from_frame<Message>(frame);
+    Message::visit(message, [&](const SignalInfo& signal, const auto& value) {
+      const auto number = static_cast<double>(value);
+      if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
+        values.push_back({&signal, number, std::string(name_of(value))});
+      } else {
+        // To 12 digits: resolves every signal, and hides what binary makes of a decimal fraction.
+        values.push_back({&signal, number, fmt::format("{:.12g}", number)});
+      }
+    });
+  });
+  return values;
+}
+
+const SignalInfo* signal_of(const MessageInfo& message, std::string_view name) {
+  Frame frame;
+  frame.id = message.id;
+  frame.extended = message.extended;
+  frame.size = message.size;
+  for (const Value& value : values_of(frame)) {
+    if (value.signal->name == name) return value.signal;
+  }
+  return nullptr;
+}
+
+std::string_view message_of(const Frame& frame) {
+  std::string_view name;
+  as_message(frame, [&]<class Message>() { name = Message::info.name; });
+  return name;
+}
+
+}  // namespace canhil::observe

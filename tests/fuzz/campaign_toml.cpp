@@ -1,0 +1,28 @@
+// Any text as a campaign, over a scenario of its own: a Campaign, or one line that names the file. With it
+// the settings that variants and sweeps put into a scenario.
+#include <cstdint>
+
+#include "bench/campaign/campaign.hpp"
+#include "tests/fuzz/expect.hpp"
+#include "tests/fuzz/short_scenario.hpp"
+
+using namespace canhil;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const auto campaign = campaign::parse_campaign(
+      text, "fuzz.toml",
+      [](const std::string&) -> Result<std::string> { return std::string(fuzz::short_scenario); });
+  if (!campaign) {
+    fuzz::expect_one_line(campaign.error().message, "fuzz.toml:");
+    return 0;
+  }
+  // What is kept with the results reads as the same campaign.
+  const auto again = campaign::parse_campaign(campaign->sources);
+  fuzz::expect(again && again->hash == campaign->hash && again->variants.size() == campaign->variants.size());
+  for (const campaign::Metric& metric : campaign->metrics) {
+    for (const std::size_t variant : campaign::variants_of(*campaign, metric))
+      fuzz::expect(variant < campaign->variants.size());
+  }
+  return 0;
+}

@@ -1,0 +1,29 @@
+// What must hold of every input, and of every error.
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+namespace canhil::fuzz {
+
+inline void expect(bool holds) {
+  if (!holds) std::abort();
+}
+
+/// An error that says something. What it quotes of a file stands there as it is: who shows it makes one line
+/// of it.
+inline void expect_words(std::string_view message, std::string_view begins_with = "") {
+  expect(!message.empty() && message.starts_with(begins_with));
+}
+
+/// An error that is one line as it is.
+inline void expect_one_line(std::string_view message, std::string_view begins_with = "") {
+  expect_words(message, begins_with);
+  const bool one_line = std::ranges::none_of(message, [](char c) { return c >= '\0' && c < ' '; });
+  if (!one_line) std::fprintf(stderr, "no line: '%.*s'\n", static_cast<int>(message.size()), message.data());
+  expect(one_line);
+}
+
+}  // namespace canhil::fuzz

@@ -1,0 +1,81 @@
+// Frames of an FD bus: what comes out of a container goes into the same one again, and classic frames come
+// out of the containers that they are packed into, in their order.
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "dbc/ports/fd_groups.hpp"
+#include "dbc/ports/frame_rules.hpp"
+#include "messages/canhil_fd.hpp"
+#include "tests/fuzz/expect.hpp"
+
+namespace {
+
+using canhil::Frame;
+using canhil::fuzz::expect;
+
+bool is_empty(const Frame& frame) {
+  return std::ranges::all_of(frame.payload(), [](std::uint8_t byte) { return byte == 0; });
+}
+
+std::vector<Frame> packed(std::span<const Frame> frames) {
+  canhil::FdPacker packer;
+  std::vector<Frame> wire;
+  for (const Frame& frame : frames) packer.pack(frame, [&](const Frame& out) { wire.push_back(out); });
+  // A frame of no container sends off what was begun.
+  packer.pack({.id = canhil::max_standard_id, .size = 1}, [&](const Frame& out) { wire.push_back(out); });
+  wire.pop_back();
+  return wire;
+}
+
+std::vector<Frame> unpacked(std::span<const Frame> wire) {
+  std::vector<Frame> frames;
+  for (const Frame& frame : wire) {
+    const canhil::FdUnpacked inside(frame);
+    frames.insert(frames.end(), inside.frames().begin(), inside.frames().end());
+  }
+  return frames;
+}
+
+}  // namespace
+
+// For each frame a byte of kind, one that chooses an id, and its data.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  enum Kind : std::uint8_t { any_id = 1, fd = 2, any_size = 4, extended = 8 };
+  std::span<const std::uint8_t> rest(data, size);
+  std::vector<Frame> classic, wire, containers;
+  while (rest.size() >= 3) {
+    const std::uint8_t kind = rest[0], which = rest[1];
+    const canhil::wire::FdContainer& container =
+        canhil::messages_fd::containers[which % canhil::messages_fd::containers.size()];
+    const std::size_t slot = (which / canhil::messages_fd::containers.size()) % container.count;
+    Frame frame{.id = container.slots[slot], .size = 8};
+    frame.fd = frame.brs = (kind & fd) != 0;
+    if (frame.fd) frame = {.id = container.id, .size = container.size, .fd = true, .brs = true};
+    if ((kind & any_id) != 0) frame.id = (which * 8U + rest[2]) & canhil::max_standard_id;
+    if ((kind & any_size) != 0) frame.size = static_cast<std::uint8_t>(rest[2] % (frame.fd ? 65 : 9));
+    frame.extended = (kind & extended) != 0;
+    rest = rest.subspan(3);
+    const auto taken = rest.first(std::min<std::size_t>(frame.size, rest.size()));
+    std::ranges::copy(taken, frame.data.begin());
+    rest = rest.subspan(taken.size());
+    // Behind the last slot there is nothing that comes out again.
+    if (kind == fd) std::fill(frame.data.begin() + container.count * 8, frame.data.end(), std::uint8_t{0});
+    if (!canhil::can_carry(frame, true)) continue;
+    if (frame.fd) wire.push_back(frame);
+    if (is_empty(frame)) continue;  // an empty slot is a message that is not there
+    if (!frame.fd) classic.push_back(frame);
+    if (kind == fd) containers.push_back(frame);
+  }
+  expect(unpacked(packed(classic)) == classic);
+  for (const Frame& container : containers) {
+    const auto again = packed(unpacked({&container, 1}));
+    expect(again.size() == 1 && again.front() == container);
+  }
+  // In one stream, as a bus brings them: the same frames again.
+  auto inside = unpacked(wire);
+  std::erase_if(inside, is_empty);
+  expect(unpacked(packed(inside)) == inside);
+  return 0;
+}

@@ -1,0 +1,130 @@
+// The bench against a target that may say anything: handshake, run, verdict, reports and a campaign's samples
+// of what was heard. The input says what becomes of the answers of a sound device; most are left as they are,
+// so that a run goes on to its end and what is odd meets what is not.
+#include <atomic>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "bench/campaign/series.hpp"
+#include "bench/checks/judge.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/flight.hpp"
+#include "bench/drive/handshake.hpp"
+#include "bench/drive/lockstep.hpp"
+#include "bench/drive/real_time.hpp"
+#include "bench/drive/session.hpp"
+#include "bench/estimators/registry.hpp"
+#include "bench/observe/bus_watch.hpp"
+#include "bench/observe/intruders.hpp"
+#include "bench/observe/load_meter.hpp"
+#include "bench/observe/monitor.hpp"
+#include "bench/report/page.hpp"
+#include "bench/report/run_reports.hpp"
+#include "bench/report/whole.hpp"
+#include "tests/fuzz/expect.hpp"
+#include "tests/fuzz/meddler.hpp"
+
+namespace {
+
+using namespace canhil;
+
+struct Prepared {
+  scenario::Scenario scenario;
+  world::FlightRecord truth;
+};
+
+Prepared prepare() {
+  auto scenario = scenario::read_file(FLIGHT, drive::contract());
+  fuzz::expect(scenario.has_value());
+  auto truth = drive::make_truth(*scenario);
+  fuzz::expect(truth.has_value());
+  return {std::move(*scenario), std::move(*truth)};
+}
+
+// As a session collects them.
+checks::Observations collected(observe::Monitor& monitor, const observe::BusWatch& bus,
+                               const observe::Intruders& intruders, const observe::LoadMeter& load,
+                               const drive::Link& link) {
+  checks::Observations seen = monitor.finish();
+  seen.bus = bus.record();
+  seen.bus.intruded = intruders.frames();
+  seen.bit_rates = link.port().capabilities().wire.rates;
+  seen.length_by_second = load.lengths();
+  seen.bus.reports_errors = true;
+  return seen;
+}
+
+// All that is made of a run. A report that the bench writes it must read.
+void report_all(const scenario::Scenario& scenario, const drive::Run& run) {
+  fuzz::expect(!report::text(scenario, run).empty());
+  fuzz::expect(!report::junit(scenario, run).empty());
+  fuzz::expect(!report::csv(scenario, run).empty());
+  const auto document = report::document(scenario, run);
+  const std::string lacks = report::why_not_whole(document);
+  if (!lacks.empty()) std::fprintf(stderr, "the report is not whole: %s\n", lacks.c_str());
+  fuzz::expect(lacks.empty() && report::html(document).has_value());
+}
+
+void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_t> script) {
+  enum : std::uint8_t { lockstep = 1, samples = 2, reports = 0xE0 };  // reports take far longer than the run
+  const auto& [scenario, truth] = prepared;
+  static const std::atomic<bool> never = false;
+  auto flight = drive::make_flight(scenario, truth, 0);
+  fuzz::expect(flight.has_value());
+  fuzz::Meddler port(script);
+  drive::Link link(port);
+  drive::Schedule schedule =
+      drive::make_schedule(scenario, truth, flight->own_truth, 0, (how & lockstep) != 0);
+  observe::BusWatch bus(port);
+  observe::Intruders intruders;
+  const drive::Attached bus_watched(link, bus), intruders_watched(link, intruders);
+  const auto ready = drive::configure(link, schedule.outbox(), scenario.targets, flight->initial,
+                                      [] { return std::nullopt; });
+  if (!ready) return fuzz::expect_words(ready.error().message);
+
+  observe::Monitor monitor(checks::timed_windows(scenario.checks), port.capabilities().wire);
+  observe::LoadMeter load(BusFormat::classic, observe::LoadBy::stamps);
+  drive::Ending ending;
+  {
+    const drive::Attached monitored(link, monitor), loaded(link, load), listening(link, schedule);
+    const auto progress = [](std::int64_t) {};
+    ending = (how & lockstep) != 0 ? drive::run_lockstep(link, schedule, 1, never, progress)
+                                   : drive::run_real_time(link, schedule, 400'000'000, never, progress);
+  }
+  drive::stop(link, schedule.outbox(), scenario.targets);
+  checks::Observations seen = collected(monitor, bus, intruders, load, link);
+  std::string timing_unfit = checks::unfit_for_timing(seen);
+  const checks::Verdict verdict =
+      checks::judge(scenario, {.seen = seen,
+                               .truth = drive::truth_of(truth, flight->own_truth, scenario.duration_us),
+                               .estimators = estimators::all(),
+                               .ended_early = ending.detail,
+                               .timing_unfit = timing_unfit});
+  fuzz::expect(verdict.checks.size() >= scenario.checks.size());
+  if ((how & samples) != 0) {
+    const drive::Collected whole{.ending = ending, .seen = seen, .own_truth = flight->own_truth};
+    for (const estimators::Estimator* one : estimators::all()) {
+      const auto series = campaign::series_of(0, whole, truth, *one);
+      const auto again = quantities::decode(quantities::encode(series.samples), one->layout);
+      fuzz::expect(again && again->size() == series.samples.size());
+    }
+  }
+  if ((how & reports) == reports) {
+    report_all(scenario, {.verdict = verdict,
+                          .ending = ending,
+                          .seen = std::move(seen),
+                          .truth = truth,
+                          .own_truth = std::move(flight->own_truth),
+                          .options = {},
+                          .clock = drive::ClockKind::simulated_wire,
+                          .timing_unfit = std::move(timing_unfit)});
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Prepared prepared = prepare();
+  if (size > 0) fly(prepared, data[0], {data + 1, size - 1});
+  return 0;
+}

@@ -1,0 +1,92 @@
+"""A target with one file replaced: what the file touches is compiled again, the rest is linked as it was built.
+
+build(folder, name, file, text) says where the program is. The build folder is asked for everything: `ninja -t deps` which objects read
+the file, `ninja -t compdb` how they are compiled, `ninja -t commands` how the target is linked.
+"""
+import functools
+import json
+import re
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class DoesNotBuild(Exception):
+    """The first line of what the compiler said."""
+
+
+def ask(folder, *words):
+    return subprocess.run(["ninja", "-C", str(folder), "-t", *words], capture_output=True, text=True, check=True).stdout
+
+
+@functools.lru_cache(maxsize=None)
+def readers(folder):
+    """{file of the project: objects of the target that read it}"""
+    found, name = {}, None
+    for line in ask(folder, "deps").splitlines():
+        if line and not line.startswith(" "):
+            name = line.split(":", 1)[0]
+        elif line.strip().startswith("../../") and name.startswith("target/"):
+            found.setdefault(line.strip()[len("../../"):], set()).add(name)
+    return found
+
+
+@functools.lru_cache(maxsize=None)
+def compilations(folder):
+    """{object: command}"""
+    return {entry["output"]: entry["command"] for entry in json.loads(ask(folder, "compdb")) if entry["output"].endswith(".o")}
+
+
+@functools.lru_cache(maxsize=None)
+def linking(folder):
+    """The words of the command that links the target."""
+    last = [line for line in ask(folder, "commands", "hil-target").splitlines() if "-o hil-target" in line][-1]
+    return shlex.split(re.sub(r"^: && (.*?) && :$", r"\1", last))
+
+
+def compile_again(folder, place, file, name):
+    """The object `name` with the file of `place` in the project's place."""
+    words, again = shlex.split(compilations(folder)[name]), place / name
+    again.parent.mkdir(parents=True, exist_ok=True)
+    kept, skip = [], 0
+    for word in words:
+        if skip:
+            skip -= 1
+        elif word in ("-MT", "-MF", "-o"):
+            skip = 1
+        elif word != "-MD":
+            kept.append(str(place / file) if Path(word) == ROOT / file else word)
+    first = next(i for i, word in enumerate(kept) if word.startswith("-I"))
+    kept[first:first] = [f"-I{place}"]  # before the project's own files of the same name
+    finished = subprocess.run([*kept, "-o", str(again)], cwd=folder, capture_output=True, text=True)
+    if finished.returncode != 0:
+        lines = [line for line in finished.stderr.splitlines() if re.search(r"\berror\b", line)]
+        raise DoesNotBuild((lines or finished.stderr.splitlines() or ["no output"])[0])
+    return again
+
+
+def build(folder, name, file, text):
+    place = folder / "mutants" / name
+    (place / file).parent.mkdir(parents=True, exist_ok=True)
+    (place / file).write_text(text)
+    names = sorted(readers(folder).get(file, ()))
+    if not names:
+        raise DoesNotBuild(f"{file}: no object of the target reads it")
+    again = {one: compile_again(folder, place, file, one) for one in names}
+    words = linking(folder)
+    words = [str(again.pop(word)) if word in again else word for word in words]
+    target = place / "hil-target"
+    at = words.index("-o")
+    # What was compiled again comes before the libraries that hold the old ones: the linker takes what it meets first.
+    words[at:at + 2] = [str(one) for one in again.values()] + ["-o", str(target)]
+    finished = subprocess.run(words, cwd=folder, capture_output=True, text=True)
+    if finished.returncode != 0:
+        raise DoesNotBuild((finished.stderr.splitlines() or ["no output"])[-1])
+    return target
+
+
+def remove(target):
+    shutil.rmtree(target.parent)

@@ -1,0 +1,178 @@
+// hil-bench accept, as a user starts it: a small suite of its own, and those of the project.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+constexpr std::string_view suite = R"(title = "A small suite"
+estimator = "transfer_alignment"
+dialogue = "flight.toml"
+
+[[requirement]]
+id = "S-1"
+family = "errors"
+text = "The flight is flown."
+
+[[requirement]]
+id = "S-2"
+family = "algorithms"
+text = "The answers are the reference's."
+
+[[requirement]]
+id = "S-3"
+family = "parameters"
+text = "The noise has its effect."
+
+[[requirement]]
+id = "S-4"
+family = "flags and states"
+text = "Silence is a fault."
+
+[[flight]]
+name = "one"
+scenario = "flight.toml"
+requirement = "S-1"
+reference = "S-2"
+
+[[flight]]
+name = "less sure"
+scenario = "flight.toml"
+set = { "target.parameters.velocity_noise_m2ps" = 0.01 }
+requirement = "S-3"
+moves = { beside = "one", signal = "AlignUpdate.nis", to = "less", requirement = "S-3" }
+
+[[flight]]
+name = "silent"
+scenario = "flight.toml"
+set = { "fault" = [{ kind = "lost", messages = ["SlaveImuDeltaTheta", "SlaveImuDeltaV", "SlaveImuStatus"], from_s = 1.0 }] }
+requirement = "S-4"
+faults = 1
+
+[[parameter]]
+name = "h2_case"
+least = 1
+most = 4
+whole = 1
+)";
+
+class Accept : public testing::Test {
+ protected:
+  Accept() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ + "/small");
+    std::ofstream(folder_ + "/small/suite.toml") << suite;
+    // Three seconds without bars: what it is judged by here is the suite's.
+    std::string flight = read(scenario("transfer_alignment_quick"));
+    flight.resize(flight.find("[[check]]"));
+    std::ofstream(folder_ + "/small/flight.toml")
+        << flight << "[[check]]\nkind = \"answers\"\nanswers_at_least = 200\n";
+  }
+  [[nodiscard]] Ended accept(const std::string& more) const {
+    return hil_bench(fmt::format("accept --suites {} {}", folder_, more));
+  }
+  void change(const std::string& file, const std::string& was, const std::string& is) const {
+    const std::string path = folder_ + "/small/" + file;
+    std::string text = read(path);
+    const auto at = text.find(was);
+    ASSERT_NE(at, std::string::npos) << was;
+    std::ofstream(path) << text.replace(at, was.size(), is);
+  }
+
+  const std::string folder_ = scratch("suites");
+  static constexpr const char* judged =
+      "--family errors --family algorithms --family 'flags and states' --family protocol";
+};
+
+TEST_F(Accept, ATargetThatMeetsEveryRequirementPasses) {
+  ASSERT_EQ(accept("--record").code, 0);
+  const std::string json = scratch("accept.json"), junit = scratch("accept.xml"),
+                    page = scratch("accept.html");
+  const Ended ended = accept(fmt::format("{} --json {} --junit {} --html {}", judged, json, junit, page));
+  EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("PASS          S-2"));
+  EXPECT_THAT(ended.out, HasSubstr("PASS          P-STOP"));
+  EXPECT_THAT(ended.out, HasSubstr("transfer_alignment: pass: 12 of 12 requirements met"));
+  const auto report = read_json(json);
+  EXPECT_EQ(report["outcome"], "pass");
+  EXPECT_EQ(report["suites"][0]["requirements"].size(), 12U);
+  EXPECT_EQ(shell("xmllint --noout " + junit).code, 0);
+  EXPECT_THAT(read(page), HasSubstr("Silence is a fault."));
+}
+
+TEST_F(Accept, AnAnswerThatIsNotTheReferencesIsNamed) {
+  ASSERT_EQ(accept("--record").code, 0);
+  change("flight.toml", "accel_noise_ugprthz = 50",
+         "accel_noise_ugprthz = 80");  // the target is told another noise
+  const Ended ended = accept("--family algorithms");
+  EXPECT_EQ(ended.code, 1) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("FAIL          S-2"));
+  EXPECT_THAT(ended.out,
+              testing::ContainsRegex("flight 'one' as the reference: Align[A-Za-z]+[.][a-z_]+ .*reference"));
+  EXPECT_EQ(accept("--family algorithms --tolerance 1000").code, 0);
+}
+
+TEST_F(Accept, AMoveToTheOtherSideFails) {
+  change("suite.toml", "to = \"less\"", "to = \"more\"");
+  ASSERT_EQ(accept("--record").code, 0);
+  const Ended ended = accept("--family parameters");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.out, HasSubstr("flight 'less sure': AlignUpdate.nis: mean magnitude"));
+}
+
+TEST_F(Accept, AFaultThatDoesNotComeFails) {
+  change("suite.toml", "from_s = 1.0", "from_s = 2.95");  // too late to be a silence
+  ASSERT_EQ(accept("--family protocol").code, 0);
+  const Ended ended = accept("--family 'flags and states'");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(
+      ended.out,
+      HasSubstr("flight 'silent' ends: a flight to its end; expected a heartbeat that tells of a fault"));
+}
+
+TEST_F(Accept, ARangeThatIsNotTheTargetsFails) {
+  ASSERT_EQ(accept("--record").code, 0);
+  change("suite.toml", "most = 4", "most = 5");
+  const Ended ended = accept("--family parameters");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.out, HasSubstr("h2_case = 5: out_of_range"));
+}
+
+TEST_F(Accept, StopsAtTheFirstFailureWhenToldTo) {
+  ASSERT_EQ(accept("--record").code, 0);
+  change("flight.toml", "accel_noise_ugprthz = 50", "accel_noise_ugprthz = 80");
+  const Ended ended = accept("--first-failure");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.out, HasSubstr("NOT MEASURED  S-4"));
+}
+
+TEST_F(Accept, BadInputIsOneLine) {
+  expect_one_line(accept("--target /no/such/program"), "target '/no/such/program': is no program");
+  expect_one_line(accept("--estimator winds"), "--estimator 'winds': has no suite in");
+  expect_one_line(accept("--family error"), "--family 'error': is none, expected one of: errors");
+  expect_one_line(accept("--tolerance 0"), "--tolerance");
+  expect_one_line(accept("--html /no/such/folder/a.html"), "/no/such/folder/a.html");
+  expect_one_line(hil_bench("accept --suites /no/such/folder"), "/no/such/folder: has no suites");
+  expect_one_line(accept(judged), "reference/one.txt: cannot be read");  // not recorded
+  change("suite.toml", "family = \"errors\"", "family = \"error\"");
+  expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
+}
+
+// Each suite without what takes minutes: that the target passes as it is.
+TEST(Suites, ProtocolAndStatesOfTheTargetPass) {
+  const Ended ended = hil_bench("accept --family protocol --family parameters --estimator los_rate");
+  EXPECT_EQ(ended.code, 0) << ended.out;
+  EXPECT_THAT(ended.out, Not(HasSubstr("NOT MEASURED")));
+}
+
+}  // namespace
+}  // namespace canhil::test

@@ -1,0 +1,113 @@
+// That the tests of runs cannot pass with outputs that failed: what they take for passed outputs.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A run in virtual time, where timing is not measured, and what its report would be in other circumstances.
+class OutputComplaints : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const std::string file = scratch("outputs.json");
+    flown_ = hil_bench(
+        fmt::format("run {} --bus in-process --json {}", scenario("transfer_alignment_quick"), file));
+    of_flown_ = read_json(file);
+  }
+
+  // The first check of the kind ended with `outcome`, and so did the run.
+  void end_with(const std::string& kind, const std::string& outcome) {
+    for (auto& check : report_["checks"]) {
+      if (check["kind"] != kind) continue;
+      check["outcome"] = outcome;
+      report_["verdict"] = outcome;
+      ended_.code = outcome == "pass" ? 0 : outcome == "fail" ? 1 : 3;
+      return;
+    }
+    FAIL() << "no check of kind " << kind;
+  }
+  void bench_was_late_by(double s) { report_["bench_lateness_s"]["max"] = s; }
+  [[nodiscard]] std::vector<std::string> complaints() const { return output_complaints(ended_, report_); }
+
+  static inline Ended flown_;
+  static inline nlohmann::json of_flown_;
+  Ended ended_ = flown_;
+  nlohmann::json report_ = of_flown_;
+};
+
+TEST_F(OutputComplaints, NoneOfAGoodRunThoughItsTimingIsNotMeasured) {
+  EXPECT_EQ(report_["verdict"], "not measured");
+  EXPECT_THAT(complaints(), IsEmpty());
+}
+
+TEST_F(OutputComplaints, NameAnOutputThatFailedHoweverLateTheHostWas) {
+  for (const char* kind : {"error", "consistency", "counters"}) {
+    report_ = of_flown_;
+    bench_was_late_by(1);
+    end_with(kind, "fail");
+    EXPECT_THAT(complaints(), ElementsAre(HasSubstr(fmt::format("\"kind\":\"{}\"", kind)),
+                                          "the verdict is 'fail', and no check of timing is why"));
+    end_with("latency", "fail");  // which excuses the verdict, and not that check
+    EXPECT_THAT(complaints(), ElementsAre(HasSubstr(fmt::format("\"kind\":\"{}\"", kind))));
+  }
+}
+
+TEST_F(OutputComplaints, NameAnOutputThatWasNotMeasured) {
+  end_with("error", "not measured");
+  EXPECT_THAT(complaints(), ElementsAre(HasSubstr("error attitude.heading")));
+}
+
+// Half of the bars: 5 ms, 50 % of 10 ms, and 0.5 s.
+TEST_F(OutputComplaints, ExcuseATimingThatFailedByALateHostAlone) {
+  for (const auto& [kind, half_bar_s] :
+       {std::pair{"latency", 2.5e-3}, {"output_period", 2.5e-3}, {"heartbeat", 0.25}}) {
+    report_ = of_flown_;
+    end_with(kind, "fail");
+    EXPECT_THAT(complaints(),
+                ElementsAre(HasSubstr("the host was not late"), HasSubstr("the verdict is 'fail'")))
+        << kind << " in lockstep";
+    bench_was_late_by(0.99 * half_bar_s);
+    EXPECT_THAT(complaints(),
+                ElementsAre(HasSubstr("the host was not late"), HasSubstr("the verdict is 'fail'")))
+        << kind;
+    bench_was_late_by(1.01 * half_bar_s);
+    EXPECT_THAT(complaints(), IsEmpty()) << kind;
+  }
+}
+
+TEST_F(OutputComplaints, NameAnExitCodeAnEndAndTooFewChecks) {
+  ended_.code = 0;
+  EXPECT_THAT(complaints(), ElementsAre("the verdict is 'not measured', the exit code 0"));
+  ended_ = flown_;
+  report_["ending"]["completed"] = false;
+  EXPECT_THAT(complaints(), ElementsAre(HasSubstr("\"completed\":false")));
+  report_ = of_flown_;
+  report_["checks"].erase(0);
+  EXPECT_THAT(complaints(), IsEmpty());
+  report_["checks"].erase(0);
+  EXPECT_THAT(complaints(), ElementsAre("4 checks of outputs, expected at least 5"));
+}
+
+// As it happens: a bar that no estimator meets.
+TEST_F(OutputComplaints, OfARunThatFailed) {
+  const std::string strict = scratch("strict.toml"), file = scratch("strict.json");
+  std::string text = read(scenario("transfer_alignment_quick"));
+  const std::string bar = "below_mrad = 31.0";
+  ASSERT_NE(text.find(bar), std::string::npos);
+  std::ofstream(strict) << text.replace(text.find(bar), bar.size(), "below_mrad = 1e-6");
+  const Ended ended = hil_bench(fmt::format("run {} --bus {} --json {}", strict, bus(), file));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_THAT(output_complaints(ended, read_json(file)), Contains(HasSubstr("error attitude.heading")));
+}
+
+}  // namespace
+}  // namespace canhil::test

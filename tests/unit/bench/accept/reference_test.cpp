@@ -1,0 +1,158 @@
+// How far a target may be from what the reference answered.
+#include "bench/accept/reference.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "dbc/wire/transmit.hpp"
+
+namespace canhil::accept {
+namespace {
+
+using messages::AlignAttitude;
+using messages::TargetHeartbeat;
+using testing::HasSubstr;
+using testing::IsEmpty;
+namespace fs = std::filesystem;
+
+constexpr double heading_step_deg = 0.003;
+
+// A flight of so many answers with a heading that is off by so much, and a flag that is set in some.
+class Flown {
+ public:
+  Flown& attitude(double heading_deg, int coasting = 0) {
+    sync();
+    hear(to_frame(AlignAttitude{.roll_deg = 1,
+                                .pitch_deg = 2,
+                                .heading_deg = heading_deg,
+                                .coasting = static_cast<std::uint8_t>(coasting)},
+                  0));
+    return *this;
+  }
+  template <class Message>
+  Flown& hear(const Message& message) {
+    return hear(to_frame(message, 0));
+  }
+  Answers answers;
+
+ private:
+  Flown& hear(const Frame& frame) {
+    answers.received({.frame = frame});
+    return *this;
+  }
+  void sync() {
+    answers.transmitted(to_frame(messages::Sync{.time_us = static_cast<std::uint64_t>(t_us_ += 10'000)}, 0),
+                        0, 0);
+  }
+  std::int64_t t_us_ = 0;
+};
+
+void fly(Flown& flight, double off_deg, int coasting = 3) {
+  for (int i = 0; i < 100; ++i) flight.attitude(0.03 * i + off_deg, i < coasting ? 1 : 0);
+}
+
+Reference of(double rounding_deg) {
+  Flown rounded, unrounded;
+  fly(rounded, 0);
+  fly(unrounded, rounding_deg);
+  return make_reference(rounded.answers, unrounded.answers, 5);
+}
+
+std::string departure_of(const Reference& reference, double off_deg, int coasting = 3, double share = 1) {
+  Flown flight;
+  fly(flight, off_deg, coasting);
+  return departure(reference, flight.answers, share);
+}
+
+TEST(Reference, IsMetByTheSameAnswers) { EXPECT_THAT(departure_of(of(0), 0), IsEmpty()); }
+
+TEST(Reference, AllowsTwoStepsAtAnInstantButNotInTheMean) {
+  const Reference reference = of(0);
+  EXPECT_THAT(departure_of(reference, heading_step_deg),
+              HasSubstr("AlignAttitude.heading_deg over the flight"));
+  Flown one;
+  for (int i = 0; i < 100; ++i) one.attitude(0.03 * i + (i == 99 ? 2 * heading_step_deg : 0), i < 3 ? 1 : 0);
+  EXPECT_THAT(departure(reference, one.answers), IsEmpty());
+  Flown two;
+  for (int i = 0; i < 100; ++i) two.attitude(0.03 * i + (i == 99 ? 4 * heading_step_deg : 0), i < 3 ? 1 : 0);
+  EXPECT_THAT(departure(reference, two.answers), HasSubstr("AlignAttitude.heading_deg at t=1 s: 2.982 deg"));
+}
+
+TEST(Reference, AllowsFourTimesWhatRoundingDid) {
+  const Reference reference = of(10 * heading_step_deg);
+  EXPECT_THAT(departure_of(reference, 39 * heading_step_deg), IsEmpty());
+  EXPECT_THAT(departure_of(reference, 45 * heading_step_deg), HasSubstr("heading_deg"));
+  EXPECT_THAT(departure_of(reference, 60 * heading_step_deg, 3, 2), IsEmpty());
+}
+
+TEST(Reference, HoldsFlagsToOneAnswer) {
+  const Reference reference = of(0);
+  EXPECT_THAT(departure_of(reference, 0, 4), IsEmpty());
+  EXPECT_THAT(departure_of(reference, 0, 6), HasSubstr("AlignAttitude.coasting over the flight: mean 0.06"));
+}
+
+TEST(Reference, CountsMessages) {
+  const Reference reference = of(0);
+  Flown none;
+  EXPECT_EQ(departure(reference, none.answers), "AlignAttitude: 0 answers, 100 in the reference");
+  Flown more;
+  fly(more, 0);
+  more.hear(TargetHeartbeat{});
+  EXPECT_EQ(departure(reference, more.answers), "TargetHeartbeat: 1 answers, none in the reference");
+}
+
+TEST(Reference, AnglesGoTheShorterWayRound) {
+  Flown a, b;
+  for (int i = 0; i < 10; ++i) {
+    a.attitude(179.999);
+    b.attitude(i % 2 == 0 ? 179.999 : -179.999);
+  }
+  const Reference reference = make_reference(a.answers, b.answers, 3);
+  EXPECT_LT(reference.front().rounding[2], 0.01);
+  EXPECT_THAT(departure(reference, b.answers), IsEmpty());
+}
+
+TEST(Reference, IsTheSameAfterItWasWrittenAndRead) {
+  const fs::path file = fs::temp_directory_path() / "canhil_reference.txt";
+  ASSERT_TRUE(write(of(0.01), file, "a flight\nof a test"));
+  const auto read = read_reference(file);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_THAT(departure_of(*read, 0), IsEmpty());
+  EXPECT_EQ(read->front().rows.size(), 5U);
+  fs::remove(file);
+}
+
+TEST(Reference, DamagedIsOneLine) {
+  const fs::path file = fs::temp_directory_path() / "canhil_reference_bad.txt";
+  const auto refused = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    const auto read = read_reference(file);
+    return read ? std::string() : read.error().message;
+  };
+  EXPECT_THAT(refused("mean 1 2\n"), HasSubstr(":1: 'mean 1 2', expected a line 'message'"));
+  EXPECT_THAT(refused("message A\n"), HasSubstr("expected the name of a message and how often it came"));
+  EXPECT_THAT(refused("message A 3\nsignals a b\nmean 1\n"), HasSubstr(":3: 'mean 1', expected 2 numbers"));
+  EXPECT_THAT(refused("message A 3\nsignals a\nwhat 1\n"), HasSubstr(":3: 'what 1', expected"));
+  EXPECT_THAT(refused("message A 3\nsignals a\n7 0.1 2\n"),
+              HasSubstr(":3: '7 0.1 2', expected the place of one of 3 answers"));
+  EXPECT_THAT(refused("message A 3\nsignals a\nmean 1\n"), HasSubstr("A lacks a line"));
+  fs::remove(file);
+}
+
+TEST(Difference, IsOfTwoFlightsThatAreToAgree) {
+  Flown a, b, c;
+  fly(a, 0);
+  fly(b, 2 * heading_step_deg);
+  fly(c, 0, 4);
+  a.hear(TargetHeartbeat{.algorithm = messages::Algorithm::kalman});
+  b.hear(TargetHeartbeat{.algorithm = messages::Algorithm::robust_h2});
+  EXPECT_THAT(difference(a.answers, b.answers, 3, 0), IsEmpty());
+  EXPECT_THAT(difference(a.answers, b.answers, 1, 0), HasSubstr("AlignAttitude.heading_deg at t="));
+  EXPECT_THAT(difference(a.answers, c.answers, 3, 0), HasSubstr("AlignAttitude.coasting"));
+  EXPECT_THAT(difference(a.answers, Flown().answers, 3, 0), HasSubstr("100 answers in one, 0 in the other"));
+}
+
+}  // namespace
+}  // namespace canhil::accept

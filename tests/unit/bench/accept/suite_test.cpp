@@ -1,0 +1,133 @@
+// Suites: those of the project, and wrong ones.
+#include "bench/accept/suite.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "bench/campaign/campaign.hpp"
+#include "target/device/device.hpp"
+
+namespace canhil::accept {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const fs::path shipped = SOURCE_DIR "/bench/acceptance";
+
+class Shipped : public testing::TestWithParam<const char*> {
+ protected:
+  Shipped() : suite_(read_suite(shipped / GetParam())) {}
+  const Result<Suite> suite_;
+};
+
+TEST_P(Shipped, IsReadWithAllThatItNames) {
+  ASSERT_TRUE(suite_) << suite_.error().message;
+  EXPECT_EQ(suite_->estimator, GetParam());
+  for (const Flight& flight : suite_->flights) {
+    EXPECT_TRUE(!flight.reference || fs::exists(suite_->reference_of(flight))) << flight.name;
+  }
+}
+
+TEST_P(Shipped, EveryReferenceIsOfAFlight) {
+  ASSERT_TRUE(suite_);
+  std::set<fs::path> wanted;
+  for (const Flight& flight : suite_->flights) wanted.insert(suite_->reference_of(flight).filename());
+  for (const auto& entry : fs::directory_iterator(shipped / GetParam() / "reference"))
+    EXPECT_TRUE(wanted.contains(entry.path().filename())) << entry.path();
+}
+
+TEST_P(Shipped, EveryMetricAsksForARequirement) {
+  ASSERT_TRUE(suite_);
+  for (const Campaign& one : suite_->campaigns) {
+    const auto campaign = campaign::read_campaign(shipped / GetParam() / one.file);
+    ASSERT_TRUE(campaign) << campaign.error().message;
+    for (const campaign::Metric& metric : campaign->metrics)
+      EXPECT_NE(suite_->find(metric.requirement), nullptr) << metric.name;
+  }
+}
+
+// The suite's own table, so that a target is held to what is published and not to this program.
+class OfOneEstimator : public Shipped {};
+
+TEST_P(OfOneEstimator, RangesAreThoseOfTheTarget) {
+  ASSERT_TRUE(suite_);
+  const auto estimator = messages::from_name<messages::Estimator>(GetParam());
+  ASSERT_TRUE(estimator);
+  for (const auto one : messages::enumerators<messages::Parameter>) {
+    const auto range = target::Device().range(*estimator, one);
+    const auto found = std::ranges::find(suite_->parameters, name_of(one), &Parameter::name);
+    ASSERT_EQ(range.has_value(), found != suite_->parameters.end()) << name_of(one);
+    if (!range) continue;
+    EXPECT_EQ(range->minimum, found->least) << found->name;
+    EXPECT_EQ(range->maximum, found->most) << found->name;
+    EXPECT_EQ(range->whole, found->whole) << found->name;
+  }
+}
+
+const auto by_name = [](const auto& one) { return std::string(one.param); };
+const auto estimators = testing::Values("transfer_alignment", "inflight_alignment", "los_rate", "wind");
+INSTANTIATE_TEST_SUITE_P(Estimators, Shipped, estimators, by_name);
+INSTANTIATE_TEST_SUITE_P(Together, Shipped, testing::Values("several"), by_name);
+INSTANTIATE_TEST_SUITE_P(Estimators, OfOneEstimator, estimators, by_name);
+
+TEST(Suites, EachEstimatorHasOne) {
+  const auto found = suites_in(shipped);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->size(), 5U);  // one for several at once
+  EXPECT_FALSE(suites_in("/no/such/folder"));
+}
+
+constexpr std::string_view good = R"(title = "T"
+estimator = "wind"
+[[requirement]]
+id = "R"
+family = "errors"
+text = "It is."
+[[flight]]
+name = "f"
+scenario = "wind.toml"
+requirement = "R"
+)";
+
+std::string refused(const std::string& more, std::string_view was = "", std::string_view is = "") {
+  const fs::path folder = fs::temp_directory_path() / "canhil_suite";
+  fs::create_directories(folder);
+  fs::copy_file(SOURCE_DIR "/bench/flights/wind_quick.toml", folder / "wind.toml",
+                fs::copy_options::overwrite_existing);
+  std::string text(good);
+  if (!was.empty()) text.replace(text.find(was), was.size(), is);
+  std::ofstream(folder / "suite.toml") << text << more;
+  const auto read = read_suite(folder);
+  return read ? "" : read.error().message;
+}
+
+TEST(Suites, AWrongOneIsOneLine) {
+  EXPECT_EQ(refused(""), "");
+  EXPECT_THAT(refused("", "errors", "error"),
+              HasSubstr("suite.toml:5: key 'requirement[1].family': 'error'"));
+  EXPECT_THAT(refused("", "requirement = \"R\"", "requirement = \"Q\""),
+              HasSubstr("'Q' is no requirement of this suite"));
+  EXPECT_THAT(refused("", "wind.toml", "none.toml"), HasSubstr("none.toml: cannot be read"));
+  EXPECT_THAT(refused("set = { \"seeds\" = 1 }\n"), HasSubstr("seeds"));
+  EXPECT_THAT(
+      refused(
+          "moves = { beside = \"g\", signal = \"WindUpdate.nis\", to = \"more\", requirement = \"R\" }\n"),
+      HasSubstr("'g' is no flight before this one"));
+  EXPECT_THAT(refused("[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\nmoves = { "
+                      "beside = \"f\", signal = "
+                      "\"WindUpdate.niss\", to = \"more\", requirement = \"R\" }\n"),
+              HasSubstr("WindUpdate.niss"));
+  EXPECT_THAT(refused("[[flight]]\nname = \"f\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"),
+              HasSubstr("'f' is there twice"));
+  EXPECT_THAT(refused("rows = 0\n"), HasSubstr("rows"));
+  EXPECT_THAT(refused("[[parameter]]\nname = \"none\"\nleast = 0\nmost = 1\n"), HasSubstr("name"));
+  EXPECT_THAT(refused("[[more]]\na = 1\n"), HasSubstr("more"));
+}
+
+}  // namespace
+}  // namespace canhil::accept
