@@ -24,14 +24,17 @@ def ask(folder, *words):
 
 @functools.lru_cache(maxsize=None)
 def readers(folder):
-    """{file of the project: objects of the target that read it}"""
+    """{file: objects of the target that read it}; a file is named whole or from the build folder, as the compiler or a cache named it"""
     found, name = {}, None
     for line in ask(folder, "deps").splitlines():
         if line and not line.startswith(" "):
             name = line.split(":", 1)[0]
-        elif line.strip().startswith("../../") and name.startswith("target/"):
-            found.setdefault(line.strip()[len("../../"):], set()).add(name)
-    return found
+        elif line and name.startswith("target/"):
+            found.setdefault(line.strip(), set()).add(name)
+    whole = {}
+    for file, names in found.items():
+        whole.setdefault((folder / file).resolve(), set()).update(names)
+    return whole
 
 
 @functools.lru_cache(maxsize=None)
@@ -72,7 +75,7 @@ def build(folder, name, file, text):
     place = folder / "mutants" / name
     (place / file).parent.mkdir(parents=True, exist_ok=True)
     (place / file).write_text(text)
-    names = sorted(readers(folder).get(file, ()))
+    names = sorted(readers(folder).get(ROOT / file, ()))
     if not names:
         raise DoesNotBuild(f"{file}: no object of the target reads it")
     again = {one: compile_again(folder, place, file, one) for one in names}
