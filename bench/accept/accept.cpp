@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
 using checks::Outcome;
 using drive::Ending;
 
-Outcome worst(Outcome a, Outcome b) {
-  if (a == Outcome::fail || b == Outcome::fail) return Outcome::fail;
-  return a == Outcome::not_measured || b == Outcome::not_measured ? Outcome::not_measured : Outcome::pass;
-}
-
 drive::Options in_process(std::string_view bus) {
   drive::Options options;
   options.bus = drive::BusName(std::string(bus));
@@ -57,9 +52,9 @@ class Run {
       if (!said) return tl::unexpected(said.error());
       for (Item& item : *said) add(std::move(item));
     }
-    for (const Campaign& campaign : suite_.campaigns) {
+    for (const std::string& campaign : suite_.campaigns) {
       if (!(wanted("errors") || wanted("honesty")) || done()) break;
-      if (auto flown = fly(campaign); !flown) return tl::unexpected(flown.error());
+      if (auto flown = fly_campaign(campaign); !flown) return tl::unexpected(flown.error());
     }
     if (auto flown = fly_all(true); !flown) return tl::unexpected(flown.error());
     return std::move(items_);
@@ -189,14 +184,14 @@ class Run {
                 fmt::format("{} than there by {:g} %", move.up ? "more" : "less", 100 * (least_move - 1))};
   }
 
-  Result<void> fly(const Campaign& asked) {
-    auto campaign = campaign::read_campaign(suite_.folder / asked.file);
+  Result<void> fly_campaign(const std::string& name) {
+    auto campaign = campaign::read_campaign(suite_.folder / name);
     if (!campaign) return tl::unexpected(campaign.error());
     if (options_.seed) {
       for (campaign::Variant& variant : campaign->variants) variant.scenario.seed = *options_.seed;
     }
     const fs::path file =
-        fs::temp_directory_path() / fmt::format("canhil-accept-{}-{}.sqlite", getpid(), asked.file);
+        fs::temp_directory_path() / fmt::format("canhil-accept-{}-{}.sqlite", getpid(), name);
     std::error_code ignored;
     fs::remove(file, ignored);
     campaign::Options options;
@@ -204,14 +199,14 @@ class Run {
     options.target = options_.target;
     options.progress = [&](const campaign::Progress& progress) {
       options_.progress(
-          fmt::format("{}: {} {} / {} runs", suite_.estimator, asked.file, progress.done, progress.total));
+          fmt::format("{}: {} {} / {} runs", suite_.estimator, name, progress.done, progress.total));
     };
     auto flown = campaign::execute(*campaign, options, stop_);
-    if (flown && *flown == campaign::Execution::complete) flown = judge(*campaign, asked, file);
+    if (flown && *flown == campaign::Execution::complete) flown = judge(*campaign, name, file);
     fs::remove(file, ignored);
     if (!flown) {
       if (campaign->metrics.empty()) return tl::unexpected(flown.error());
-      add(item(requirement_of(*campaign), fmt::format("campaign {}", asked.file), flown.error().message,
+      add(item(requirement_of(*campaign), fmt::format("campaign {}", name), flown.error().message,
                "all runs to their end"));
     }
     return {};
@@ -221,7 +216,7 @@ class Run {
     return campaign.metrics.front().requirement;
   }
 
-  Result<campaign::Execution> judge(const campaign::Campaign& campaign, const Campaign& asked,
+  Result<campaign::Execution> judge(const campaign::Campaign& campaign, const std::string& name,
                                     const fs::path& file) {
     const auto store = campaign::Store::open(file);
     if (!store) return tl::unexpected(store.error());
@@ -229,7 +224,7 @@ class Run {
     if (!evaluation) return tl::unexpected(evaluation.error());
     for (const campaign::Endings& ending : evaluation->endings) {
       if (ending.completed == ending.runs && ending.not_finite == 0) continue;
-      add(item(requirement_of(campaign), fmt::format("{}: {}", asked.file, ending.variant),
+      add(item(requirement_of(campaign), fmt::format("{}: {}", name, ending.variant),
                fmt::format("{} of {} runs completed, {} with values that are no numbers; {}",
                            ending.completed, ending.runs, ending.not_finite, ending.first_fault),
                "all runs to their end"));
@@ -237,7 +232,7 @@ class Run {
     for (const campaign::Answer& answer : evaluation->answers) {
       if (!answer.passed) continue;
       add({.requirement = answer.requirement,
-           .name = fmt::format("{}: {}", asked.file, answer.metric),
+           .name = fmt::format("{}: {}", name, answer.metric),
            .outcome = *answer.passed ? Outcome::pass : Outcome::fail,
            .measured = answer.measured,
            .expected = answer.expected});
@@ -258,17 +253,9 @@ class Run {
 
 }  // namespace
 
-Outcome Finding::outcome() const {
-  Outcome all = items.empty() ? Outcome::not_measured : Outcome::pass;
-  for (const Item& item : items) all = worst(all, item.outcome);
-  return all;
-}
+Outcome Finding::outcome() const { return checks::outcome_of(items, &Item::outcome); }
 
-Outcome Acceptance::outcome() const {
-  Outcome all = findings.empty() ? Outcome::not_measured : Outcome::pass;
-  for (const Finding& finding : findings) all = worst(all, finding.outcome());
-  return all;
-}
+Outcome Acceptance::outcome() const { return checks::outcome_of(findings, &Finding::outcome); }
 
 Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop) {
   const auto start = std::chrono::steady_clock::now();

@@ -36,7 +36,6 @@ struct Options {
 struct Finding {
   Requirement requirement;
   std::vector<Item> items;
-  /// Fail if any did; else not measured if any was not, or there is none.
   [[nodiscard]] checks::Outcome outcome() const;
 };
 

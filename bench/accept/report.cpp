@@ -15,10 +15,6 @@ using checks::Outcome;
 using nlohmann::ordered_json;
 using report::escaped;
 
-std::string label(Outcome outcome) {
-  return outcome == Outcome::pass ? "PASS" : outcome == Outcome::fail ? "FAIL" : "NOT MEASURED";
-}
-
 std::size_t count(const Acceptance& suite, Outcome outcome) {
   return static_cast<std::size_t>(std::ranges::count_if(
       suite.findings, [&](const Finding& finding) { return finding.outcome() == outcome; }));
@@ -85,14 +81,7 @@ std::string section(const Acceptance& suite) {
 
 }  // namespace
 
-Outcome Report::outcome() const {
-  Outcome all = suites.empty() ? Outcome::not_measured : Outcome::pass;
-  for (const Acceptance& suite : suites) {
-    const Outcome one = suite.outcome();
-    if (one == Outcome::fail || (one == Outcome::not_measured && all == Outcome::pass)) all = one;
-  }
-  return all;
-}
+Outcome Report::outcome() const { return checks::outcome_of(suites, &Acceptance::outcome); }
 
 std::string text(const Report& report) {
   std::string out;
@@ -101,7 +90,7 @@ std::string text(const Report& report) {
     for (const std::string& family : families) {
       for (const Finding& finding : suite.findings) {
         if (finding.requirement.family != family) continue;
-        out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", label(finding.outcome()),
+        out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", report::label(finding.outcome()),
                            finding.requirement.id, finding.requirement.text, finding.items.size());
         const auto wrong = told(finding);
         for (std::size_t i = 0; i < std::min(wrong.size(), most_told); ++i)

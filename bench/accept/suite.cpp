@@ -43,7 +43,7 @@ class Reader {
     for (Section& section : tables("flight")) read_flight(section);
     for (Section& section : tables("parameter")) read_parameter(section);
     for (Section& section : tables("campaign")) {
-      suite_.campaigns.push_back({.file = section.text("file")});
+      suite_.campaigns.push_back(section.text("file"));
       section.finish();
     }
     if (auto apply = root_.optional_table("apply")) {
@@ -144,8 +144,8 @@ class Reader {
                           .requirement = requirement(*moves, "requirement")};
       moves->finish();
     }
-    flight.real_time = section.optional_integer("real_time", 0).value_or(0) != 0;
-    flight.faults = section.optional_integer("faults", 0).value_or(0) != 0;
+    flight.real_time = section.flag("real_time");
+    flight.faults = section.flag("faults");
     section.finish();
     suite_.flights.push_back(std::move(flight));
   }
@@ -154,8 +154,8 @@ class Reader {
     Parameter parameter{.name = section.one_of("name", drive::contract().parameters)};
     parameter.least = section.plain_number("least", {});
     parameter.most = section.plain_number("most", {});
-    parameter.whole = section.optional_integer("whole", 0).value_or(0) != 0;
-    parameter.in_flight = section.optional_integer("in_flight", 0).value_or(0) != 0;
+    parameter.whole = section.flag("whole");
+    parameter.in_flight = section.flag("in_flight");
     section.finish();
     suite_.parameters.push_back(std::move(parameter));
   }

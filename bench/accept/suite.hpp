@@ -60,10 +60,6 @@ struct Parameter {
   bool in_flight = false;  ///< may be set while the estimator runs
 };
 
-struct Campaign {
-  std::string file;  ///< in the suite's folder
-};
-
 struct Suite {
   std::filesystem::path folder;
   std::string title;
@@ -71,7 +67,7 @@ struct Suite {
   std::vector<Requirement> requirements;
   std::vector<Flight> flights;
   std::vector<Parameter> parameters;
-  std::vector<Campaign> campaigns;
+  std::vector<std::string> campaigns;  ///< files in the folder
   std::optional<std::pair<std::string, double>>
       apply;                                   ///< a parameter that takes effect in flight; none: not asked
   std::optional<scenario::Scenario> dialogue;  ///< whose estimator is talked to; none: nobody is

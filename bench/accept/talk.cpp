@@ -1,6 +1,6 @@
 #include "bench/accept/talk.hpp"
 
-#include <tuple>
+#include "bench/drive/session.hpp"
 
 namespace canhil::accept {
 namespace {
@@ -56,10 +56,7 @@ void Talk::send() {
 void Talk::tell_state() {
   ear_.frames.clear();
   out_.clear();
-  const auto all = [&](const auto&... message) { (out_.send(message), ...); };
-  const drive::InitialState& initial = flight_.initial.front();
-  if (initial.air) std::apply(all, *initial.air);
-  std::apply(all, initial.navigation);
+  drive::send(flight_.initial.front(), out_);
   send();
 }
 

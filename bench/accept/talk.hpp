@@ -11,7 +11,7 @@
 
 #include "bench/drive/flight.hpp"
 #include "bench/drive/link.hpp"
-#include "bench/drive/session.hpp"
+#include "bench/drive/schedule.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/observe/heard.hpp"
 #include "bench/observe/heartbeat_errors.hpp"

@@ -44,10 +44,6 @@ const Quantity* read_error(Section& section) {
   return read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom == 0; });
 }
 
-std::string key_of(std::string_view stem, const Quantity& quantity) {
-  return fmt::format("{}{}", stem, quantity.unit.ending);
-}
-
 std::optional<double> optional_number(Section& section, std::string_view key, Limits limits) {
   if (section.has(key)) return section.number(key, limits);
   section.optional(key);
@@ -70,7 +66,7 @@ RmsCurve read(Section& section, const Context& /*context*/, RmsCurve rule) {
 
 TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   rule.quantity = read_error(section);
-  rule.within = section.number(key_of("within", *rule.quantity), Limits::above(0));
+  rule.within = section.number(checks::key_of("within", rule.quantity->unit), Limits::above(0));
   rule.at_most_us = section.optional_time_us("at_most_s", Limits::at_least(0));
   rule.never_before_us = section.optional_time_us("never_before_s", Limits::at_least(0));
   scenario::expect_ordered(section, "never_before_s", rule.never_before_us, "at_most_s", rule.at_most_us);
@@ -79,7 +75,7 @@ TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
 
 Lead read(Section& section, const Context& context, Lead rule) {
   rule.quantity = read_error(section);
-  rule.within = section.number(key_of("within", *rule.quantity), Limits::above(0));
+  rule.within = section.number(checks::key_of("within", rule.quantity->unit), Limits::above(0));
   rule.other = section.one_of("other", context.variants);
   rule.at_least_us = section.optional_time_us("at_least_s", Limits{});
   return rule;
@@ -88,8 +84,10 @@ Lead read(Section& section, const Context& context, Lead rule) {
 ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
   rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
-  rule.at_most = optional_number(section, key_of("at_most", *rule.quantity), Limits::at_least(0));
-  rule.at_least = optional_number(section, key_of("at_least", *rule.quantity), Limits::at_least(0));
+  rule.at_most =
+      optional_number(section, checks::key_of("at_most", rule.quantity->unit), Limits::at_least(0));
+  rule.at_least =
+      optional_number(section, checks::key_of("at_least", rule.quantity->unit), Limits::at_least(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   return rule;
 }
@@ -131,9 +129,10 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.mean_at_most = optional_number(section, key_of("mean_at_most", *rule.quantity), Limits::at_least(0));
-  rule.standard_deviation_at_most =
-      optional_number(section, key_of("standard_deviation_at_most", *rule.quantity), Limits::at_least(0));
+  rule.mean_at_most =
+      optional_number(section, checks::key_of("mean_at_most", rule.quantity->unit), Limits::at_least(0));
+  rule.standard_deviation_at_most = optional_number(
+      section, checks::key_of("standard_deviation_at_most", rule.quantity->unit), Limits::at_least(0));
   return rule;
 }
 
@@ -164,7 +163,7 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
 
 Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.quantity = read_error(section);
-  rule.beyond = section.number(key_of("beyond", *rule.quantity), Limits::above(0));
+  rule.beyond = section.number(checks::key_of("beyond", rule.quantity->unit), Limits::above(0));
   rule.at_most = section.optional_integer("at_most", 0);
   rule.at_least = section.optional_integer("at_least", 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
@@ -176,8 +175,10 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.at_most = optional_number(section, key_of("at_most", *rule.quantity), Limits::at_least(0));
-  rule.at_least = optional_number(section, key_of("at_least", *rule.quantity), Limits::at_least(0));
+  rule.at_most =
+      optional_number(section, checks::key_of("at_most", rule.quantity->unit), Limits::at_least(0));
+  rule.at_least =
+      optional_number(section, checks::key_of("at_least", rule.quantity->unit), Limits::at_least(0));
   rule.other = section.one_of("other", context.variants, "");
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::above(0));
   rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::above(0));
@@ -199,8 +200,9 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   });
   std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));
   rule.other = section.one_of("other", context.variants, "");
-  rule.rms_at_most = optional_number(section, key_of("rms_at_most", *rule.quantity), Limits::at_least(0));
-  const std::string mean_between = key_of("mean_between", *rule.quantity);
+  rule.rms_at_most =
+      optional_number(section, checks::key_of("rms_at_most", rule.quantity->unit), Limits::at_least(0));
+  const std::string mean_between = checks::key_of("mean_between", rule.quantity->unit);
   if (section.has(mean_between)) rule.mean_between = section.interval(mean_between, Limits::at_least(0));
   section.optional(mean_between);
   rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::at_least(0));

@@ -11,6 +11,10 @@ namespace canhil::checks {
 
 using quantities::Quantity;
 
+std::string key_of(std::string_view stem, const quantities::Unit& unit) {
+  return fmt::format("{}{}", stem, unit.ending);
+}
+
 const Quantity* read_quantity(scenario::Section& section, std::span<const Quantity* const> known,
                               const std::function<std::string(const Quantity&)>& refused) {
   constexpr std::string_view key = "quantity";

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "bench/quantities/quantity.hpp"
 
@@ -12,6 +13,9 @@ class Section;
 }
 
 namespace canhil::checks {
+
+/// The key that begins with `stem` and ends in a unit.
+std::string key_of(std::string_view stem, const quantities::Unit& unit);
 
 /// The quantity of `known` that the key `quantity` names. `refused`: why one may not be named here, after
 /// "'NAME' "; empty: it may. Error: none may be named so, or under this name no more; then a quantity that is

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +22,18 @@ constexpr std::string_view name(Outcome outcome) {
       return "not measured";
   }
   return "?";
+}
+
+/// Of several: fail if any did; else not measured if any was not, or there is none.
+template <class Parts, class Projection>
+constexpr Outcome outcome_of(const Parts& parts, Projection projection) {
+  Outcome all = std::begin(parts) == std::end(parts) ? Outcome::not_measured : Outcome::pass;
+  for (const auto& part : parts) {
+    const Outcome one = std::invoke(projection, part);
+    if (one == Outcome::fail) return Outcome::fail;
+    if (one == Outcome::not_measured) all = Outcome::not_measured;
+  }
+  return all;
 }
 
 /// The result of one check.

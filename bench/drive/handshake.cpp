@@ -254,12 +254,7 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
     if (auto set = set_parameter(dialogue, *estimator, parameter); !set) return set;
   }
   return dialogue.until(
-      "taking its initial state", answer_limit_ns,
-      [&](nodes::Transmission& o) {
-        const auto send_all = [&](const auto&... message) { (o.send(message), ...); };
-        if (initial.air) std::apply(send_all, *initial.air);
-        std::apply(send_all, initial.navigation);
-      },
+      "taking its initial state", answer_limit_ns, [&](nodes::Transmission& o) { drive::send(initial, o); },
       [&](const Mailbox& box) { return box.is(*estimator, TargetState::ready); });
 }
 

@@ -52,6 +52,12 @@ InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_ve
            .air_velocity_z_mps = air_velocity.z()}};
 }
 
+void send(const InitialState& state, nodes::Transmission& out) {
+  const auto send_all = [&](const auto&... messages) { (out.send(messages), ...); };
+  if (state.air) std::apply(send_all, *state.air);
+  std::apply(send_all, state.navigation);
+}
+
 Result<void> check_fits(const InitialState& state) {
   std::string wrong;
   const auto check_all = [&](const auto&... messages) { (check(messages, wrong), ...); };

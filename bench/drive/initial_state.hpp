@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 
+#include "bench/nodes/node.hpp"
 #include "bench/scenario/target_setup.hpp"
 #include "bench/world/navigation_errors.hpp"
 #include "dbc/wire/result.hpp"
@@ -27,6 +28,9 @@ InitialState initial_state(const world::NavigationSolution& initial, const scena
 
 /// Rates [rad/s] and velocity through the air [m/s], body axes.
 InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_velocity);
+
+/// Appends its messages in the order that makes the target ready.
+void send(const InitialState& state, nodes::Transmission& out);
 
 /// Every value within its signal's range, and no value but zero below its resolution: it would be saturated,
 /// or rounded to nothing, in silence. Error: one line.

@@ -41,14 +41,18 @@ std::vector<Value> values_of(const Frame& frame) {
     Message::visit(message, [&](const SignalInfo& signal, const auto& value) {
       const auto number = static_cast<double>(value);
       if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>) {
-        values.push_back({&signal, number, std::string(name_of(value))});
+        values.push_back({&signal, number, name_of(value)});
       } else {
-        // To 12 digits: resolves every signal, and hides what binary makes of a decimal fraction.
-        values.push_back({&signal, number, fmt::format("{:.12g}", number)});
+        values.push_back({&signal, number, {}});
       }
     });
   });
   return values;
+}
+
+std::string words(const Value& value) {
+  // 12 digits resolve every signal, and hide what binary makes of a decimal fraction.
+  return value.enumerator.empty() ? fmt::format("{:.12g}", value.value) : std::string(value.enumerator);
 }
 
 const SignalInfo* signal_of(const MessageInfo& message, std::string_view name) {

@@ -12,9 +12,12 @@ namespace canhil::observe {
 
 struct Value {
   const SignalInfo* signal = nullptr;
-  double value = 0;   ///< in the signal's unit; of an enumeration its number
-  std::string words;  ///< for people
+  double value = 0;             ///< in the signal's unit; of an enumeration its number
+  std::string_view enumerator;  ///< of an enumeration the value's name; empty: of none
 };
+
+/// For people: 12 digits, or the enumerator.
+std::string words(const Value& value);
 
 /// The signals of a frame, without those of its protection, as the DBC orders them; empty: of no message.
 std::vector<Value> values_of(const Frame& frame);

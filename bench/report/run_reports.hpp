@@ -10,6 +10,9 @@
 
 namespace canhil::report {
 
+/// As texts for a terminal name it: "PASS", "NOT MEASURED".
+std::string label(checks::Outcome outcome);
+
 /// For a terminal: verdict, checks, convergence, latency, losses: a page of text.
 std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 

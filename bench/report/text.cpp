@@ -12,14 +12,14 @@
 #include "bench/report/summary.hpp"
 
 namespace canhil::report {
-namespace {
 
-// "PASS", "NOT MEASURED".
 std::string label(checks::Outcome outcome) {
   std::string label(checks::name(outcome));
   for (char& c : label) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return label;
 }
+
+namespace {
 
 std::string words(const estimators::ResultLine& line) {
   std::string text;

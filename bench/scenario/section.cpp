@@ -272,6 +272,13 @@ std::optional<std::int64_t> Section::optional_integer(std::string_view key, std:
   return value->get();
 }
 
+bool Section::flag(std::string_view key) {
+  const toml::node* node = state_->ask(key);
+  if (node == nullptr) return false;
+  if (!node->is_boolean()) reject(key, type_of(*node), "true or false");
+  return node->value_or(false);
+}
+
 std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limits limits) {
   if (has(key)) return time_us(key, limits);
   state_->ask(key);

@@ -51,6 +51,8 @@ class Section {
   std::pair<double, double> interval(std::string_view key, Limits limits);
   std::int64_t integer(std::string_view key, std::int64_t least);
   std::optional<std::int64_t> optional_integer(std::string_view key, std::int64_t least);
+  /// true or false; absent: false.
+  bool flag(std::string_view key);
   /// A time (key ending in _s or _ms): a whole number of microseconds.
   std::int64_t time_us(std::string_view key, Limits limits, std::optional<double> fallback = {});
   std::optional<std::int64_t> optional_time_us(std::string_view key, Limits limits);

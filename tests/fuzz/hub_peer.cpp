@@ -19,10 +19,12 @@
 #include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
 #include "tests/fuzz/expect.hpp"
+#include "tests/fuzz/script.hpp"
 
 namespace {
 
 using namespace canhil;
+using fuzz::Script;
 using local::Datagram;
 
 // The folder of the buses is this process's own.
@@ -43,26 +45,6 @@ class Folder {
  private:
   std::filesystem::path path_ =
       std::filesystem::temp_directory_path() / ("canhil-fuzz-" + std::to_string(::getpid()));
-};
-
-class Script {
- public:
-  explicit Script(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
-  [[nodiscard]] bool over() const { return rest_.empty(); }
-  std::uint8_t byte() {
-    if (rest_.empty()) return 0;
-    const std::uint8_t first = rest_.front();
-    rest_ = rest_.subspan(1);
-    return first;
-  }
-  void fill(std::span<std::uint8_t> to) {
-    const auto taken = rest_.first(std::min(rest_.size(), to.size()));
-    std::ranges::copy(taken, to.begin());
-    rest_ = rest_.subspan(taken.size());
-  }
-
- private:
-  std::span<const std::uint8_t> rest_;
 };
 
 // Peers 0 to 2; their connections come and go.

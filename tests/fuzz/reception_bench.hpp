@@ -12,30 +12,9 @@
 #include "dbc/wire/time_base.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "target/device/device.hpp"
+#include "tests/fuzz/script.hpp"
 
 namespace canhil::fuzz {
-
-/// The input, byte by byte; zeros after its end.
-class Script {
- public:
-  explicit Script(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
-  [[nodiscard]] bool over() const { return rest_.empty(); }
-  std::uint8_t byte() {
-    if (rest_.empty()) return 0;
-    const std::uint8_t first = rest_.front();
-    rest_ = rest_.subspan(1);
-    return first;
-  }
-  /// As many bytes as there are.
-  std::span<const std::uint8_t> bytes(std::size_t count) {
-    const auto taken = rest_.first(std::min(count, rest_.size()));
-    rest_ = rest_.subspan(taken.size());
-    return taken;
-  }
-
- private:
-  std::span<const std::uint8_t> rest_;
-};
 
 /// What happens to the messages of one group on their way.
 struct Spoil {

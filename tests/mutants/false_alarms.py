@@ -24,7 +24,7 @@ SUITES = sorted(file.parent for file in (ROOT / "bench/acceptance").glob("*/camp
 
 def failed_metrics(suite, seed, folder):
     """([metric: measured; expected], how many had a bar) of one suite's campaign with a seed."""
-    copy = Path(folder, suite.name)
+    copy = Path(folder, "acceptance", suite.name)
     shutil.rmtree(copy, ignore_errors=True)
     shutil.copytree(suite, copy, ignore=shutil.ignore_patterns("reference"))
     file, report = copy / "campaign.toml", copy / "report.json"
@@ -45,6 +45,7 @@ def main():
     asked = parser.parse_args()
     failed, bars = {}, 0
     with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / "bench/flights", Path(folder, "flights"))
         for seed in range(asked.first, asked.first + asked.seeds):
             if sys.stdout.isatty():
                 print(f"\r\x1b[Kseed {seed}: {len(failed)} of {seed - asked.first} failed", end="", flush=True)

@@ -71,10 +71,8 @@ def compile_again(folder, place, file, name):
     return again
 
 
-def build(folder, name, file, text):
-    place = folder / "mutants" / name
-    (place / file).parent.mkdir(parents=True, exist_ok=True)
-    (place / file).write_text(text)
+def linked(folder, place, file):
+    """The target in `place`, with the file of `place` in the project's place."""
     names = sorted(readers(folder).get(ROOT / file, ()))
     if not names:
         raise DoesNotBuild(f"{file}: no object of the target reads it")
@@ -89,6 +87,17 @@ def build(folder, name, file, text):
     if finished.returncode != 0:
         raise DoesNotBuild((finished.stderr.splitlines() or ["no output"])[-1])
     return target
+
+
+def build(folder, name, file, text):
+    place = folder / "mutants" / name
+    (place / file).parent.mkdir(parents=True, exist_ok=True)
+    (place / file).write_text(text)
+    try:
+        return linked(folder, place, file)
+    except DoesNotBuild:
+        shutil.rmtree(place)
+        raise
 
 
 def remove(target):

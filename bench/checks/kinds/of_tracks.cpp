@@ -30,10 +30,6 @@ bool lies_in(const std::pair<double, double>& to_go_s, double value) {
   return value >= to_go_s.first && value < to_go_s.second;
 }
 
-std::string key_of(std::string_view stem, const quantities::Unit& unit) {
-  return fmt::format("{}{}", stem, unit.ending);
-}
-
 // The unit that the key has which begins with the stem.
 quantities::Unit read_unit(scenario::Section& section, std::string_view stem, const Quantity& quantity) {
   if (quantity.unit.name != quantities::mrad.name) return quantity.unit;

@@ -56,13 +56,13 @@ name = "silent"
 scenario = "flight.toml"
 set = { "fault" = [{ kind = "lost", messages = ["SlaveImuDeltaTheta", "SlaveImuDeltaV", "SlaveImuStatus"], from_s = 1.0 }] }
 requirement = "S-4"
-faults = 1
+faults = true
 
 [[parameter]]
 name = "h2_case"
 least = 1
 most = 4
-whole = 1
+whole = true
 )";
 
 class Accept : public testing::Test {

@@ -1,0 +1,34 @@
+// A fuzzer's input as a list of things to do.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+namespace canhil::fuzz {
+
+/// The input, byte by byte; zeros after its end.
+class Script {
+ public:
+  explicit Script(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
+  [[nodiscard]] bool over() const { return rest_.empty(); }
+  std::uint8_t byte() {
+    if (rest_.empty()) return 0;
+    const std::uint8_t first = rest_.front();
+    rest_ = rest_.subspan(1);
+    return first;
+  }
+  /// As many bytes as there are.
+  std::span<const std::uint8_t> bytes(std::size_t count) {
+    const auto taken = rest_.first(std::min(count, rest_.size()));
+    rest_ = rest_.subspan(taken.size());
+    return taken;
+  }
+  /// What is there goes to the front; the rest stays as it is.
+  void fill(std::span<std::uint8_t> to) { std::ranges::copy(bytes(to.size()), to.begin()); }
+
+ private:
+  std::span<const std::uint8_t> rest_;
+};
+
+}  // namespace canhil::fuzz
