@@ -63,15 +63,15 @@ std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::s
   return found;
 }
 
-std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks) {
-  TimingRecord timing;
+std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
+                                       std::span<const MessageInfo> messages) {
+  TimingRecord timing(messages);
   for (const scenario::Check& check : checks) {
     for (const Timed& asked : check.rule->timed()) {
-      const auto info = std::ranges::find(messages::all_messages, asked.message, &MessageInfo::name);
-      if (info == messages::all_messages.end() || find_window(timing, asked.message, asked.window) != nullptr)
-        continue;
-      timing.windows.push_back({.message = static_cast<std::size_t>(info - messages::all_messages.begin()),
-                                .window = asked.window});
+      const auto info = std::ranges::find(messages, asked.message, &MessageInfo::name);
+      if (info == messages.end() || find_window(timing, asked.message, asked.window) != nullptr) continue;
+      timing.windows.push_back(
+          {.message = static_cast<std::size_t>(info - messages.begin()), .window = asked.window});
     }
   }
   return std::move(timing.windows);

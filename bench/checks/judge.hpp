@@ -15,7 +15,8 @@ namespace canhil::checks {
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 
 /// The windows, each once, for which the checks ask for the timing of a message: empty, to be filled.
-std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks);
+std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
+                                       std::span<const MessageInfo> messages = messages::all_messages);
 
 /// Every kind of check that a scenario may have: those of this folder and the estimators' own.
 std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators);

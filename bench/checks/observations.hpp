@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <any>
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string_view>
 #include <typeindex>
 #include <vector>
@@ -34,6 +34,10 @@ struct StimulusCount {
 
 /// Everything that the checks judge, apart from the truth.
 struct Observations {
+  Observations() : Observations(messages::all_messages) {}
+  /// `on_bus`: the messages of the bus.
+  explicit Observations(std::span<const MessageInfo> on_bus) : answers(on_bus.size()), timing(on_bus) {}
+
   /// What an estimator answered, in the type of its folder; what was not touched yet is empty.
   template <class Answers>
   [[nodiscard]] Answers& of() {
@@ -50,7 +54,7 @@ struct Observations {
   std::map<std::type_index, std::any> answered;  ///< by type
 
   std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group, those that are answered
-  std::array<std::uint64_t, messages::all_messages.size()> answers{};  ///< by place in all_messages
+  std::vector<std::uint64_t> answers;                 ///< by place in timing.messages
   /// Sample groups whose answers keep an interval of their own where their stimuli come faster.
   std::set<std::string_view> of_own_interval{};
   std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission

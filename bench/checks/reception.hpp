@@ -13,7 +13,7 @@ namespace canhil::estimators {
 
 /// A group that was whole, and what it answers.
 struct Whole {
-  std::span<const std::size_t> messages;  ///< their places in all_messages
+  std::span<const std::size_t> messages;  ///< their places in TimingRecord::messages
   std::int64_t cause_us = 0;              ///< time of validity of the cause
   std::string_view cause_group;
 };

@@ -7,13 +7,17 @@
 namespace canhil::checks {
 namespace {
 
-const MessageInfo* info_of(std::string_view message) {
-  const auto found = std::ranges::find(messages::all_messages, message, &MessageInfo::name);
-  return found == messages::all_messages.end() ? nullptr : &*found;
+const MessageInfo* info_of(const Observations& seen, std::string_view message) {
+  const auto found = std::ranges::find(seen.timing.messages, message, &MessageInfo::name);
+  return found == seen.timing.messages.end() ? nullptr : &*found;
+}
+
+std::size_t place_of(const Observations& seen, const MessageInfo& info) {
+  return static_cast<std::size_t>(&info - seen.timing.messages.data());
 }
 
 const AnswerTiming& timing_of(const Observations& seen, const MessageInfo& info) {
-  return seen.timing.answers[static_cast<std::size_t>(&info - messages::all_messages.data())];
+  return seen.timing.answers[place_of(seen, info)];
 }
 
 // What a message answers in this run: the stimuli of each group that was sent.
@@ -71,7 +75,7 @@ Distribution distribution_s(const Histogram& histogram) {
 const TimedWindow* find_window(const TimingRecord& timing, std::string_view message,
                                const scenario::Window& window) {
   const auto found = std::ranges::find_if(timing.windows, [&](const TimedWindow& timed) {
-    return messages::all_messages[timed.message].name == message && same(timed.window, window);
+    return timing.messages[timed.message].name == message && same(timed.window, window);
   });
   return found == timing.windows.end() ? nullptr : &*found;
 }
@@ -81,7 +85,7 @@ bool stamped_by_hardware(const TimingRecord& timing) {
 }
 
 std::size_t unanswered(const Observations& seen, std::string_view message) {
-  const MessageInfo* info = info_of(message);
+  const MessageInfo* info = info_of(seen, message);
   if (info == nullptr) return 0;
   const auto all = all_stimuli_of(seen, *info);
   std::uint64_t due = 0;
@@ -91,7 +95,7 @@ std::size_t unanswered(const Observations& seen, std::string_view message) {
     const double span_s = static_cast<double>(all[0].last_us - all[0].first_us) * 1e-6;
     due = std::min(due, static_cast<std::uint64_t>(std::lround(span_s / period_s)) + 1);
   }
-  const auto came = seen.answers[static_cast<std::size_t>(info - messages::all_messages.data())];
+  const auto came = seen.answers[place_of(seen, *info)];
   return due - std::min(due, came);
 }
 
@@ -122,7 +126,7 @@ PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, dou
 }
 
 double longest_silence_s(const Observations& seen, std::string_view message) {
-  const MessageInfo* info = info_of(message);
+  const MessageInfo* info = info_of(seen, message);
   if (info == nullptr) return static_cast<double>(seen.last_ns - seen.first_ns) * 1e-9;
   const AnswerTiming& timing = timing_of(seen, *info);
   const std::int64_t at_the_end_ns = seen.last_ns - timing.last_ns.value_or(seen.first_ns);
@@ -130,13 +134,13 @@ double longest_silence_s(const Observations& seen, std::string_view message) {
 }
 
 double ended_before_s(const Observations& seen, const TimedWindow& window) {
-  const bool answers = !all_stimuli_of(seen, messages::all_messages[window.message]).empty();
+  const bool answers = !all_stimuli_of(seen, seen.timing.messages[window.message]).empty();
   const std::int64_t end_ns = answers ? window.last_stimulus_ns.value_or(seen.last_ns) : seen.last_ns;
   return static_cast<double>(end_ns - window.last_arrival.value_or(Arrival{}).t_ns) * 1e-9;
 }
 
 double nominal_period_s(const Observations& seen, std::string_view message) {
-  const MessageInfo* info = info_of(message);
+  const MessageInfo* info = info_of(seen, message);
   if (info == nullptr) return 0;
   const double cycle_s = static_cast<double>(info->cycle_time_us) * 1e-6;
   const auto all = all_stimuli_of(seen, *info);

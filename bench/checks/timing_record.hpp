@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -69,10 +70,12 @@ struct WireResponse {
 /// A message within a window of the run, by the time of validity of what it answers, for a check that asks.
 /// Of a message that answers nothing the window is the whole run.
 struct TimedWindow {
-  std::size_t message = 0;  ///< place in all_messages
+  std::size_t message = 0;  ///< place in TimingRecord::messages
   scenario::Window window{};
   Histogram latency{};
   Histogram period{};  ///< from one arrival to the next
+  /// How long after its deadline each stimulus was on the bus: what the host takes by itself.
+  Histogram lateness{};
   /// How far the bench was off the period of what the message answers: by stimulus, the time between two on
   /// the bus less that between their deadlines; one in whose place several were due counts as many times.
   Histogram stimulus_deviation{};
@@ -117,10 +120,16 @@ struct SlowestAnswer {
 };
 
 struct TimingRecord {
+  TimingRecord() : TimingRecord(canhil::messages::all_messages) {}
+  /// `bus`: its messages.
+  explicit TimingRecord(std::span<const MessageInfo> bus)
+      : messages(bus), answers(bus.size()), transmit(bus.size()), responses(bus.size()) {}
+
+  std::span<const MessageInfo> messages;
   WireFacts wire{};
-  std::array<AnswerTiming, messages::all_messages.size()> answers;     ///< by place in all_messages
-  std::array<TransmitTiming, messages::all_messages.size()> transmit;  ///< by place in all_messages
-  std::array<WireResponse, messages::all_messages.size()> responses;   ///< by wire::Carrier::first
+  std::vector<AnswerTiming> answers;      ///< by place in `messages`
+  std::vector<TransmitTiming> transmit;   ///< by place in `messages`
+  std::vector<WireResponse> responses;    ///< by wire::Carrier::first
   Histogram lateness;                     ///< of all messages of the bench when handed over
   TimeLine lateness_line;                 ///< the same over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource

@@ -48,7 +48,7 @@ std::int64_t together(const Observations& seen, const AnswerTiming& timing, std:
 // All that the bench plays goes through one queue. The messages of a container are sent together, as often.
 Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
   const std::size_t index = carrier.first;
-  const MessageInfo& info = messages::all_messages[index];
+  const MessageInfo& info = seen.timing.messages[index];
   const std::int64_t period = period_ns(seen, info);
   const std::int64_t burst = info.answers.empty() ? together(seen, seen.timing.answers[index], period) : 1;
   return {.name = std::string(carrier.name),
@@ -71,11 +71,12 @@ std::optional<std::int64_t> from_queued(const Stream& stream, const schedulabili
 std::vector<WireBound> wire_bounds(const Observations& seen) {
   const TimingRecord& timing = seen.timing;
   if (timing.wire.rates.nominal == 0) return {};
+  const std::vector<wire::Carrier> all = wire::carriers_of(timing.messages, timing.wire.fd);
   // By priority.
   std::map<std::uint32_t, wire::Carrier> carriers;
-  for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
-    const wire::Carrier& carrier = wire::carriers(timing.wire.fd)[i];
-    const MessageInfo& first = messages::all_messages[carrier.first];
+  for (std::size_t i = 0; i < timing.messages.size(); ++i) {
+    const wire::Carrier& carrier = all[i];
+    const MessageInfo& first = timing.messages[carrier.first];
     if (was_seen(timing, i)) carriers.emplace(wire::arbitration_rank(first.id, first.extended), carrier);
   }
   std::vector<Stream> streams;
@@ -91,7 +92,7 @@ std::vector<WireBound> wire_bounds(const Observations& seen) {
     const WireResponse& measured = timing.responses[carrier.first];
     if (measured.count == 0) continue;
     bounds.push_back({.message = carrier.name,
-                      .of_target = is_targets(messages::all_messages[carrier.first]),
+                      .of_target = is_targets(timing.messages[carrier.first]),
                       .count = measured.count,
                       .longest_ns = measured.max_ns,
                       .frame_ns = response.transmission_ns,

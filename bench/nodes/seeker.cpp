@@ -220,11 +220,16 @@ void Seeker::steer() {
 
 }  // namespace
 
+constexpr std::array rates{Rate{"seeker.antenna_rate.roll", "antenna_increment_roll_rad"},
+                           Rate{"seeker.antenna_rate.pitch", "antenna_increment_pitch_rad"},
+                           Rate{"seeker.antenna_rate.yaw", "antenna_increment_yaw_rad"}};
+
 constinit const Kind seeker{.table = {.key = "seeker",
                                       .closes = messages::SeekerRange::info,
                                       .samples = scenario::TruthOf::engagement,
                                       .read = read},
                             .make = make<Seeker>,
-                            .fits = fits};
+                            .fits = fits,
+                            .rates = rates};
 
 }  // namespace canhil::nodes

@@ -147,12 +147,20 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
 
 }  // namespace
 
+constexpr std::array rates{Rate{"imu.rate.x", "delta_theta_x_rad"},
+                           Rate{"imu.rate.y", "delta_theta_y_rad"},
+                           Rate{"imu.rate.z", "delta_theta_z_rad"},
+                           Rate{"imu.specific_force.x", "delta_v_x_mps"},
+                           Rate{"imu.specific_force.y", "delta_v_y_mps"},
+                           Rate{"imu.specific_force.z", "delta_v_z_mps"}};
+
 constinit const Kind slave_imu{.table = {.key = "slave_imu",
                                          .closes = messages::SlaveImuStatus::info,
                                          .samples = scenario::TruthOf::navigation,
                                          .read = read},
                                .make = make<SlaveImu>,
                                .fits = fits,
-                               .at_every_epoch = true};
+                               .at_every_epoch = true,
+                               .rates = rates};
 
 }  // namespace canhil::nodes

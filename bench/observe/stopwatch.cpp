@@ -6,23 +6,12 @@
 #include <utility>
 
 #include "bench/checks/finding.hpp"
-#include "dbc/wire/e2e.hpp"
-#include "dbc/wire/routes.hpp"
 
 namespace canhil::observe {
 namespace {
 
 using checks::Stimulus;
 using checks::TimedWindow;
-
-constexpr Routes bench_messages([](const MessageInfo& info) {
-  return info.sender != messages::TargetHeartbeat::info.sender;
-});
-
-bool answers(std::size_t index, std::string_view group) {
-  return std::ranges::find(messages::all_messages[index].answers, group) !=
-         messages::all_messages[index].answers.end();
-}
 
 // From the stimulus before to this one: how far off the time between their deadlines.
 void add_deviation(TimedWindow& window, const Stimulus& from, const Stimulus& to) {
@@ -46,9 +35,22 @@ void add(checks::WireResponse& response, std::int64_t ns) {
 
 }  // namespace
 
+/// The place of a message that the bench sends; nowhere: it sends no such frame.
+std::size_t Stopwatch::of_bench(const Frame& frame) const {
+  const std::size_t index = places_(frame);
+  const bool targets = index != MessagePlaces::nowhere &&
+                       record_.messages[index].sender == messages::TargetHeartbeat::info.sender;
+  return targets ? MessagePlaces::nowhere : index;
+}
+
+bool Stopwatch::answers(std::size_t index, std::string_view group) const {
+  const auto groups = record_.messages[index].answers;
+  return std::ranges::find(groups, group) != groups.end();
+}
+
 /// The frame on the wire that ends with this message; none: more are in it.
 std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
-  if (!record_.wire.fd) return message;
+  if (!record_.wire.fd || record_.messages.data() != messages::all_messages.data()) return message;
   if (packer.due_before(message)) packer.clear();  // went without its last message
   return packer.put(message);
 }
@@ -68,10 +70,12 @@ void Stopwatch::sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns
   if (!first_ns_) first_ns_ = t_ns;
   record_.lateness.add(late_ns);
   record_.lateness_line.add(t_ns - *first_ns_, late_ns);
-  const std::size_t index = bench_messages(frame);
-  if (index == Routes::nowhere) return;
+  const std::size_t index = of_bench(frame);
+  if (index == MessagePlaces::nowhere) return;
   record_.transmit[index].handed_over.add(late_ns);
-  pending_[index][e2e::counter(frame.payload())] = {frame, t_ns, late_ns, true};
+  std::vector<Pending>& pending = pending_[index];
+  if (pending.size() == on_their_way) pending.erase(pending.begin());
+  pending.push_back({.frame = frame, .t_ns = t_ns, .late_ns = late_ns});
 }
 
 void Stopwatch::stimulus(std::string_view name, const Stimulus& stimulus) {
@@ -82,20 +86,23 @@ void Stopwatch::stimulus(std::string_view name, const Stimulus& stimulus) {
 
 // Lateness is of CLOCK_MONOTONIC, stamps may be of another clock: only differences of stamps are taken.
 void Stopwatch::echoed(const Received& received, std::string_view group, std::int64_t valid_us) {
-  const std::size_t index = bench_messages(received.frame);
-  if (index == Routes::nowhere) return;
-  Pending& pending = pending_[index][e2e::counter(received.frame.payload())];
+  const std::size_t index = of_bench(received.frame);
+  if (index == MessagePlaces::nowhere) return;
+  std::vector<Pending>& waiting = pending_[index];
+  const auto pending = std::ranges::find_if(waiting, [&](const Pending& one) {
+    return std::ranges::equal(one.frame.payload(), received.frame.payload());
+  });
   const std::optional<Frame> on_wire = closed_by(received.frame, echoes_);
-  const bool known = pending.waiting && std::ranges::equal(pending.frame.payload(), received.frame.payload());
-  if (known) {
-    pending.waiting = false;
-    const std::int64_t on_bus_ns = received.t_ns - pending.t_ns;
-    record_.transmit[index].echoed.add(pending.late_ns + on_bus_ns);
-    if (on_wire) add(record_.responses[carriers_[index].first], on_bus_ns);
+  std::optional<std::int64_t> on_bus_ns;  // of one that was waited for
+  if (pending != waiting.end()) {
+    on_bus_ns = received.t_ns - pending->t_ns;
+    record_.transmit[index].echoed.add(pending->late_ns + *on_bus_ns);
+    if (on_wire) add(record_.responses[carriers_[index].first], *on_bus_ns);
+    waiting.erase(pending);
   }
   Sent* sent = group.empty() ? nullptr : find(group, valid_us);
   if (sent == nullptr) return;
-  if (known) sent->to_echo_ns = received.t_ns - pending.t_ns;
+  if (on_bus_ns) sent->to_echo_ns = on_bus_ns;
   if (on_wire) sent->wire_ns = on_wire_ns(*on_wire) - no_intermission_ns();
   sent->stimulus.t_ns = received.t_ns;
   sent->stimulus.hardware_ns = received.hardware_ns;
@@ -114,7 +121,7 @@ void Stopwatch::arrived(std::size_t index, const Received& received) {
   timing.last_ns = arrival.t_ns;
   ++timing.count;
 
-  const MessageInfo& info = messages::all_messages[index];
+  const MessageInfo& info = record_.messages[index];
   if (!info.answers.empty()) return;
   for (TimedWindow& window : record_.windows) {
     if (window.message == index) add_arrival(window, arrival);
@@ -195,7 +202,7 @@ void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std
   if (!sent.answered) ++untold_.stimuli;
   sent.answered = true;
   if (latency_ns <= untold_.slowest.latency_ns) return;
-  untold_.slowest = {.message = messages::all_messages[index].name,
+  untold_.slowest = {.message = record_.messages[index].name,
                      .t_ns = newest_[index].t_ns - first_ns_.value_or(0),
                      .latency_ns = latency_ns,
                      .reply_wire_ns = sent.reply_wire_ns};
@@ -241,8 +248,10 @@ void Stopwatch::forget_oldest(std::string_view name, Group& group) {
   ++(stimulus.hardware_ns != 0 ? record_.stimuli_with_hardware_stamp : record_.without_hardware_stamp);
   for (TimedWindow& window : record_.windows) {
     if (!answers(window.message, name)) continue;
-    if (group.before && checks::within(window.window, stimulus.valid_us))
-      add_deviation(window, *group.before, stimulus);
+    if (checks::within(window.window, stimulus.valid_us)) {
+      window.lateness.add(stimulus.t_ns - stimulus.due_ns);
+      if (group.before) add_deviation(window, *group.before, stimulus);
+    }
     if (stimulus.valid_us <= window.window.to_us)
       window.last_stimulus_ns = std::max(window.last_stimulus_ns.value_or(stimulus.t_ns), stimulus.t_ns);
   }

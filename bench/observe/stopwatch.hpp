@@ -1,7 +1,6 @@
 // Takes the times of a run: latency, jitter and the bench's own lateness, as the frames pass.
 #pragma once
 
-#include <array>
 #include <bitset>
 #include <cstdint>
 #include <deque>
@@ -9,10 +8,12 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "bench/checks/timing_record.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/carriers.hpp"
+#include "dbc/wire/message_places.hpp"
 
 namespace canhil::observe {
 
@@ -23,7 +24,13 @@ class Stopwatch {
 
   /// The record says which windows are asked for, and how fast the bus is.
   explicit Stopwatch(checks::TimingRecord& record)
-      : record_(record), carriers_(wire::carriers(record.wire.fd)) {}
+      : record_(record),
+        places_(record.messages),
+        carriers_(wire::carriers_of(record.messages, record.wire.fd)),
+        pending_(record.messages.size()),
+        newest_(record.messages.size()),
+        wire_ns_(record.messages.size()),
+        last_(record.messages.size()) {}
 
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
@@ -31,7 +38,7 @@ class Stopwatch {
   void stimulus(std::string_view group, const checks::Stimulus& stimulus);
   /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that it closes, if it does.
   void echoed(const Received& received, std::string_view group, std::int64_t valid_us);
-  /// A message of the target came; `index`: its place in all_messages.
+  /// A message of the target came; `index`: its place in the record's messages.
   void arrived(std::size_t index, const Received& received);
   /// The newest arrivals of these messages are the answer to a stimulus.
   void answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us);
@@ -41,21 +48,21 @@ class Stopwatch {
   void finish();
 
  private:
-  // Frames on their way, by the counter that each carries: one that is as old as 16 of its kind is lost.
+  // Frames on their way, the oldest first: of `on_their_way` of a kind the oldest is lost.
   struct Pending {
     Frame frame;
     std::int64_t t_ns = 0;
     std::int64_t late_ns = 0;
-    bool waiting = false;
   };
+  static constexpr std::size_t on_their_way = 15;
   struct Sent {
     checks::Stimulus stimulus;
     std::optional<std::int64_t> to_echo_ns{};
     std::int64_t wire_ns = 0;
     bool answered = false;
-    std::bitset<messages::all_messages.size()> answered_by{};  // the last message of each answer
-    std::int64_t latency_ns = 0;                               // of the last answer so far
-    std::int64_t reply_wire_ns = 0;                            // of all answers so far
+    std::bitset<MessagePlaces::most> answered_by{};  // the last message of each answer
+    std::int64_t latency_ns = 0;                     // of the last answer so far
+    std::int64_t reply_wire_ns = 0;                  // of all answers so far
   };
   struct Group {
     std::deque<Sent> sent{};
@@ -82,14 +89,18 @@ class Stopwatch {
   [[nodiscard]] std::int64_t on_wire_ns(const Frame& frame) const;
   [[nodiscard]] std::int64_t no_intermission_ns() const;
 
+  [[nodiscard]] std::size_t of_bench(const Frame& frame) const;
+  [[nodiscard]] bool answers(std::size_t index, std::string_view group) const;
+
   checks::TimingRecord& record_;
-  const wire::Carriers& carriers_;
+  MessagePlaces places_;
+  std::vector<wire::Carrier> carriers_;
   FdPacker echoes_, arrivals_;  // the containers again
-  std::array<std::array<Pending, 16>, messages::all_messages.size()> pending_{};
+  std::vector<std::vector<Pending>> pending_;
   std::map<std::string_view, Group> groups_;
-  std::array<checks::Arrival, messages::all_messages.size()> newest_{};
-  std::array<std::int64_t, messages::all_messages.size()> wire_ns_{};  // of what came, by Carrier::first
-  std::array<std::optional<Last>, messages::all_messages.size()> last_{};
+  std::vector<checks::Arrival> newest_;
+  std::vector<std::int64_t> wire_ns_;  // of what came, by Carrier::first
+  std::vector<std::optional<Last>> last_;
   std::optional<std::int64_t> first_ns_;
   Untold untold_;
 };

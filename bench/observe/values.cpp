@@ -55,13 +55,19 @@ std::string words(const Value& value) {
   return value.enumerator.empty() ? fmt::format("{:.12g}", value.value) : std::string(value.enumerator);
 }
 
-const SignalInfo* signal_of(const MessageInfo& message, std::string_view name) {
+std::vector<const SignalInfo*> signals_of(const MessageInfo& message) {
   Frame frame;
   frame.id = message.id;
   frame.extended = message.extended;
   frame.size = message.size;
-  for (const Value& value : values_of(frame)) {
-    if (value.signal->name == name) return value.signal;
+  std::vector<const SignalInfo*> signals;
+  for (const Value& value : values_of(frame)) signals.push_back(value.signal);
+  return signals;
+}
+
+const SignalInfo* signal_of(const MessageInfo& message, std::string_view name) {
+  for (const SignalInfo* signal : signals_of(message)) {
+    if (signal->name == name) return signal;
   }
   return nullptr;
 }

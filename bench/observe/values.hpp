@@ -24,6 +24,8 @@ std::vector<Value> values_of(const Frame& frame);
 /// Empty: of none.
 std::string_view message_of(const Frame& frame);
 
+/// Of a message of the contract, without those of its protection.
+std::vector<const SignalInfo*> signals_of(const MessageInfo& message);
 /// Null: the message has no such signal.
 const SignalInfo* signal_of(const MessageInfo& message, std::string_view name);
 

@@ -84,10 +84,10 @@ Json wire_of(const checks::Observations& seen) {
 void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run& run) {
   const checks::TimingRecord& timing = run.seen.timing;
   const std::vector<std::string_view> closing = closing_answers(scenario);
-  for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
-    const std::string name(messages::all_messages[i].name);
+  for (std::size_t i = 0; i < timing.messages.size(); ++i) {
+    const std::string name(timing.messages[i].name);
     const checks::AnswerTiming& answers = timing.answers[i];
-    const bool due = is_due(scenario, messages::all_messages[i]);
+    const bool due = is_due(scenario, timing.messages[i]);
     const std::size_t never_came = due ? checks::unanswered(run.seen, name) : 0;
     if (answers.latency.count() > 0 || answers.unpaired > 0 || never_came > 0) {
       Json& latency = page["latency_s"][name] = object(answers.latency);

@@ -76,9 +76,9 @@ std::string latency_words(const scenario::Scenario& scenario, const checks::Obse
                           bool virtual_time) {
   std::string none, lines;
   for (const std::string_view message : closing_answers(scenario)) {
-    const auto place = std::ranges::find(messages::all_messages, message, &MessageInfo::name);
+    const auto place = std::ranges::find(seen.timing.messages, message, &MessageInfo::name);
     const checks::AnswerTiming& timing =
-        seen.timing.answers[static_cast<std::size_t>(place - messages::all_messages.begin())];
+        seen.timing.answers[static_cast<std::size_t>(place - seen.timing.messages.begin())];
     const std::uint64_t answers = timing.latency.count();
     const std::size_t unanswered = checks::unanswered(seen, message);
     const std::string missing = unanswered > 0 ? fmt::format(", {} never came", unanswered) : "";

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Estimator;
 
 namespace canhil::scenario {
 
+struct Foreign;
 struct NodeTable;
 
 struct Contract {
@@ -33,6 +35,7 @@ struct Contract {
   std::map<std::string, std::string, std::less<>> sent_by{};
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
+  std::shared_ptr<const Foreign> foreign{};  ///< null: the target speaks the project's own contract
 };
 
 /// Of an estimator; one that nobody knows is one that navigates.

@@ -170,6 +170,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
   scenario.fd = read_fd(root);
   scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
+  scenario.foreign = contract.foreign;
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {
     scenario.engagement = read_engagement(*engagement);

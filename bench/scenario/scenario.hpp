@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +39,7 @@ struct Scenario {
   std::uint64_t seed = 0;
   std::optional<bool> fd;  ///< what it says of the bus's contract: canhil-fd, or canhil
 
+  std::shared_ptr<const Foreign> foreign;  ///< null: the target speaks the project's own contract
   std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
   world::Flight truth;                     ///< at rest where nothing navigates
   world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start

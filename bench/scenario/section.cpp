@@ -320,6 +320,45 @@ std::vector<std::string> Section::some_of(std::string_view key, std::span<const 
   return chosen;
 }
 
+std::vector<std::string> Section::texts(std::string_view key) {
+  constexpr std::string_view expected = "an array of texts";
+  std::vector<std::string> all;
+  for (const toml::node& element : state_->elements(key, state_->ask(key), expected)) {
+    if (const auto* text = element.as_string(); text != nullptr && !text->get().empty())
+      all.push_back(text->get());
+    else
+      reject(key, "holds what is no text", expected);
+  }
+  return all;
+}
+
+std::vector<std::int64_t> Section::integers(std::string_view key, std::int64_t least) {
+  const std::string expected = fmt::format("an array of whole numbers of at least {}", least);
+  std::vector<std::int64_t> all;
+  for (const toml::node& element : state_->elements(key, state_->ask(key), expected)) {
+    if (const auto* number = element.as_integer(); number != nullptr && number->get() >= least)
+      all.push_back(number->get());
+    else
+      reject(key, "holds what is none", expected);
+  }
+  return all;
+}
+
+std::vector<std::string> Section::keys() const {
+  std::vector<std::pair<std::size_t, std::string>> by_line;
+  if (state_->table != nullptr) {
+    for (const auto& [key, node] : *state_->table) by_line.emplace_back(line_of(node), key.str());
+  }
+  std::ranges::stable_sort(by_line, {}, &std::pair<std::size_t, std::string>::first);
+  std::vector<std::string> all;
+  for (auto& [line, key] : by_line) all.push_back(std::move(key));
+  return all;
+}
+
+bool Section::holds_text(std::string_view key) const {
+  return has(key) && state_->table->get(key)->is_string();
+}
+
 std::vector<Setting> Section::settings() {
   std::vector<Setting> all;
   if (state_->table != nullptr) add_settings(*state_->table, "", all);

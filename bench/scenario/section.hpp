@@ -65,6 +65,12 @@ class Section {
 
   /// An array of some of these names; absent: none.
   std::vector<std::string> some_of(std::string_view key, std::span<const std::string> names);
+  /// Arrays; absent: empty.
+  std::vector<std::string> texts(std::string_view key);
+  std::vector<std::int64_t> integers(std::string_view key, std::int64_t least);
+  /// The keys that are there, in their order.
+  [[nodiscard]] std::vector<std::string> keys() const;
+  [[nodiscard]] bool holds_text(std::string_view key) const;
   /// Everything in this table, whatever its keys: those of another file. Tables in it are keys with dots.
   std::vector<Setting> settings();
 

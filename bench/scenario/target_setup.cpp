@@ -47,7 +47,23 @@ std::vector<Parameter> read_parameters(Section section, const Contract& contract
   return parameters;
 }
 
+/// Without a handshake: nothing is told, so there is nothing to be set.
+TargetSetup read_own_start(Section& section, const Contract& contract) {
+  static const std::vector<std::string> none{"none"};
+  section.one_of("handshake", none, none.front());
+  section.text("mapping");  // read before, by whom the contract is
+  TargetSetup target;
+  target.estimator = contract.estimators.front();
+  target.own_start = {.settle_us = section.time_us("settle_s", Limits::between(0, 3600), 0.5),
+                      .silence_us = section.time_us("silence_s", Limits::above(0, 3600), 1.0),
+                      .before = section.text("before", ""),
+                      .after = section.text("after", "")};
+  section.finish();
+  return target;
+}
+
 TargetSetup read_target(Section& section, const Contract& contract) {
+  if (contract.foreign != nullptr) return read_own_start(section, contract);
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
   target.algorithm = section.one_of("algorithm", contract.algorithms);

@@ -28,6 +28,13 @@ struct Parameter {
   std::string where{};  ///< in the scenario, for messages: "my.toml:31: key 'target.parameters.h2_case'"
 };
 
+/// Of a target that is told nothing at the start (Contract::foreign).
+struct OwnStart {
+  std::int64_t settle_us = 0;    ///< from its start, or the bench's, to the first sample
+  std::int64_t silence_us = 0;   ///< after which it counts as gone
+  std::string before, after;     ///< commands of a shell, around the run: power, relays; empty: none
+};
+
 struct TargetSetup {
   std::string estimator;          ///< a name of the DBC's value table Estimator
   std::string algorithm;          ///< a name of Algorithm
@@ -35,6 +42,7 @@ struct TargetSetup {
   InitialSigma initial_sigma;
   std::optional<world::InitialErrorModel> initial_error{};  ///< its own in place of the scenario's
   std::vector<Parameter> parameters;                        ///< in the DBC's order
+  std::optional<OwnStart> own_start{};                      ///< none: by the contract's handshake
 };
 
 /// Every estimator of the target, at least one, none of them twice.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
@@ -15,7 +17,7 @@ namespace canhil::wire {
 
 /// A frame on the wire.
 struct Carrier {
-  std::size_t first = 0;    ///< place in all_messages of the first message in it, whose id it has
+  std::size_t first = 0;    ///< place in the list of messages of the first message in it, whose id it has
   std::string_view name{};  ///< in the bus's contract
   BitLength longest{};
 };
@@ -47,6 +49,21 @@ inline constexpr Carriers fd_carriers = [] {
   return carriers;
 }();
 
-constexpr const Carriers& carriers(bool fd) { return fd ? fd_carriers : classic_carriers; }
+/// Of the messages of a bus: of the project's contract as above; those of another DBC travel each in a frame
+/// of its own, as long as `fd` or classic frames may be.
+inline std::vector<Carrier> carriers_of(std::span<const MessageInfo> messages, bool fd) {
+  if (messages.data() == messages::all_messages.data()) {
+    const Carriers& own = fd ? fd_carriers : classic_carriers;
+    return {own.begin(), own.end()};
+  }
+  std::vector<Carrier> carriers;
+  for (const MessageInfo& info : messages) {
+    carriers.push_back({.first = carriers.size(),
+                        .name = info.name,
+                        .longest = info.fd ? worst_case_fd_length(info.size, info.extended, true)
+                                           : worst_case_length(info.size, info.extended)});
+  }
+  return carriers;
+}
 
 }  // namespace canhil::wire

@@ -1,0 +1,106 @@
+// Somebody else's contract: a DBC, and a TOML file beside it that says which of its signals are which of the
+// bench's quantities. docs/mapping.md.
+//
+// A play is a group of messages that the bench sends; a hear a message of the target. Neither knows a scenario.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/checks/estimator.hpp"
+#include "bench/mapping/stimuli.hpp"
+#include "bench/mapping/truths.hpp"
+#include "bench/scenario/contract.hpp"
+#include "bench/scenario/foreign.hpp"
+#include "dbc/parser/database.hpp"
+#include "dbc/protection/protection.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::mapping {
+
+/// A message of the DBC, and its place in Mapping::messages.
+struct Mapped {
+  const dbc::Message* message = nullptr;
+  std::size_t place = 0;
+  std::optional<protection::Protection> protection{};
+};
+
+/// What a signal of the bench carries.
+struct Source {
+  const dbc::Signal* signal = nullptr;
+  const Stimulus* stimulus = nullptr;  ///< null: a constant, or the time
+  bool time = false;                   ///< of validity, from the start of the run
+  double value = 0;                    ///< a constant, in the signal's unit
+  double factor = 1;                   ///< from SI to the signal's unit
+};
+
+struct PlayedMessage {
+  Mapped of;
+  std::vector<Source> sources;
+};
+
+/// A group of messages that the bench sends one after the other.
+struct Play {
+  std::string name;  ///< of its last message
+  std::vector<PlayedMessage> messages;
+  std::string_view node;        ///< whose samples it follows
+  std::int64_t period_us = 0;   ///< a multiple of the node's
+  std::int64_t latency_us = 0;  ///< beside the node's
+};
+
+/// What a signal of the target tells.
+struct Telling {
+  const dbc::Signal* signal = nullptr;
+  const Truthed* quantity = nullptr;
+  bool sigma = false;  ///< of the quantity, in place of its value
+  double factor = 1;   ///< from the signal's unit to SI
+  std::optional<std::uint64_t> invalid{};  ///< raw value that tells nothing
+};
+
+/// A signal of the target that repeats one of what it answers.
+struct Echo {
+  const dbc::Signal* repeated = nullptr;
+  std::size_t message = 0;  ///< of the play
+  const dbc::Signal* original = nullptr;
+};
+
+struct Hear {
+  Mapped of;
+  std::vector<Telling> tellings;
+  std::optional<std::size_t> answers{};  ///< a play; none: it comes by itself
+  std::optional<Echo> echo{};            ///< none: it answers the latest before it
+};
+
+struct Mapping final : scenario::Foreign {
+  std::string file;  ///< as it was named
+  dbc::Database database;
+  std::vector<Play> plays;
+  std::vector<Hear> hears;
+  std::string name;  ///< of the target, in place of an estimator's
+
+  // What Foreign::messages and Foreign::estimator are made of.
+  std::deque<std::string_view> groups;
+  std::vector<const quantities::Quantity*> told;  ///< each once
+  quantities::Layout layout;
+  std::vector<std::string_view> closing;
+  std::optional<estimators::Estimator> own;
+};
+
+/// Reads a mapping and the DBC that it names, relative to itself. Error: one line.
+Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file);
+
+/// What the bench knows of a target that a mapping describes, as of an estimator. The mapping must stay where
+/// it is.
+estimators::Estimator estimator_of(const Mapping& mapping);
+
+/// The contract by which a scenario is read: the project's, or that of the mapping that its [target] names,
+/// relative to the scenario's file. Error: one line; a text that is no TOML is left to who reads it.
+Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
+                                       const scenario::Contract& own);
+
+}  // namespace canhil::mapping

@@ -1,0 +1,28 @@
+// What a mapped target may tell beside the quantities of the project's own estimators.
+#pragma once
+
+#include "bench/quantities/list.hpp"
+
+namespace canhil::quantities {
+
+inline constexpr Unit degps{"deg/s", "_degps", world::units::deg}, mps2{"m/s^2", "_mps2"};
+
+/// Of the body to inertial space, in body axes.
+inline constexpr Quantity rate_x{.name = "rate.x", .meaning = "error of the inertial rate about x", .unit = degps};
+inline constexpr Quantity rate_y{.name = "rate.y", .meaning = "error of the inertial rate about y", .unit = degps};
+inline constexpr Quantity rate_z{.name = "rate.z", .meaning = "error of the inertial rate about z", .unit = degps};
+/// Acceleration without gravity, in body axes.
+inline constexpr Quantity specific_force_x{
+    .name = "specific_force.x", .meaning = "error of the specific force along x", .unit = mps2};
+inline constexpr Quantity specific_force_y{
+    .name = "specific_force.y", .meaning = "error of the specific force along y", .unit = mps2};
+inline constexpr Quantity specific_force_z{
+    .name = "specific_force.z", .meaning = "error of the specific force along z", .unit = mps2};
+inline constexpr Quantity position_latitude{
+    .name = "position.latitude", .meaning = "error of the geodetic latitude", .unit = mrad};
+inline constexpr Quantity position_longitude{
+    .name = "position.longitude", .meaning = "error of the longitude", .unit = mrad};
+inline constexpr Quantity position_height{
+    .name = "position.height", .meaning = "error of the height above the ellipsoid", .unit = metres};
+
+}  // namespace canhil::quantities

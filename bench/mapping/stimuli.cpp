@@ -1,0 +1,64 @@
+#include "bench/mapping/stimuli.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "bench/mapping/units.hpp"
+#include "bench/nodes/registry.hpp"
+#include "bench/observe/values.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+// What tells when a sample was taken is no measurement; a play has its own ways to tell it.
+bool of_the_sample(const SignalInfo& signal) {
+  return signal.name.starts_with("time_of_validity") || signal.name.starts_with("interval");
+}
+
+// "latitude_deg" -> "latitude": the contract's names end in their units.
+std::string_view without_unit(std::string_view signal) { return signal.substr(0, signal.rfind('_')); }
+
+std::vector<Stimulus> all_stimuli() {
+  std::vector<Stimulus> all;
+  for (const nodes::Kind* kind : nodes::all()) {
+    const scenario::NodeTable& table = kind->table;
+    for (const MessageInfo& message : messages::all_messages) {
+      if (message.sample_group != table.closes.sample_group || message.sender != table.closes.sender) continue;
+      for (const SignalInfo* signal : observe::signals_of(message)) {
+        const auto unit = signal->unit.empty() ? std::nullopt : wire_unit(signal->unit);
+        if (!unit || of_the_sample(*signal)) continue;
+        Stimulus stimulus{.name = std::string(table.key) + "." + std::string(without_unit(signal->name)),
+                          .si = unit->si,
+                          .node = table.key,
+                          .message = &message,
+                          .signal = signal->name,
+                          .factor = unit->factor};
+        const auto rate = std::ranges::find(kind->rates, signal->name, &nodes::Rate::of_increment);
+        if (rate != kind->rates.end()) {
+          stimulus.over = Over::sum;
+          all.push_back(stimulus);
+          stimulus.name = rate->name;
+          stimulus.si = stimulus.si == "rad" ? "rad/s" : "m/s^2";
+          stimulus.over = Over::rate;
+        }
+        all.push_back(stimulus);
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::span<const Stimulus> stimuli() {
+  static const std::vector<Stimulus> all = all_stimuli();
+  return all;
+}
+
+const Stimulus* find_stimulus(std::string_view name) {
+  const auto found = std::ranges::find(stimuli(), name, &Stimulus::name);
+  return found == stimuli().end() ? nullptr : &*found;
+}
+
+}  // namespace canhil::mapping

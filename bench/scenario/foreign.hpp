@@ -1,0 +1,27 @@
+// A target that does not speak the project's contract, as a scenario knows it. Who reads its DBC and its
+// mapping fills it in (bench/mapping).
+#pragma once
+
+#include <vector>
+
+#include "dbc/wire/message_info.hpp"
+
+namespace canhil::estimators {
+struct Estimator;
+}
+
+namespace canhil::scenario {
+
+struct Foreign {
+  Foreign() = default;
+  Foreign(const Foreign&) = delete;
+  Foreign& operator=(const Foreign&) = delete;
+  virtual ~Foreign() = default;
+
+  /// What bench and target send; the target's have the sender of the contract's TargetHeartbeat.
+  std::vector<MessageInfo> messages;
+  /// What it tells, as that of an estimator.
+  const estimators::Estimator* estimator = nullptr;
+};
+
+}  // namespace canhil::scenario
