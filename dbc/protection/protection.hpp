@@ -15,24 +15,18 @@
 
 namespace canhil::protection {
 
-/// The message that is protected.
-struct Subject {
-  std::uint32_t id = 0;  ///< CAN id, 11 or 29 bits
-  unsigned size = 0;     ///< bytes, 1..64
-};
-
 /// Protection of one message. Immutable; no member allocates or fails but make().
 class Protection {
  public:
-  /// Takes settings for a message. An error in one line if they are impossible: a place beyond the message
-  /// or over another one, a checksum over itself, a counter that its place cannot hold, a CRC that is none.
+  /// Takes settings for a message, or gives the error of validate().
   static Result<Protection> make(Settings settings, const Subject& subject);
 
   [[nodiscard]] const Settings& settings() const { return settings_; }
   [[nodiscard]] const Subject& subject() const { return subject_; }
 
-  /// Writes constants, counter and checksum into a packed message of the subject's size. The counter must be
-  /// allowed; it is ignored where the message has none.
+  /// Writes constants, counter and checksum into a packed message of the subject's size. A counter's value
+  /// that is not allowed is sent all the same, so that faults can be played; bits beyond its place are cut
+  /// off. Ignored where the message has no counter.
   void protect(std::span<std::uint8_t> data, std::uint64_t counter) const;
 
   /// True if size, constants and checksum are right. The data may have any length.
@@ -59,6 +53,7 @@ class Protection {
 
   Settings settings_;
   Subject subject_;
+  std::uint64_t modulo_ = 1;
   std::vector<unsigned> covered_;                         ///< bytes of the message, in the checksum's order
   std::array<std::uint8_t, Frame::max_size> own_bits_{};  ///< of the checksum, byte by byte
 };

@@ -2,6 +2,8 @@
 // profile (profiles.hpp) or from a file; protection.hpp turns valid ones into a Protection.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +12,7 @@
 #include <vector>
 
 #include "dbc/protection/crc.hpp"
+#include "dbc/wire/frame.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::protection {
@@ -63,6 +66,8 @@ struct Sum {
 /// A checksum covers, in this order: `before`, the message's bytes, `after`. Bits of the checksum itself
 /// count as 0; bytes that hold nothing else are left out.
 struct Checksum {
+  static constexpr std::size_t most_added = 16;  ///< of before and of after
+
   Place place;
   std::variant<Crc, Sum> rule;
   std::vector<unsigned> bytes;     ///< the bytes covered, in their order; empty: all
@@ -77,6 +82,7 @@ struct Constant {
   std::uint64_t value = 0;
 };
 
+/// Protection of one message. Neither counter nor checksum: none, which make() refuses.
 struct Settings {
   std::optional<Counter> counter;
   std::optional<Checksum> checksum;
@@ -84,6 +90,26 @@ struct Settings {
   std::uint32_t data_id = 0;
   std::vector<std::uint8_t> data_id_list;  ///< for Source::data_id_of_counter: one a counter's value
 };
+
+/// The message that is protected.
+struct Subject {
+  std::uint32_t id = 0;  ///< CAN id, 11 or 29 bits
+  unsigned size = 0;     ///< bytes, 1..64
+};
+
+/// An error in one line if the settings are impossible for a message: a place beyond it or over another one,
+/// a checksum over itself, a counter that its place cannot hold, a data id list that does not fit, a CRC that
+/// cannot be (validate(Crc)).
+Result<void> validate(const Settings& settings, const Subject& subject);
+
+/// The counter's modulo, from its place where none is given.
+std::uint64_t modulo(const Counter& counter);
+
+/// The bits of a field, byte by byte. The place must lie in 64 bytes.
+std::array<std::uint8_t, Frame::max_size> bits_of(const Place& place);
+
+/// The bytes that a checksum covers of a message of `size` bytes, in their order.
+std::vector<unsigned> covered_bytes(const Checksum& checksum, unsigned size);
 
 /// The rule that a file's word `kind` means: "crc4".."crc64" (a Crc of that width, without polynomial),
 /// "sum", "nibble_sum", "xor", "nibble_xor". The error lists the words.
