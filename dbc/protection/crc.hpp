@@ -1,0 +1,50 @@
+// Cyclic redundancy checks whose model is known only at run time: the parameters of the "Rocksoft" model, by
+// which the published CRCs are described (Williams, A Painless Guide to CRC Error Detection Algorithms,
+// 1993).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "dbc/wire/result.hpp"
+
+namespace canhil::protection {
+
+/// A CRC. Polynomial without its highest term; polynomial, start and final_xor have `width` bits and are
+/// written most significant bit first, reflected or not.
+struct Crc {
+  static constexpr unsigned narrowest = 4;
+  static constexpr unsigned widest = 64;
+
+  unsigned width = 8;
+  std::uint64_t polynomial = 0;
+  std::uint64_t start = 0;
+  bool input_reflected = false;   ///< each byte enters with its least significant bit first
+  bool output_reflected = false;  ///< the result is mirrored, before final_xor
+  std::uint64_t final_xor = 0;
+
+  friend bool operator==(const Crc&, const Crc&) = default;
+};
+
+/// A CRC that is described elsewhere, and the result that is published for the nine bytes "123456789".
+struct PublishedCrc {
+  std::string_view name;
+  Crc crc;
+  std::uint64_t check = 0;
+};
+
+/// The published CRCs that are known by name, in the order of their widths.
+std::span<const PublishedCrc> published_crcs();
+
+/// The published CRC of a name, as "CRC-8/SAE-J1850". The error lists the names.
+Result<Crc> published_crc(std::string_view name);
+
+/// An error in one line if a value is impossible: a width outside 4..64, a polynomial that is even (it leaves
+/// the last bit unprotected), or a value wider than the CRC.
+Result<void> validate(const Crc& crc);
+
+/// The CRC of some bytes, right-aligned. The model must be valid.
+std::uint64_t compute(const Crc& crc, std::span<const std::uint8_t> bytes);
+
+}  // namespace canhil::protection

@@ -1,0 +1,152 @@
+// Sums that vehicle makers use, each with a message that was computed by hand.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "dbc/protection/protection.hpp"
+
+namespace canhil::protection {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr Place last_byte{56, 8, false};
+const AddedByte id_low{Source::message_id, 0, 0};
+const AddedByte id_high{Source::message_id, 0, 1};
+const AddedByte length{Source::length, 0, 0};
+
+Bytes summed(const Checksum& checksum, Bytes data, std::uint32_t id = 0) {
+  Settings settings;
+  settings.checksum = checksum;
+  const Result<Protection> protection =
+      Protection::make(settings, {.id = id, .size = static_cast<unsigned>(data.size())});
+  if (!protection) throw std::runtime_error(protection.error().message);
+  protection->protect(data, 0);
+  EXPECT_EQ(Receiver().check(*protection, data), Check::ok);
+  for (std::size_t bit = 0; bit < 8 * data.size();
+       ++bit) {  // each sum finds one flipped bit in what it covers
+    const unsigned byte = static_cast<unsigned>(bit / 8);
+    const auto covered = covered_bytes(checksum, static_cast<unsigned>(data.size()));
+    const bool own = (bits_of(checksum.place)[byte] >> (bit % 8) & 1) != 0;
+    const bool seen = own || std::ranges::find(covered, byte) != covered.end();
+    data[byte] ^= static_cast<std::uint8_t>(1U << (bit % 8));
+    EXPECT_EQ(Receiver().check(*protection, data), seen ? Check::wrong_checksum : Check::ok) << "bit " << bit;
+    data[byte] ^= static_cast<std::uint8_t>(1U << (bit % 8));
+  }
+  return data;
+}
+
+// 01 ^ 02 ^ 04 ^ 08 ^ 10 ^ 20 = 3F, ^ 41 = 7E.
+TEST(Sums, XorOfAllOtherBytes) {
+  Checksum checksum;
+  checksum.place = {0, 8, false};
+  checksum.rule = Sum{.addition = Addition::xor_of_bytes};
+  EXPECT_EQ(summed(checksum, {0, 0x01, 0x02, 0x04, 0x08, 0x10, 0x20, 0x41})[0], 0x7E);
+}
+
+// F0 + 20 + 03 = 113, modulo 256: 13. Bytes 3..6 are not covered.
+TEST(Sums, SumOfAListOfBytes) {
+  Checksum checksum;
+  checksum.place = last_byte;
+  checksum.rule = Sum{};
+  checksum.bytes = {0, 1, 2};
+  EXPECT_EQ(summed(checksum, {0xF0, 0x20, 0x03, 9, 9, 9, 9, 0})[7], 0x13);
+}
+
+// F0 + 20 + 03 = 113; its lowest 8 bits' complement: FF - 13 = EC.
+TEST(Sums, ComplementOfASum) {
+  Checksum checksum;
+  checksum.place = last_byte;
+  checksum.rule = Sum{.final_xor = 0xFF};
+  EXPECT_EQ(summed(checksum, {0xF0, 0x20, 0x03, 0, 0, 0, 0, 0})[7], 0xEC);
+}
+
+// F0 + 20 + 03 + 7 (start) = 11A, two's complement of 1A: 100 - 1A = E6.
+TEST(Sums, NegatedSumWithAStart) {
+  Checksum checksum;
+  checksum.place = last_byte;
+  checksum.rule = Sum{.start = 7, .negated = true};
+  EXPECT_EQ(summed(checksum, {0xF0, 0x20, 0x03, 0, 0, 0, 0, 0})[7], 0xE6);
+}
+
+// Two bytes, Motorola: FF + FF + FF = 2FD, the more significant byte first.
+TEST(Sums, SumOfSixteenBits) {
+  Checksum checksum;
+  checksum.place = {55, 16, true};
+  checksum.rule = Sum{};
+  EXPECT_EQ(summed(checksum, {0xFF, 0xFF, 0xFF, 0, 0, 0, 0, 0}),
+            (Bytes{0xFF, 0xFF, 0xFF, 0, 0, 0, 0x02, 0xFD}));
+}
+
+// Sum with the CAN id, as Tesla's: id 488: 88 + 04 = 8C, + 10 + 80 = 11C, modulo 256: 1C.
+TEST(Sums, SumWithTheMessageId) {
+  Checksum checksum;
+  checksum.place = {24, 8, false};
+  checksum.rule = Sum{};
+  checksum.before = {id_low, id_high};
+  EXPECT_EQ(summed(checksum, {0x10, 0x80, 0x00, 0x00}, 0x488)[3], 0x1C);
+}
+
+// Sum of length, CAN id and bytes, as Toyota's: 05 + 02 + E4 = EB, + 80 + 0A = 175, modulo 256: 75.
+TEST(Sums, SumWithLengthAndMessageId) {
+  Checksum checksum;
+  checksum.place = {32, 8, false};
+  checksum.rule = Sum{};
+  checksum.before = {length, id_low, id_high};
+  EXPECT_EQ(summed(checksum, {0x80, 0x00, 0x0A, 0x00, 0xEE}, 0x2E4)[4], 0x75);
+}
+
+// Sum of nibbles, as Honda's: 8 - (nibbles of the CAN id and of all bytes but the checksum's own nibble),
+// modulo
+// 16. Id E4: E + 4 = 18. Data 12 34 56 79 2_: 1 + 2 + 3 + 4 + 5 + 6 + 7 + 9 + 2 = 39. 8 - 57 = -49 = 15 - 64:
+// F. As a negated sum: -(8 + 57) = -65 = 15 - 80, since 8 and -8 are the same modulo 16.
+TEST(Sums, NibblesInANibble) {
+  Checksum checksum;
+  checksum.place = {32, 4, false};
+  checksum.rule = Sum{.addition = Addition::nibbles, .start = 8, .negated = true};
+  checksum.before = {id_low, id_high};
+  EXPECT_EQ(summed(checksum, {0x12, 0x34, 0x56, 0x79, 0x2B}, 0xE4), (Bytes{0x12, 0x34, 0x56, 0x79, 0x2F}));
+}
+
+// 1 ^ 2 ^ 3 ^ 4 = 4, ^ 5 ^ 6 = 7, ^ A = D, in the high nibble of the last byte; its low nibble A is covered.
+TEST(Sums, XorOfNibbles) {
+  Checksum checksum;
+  checksum.place = {28, 4, false};
+  checksum.rule = Sum{.addition = Addition::xor_of_nibbles};
+  EXPECT_EQ(summed(checksum, {0x12, 0x34, 0x56, 0x0A}), (Bytes{0x12, 0x34, 0x56, 0xDA}));
+}
+
+// A CRC over the whole message with the checksum's byte as 0. CRC-8/SMBUS of the byte 01 is the rest of x^8,
+// the polynomial itself: 07. A zero behind it multiplies by x^8 once more: 07 times 07 without carries = 15.
+TEST(Sums, CrcWithItsOwnByteAsZero) {
+  Checksum checksum;
+  checksum.place = {8, 8, false};
+  checksum.rule = published_crc("CRC-8/SMBUS").value();
+  EXPECT_EQ(summed(checksum, {0x01, 0xEE})[1], 0x07);
+  checksum.own_bytes_as_zero = true;
+  EXPECT_EQ(summed(checksum, {0x01, 0xEE})[1], 0x15);
+}
+
+// A data id from a list, by the counter, after the data, as Volkswagen's (CRC-8/AUTOSAR): one entry changes
+// one counter's checksum.
+TEST(Sums, DataIdOfTheCounter) {
+  const auto crc_with = [](std::uint8_t entry, std::uint64_t counter) {
+    Settings settings;
+    settings.counter = Counter{.place = {8, 4, false}, .modulo = 0, .skipped = {}, .shared_as = {}};
+    settings.checksum = Checksum{};
+    settings.checksum->place = {0, 8, false};
+    settings.checksum->rule = published_crc("CRC-8/AUTOSAR").value();
+    settings.checksum->after = {{Source::data_id_of_counter, 0, 0}};
+    settings.data_id_list.assign(16, 0xC0);
+    settings.data_id_list[5] = entry;
+    Bytes data(8);
+    Protection::make(settings, {.id = 1, .size = 8}).value().protect(data, counter);
+    return data[0];
+  };
+  EXPECT_NE(crc_with(0xC0, 5), crc_with(0xC1, 5));
+  EXPECT_EQ(crc_with(0xC0, 4), crc_with(0xC1, 4));
+}
+
+}  // namespace
+}  // namespace canhil::protection
