@@ -121,8 +121,7 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
                       .scenario = {}};
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
-      auto read =
-          scenario::parse(sources.scenarios.at(one.scenario), one.scenario, drive::contract(), settings);
+      auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings);
       const auto refused = [&](std::string_view why) {
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };

@@ -9,12 +9,14 @@
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/convergence.hpp"
 #include "bench/checks/kinds/counters.hpp"
+#include "bench/checks/kinds/delay.hpp"
 #include "bench/checks/kinds/error.hpp"
 #include "bench/checks/kinds/heartbeat.hpp"
 #include "bench/checks/kinds/latency.hpp"
 #include "bench/checks/kinds/latency_growth.hpp"
 #include "bench/checks/kinds/output_period.hpp"
 #include "bench/checks/kinds/own_times.hpp"
+#include "bench/checks/kinds/protection.hpp"
 #include "bench/checks/kinds/sigma.hpp"
 #include "bench/checks/kinds/wire_response.hpp"
 
@@ -22,11 +24,12 @@ namespace canhil::checks {
 namespace {
 
 constexpr std::array of_any_estimator{
-    check_kind<Error>,          check_kind<Convergence>,     check_kind<Consistency>,
-    check_kind<Sigma>,          check_kind<Answers>,         check_kind<Latency>,
-    check_kind<LatencyGrowth>,  check_kind<OutputPeriod>,    check_kind<OwnTimes>,
-    check_kind<Heartbeat>,      check_kind<Counters>,        check_kind<BusLoad>,
-    check_kind<BusErrorLimits>, check_kind<WireResponseRule>};
+    check_kind<Error>,           check_kind<Convergence>, check_kind<Consistency>,
+    check_kind<Sigma>,           check_kind<Answers>,     check_kind<Latency>,
+    check_kind<LatencyGrowth>,   check_kind<DelayBelow>,  check_kind<OutputPeriod>,
+    check_kind<OwnTimes>,        check_kind<Heartbeat>,   check_kind<Counters>,
+    check_kind<Protection>,      check_kind<BusLoad>,     check_kind<BusErrorLimits>,
+    check_kind<WireResponseRule>};
 
 }  // namespace
 

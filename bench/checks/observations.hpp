@@ -32,6 +32,13 @@ struct StimulusCount {
   }
 };
 
+/// What was wrong with a message of the target as it came.
+struct Protected {
+  std::uint64_t wrong_checksum = 0, wrong_size = 0;
+  std::uint64_t wrong_counter = 0;  ///< repeated, or a value that is never sent
+  std::uint64_t lost = 0;           ///< by what its counter left out
+};
+
 /// Everything that the checks judge, apart from the truth.
 struct Observations {
   Observations() : Observations(messages::all_messages) {}
@@ -67,8 +74,9 @@ struct Observations {
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
   std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages
   std::uint32_t target_bad_crc = 0;
-  std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost
-  std::uint16_t queue_max_us = 0;       ///< largest of TargetTiming; saturates at 8191
+  std::map<std::string_view, Protected> protection{};  ///< by message, of a target with a mapping
+  std::uint32_t receive_overflows = 0;                 ///< frames that the bench's own port lost
+  std::uint16_t queue_max_us = 0;                      ///< largest of TargetTiming; saturates at 8191
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
   BusRecord bus;

@@ -63,7 +63,7 @@ ExitCode record(const Arguments& arguments) {
   std::vector<scenario::Scenario> scenarios;
   for (const std::string& scenario : arguments.scenarios) {
     const Golden kept = golden(folder, scenario);
-    auto read = scenario::read_file(scenario, drive::contract());
+    auto read = drive::read_scenario(scenario);
     if (!read) return complain(read.error());
     std::error_code unknown;
     if (std::ranges::find(names, kept.name()) != names.end())
@@ -115,7 +115,7 @@ ExitCode check(const Arguments& arguments) {
   std::ranges::sort(files);
   std::vector<scenario::Scenario> scenarios;
   for (const fs::path& file : files) {
-    auto read = scenario::read_file(file, drive::contract());
+    auto read = drive::read_scenario(file);
     if (!read) return complain(read.error());  // the target had no part in it: bad input
     scenarios.push_back(std::move(*read));
   }

@@ -255,7 +255,7 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
 ExitCode execute(const Arguments& arguments) {
   const drive::BusName bus(arguments.bus);
   if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
-  auto scenario = scenario::read_file(arguments.scenario, drive::contract());
+  auto scenario = drive::read_scenario(arguments.scenario);
   if (!scenario) return complain(scenario.error());
   if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
   const auto format = format_of(arguments, *scenario);

@@ -2,7 +2,9 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/mapping/mapping.hpp"
 #include "bench/nodes/registry.hpp"
+#include "dbc/files/text_file.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::drive {
@@ -42,6 +44,19 @@ scenario::Contract make_contract() {
 scenario::Contract contract() {
   static const scenario::Contract built_in = make_contract();
   return built_in;
+}
+
+Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
+                                          std::span<const scenario::Setting> settings) {
+  const auto by = mapping::contract_of(text, name, contract());
+  if (!by) return tl::unexpected(by.error());
+  return scenario::parse(text, name, *by, settings);
+}
+
+Result<scenario::Scenario> read_scenario(const std::string& file) {
+  const auto text = read_text_file(file, "a scenario file", scenario::most_toml_bytes);
+  if (!text) return tl::unexpected(text.error());
+  return parse_scenario(*text, file);
 }
 
 }  // namespace canhil::drive

@@ -1,11 +1,22 @@
 // The names that scenarios may use, from the DBC that this bench was built with.
 #pragma once
 
+#include <span>
+#include <string>
+#include <string_view>
+
 #include "bench/scenario/contract.hpp"
+#include "bench/scenario/scenario.hpp"
 
 namespace canhil::drive {
 
 /// Value tables and messages of the built-in DBC.
 scenario::Contract contract();
+
+/// Reads a scenario by the contract that it is of: that of the mapping which its [target] names, or the
+/// project's. As scenario::parse() and read_file().
+Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
+                                          std::span<const scenario::Setting> settings = {});
+Result<scenario::Scenario> read_scenario(const std::string& file);
 
 }  // namespace canhil::drive

@@ -31,14 +31,14 @@ void set(Frame& frame, const MessageInfo& message, const SignalInfo& signal, dou
 
 }  // namespace
 
-Result<FrameFaults> FrameFaults::make(std::span<const scenario::Fault> faults) {
+Result<FrameFaults> FrameFaults::make(std::span<const scenario::Fault> faults,
+                                      std::span<const MessageInfo> messages) {
   FrameFaults made;
   for (const scenario::Fault& fault : faults) {
     for (const std::string& name : fault.messages) {
-      const auto message =
-          std::ranges::find(messages::all_messages, std::string_view(name), &MessageInfo::name);
-      if (message == messages::all_messages.end() || message->sample_group.empty() ||
-          message->sender == messages::TargetHeartbeat::info.sender)
+      const auto message = std::ranges::find(messages, std::string_view(name), &MessageInfo::name);
+      if (message == messages.end() || message->sample_group.empty() ||
+          message->sender == canhil::messages::TargetHeartbeat::info.sender)
         return failure(
             fmt::format("key '{}': {} is no sample of a node of the bench, expected one", fault.where, name));
       const SignalInfo* signal = nullptr;
@@ -83,7 +83,8 @@ void FrameFaults::put(Own& own, const Frame& frame) {
       return;
     case FaultKind::damaged:
       left_.push_back(frame);
-      left_.back().data[3] ^= 0x10U;  // of the first signal of every measurement: the value is another
+      left_.back().data[std::min<std::size_t>(3, frame.size - 1)] ^=
+          0x10U;  // of the first signal of every measurement: the value is another
       left_.back().unrounded = false;
       return;
     case FaultKind::too_short:

@@ -9,13 +9,16 @@
 #include "dbc/wire/frame.hpp"
 #include "dbc/wire/message_info.hpp"
 #include "dbc/wire/result.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::drive {
 
 class FrameFaults {
  public:
-  /// Error: one line; a fault names a message of the target, or a signal that its messages do not have.
-  static Result<FrameFaults> make(std::span<const scenario::Fault> faults);
+  /// `messages`: of the bus. Error: one line; a fault names a message of the target, or a signal that its
+  /// messages do not have.
+  static Result<FrameFaults> make(std::span<const scenario::Fault> faults,
+                                  std::span<const MessageInfo> messages = messages::all_messages);
 
   /// What is left of the frames of a transmission that is due at `t_us`; valid until the next call.
   std::span<const Frame> befall(std::span<const Frame> frames, std::int64_t t_us);

@@ -44,8 +44,11 @@ class Link {
   /// Now on the clock of all deadlines here: Port::monotonic_ns().
   [[nodiscard]] std::int64_t now_ns() const { return port_.monotonic_ns(); }
 
-  /// Port::tell_time().
-  void tell_time(std::int64_t t_ns) { port_.tell_time(t_ns); }
+  /// Port::tell_time(), and the observers.
+  void tell_time(std::int64_t t_ns) {
+    port_.tell_time(t_ns);
+    for (observe::Observer* observer : observers_) observer->time_told(t_ns);
+  }
 
   /// Sleeps until a frame arrives: true; or until `deadline_ns`, or a signal: false.
   bool wait_until(std::int64_t deadline_ns);

@@ -2,47 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "bench/observe/heard.hpp"
-#include "bench/observe/heartbeat_errors.hpp"
-#include "bench/observe/second_target.hpp"
-#include "messages/canhil.hpp"
-
 namespace canhil::drive {
-namespace {
-
-// The end of a step as the target sees it.
-class StepWatch final : public observe::Observer {
- public:
-  void await(std::uint16_t step) {
-    awaited_ = step;
-    done_ = false;
-  }
-  void received(const Received& received) override {
-    if (const auto done = observe::heard<messages::StepDone>(received))
-      done_ = done_ || done->step == awaited_;
-    if (const auto beat = observe::fault_in(received)) fault_ = beat;
-  }
-  [[nodiscard]] std::uint16_t awaited() const { return awaited_; }
-  [[nodiscard]] bool done() const { return done_; }
-  /// The heartbeat that said so.
-  [[nodiscard]] const std::optional<messages::TargetHeartbeat>& fault() const { return fault_; }
-
- private:
-  std::uint16_t awaited_ = 0;
-  bool done_ = false;
-  std::optional<messages::TargetHeartbeat> fault_;
-};
-
-}  // namespace
-
-Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, const std::atomic<bool>& stop,
-                    const Progress& progress) {
-  StepWatch watch;
+Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch, std::int64_t step_limit_ns,
+                    const std::atomic<bool>& stop, const Progress& progress) {
   const Attached attached(link, watch);
-  observe::SecondTarget second;
-  // With the device at the port's other end nobody else can be there: a campaign need not look for him.
-  std::optional<Attached> second_attached;
-  if (!link.port().capabilities().in_process) second_attached.emplace(link, second);
   std::int64_t progress_due_us = 0;
   std::int64_t t_us = 0;
   constexpr std::int64_t progress_period_us = 1'000'000;
@@ -56,10 +19,7 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
     }
     bool closes_step = false;
     for (const Frame& frame : schedule.take()) {
-      if (frame.id == messages::Sync::info.id) {
-        closes_step = true;
-        watch.await(from_frame<messages::Sync>(frame).step);
-      }
+      closes_step = watch.closes_step(frame) || closes_step;
       if (link.send(frame, step_limit_ns) != LinkState::up) {
         return {Ending::Kind::bus_down, t_us,
                 fmt::format("the bus took no frame at t={:.3f} s", static_cast<double>(t_us) * 1e-6)};
@@ -67,24 +27,22 @@ Ending run_lockstep(Link& link, Schedule& schedule, std::int64_t step_limit_ns, 
     }
     if (!closes_step) continue;
     std::int64_t deadline_ns = 0;  // from the first wait on: a target in this process has answered already
-    while (!watch.done()) {
+    while (!watch.step_done()) {
       if (link.drain() == LinkState::down) {
         return {Ending::Kind::bus_down, t_us, "the bus is gone"};
       }
-      if (watch.done()) break;
+      if (watch.step_done()) break;
       if (stop) return {Ending::Kind::interrupted, t_us, "interrupted"};
       const std::int64_t now = clock_ns(CLOCK_MONOTONIC);
       if (deadline_ns == 0) deadline_ns = now + step_limit_ns;
       if (now > deadline_ns) {
         return {Ending::Kind::target_silent, t_us,
-                fmt::format("target silent since t={:.3f} s: step {} was not answered",
-                            static_cast<double>(t_us) * 1e-6, watch.awaited())};
+                fmt::format("target silent since t={:.3f} s: {} was not answered",
+                            static_cast<double>(t_us) * 1e-6, watch.step())};
       }
       link.wait_until(deadline_ns);
     }
-    if (second.found())
-      return {Ending::Kind::target_fault, t_us, std::string(observe::SecondTarget::complaint)};
-    if (watch.fault()) return {Ending::Kind::target_fault, t_us, observe::fault_of(*watch.fault())};
+    if (auto fault = watch.fault()) return {Ending::Kind::target_fault, t_us, *fault};
   }
   return {Ending::Kind::completed, t_us, ""};
 }

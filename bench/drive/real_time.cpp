@@ -5,10 +5,6 @@
 #include <optional>
 
 #include "bench/observe/bus_watch.hpp"
-#include "bench/observe/heard.hpp"
-#include "bench/observe/heartbeat_errors.hpp"
-#include "bench/observe/second_target.hpp"
-#include "messages/canhil.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -25,47 +21,28 @@ std::string took_none(const Link& link, std::int64_t due_us) {
                      link.crowd().empty() ? "" : " and carried ", link.crowd());
 }
 
-// When the target was last observe::heard and whether it gave up.
-class TargetWatch final : public observe::Observer {
- public:
-  TargetWatch(const Link& link, std::int64_t heard_ns) : link_(link), heard_ns_(heard_ns) {}
-  void received(const Received& received) override {
-    if (received.own || observe::target_messages(received.frame) == Routes::nowhere) return;
-    heard_ns_ = link_.now_ns();
-    if (const auto beat = observe::fault_in(received)) fault_ = beat;
-  }
-  [[nodiscard]] std::int64_t heard_ns() const { return heard_ns_; }
-  /// The heartbeat that said so.
-  [[nodiscard]] const std::optional<messages::TargetHeartbeat>& fault() const { return fault_; }
-
- private:
-  const Link& link_;
-  std::int64_t heard_ns_;
-  std::optional<messages::TargetHeartbeat> fault_;
-};
-
 }  // namespace
 
-Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
-                     const std::atomic<bool>& stop, const Progress& progress, std::int64_t spin_ns) {
+Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch,
+                     std::int64_t silence_limit_ns, const std::atomic<bool>& stop, const Progress& progress,
+                     std::int64_t spin_ns) {
   const std::int64_t start_ns = link.now_ns() + lead_ns;
   const auto bench_us = [&](std::int64_t t_ns) { return (t_ns - start_ns) / ns_per_us; };
-  TargetWatch watch(link, start_ns);
   const Attached attached(link, watch);
+  std::int64_t heard_ns = start_ns;
   observe::BusWatch bus(link.port());
   const Attached bus_attached(link, bus);
-  observe::SecondTarget second;
-  const Attached second_attached(link, second);
   std::int64_t progress_due_us = 0;
 
-  // Nobody can be observe::heard, nor hear, while the bus is away: then, and for as long after as always,
+  // Nobody can be heard, nor hear, while the bus is away: then, and for as long after as always,
   // silence says nothing.
   const auto excused_until_ns = [&] {
+    if (watch.heard()) heard_ns = link.now_ns();
     if (bus.outage()) return bus.outage()->since_ns + outage_limit_ns;
-    return std::max(watch.heard_ns(), bus.ended_ns()) + silence_limit_ns;
+    return std::max(heard_ns, bus.ended_ns()) + silence_limit_ns;
   };
   const auto silent = [&] {
-    const std::int64_t since_us = bench_us(bus.outage() ? bus.outage()->since_ns : watch.heard_ns());
+    const std::int64_t since_us = bench_us(bus.outage() ? bus.outage()->since_ns : heard_ns);
     return Ending{bus.outage() ? Ending::Kind::bus_down : Ending::Kind::target_silent, since_us,
                   fmt::format("{} since t={:.3f} s", bus.outage() ? bus.outage()->what : "target silent",
                               static_cast<double>(since_us) * 1e-6)};
@@ -77,11 +54,7 @@ Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_
       const std::int64_t now = link.now_ns();
       if (state == LinkState::down) return Ending{Ending::Kind::bus_down, bench_us(now), "the bus is gone"};
       if (stop) return Ending{Ending::Kind::interrupted, bench_us(now), "interrupted"};
-      if (second.found())
-        return Ending{Ending::Kind::target_fault, bench_us(now),
-                      std::string(observe::SecondTarget::complaint)};
-      if (watch.fault())
-        return Ending{Ending::Kind::target_fault, bench_us(now), observe::fault_of(*watch.fault())};
+      if (auto fault = watch.fault()) return Ending{Ending::Kind::target_fault, bench_us(now), *fault};
       if (now > excused_until_ns()) return silent();
       if (now >= deadline_ns) return std::nullopt;
       if (now >= deadline_ns - spin_ns) continue;

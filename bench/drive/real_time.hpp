@@ -7,6 +7,7 @@
 #include "bench/drive/ending.hpp"
 #include "bench/drive/link.hpp"
 #include "bench/drive/schedule.hpp"
+#include "bench/observe/target_watch.hpp"
 
 namespace canhil::drive {
 
@@ -17,7 +18,8 @@ using Progress = std::function<void(std::int64_t t_us)>;
 /// last answers. Ends early when the target stays silent for `silence_limit_ns`, when the bus goes down, or
 /// when `stop` is set. For the last `spin_ns` before a deadline it polls instead of sleeping: a wake-up costs
 /// no time then, and a CPU works.
-Ending run_real_time(Link& link, Schedule& schedule, std::int64_t silence_limit_ns,
-                     const std::atomic<bool>& stop, const Progress& progress, std::int64_t spin_ns = 0);
+Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch,
+                     std::int64_t silence_limit_ns, const std::atomic<bool>& stop, const Progress& progress,
+                     std::int64_t spin_ns = 0);
 
 }  // namespace canhil::drive

@@ -7,7 +7,7 @@
 
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
-#include "bench/drive/handshake.hpp"
+#include "bench/drive/dialect.hpp"
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/registry.hpp"
@@ -15,14 +15,11 @@
 #include "bench/observe/host_watch.hpp"
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
-#include "bench/observe/monitor.hpp"
 #include "bench/observe/recorder.hpp"
 
 namespace canhil::drive {
 namespace {
 
-constexpr std::int64_t silence_limit_ns =
-    400'000'000;  // four heartbeats; a dead target is named within 0.5 s
 constexpr std::int64_t step_limit_ns = 5'000'000'000;
 
 Capabilities known_of(const Port& port, const WireFacts& controller) {
@@ -31,16 +28,11 @@ Capabilities known_of(const Port& port, const WireFacts& controller) {
   return bus;
 }
 
-observe::LoadBy load_by(const Capabilities& bus, ClockKind clock) {
+observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base) {
+  if (!time_base) return clock == ClockKind::lockstep ? observe::LoadBy::told : observe::LoadBy::stamps;
   if (clock == ClockKind::lockstep)
     return bus.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
   return bus.wire.rates.nominal > 0 ? observe::LoadBy::stamps : observe::LoadBy::time_base;
-}
-
-observe::Monitor monitor_of(const scenario::Scenario& scenario, const Options& options, WireFacts wire) {
-  if (!options.for_verdict) return observe::Monitor();
-  wire.fd = options.format == BusFormat::fd;
-  return observe::Monitor(checks::timed_windows(scenario.checks), wire);
 }
 
 // One run, stage by stage: open, configure, drive, collect.
@@ -60,6 +52,7 @@ class Session {
     auto buses = open_buses(options.bus, options.bus_of, options.format);
     if (!buses) return tl::unexpected(buses.error());
     auto session = std::make_unique<Session>(scenario, truth, std::move(flight), options, std::move(*buses));
+    if (auto spoken = session->speak(); !spoken) return tl::unexpected(spoken.error());
     if (auto logged = session->open_log(); !logged) return tl::unexpected(logged.error());
     if (auto started = session->start_target(cpus); !started) return tl::unexpected(started.error());
     return session;
@@ -74,15 +67,30 @@ class Session {
         port_(std::move(buses.port)),
         bus_(known_of(*port_, options.controller)),
         clock_(clock_of(bus_.time, options.lockstep)),
+        truth_(truth),
         link_(*port_),
-        schedule_(make_schedule(scenario, truth, flight_.own_truth, options.run_index,
-                                clock_ == ClockKind::lockstep, bus_.rounding)),
-        monitor_(monitor_of(scenario, options, bus_.wire)),
         bus_watch_(*port_),
-        load_(options.format, load_by(bus_, clock_)) {
-    if (!options.for_verdict) return;
+        load_(options.format, load_by(bus_, clock_, scenario.foreign == nullptr)) {}
+
+  // Finds the words of the target. After this the session is whole.
+  Result<void> speak() {
+    auto dialect = make_dialect({.scenario = scenario_,
+                                 .truth = truth_,
+                                 .flight = flight_,
+                                 .run_index = options_.run_index,
+                                 .virtual_time = clock_ == ClockKind::lockstep,
+                                 .for_verdict = options_.for_verdict,
+                                 .rounding = bus_.rounding,
+                                 .format = options_.format,
+                                 .wire = bus_.wire});
+    if (!dialect) return tl::unexpected(dialect.error());
+    dialect_ = std::move(*dialect);
+    schedule_ = dialect_->schedule();
+    watcher_ = dialect_->watcher();
+    if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
-    link_.attach(intruders_);
+    link_.attach(intruders_.emplace(dialect_->messages()));
+    return {};
   }
 
   // Makes the target ready and starts its estimators.
@@ -92,15 +100,14 @@ class Session {
       const auto why = target_ ? target_->ended() : std::nullopt;
       return why ? std::optional("target: " + *why) : std::nullopt;
     };
-    auto ready = drive::configure(link_, schedule_.outbox(), scenario_.targets, flight_.initial, gone,
-                                  options_.format);
+    auto ready = dialect_->configure(link_, schedule_->outbox(), gone);
     if (!ready) return failure(explained(ready.error().message));
     return ready;
   }
 
   // Flies to the end, or as far as it goes.
   void drive(const std::atomic<bool>& stop, const Progress& progress) {
-    const Attached monitored(link_, monitor_);
+    const Attached monitored(link_, *watcher_);
     std::optional<Attached> load_watched, host_watched;
     if (options_.for_verdict) {
       load_watched.emplace(link_, load_);
@@ -109,20 +116,22 @@ class Session {
     std::optional<Attached> looking_on;
     if (options_.onlooker != nullptr) looking_on.emplace(link_, *options_.onlooker);
     std::optional<Attached> listening;
-    if (schedule_.listens()) listening.emplace(link_, schedule_);
+    if (schedule_->listens()) listening.emplace(link_, *schedule_);
     if (options_.realtime && target_)
       static_cast<void>(realtime::own_memory_again());  // permitted: it entered
+    const auto target = dialect_->target_watch(bus_.in_process);
     ending_ = clock_ == ClockKind::lockstep
-                  ? run_lockstep(link_, schedule_, step_limit_ns, stop, progress)
-                  : run_real_time(link_, schedule_, silence_limit_ns, stop, progress, options_.spin_ns);
+                  ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress)
+                  : run_real_time(link_, *schedule_, *target, dialect_->silence_limit_ns(), stop, progress,
+                                  options_.spin_ns);
   }
 
   // Stops the target and closes the log.
   Collected collect() {
     if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
-    if (options_.for_verdict) stop(link_, schedule_.outbox(), scenario_.targets);
+    if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
     const auto logged = log_ ? log_->close() : Result<void>{};
-    checks::Observations seen = monitor_.finish();
+    checks::Observations seen = watcher_->finish();
     if (options_.for_verdict) add_watched(seen);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
@@ -172,13 +181,13 @@ class Session {
       if (target_->stopped()) return " (its process is stopped by a signal)";
     }
     if (clock_ == ClockKind::lockstep) return {};
-    return load_.full_wire(ending_.t_us * 1000 + silence_limit_ns, bus_.wire.rates);
+    return load_.full_wire(ending_.t_us * 1000 + dialect_->silence_limit_ns(), bus_.wire.rates);
   }
 
   // Who else is on the bus comes first of what is noted.
   void add_watched(checks::Observations& seen) {
     seen.bus = bus_watch_.record();
-    seen.bus.intruded = intruders_.frames();
+    seen.bus.intruded = intruders_->frames();
     if (const std::string others = checks::other_senders(seen); !others.empty())
       notes_->insert(notes_->begin(), others);
     // What the host did has no part in the times of a simulated wire.
@@ -200,11 +209,13 @@ class Session {
   std::unique_ptr<Port> port_;
   Capabilities bus_;
   ClockKind clock_;
+  const world::FlightRecord& truth_;
   Link link_;
-  Schedule schedule_;
-  observe::Monitor monitor_;
+  std::unique_ptr<Dialect> dialect_;
+  std::unique_ptr<Schedule> schedule_;
+  std::unique_ptr<observe::Watcher> watcher_;
   observe::BusWatch bus_watch_;
-  observe::Intruders intruders_;
+  std::optional<observe::Intruders> intruders_;
   observe::LoadMeter load_;
   std::optional<observe::HostWatch> host_;  // watches from its construction on
   std::unique_ptr<observe::Recorder> log_;
@@ -218,7 +229,7 @@ checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::Flig
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
                                .truth = truth_of(truth, flown.own_truth, scenario.duration_us),
-                               .estimators = estimators::all(),
+                               .estimators = estimators::in(scenario),
                                .ended_early = flown.ending.detail,
                                .timing_unfit = timing_unfit});
   if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)

@@ -8,6 +8,7 @@
 #include "bench/estimators/registry.hpp"
 #include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
 #include "bench/estimators/wind/wind.hpp"
+#include "bench/scenario/foreign.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -49,9 +50,14 @@ const Estimator* sending(const MessageInfo& message) {
   return found == registered.end() ? nullptr : *found;
 }
 
+std::span<const Estimator* const> in(const scenario::Scenario& scenario) {
+  if (scenario.foreign != nullptr) return {&scenario.foreign->estimator, 1};
+  return registered;
+}
+
 const Estimator& of(const scenario::Scenario& scenario) {
-  const Estimator* last = registered.front();
-  for (const Estimator* one : registered) {
+  const Estimator* last = in(scenario).front();
+  for (const Estimator* one : in(scenario)) {
     if (scenario.runs(one->name)) last = one;
   }
   return *last;

@@ -5,14 +5,13 @@
 namespace canhil::observe {
 
 void Intruders::transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {
-  if (!frame.extended && frame.id < ours_.size()) ours_.set(frame.id);
+  if (const std::size_t place = places_(frame); place != MessagePlaces::nowhere) ours_[place] = true;
 }
 
 void Intruders::received(const Received& received) {
-  const Frame& frame = received.frame;
-  if (received.own || frame.error || frame.extended || frame.id >= ours_.size() || !ours_.test(frame.id))
-    return;
-  if (const MessageInfo* info = messages::find_message(frame.id)) ++frames_[info->name];
+  const std::size_t place = places_(received.frame);
+  if (received.own || place == MessagePlaces::nowhere || !ours_[place]) return;
+  ++frames_[messages_[place].name];
 }
 
 }  // namespace canhil::observe

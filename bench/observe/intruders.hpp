@@ -1,25 +1,33 @@
 // Whether somebody else sends what only the bench sends: then the target answers to both.
 #pragma once
 
-#include <bitset>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "bench/observe/observer.hpp"
+#include "dbc/wire/message_places.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::observe {
 
 /// Counts frames of others that have the id of a message which the bench has sent in this run.
 class Intruders final : public Observer {
  public:
+  /// `messages`: of the bus.
+  explicit Intruders(std::span<const MessageInfo> messages = messages::all_messages)
+      : messages_(messages), places_(messages), ours_(messages.size()) {}
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
   /// By message.
   [[nodiscard]] const std::map<std::string_view, std::uint64_t>& frames() const { return frames_; }
 
  private:
-  std::bitset<2048> ours_;  // by standard id
+  std::span<const MessageInfo> messages_;
+  MessagePlaces places_;
+  std::vector<bool> ours_;  // by place in messages_
   std::map<std::string_view, std::uint64_t> frames_;
 };
 

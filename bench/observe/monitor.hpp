@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "bench/checks/reception.hpp"
-#include "bench/observe/observer.hpp"
 #include "bench/observe/stopwatch.hpp"
+#include "bench/observe/watcher.hpp"
 #include "dbc/wire/e2e.hpp"
 
 namespace canhil::observe {
 
 /// Watches a run from the target's start on.
-class Monitor final : public Observer {
+class Monitor final : public Watcher {
  public:
   /// Takes no times: those of virtual time say nothing, and a campaign flies thousands of runs in it.
   Monitor();
@@ -31,7 +31,7 @@ class Monitor final : public Observer {
   /// What was seen so far.
   [[nodiscard]] const checks::Observations& observations() const { return seen_; }
   /// The run is over: all of it.
-  checks::Observations finish() {
+  checks::Observations finish() override {
     if (stopwatch_) stopwatch_->finish();
     return std::move(seen_);
   }

@@ -20,6 +20,8 @@ class Observer {
   virtual void received(const Received& /*received*/) {}
   /// A frame came that is not of this bus's format: no part of the run.
   virtual void foreign(const Received& /*received*/) {}
+  /// The time of a run in virtual time, as it goes on [ns].
+  virtual void time_told(std::int64_t /*t_ns*/) {}
   /// The interface went down or was removed, or is back.
   virtual void interface_changed(bool /*up*/, std::int64_t /*t_ns*/) {}
 };

@@ -125,7 +125,7 @@ Series series_of(std::string_view estimator, const Track& track, bool estimates,
 
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give) {
   const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
-  for (const estimators::Estimator* one : estimators::all()) {
+  for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;
     one->tracks(run.seen, truth, [&](const Track& track) { give(one->name, track); });
   }

@@ -11,13 +11,14 @@
 namespace canhil::report {
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
   std::vector<std::string_view> closing;
-  for (const estimators::Estimator* one : estimators::all()) {
+  for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (scenario.runs(one->name)) closing.insert(closing.end(), one->closing.begin(), one->closing.end());
   }
   return closing;
 }
 
 bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
+  if (scenario.foreign != nullptr) return !message.answers.empty();
   const estimators::Estimator* sender = estimators::sending(message);
   return sender != nullptr && scenario.runs(sender->name);
 }
@@ -25,7 +26,7 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run) {
   const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
   std::vector<EstimatorResults> all;
-  for (const estimators::Estimator* one : estimators::all()) {
+  for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;
     const auto target = std::ranges::find(scenario.targets, one->name, &scenario::TargetSetup::estimator);
     EstimatorResults own{one->name, one->results(run.seen, truth, target->algorithm)};

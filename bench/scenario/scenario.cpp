@@ -181,7 +181,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
     scenario.initial_error = read_initial_error(*initial_error);
   }
   read_nodes(root, scenario, contract, TruthOf::navigation);
-  expect_aid(root, scenario, contract);
+  if (contract.foreign == nullptr) expect_aid(root, scenario, contract);
   read_nodes(root, scenario, contract, TruthOf::engagement);
   for (const NodeSettings& node : scenario.nodes) {
     if (node.table().samples == TruthOf::engagement && !scenario.engagement)

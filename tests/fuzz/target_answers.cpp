@@ -15,6 +15,7 @@
 #include "bench/drive/session.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
+#include "bench/observe/contract_watch.hpp"
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
 #include "bench/observe/monitor.hpp"
@@ -85,11 +86,13 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
   observe::Monitor monitor(checks::timed_windows(scenario.checks), port.capabilities().wire);
   observe::LoadMeter load(BusFormat::classic, observe::LoadBy::stamps);
   drive::Ending ending;
+  observe::ContractWatch watch;
   {
     const drive::Attached monitored(link, monitor), loaded(link, load), listening(link, schedule);
     const auto progress = [](std::int64_t) {};
-    ending = (how & lockstep) != 0 ? drive::run_lockstep(link, schedule, 1, never, progress)
-                                   : drive::run_real_time(link, schedule, 400'000'000, never, progress);
+    ending = (how & lockstep) != 0
+                 ? drive::run_lockstep(link, schedule, watch, 1, never, progress)
+                 : drive::run_real_time(link, schedule, watch, 400'000'000, never, progress);
   }
   drive::stop(link, schedule.outbox(), scenario.targets);
   checks::Observations seen = collected(monitor, bus, intruders, load, link);

@@ -4,12 +4,19 @@
 
 #include "bench/checks/evidence.hpp"
 #include "bench/checks/timing.hpp"
+#include "bench/scenario/contract.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::checks {
 
-Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
-  return {.silent_at_most_us = section.time_us("silent_at_most_s", scenario::Limits::above(0))};
+Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Heartbeat rule{.message = std::string(messages::TargetHeartbeat::info.name)};
+  if (context.contract.foreign == nullptr)
+    section.refuse("message", "has no effect", "TargetHeartbeat is what this target beats with");
+  else
+    rule.message = section.one_of("message", context.contract.messages);
+  rule.silent_at_most_us = section.time_us("silent_at_most_s", scenario::Limits::above(0));
+  return rule;
 }
 
 Finding Heartbeat::judge(const Evidence& evidence) const {
@@ -17,7 +24,7 @@ Finding Heartbeat::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("never silent for more than {:g} s", most_s);
   if (auto why = unfit(evidence, 1, most_s); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
-  const double gap_s = longest_silence_s(evidence.seen, messages::TargetHeartbeat::info.name);
+  const double gap_s = longest_silence_s(evidence.seen, message);
   return {pass_if(gap_s * 1e6 <= static_cast<double>(silent_at_most_us)),
           fmt::format("longest gap {:.3f} s", gap_s), expected};
 }

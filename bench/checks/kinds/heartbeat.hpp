@@ -1,4 +1,5 @@
-// No gap between heartbeats longer than this, up to the end of the run.
+// No gap between heartbeats, or another message by which the target shows that it lives, longer than this, up
+// to the end of the run.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -7,6 +8,7 @@ namespace canhil::checks {
 
 struct Heartbeat {
   static constexpr std::string_view kind = "heartbeat";
+  std::string message;
   std::int64_t silent_at_most_us = 0;
 
   static Heartbeat read(scenario::Section& section, const scenario::CheckContext& context);

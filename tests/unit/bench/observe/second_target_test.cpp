@@ -1,5 +1,6 @@
 // Two targets on one bus, and what looks like two and is one.
 #include "bench/observe/second_target.hpp"
+#include "bench/observe/contract_watch.hpp"
 
 #include <gmock/gmock.h>
 
@@ -117,12 +118,14 @@ class Targets : public testing::Test {
   Ending lockstep() {
     Link link(port_);
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(2'000'000, true));
-    return run_lockstep(link, schedule, 5'000'000'000, stop_, [](std::int64_t) {});
+    observe::ContractWatch watch;
+    return run_lockstep(link, schedule, watch, 5'000'000'000, stop_, [](std::int64_t) {});
   }
   Ending real_time() {
     Link link(port_);
     Schedule schedule({}, std::make_unique<nodes::TimeKeeper>(2'000'000, false));
-    return run_real_time(link, schedule, 5'000'000'000, stop_, [](std::int64_t) {});
+    observe::ContractWatch watch;
+    return run_real_time(link, schedule, watch, 5'000'000'000, stop_, [](std::int64_t) {});
   }
   FakePort port_;
   std::vector<target::Device> devices_;

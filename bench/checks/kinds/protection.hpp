@@ -1,0 +1,19 @@
+// Counters and checksums of a target's messages, as the bench received them, stay within limits.
+#pragma once
+
+#include "bench/checks/kinds/counters.hpp"
+
+namespace canhil::checks {
+
+struct Protection {
+  static constexpr std::string_view kind = "protection";
+  std::optional<std::string> message{};  ///< none: all of the target's
+  std::int64_t wrong_checksums_at_most = 0, wrong_counters_at_most = 0, wrong_sizes_at_most = 0,
+               lost_at_most = 0;
+
+  static Protection read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const { return message.value_or(""); }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

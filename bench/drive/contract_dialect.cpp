@@ -1,0 +1,53 @@
+#include "bench/checks/judge.hpp"
+#include "bench/drive/dialect.hpp"
+#include "bench/drive/handshake.hpp"
+#include "bench/observe/contract_watch.hpp"
+#include "bench/observe/monitor.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+namespace {
+
+constexpr std::int64_t four_heartbeats_ns = 400'000'000;  // a dead target is named within 0.5 s
+
+class ContractDialect final : public Dialect {
+ public:
+  explicit ContractDialect(const Setting& setting) : of_(setting) {}
+
+  [[nodiscard]] std::span<const MessageInfo> messages() const override { return messages::all_messages; }
+  std::unique_ptr<Schedule> schedule() override {
+    return std::unique_ptr<Schedule>(new Schedule(make_schedule(
+        of_.scenario, of_.truth, of_.flight.own_truth, of_.run_index, of_.virtual_time, of_.rounding)));
+  }
+  std::unique_ptr<observe::Watcher> watcher() override {
+    if (!of_.for_verdict) return std::make_unique<observe::Monitor>();
+    WireFacts wire = of_.wire;
+    wire.fd = of_.format == BusFormat::fd;
+    return std::make_unique<observe::Monitor>(checks::timed_windows(of_.scenario.checks), wire);
+  }
+  std::unique_ptr<observe::TargetWatch> target_watch(bool alone) override {
+    return std::make_unique<observe::ContractWatch>(alone);
+  }
+  Result<void> configure(Link& link, nodes::Transmission& out,
+                         const std::function<std::optional<std::string>()>& gone) override {
+    return drive::configure(link, out, of_.scenario.targets, of_.flight.initial, gone, of_.format);
+  }
+  void stop(Link& link, nodes::Transmission& out) override { drive::stop(link, out, of_.scenario.targets); }
+  [[nodiscard]] std::int64_t silence_limit_ns() const override { return four_heartbeats_ns; }
+
+ private:
+  Setting of_;
+};
+
+}  // namespace
+
+std::unique_ptr<Dialect> contract_dialect(const Setting& setting) {
+  return std::make_unique<ContractDialect>(setting);
+}
+
+Result<std::unique_ptr<Dialect>> make_dialect(const Setting& setting) {
+  if (setting.scenario.foreign != nullptr) return mapped_dialect(setting);
+  return contract_dialect(setting);
+}
+
+}  // namespace canhil::drive

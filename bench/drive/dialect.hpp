@@ -1,0 +1,62 @@
+// How a session talks to its target: in the project's contract, with its handshake and its time base, or in
+// the target's own words, as a mapping tells them.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "bench/drive/flight.hpp"
+#include "bench/drive/link.hpp"
+#include "bench/drive/schedule.hpp"
+#include "bench/observe/target_watch.hpp"
+#include "bench/observe/watcher.hpp"
+#include "dbc/ports/fd_groups.hpp"
+
+namespace canhil::drive {
+
+/// What is known of a run before it begins.
+struct Setting {
+  const scenario::Scenario& scenario;
+  const world::FlightRecord& truth;
+  Flight& flight;
+  std::uint64_t run_index = 0;
+  bool virtual_time = false;  ///< in steps that the target closes
+  bool for_verdict = true;    ///< times are taken
+  Rounding rounding = Rounding::as_on_the_bus;
+  BusFormat format = BusFormat::classic;
+  WireFacts wire{};
+};
+
+class Dialect {
+ public:
+  Dialect() = default;
+  Dialect(const Dialect&) = delete;
+  Dialect& operator=(const Dialect&) = delete;
+  virtual ~Dialect() = default;
+
+  /// Of the bus.
+  [[nodiscard]] virtual std::span<const MessageInfo> messages() const = 0;
+  virtual std::unique_ptr<Schedule> schedule() = 0;
+  virtual std::unique_ptr<observe::Watcher> watcher() = 0;
+  /// `alone`: nobody else can be on the bus.
+  virtual std::unique_ptr<observe::TargetWatch> target_watch(bool alone) = 0;
+  /// Makes the target ready. `gone` says why there is no point in waiting any more, if so. Error: one line.
+  virtual Result<void> configure(Link& link, nodes::Transmission& out,
+                                 const std::function<std::optional<std::string>()>& gone) = 0;
+  /// The run is over.
+  virtual void stop(Link& link, nodes::Transmission& out) = 0;
+  /// In real time a target that says nothing for so long is gone.
+  [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
+};
+
+/// That of the scenario. What the setting refers to must outlive it. Error: one line; the scenario does not
+/// fit its mapping.
+Result<std::unique_ptr<Dialect>> make_dialect(const Setting& setting);
+std::unique_ptr<Dialect> contract_dialect(const Setting& setting);
+Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting);
+
+}  // namespace canhil::drive

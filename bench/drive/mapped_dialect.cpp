@@ -1,0 +1,214 @@
+// Without a handshake: the target lives by itself, is given time to settle, and shows by its own messages
+// that it is there.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "bench/checks/judge.hpp"
+#include "bench/drive/dialect.hpp"
+#include "bench/mapping/listener.hpp"
+#include "bench/mapping/player.hpp"
+
+namespace canhil::drive {
+namespace {
+
+constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
+constexpr std::int64_t poll_ns = 20'000'000;
+
+// Sends nothing: on this bus the bench keeps no time base. It makes a run last to its end.
+class EndOfRun final : public nodes::Node {
+ public:
+  explicit EndOfRun(std::int64_t end_us) : end_us_(end_us) {}
+  [[nodiscard]] std::int64_t due_us() const override { return over_ ? nodes::never_us : end_us_; }
+  void transmit(nodes::Transmission& /*out*/) override { over_ = true; }
+
+ private:
+  std::int64_t end_us_;
+  bool over_ = false;
+};
+
+// Any of its messages shows that it is there; the echo of a play, in virtual time, that it is done with it.
+class MappedWatch final : public observe::TargetWatch {
+ public:
+  explicit MappedWatch(const mapping::Conversation& conversation)
+      : conversation_(conversation), places_(conversation.mapping.messages) {}
+
+  void received(const Received& received) override {
+    const std::size_t place = places_(received.frame);
+    if (received.own || place == MessagePlaces::nowhere) return;
+    for (const mapping::Hear& hear : conversation_.mapping.hears) {
+      if (hear.of.place != place) continue;
+      heard_ = true;
+      if (received.frame.size != hear.of.message->size || !hear.echo || *hear.answers != awaited_play_)
+        continue;
+      const mapping::Sent* cause = mapping::cause_of(conversation_, hear, received.frame);
+      if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(place);
+    }
+  }
+  bool heard() override { return std::exchange(heard_, false); }
+  [[nodiscard]] std::optional<std::string> fault() const override { return std::nullopt; }
+
+  bool closes_step(const Frame& frame) override {
+    const auto& mapping = conversation_.mapping;
+    for (std::size_t i = 0; i < mapping.plays.size(); ++i) {
+      const auto& sent = conversation_.sent[i];
+      if (sent.empty() || !(sent.back().frames.back() == frame)) continue;
+      waits_for_.clear();
+      for (const mapping::Hear& hear : mapping.hears) {
+        if (hear.echo && *hear.answers == i) waits_for_.insert(hear.of.place);
+      }
+      awaited_play_ = i;
+      awaited_us_ = sent.back().valid_us;
+      return !waits_for_.empty();
+    }
+    return false;
+  }
+  [[nodiscard]] bool step_done() const override { return waits_for_.empty(); }
+  [[nodiscard]] std::string step() const override {
+    const auto& mapping = conversation_.mapping;
+    return fmt::format("{} by {}", mapping.plays[awaited_play_].name,
+                       waits_for_.empty() ? "" : mapping.messages[*waits_for_.begin()].name);
+  }
+
+ private:
+  const mapping::Conversation& conversation_;
+  MessagePlaces places_;
+  bool heard_ = false;
+  std::size_t awaited_play_ = 0;
+  std::int64_t awaited_us_ = 0;
+  std::set<std::size_t> waits_for_;  // messages that are to echo the play, by place
+};
+
+// What passes while nobody of the mapping is heard.
+class Strangers final : public observe::Observer {
+ public:
+  explicit Strangers(const MessagePlaces& places) : places_(places) {}
+  void received(const Received& received) override {
+    if (!received.own && !received.frame.error && places_(received.frame) == MessagePlaces::nowhere)
+      ids_.insert(received.frame.id);
+  }
+  [[nodiscard]] std::string words() const {
+    if (ids_.empty()) return "nothing was heard";
+    constexpr std::size_t most = 8;
+    std::vector<std::string> some;
+    for (const std::uint32_t id : ids_) {
+      if (some.size() < most) some.push_back(fmt::format("{:X}", id));
+    }
+    return fmt::format("only frames of other ids were heard: {}{}", fmt::join(some, ", "),
+                       ids_.size() > most ? ", ..." : "");
+  }
+
+ private:
+  const MessagePlaces& places_;
+  std::set<std::uint32_t> ids_;
+};
+
+Result<void> run_command(std::string_view key, const std::string& command) {
+  if (command.empty()) return {};
+  const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): before and after a run
+  if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
+  return failure(fmt::format("key 'target.{}': '{}' ended with {}, expected 0", key, command,
+                             status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1));
+}
+
+class MappedDialect final : public Dialect {
+ public:
+  MappedDialect(const Setting& setting, const mapping::Mapping& mapping)
+      : of_(setting),
+        start_(*setting.scenario.targets.front().own_start),
+        conversation_(mapping),
+        places_(mapping.messages) {}
+
+  [[nodiscard]] std::span<const MessageInfo> messages() const override {
+    return conversation_.mapping.messages;
+  }
+  std::unique_ptr<Schedule> schedule() override {
+    std::vector<std::unique_ptr<nodes::Node>> players;
+    players.push_back(std::make_unique<mapping::Player>(
+        conversation_,
+        nodes::Run{
+            .scenario = of_.scenario,
+            .index = of_.run_index,
+            .flight = of_.truth,
+            .glide = of_.flight.own_truth.glide ? &*of_.flight.own_truth.glide : nullptr,
+            .engagement = of_.flight.own_truth.engagement ? &*of_.flight.own_truth.engagement : nullptr}));
+    return std::make_unique<Schedule>(
+        std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()), Rounding::as_on_the_bus,
+        FrameFaults::make(of_.scenario.faults, messages()).value_or(FrameFaults()));
+  }
+  std::unique_ptr<observe::Watcher> watcher() override {
+    WireFacts wire = of_.wire;
+    wire.fd = !messages().empty() && messages().front().fd;
+    return std::make_unique<mapping::Listener>(
+        conversation_, checks::timed_windows(of_.scenario.checks, messages()), wire, of_.virtual_time);
+  }
+  std::unique_ptr<observe::TargetWatch> target_watch(bool /*alone*/) override {
+    return std::make_unique<MappedWatch>(conversation_);
+  }
+
+  Result<void> configure(Link& link, nodes::Transmission& /*out*/,
+                         const std::function<std::optional<std::string>()>& gone) override {
+    if (auto powered = run_command("before", start_.before); !powered) return powered;
+    MappedWatch watch(conversation_);
+    Strangers strangers(places_);
+    const Attached watched(link, watch), others(link, strangers);
+    const auto& hears = conversation_.mapping.hears;
+    const bool speaks_first =
+        std::ranges::any_of(hears, [](const mapping::Hear& hear) { return !hear.answers; });
+    bool there = !speaks_first;  // one that only answers says nothing yet
+    const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
+    const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
+    while (link.now_ns() < settled_ns || !there) {
+      if (link.drain() == LinkState::down)
+        return failure(fmt::format("bus '{}': gone before the run", link.port().name()));
+      if (const auto why = gone()) return failure(fmt::format("{} before the run", *why));
+      there = there || watch.heard();
+      const std::int64_t now_ns = link.now_ns();
+      if (now_ns >= limit_ns) return failure(complaint(link, strangers));
+      link.wait_until(std::min(now_ns + poll_ns, limit_ns));
+    }
+    return {};
+  }
+  void stop(Link& /*link*/, nodes::Transmission& /*out*/) override {
+    if (const auto off = run_command("after", start_.after); !off)
+      fmt::print(stderr, "hil-bench: {}\n", off.error().message);
+  }
+  [[nodiscard]] std::int64_t silence_limit_ns() const override { return start_.silence_us * 1000; }
+
+ private:
+  [[nodiscard]] std::string complaint(const Link& link, const Strangers& strangers) const {
+    std::vector<std::string> names;
+    for (const mapping::Hear& hear : conversation_.mapping.hears) {
+      if (!hear.answers) names.push_back(hear.of.message->name);
+    }
+    return fmt::format("target on '{}': none of {} within 5 s; {}", link.port().name(),
+                       fmt::join(names, ", "), strangers.words());
+  }
+
+  Setting of_;
+  scenario::OwnStart start_;
+  mapping::Conversation conversation_;
+  MessagePlaces places_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting) {
+  const auto& mapping = dynamic_cast<const mapping::Mapping&>(*setting.scenario.foreign);
+  if (auto fits = mapping::Player::check(mapping, setting.scenario); !fits)
+    return tl::unexpected(fits.error());
+  const bool answered =
+      std::ranges::any_of(mapping.hears, [](const mapping::Hear& hear) { return hear.echo.has_value(); });
+  if (setting.virtual_time && !answered)
+    return failure(
+        fmt::format("{}: no message of the target repeats what it answers, so virtual time would not "
+                    "know when to go on; expected [hear.echo], or real time",
+                    mapping.file));
+  return std::make_unique<MappedDialect>(setting, mapping);
+}
+
+}  // namespace canhil::drive

@@ -1,0 +1,134 @@
+// A mapped target as the bench knows estimators: tracks, samples, marks and lines of what it told.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "bench/checks/delay.hpp"
+#include "bench/estimators/tracks.hpp"
+#include "bench/mapping/answers.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+using estimators::Truth;
+using quantities::Told;
+using quantities::Track;
+
+const Truthed& truthed(const quantities::Quantity& quantity) { return *find_truth(quantity.name); }
+
+double difference(const Truthed& of, double a, double b) {
+  return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
+}
+
+// In order of time: a cause that was told later may be earlier.
+std::vector<Told> errors_of(const Truthed& of, const std::vector<ToldOnce>& all, const Truth& truth) {
+  std::vector<Told> errors;
+  for (const ToldOnce& one : all) {
+    const auto at = of.truth(truth, one.t_us);
+    if (!at || one.t_us > truth.duration_us) continue;
+    const double error = difference(of, one.value, *at);
+    // Beside the truth without a jump.
+    errors.push_back(
+        {.t_us = one.t_us, .value = error, .sigma = one.sigma, .estimate = *at + error, .truth = *at});
+  }
+  std::ranges::stable_sort(errors, {}, &Told::t_us);
+  return errors;
+}
+
+const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
+  return *std::ranges::find_if(mapping.hears, [&](const Hear& hear) {
+    return std::ranges::any_of(hear.tellings, [&](const Telling& telling) {
+      return !telling.sigma && telling.quantity->quantity == quantity;
+    });
+  });
+}
+
+void tracks_of(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give) {
+  const Answers& answers = seen.of<Answers>();
+  for (const auto& [quantity, all] : answers.told) {
+    const Truthed& of = truthed(*quantity);
+    const std::string_view message = hear_of(*answers.mapping, quantity).of.message->name;
+    const estimators::Answering answering{.longest_wait_us = estimators::longest_wait_us(seen, message),
+                                          .answers_end_us = truth.duration_us};
+    Track track = answering.track(*quantity, std::string(quantity->meaning));
+    track.estimate_title = std::string(quantity->name);
+    track.estimate_unit = quantity->unit;
+    track.told = errors_of(of, all, truth);
+    if (!track.told.empty()) give(std::move(track));
+  }
+}
+
+// A sample is a time at which something was told.
+quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
+  const Answers& answers = seen.of<Answers>();
+  if (answers.mapping == nullptr) return {};
+  const Mapping& mapping = *answers.mapping;
+  std::map<std::int64_t, std::vector<double>> by_time;
+  for (std::size_t i = 0; i < mapping.told.size(); ++i) {
+    const auto told = answers.told.find(mapping.told[i]);
+    if (told == answers.told.end()) continue;
+    for (const Told& one : errors_of(truthed(*mapping.told[i]), told->second, truth)) {
+      auto& values = by_time[one.t_us];
+      values.resize(mapping.told.size(), std::numeric_limits<double>::quiet_NaN());
+      values[i] = one.value;
+    }
+  }
+  quantities::Samples samples(mapping.layout);
+  for (const auto& [t_us, values] : by_time) samples.add(t_us, values);
+  return samples;
+}
+
+// All answers, then those of each message.
+std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
+  const Answers& answers = seen.of<Answers>();
+  estimators::Mark all{.name = "answers"};
+  std::vector<estimators::Mark> marks;
+  for (const auto& [message, times] : answers.messages) {
+    all.t_us.insert(all.t_us.end(), times.begin(), times.end());
+    marks.push_back({.name = message, .t_us = times});
+  }
+  std::ranges::sort(all.t_us);
+  marks.insert(marks.begin(), std::move(all));
+  return marks;
+}
+
+std::vector<estimators::ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
+                                               std::string_view /*algorithm*/) {
+  estimators::ResultLine end{.name = "final_error", .what = "error at the end"},
+      delays{.name = "delay", .what = "delay by the truth"};
+  tracks_of(seen, truth, [&](const Track& track) {
+    const quantities::Quantity& quantity = *track.quantity;
+    const std::string name(quantity.name);
+    const double last = track.told.back().value;
+    end.add(name, last, fmt::format("{} {:+.3f} {}", name, last / quantity.unit.factor, quantity.unit.name));
+    const auto delay = checks::delay_of(track, {.from_us = 0, .to_us = truth.duration_us});
+    delays.add(
+        name, delay ? std::optional(delay->delay_s) : std::nullopt,
+        delay ? fmt::format("{} {:.1f} +- {:.1f} ms", name, delay->delay_s * 1e3, delay->half_width_s * 1e3)
+              : fmt::format("{} not measured", name));
+  });
+  return {std::move(end), std::move(delays)};
+}
+
+quantities::Freshness freshness_of(const scenario::Scenario& /*scenario*/) { return {}; }
+
+}  // namespace
+
+estimators::Estimator estimator_of(const Mapping& mapping) {
+  return {.name = mapping.name,
+          .facts = {.start = scenario::Start::nothing},
+          .layout = mapping.layout,
+          .of_runs = mapping.told,
+          .reception = nullptr,
+          .samples = samples_of,
+          .tracks = tracks_of,
+          .marks = marks_of,
+          .results = results_of,
+          .closing = mapping.closing,
+          .freshness = freshness_of};
+}
+
+}  // namespace canhil::mapping

@@ -1,0 +1,136 @@
+#include "bench/mapping/listener.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "dbc/parser/codec.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::mapping {
+
+Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWindow> windows,
+                   const WireFacts& wire, bool virtual_time)
+    : conversation_(conversation),
+      seen_([&] {
+        checks::Observations seen(conversation.mapping.messages);
+        seen.timing.windows = std::move(windows);
+        seen.timing.wire = wire;
+        seen.of<Answers>().mapping = &conversation.mapping;
+        return seen;
+      }()),
+      stopwatch_(seen_.timing),
+      places_(conversation.mapping.messages),
+      receivers_(conversation.mapping.hears.size()),
+      virtual_time_(virtual_time) {
+  const Mapping& mapping = conversation.mapping;
+  for (std::size_t i = 0; i < mapping.plays.size(); ++i)
+    play_closed_by_[mapping.plays[i].messages.back().of.place] = i;
+  for (std::size_t i = 0; i < mapping.hears.size(); ++i) hear_of_[mapping.hears[i].of.place] = i;
+}
+
+// The play that a frame closed, if it was as it should be: nobody answers a damaged one.
+const Sent* Listener::closed_by(std::size_t play, const Frame& frame) const {
+  const auto& sent = conversation_.sent[play];
+  const auto found =
+      std::find_if(sent.rbegin(), sent.rend(), [&](const Sent& one) { return one.frames.back() == frame; });
+  return found == sent.rend() ? nullptr : &*found;
+}
+
+void Listener::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
+  if (!std::exchange(sent_any_, true)) seen_.first_ns = t_ns;
+  seen_.last_ns = t_ns;
+  stopwatch_.sent(frame, t_ns, late_ns);
+  const auto play = play_closed_by_.find(places_(frame));
+  if (play == play_closed_by_.end()) return;
+  const Sent* sent = closed_by(play->second, frame);
+  if (sent == nullptr) return;
+  due_us_ = sent->due_us;
+  due_ns_ = t_ns - late_ns;
+  const std::string_view group = conversation_.mapping.groups[play->second];
+  seen_.stimuli[group].add(sent->valid_us);
+  stopwatch_.stimulus(group, {.valid_us = sent->valid_us, .t_ns = t_ns, .due_ns = due_ns_});
+}
+
+void Listener::received(const Received& received) {
+  const std::size_t place = places_(received.frame);
+  if (place == MessagePlaces::nowhere) return;
+  if (received.own) {
+    const auto play = play_closed_by_.find(place);
+    const Sent* sent = play == play_closed_by_.end() ? nullptr : closed_by(play->second, received.frame);
+    if (sent != nullptr) seen_.transmit_stamps_echoed = true;
+    return stopwatch_.echoed(received, sent == nullptr ? "" : conversation_.mapping.groups[play->second],
+                             sent == nullptr ? 0 : sent->valid_us);
+  }
+  if (const auto found = hear_of_.find(place); found != hear_of_.end())
+    hear(conversation_.mapping.hears[found->second], received);
+}
+
+void Listener::hear(const Hear& hear, const Received& received) {
+  const Frame& frame = received.frame;
+  const std::size_t place = hear.of.place;
+  checks::Protected& counts = seen_.protection[hear.of.message->name];
+  if (frame.size != hear.of.message->size || frame.fd != hear.of.message->fd) {
+    ++counts.wrong_size;
+    return;
+  }
+  if (hear.of.protection) {
+    auto& receiver = receivers_[static_cast<std::size_t>(&hear - conversation_.mapping.hears.data())];
+    switch (receiver.check(*hear.of.protection, frame.payload())) {
+      case protection::Check::wrong_checksum:
+        ++counts.wrong_checksum;
+        return;
+      case protection::Check::counter_not_allowed:
+      case protection::Check::repeated:
+        ++counts.wrong_counter;
+        return;
+      case protection::Check::some_lost:
+        counts.lost += receiver.lost();
+        break;
+      case protection::Check::ok:
+        break;
+    }
+  }
+  stopwatch_.arrived(place, received);
+  ++seen_.answers[place];
+  std::int64_t t_us = bench_us(received.t_ns);
+  if (hear.answers) {
+    const Sent* cause = cause_of(conversation_, hear, frame);
+    const std::string_view group = conversation_.mapping.groups[*hear.answers];
+    // Before the first play nothing was asked; a count that nobody sent is an answer to nothing.
+    if (cause == nullptr && conversation_.sent[*hear.answers].empty()) return;
+    stopwatch_.answered({&place, 1}, group, cause == nullptr ? -1 : cause->valid_us);
+    if (cause == nullptr) return;
+    t_us = cause->valid_us;
+  }
+  if (!sent_any_) return;
+  auto& answers = seen_.of<Answers>();
+  answers.messages[hear.of.message->name].push_back(t_us);
+  const auto value_of = [&](const Telling& telling) -> std::optional<double> {
+    const std::uint64_t raw = dbc::raw_bits(*telling.signal, frame.payload());
+    if (raw == telling.invalid || !dbc::is_present(*hear.of.message, *telling.signal, frame.payload()))
+      return std::nullopt;
+    return dbc::to_physical(*telling.signal, raw) * telling.factor;
+  };
+  for (const Telling& telling : hear.tellings) {
+    const auto value = value_of(telling);
+    if (telling.sigma || !value) continue;
+    ToldOnce told{.t_us = t_us, .value = *value};
+    for (const Telling& other : hear.tellings) {
+      if (other.sigma && other.quantity == telling.quantity) told.sigma = value_of(other);
+    }
+    answers.told[telling.quantity->quantity].push_back(told);
+  }
+}
+
+std::int64_t Listener::bench_us(std::int64_t t_ns) const {
+  return virtual_time_ ? due_us_ : due_us_ + (t_ns - due_ns_) / 1000;
+}
+
+checks::Observations Listener::finish() {
+  stopwatch_.finish();
+  return std::move(seen_);
+}
+
+}  // namespace canhil::mapping

@@ -1,0 +1,41 @@
+// Frames of a mapped target to observations: what observe::Monitor is for the project's own contract.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "bench/mapping/answers.hpp"
+#include "bench/mapping/conversation.hpp"
+#include "bench/observe/stopwatch.hpp"
+#include "bench/observe/watcher.hpp"
+#include "dbc/wire/message_places.hpp"
+
+namespace canhil::mapping {
+
+class Listener final : public observe::Watcher {
+ public:
+  /// `conversation` must outlive it. `virtual_time`: nothing takes time, and an answer comes when its cause
+  /// was sent.
+  Listener(const Conversation& conversation, std::vector<checks::TimedWindow> windows, const WireFacts& wire,
+           bool virtual_time);
+
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
+  void received(const Received& received) override;
+  checks::Observations finish() override;
+
+ private:
+  void hear(const Hear& hear, const Received& received);
+  [[nodiscard]] std::int64_t bench_us(std::int64_t t_ns) const;
+  [[nodiscard]] const Sent* closed_by(std::size_t play, const Frame& frame) const;
+
+  const Conversation& conversation_;
+  checks::Observations seen_;
+  observe::Stopwatch stopwatch_;
+  MessagePlaces places_;
+  std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // by place of a message
+  std::vector<protection::Receiver> receivers_;                  // by hear
+  bool virtual_time_ = false, sent_any_ = false;
+  std::int64_t due_us_ = 0, due_ns_ = 0;  // of the last play: the bench's time, and the stamps'
+};
+
+}  // namespace canhil::mapping

@@ -1,0 +1,164 @@
+#include "bench/mapping/player.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bench/nodes/registry.hpp"
+#include "bench/observe/values.hpp"
+#include "dbc/parser/codec.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+bool plays(const Play& play, std::string_view node) {
+  return std::ranges::any_of(play.messages, [&](const PlayedMessage& message) {
+    return std::ranges::any_of(message.sources, [&](const Source& source) {
+      return source.stimulus != nullptr && source.stimulus->node == node;
+    });
+  });
+}
+
+double ms(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-3; }
+
+}  // namespace
+
+Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& scenario) {
+  for (const nodes::Kind* kind : nodes::all()) {
+    const std::string_view key = kind->table.key;
+    const scenario::NodeSettings* node = scenario.node(key);
+    for (const Play& play : mapping.plays) {
+      if (!plays(play, key)) continue;
+      if (node == nullptr)
+        return failure(
+            fmt::format("key '{}': is missing, and {} plays it, expected a table", key, play.name));
+      if (play.node == key && play.period_us % node->period_us() != 0)
+        return failure(
+            fmt::format("key '{}.period_ms': {:g} does not go into the {:g} ms of {}, expected a "
+                        "whole share of it",
+                        key, ms(node->period_us()), ms(play.period_us), play.name));
+    }
+  }
+  return {};
+}
+
+Player::Player(Conversation& conversation, const nodes::Run& run)
+    : conversation_(conversation), values_(conversation.mapping.plays.size()) {
+  for (const nodes::Kind* kind : nodes::all()) {
+    const scenario::NodeSettings* node = run.scenario.node(kind->table.key);
+    const auto& all = conversation.mapping.plays;
+    if (node == nullptr ||
+        std::ranges::none_of(all, [&](const Play& play) { return plays(play, kind->table.key); }))
+      continue;
+    nodes_.push_back({.node = kind->make(*node, run),
+                      .key = kind->table.key,
+                      .period_us = node->period_us(),
+                      .latency_us = node->latency_us()});
+  }
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Play& play = conversation.mapping.plays[i];
+    next_us_.push_back(play.period_us);
+    for (const PlayedMessage& message : play.messages) {
+      for (const Source& source : message.sources) {
+        if (source.stimulus != nullptr) values_[i][source.stimulus];
+      }
+    }
+  }
+}
+
+std::int64_t Player::due_us() const {
+  std::int64_t due_us = due_.empty() ? nodes::never_us : due_.front().due_us;
+  for (const Played& played : nodes_) due_us = std::min(due_us, played.node->due_us());
+  return due_us;
+}
+
+// A sample first, as a play may be sent with it.
+void Player::transmit(nodes::Transmission& out) {
+  const std::int64_t now_us = due_us();
+  for (Played& played : nodes_) {
+    if (played.node->due_us() == now_us) sample(played);
+  }
+  if (due_.empty() || due_.front().due_us > now_us) return;
+  Due due = std::move(due_.front());
+  due_.pop_front();
+  if (due.lost) return;
+  for (const Frame& frame : due.sent.frames) out.put(frame);
+  conversation_.add(due.play, std::move(due.sent));
+}
+
+void Player::sample(Played& played) {
+  const std::int64_t due_us = played.node->due_us();
+  nodes::Transmission own(Rounding::none);
+  played.node->transmit(own);
+  played.valid_us = due_us - played.latency_us;
+  played.lost = own.frames().empty();
+  for (const Frame& frame : own.frames()) take(played, frame);
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Play& play = conversation_.mapping.plays[i];
+    if (play.node != played.key || played.valid_us < next_us_[i]) continue;
+    next_us_[i] += play.period_us;
+    Sent sent = put_together(i, played, due_us + play.latency_us);
+    const auto after = std::ranges::upper_bound(due_, sent.due_us, {}, &Due::due_us);
+    due_.insert(after, {.due_us = sent.due_us, .play = i, .sent = std::move(sent), .lost = played.lost});
+  }
+}
+
+void Player::take(const Played& played, const Frame& frame) {
+  for (const observe::Value& value : observe::values_of(frame)) {
+    for (auto& of_play : values_) {
+      for (auto& [stimulus, kept] : of_play) {
+        if (stimulus->message->id != frame.id || stimulus->signal != value.signal->name) continue;
+        kept.newest = value.value * stimulus->factor;
+        kept.sum += kept.newest;
+        kept.over_us += played.period_us;
+      }
+    }
+  }
+}
+
+double Player::value_of(std::size_t play, const Source& source, std::int64_t valid_us) {
+  if (source.time) return 1e-6 * static_cast<double>(valid_us);
+  const Value& value = values_[play][source.stimulus];
+  switch (source.stimulus->over) {
+    case Over::newest:
+      return value.newest;
+    case Over::sum:
+      return value.sum;
+    case Over::rate:
+      return value.over_us == 0 ? 0 : value.sum / (1e-6 * static_cast<double>(value.over_us));
+  }
+  return 0;
+}
+
+Sent Player::put_together(std::size_t place, const Played& played, std::int64_t due_us) {
+  Sent sent{.valid_us = played.valid_us, .due_us = due_us, .frames = {}};
+  for (const PlayedMessage& one : conversation_.mapping.plays[place].messages) {
+    const dbc::Message& message = *one.of.message;
+    std::vector<dbc::NamedValue> values;
+    for (const Source& source : one.sources) {
+      const bool constant = source.stimulus == nullptr && !source.time;
+      values.push_back(
+          {.signal = source.signal->name,
+           .value = constant ? source.value : value_of(place, source, played.valid_us) * source.factor});
+    }
+    const auto bytes = dbc::encode(message, values);
+    Frame frame{.id = message.id,
+                .size = static_cast<std::uint8_t>(message.size),
+                .extended = message.extended,
+                .fd = message.fd,
+                .brs = message.fd};
+    std::ranges::copy(*bytes, frame.data.begin());
+    if (one.of.protection) {
+      const auto& counter = one.of.protection->settings().counter;
+      const bool shared = counter && !counter->shared_as.empty();
+      protection::Sender& sender = shared ? shared_[counter->shared_as] : own_[&message];
+      sender.protect(*one.of.protection, {frame.data.data(), frame.size});
+    }
+    sent.frames.push_back(frame);
+  }
+  for (auto& [stimulus, value] : values_[place]) value = {.newest = value.newest};
+  return sent;
+}
+
+}  // namespace canhil::mapping

@@ -1,0 +1,62 @@
+// The nodes of a scenario, on somebody else's bus: their samples go out as the messages of a mapping.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/mapping/conversation.hpp"
+#include "bench/nodes/kind.hpp"
+#include "dbc/protection/protection.hpp"
+
+namespace canhil::mapping {
+
+class Player final : public nodes::Node {
+ public:
+  /// Error: the scenario has no table for a node that is played, or its period does not go into the play's.
+  static Result<void> check(const Mapping& mapping, const scenario::Scenario& scenario);
+
+  /// `conversation` and what `run` has must outlive it; the scenario has passed check().
+  Player(Conversation& conversation, const nodes::Run& run);
+
+  [[nodiscard]] std::int64_t due_us() const override;
+  void transmit(nodes::Transmission& out) override;
+
+ private:
+  // A node's samples as they come.
+  struct Played {
+    std::unique_ptr<nodes::Node> node;
+    std::string_view key;
+    std::int64_t period_us = 0, latency_us = 0;
+    std::int64_t valid_us = 0;  // of the newest
+    bool lost = false;          // the newest did not go out
+  };
+  // A quantity as the plays want it.
+  struct Value {
+    double newest = 0, sum = 0;  // the sum since the play that takes it was sent
+    std::int64_t over_us = 0;
+  };
+  struct Due {
+    std::int64_t due_us = 0;
+    std::size_t play = 0;
+    Sent sent;
+    bool lost = false;
+  };
+
+  void sample(Played& played);
+  void take(const Played& played, const Frame& frame);
+  Sent put_together(std::size_t play, const Played& played, std::int64_t due_us);
+  double value_of(std::size_t play, const Source& source, std::int64_t valid_us);
+
+  Conversation& conversation_;
+  std::vector<Played> nodes_;
+  std::vector<std::map<const Stimulus*, Value>> values_;  // by play
+  std::vector<std::int64_t> next_us_;                     // by play: the next time of validity
+  std::deque<Due> due_;                                   // in the order of their times
+  std::map<std::string, protection::Sender> shared_;
+  std::map<const dbc::Message*, protection::Sender> own_;
+};
+
+}  // namespace canhil::mapping

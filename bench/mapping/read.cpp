@@ -1,0 +1,366 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+
+#include "bench/checks/probability.hpp"
+#include "bench/mapping/mapping.hpp"
+#include "bench/mapping/read_protection.hpp"
+#include "bench/mapping/units.hpp"
+#include "bench/scenario/section.hpp"
+#include "dbc/files/text_file.hpp"
+#include "dbc/parser/parse.hpp"
+#include "dbc/wire/message_places.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+using scenario::Limits;
+using scenario::Section;
+
+constexpr std::size_t most_bytes = std::size_t{1} << 20U;
+constexpr std::size_t most_messages_of_a_play = 8;  // as nodes::Transmission holds
+constexpr std::string_view time_word = "time";
+
+template <class Range, class Name>
+std::vector<std::string> names_of(const Range& range, Name name) {
+  std::vector<std::string> names;
+  for (const auto& one : range) names.emplace_back(std::invoke(name, one));
+  return names;
+}
+
+class Reader {
+ public:
+  Reader(std::string file, std::string_view text)
+      : mapping_(std::make_shared<Mapping>()), root_(Section::parse(text, file)) {
+    mapping_->file = std::move(file);
+  }
+
+  Result<std::shared_ptr<const Mapping>> read() {
+    const std::string named = root_.text("dbc");
+    if (root_.error()) return tl::unexpected(*root_.error());
+    auto database = dbc::read_file((fs::path(mapping_->file).parent_path() / named).string());
+    if (!database) return tl::unexpected(database.error());
+    mapping_->database = std::move(*database);
+    mapping_->name = root_.text("name", fs::path(mapping_->file).stem().stem().string());
+    if (auto units = root_.optional_table("units")) read_units(*units);
+    for (Section& section : tables("protection")) read_protection(section);
+    for (Section& section : tables("play")) read_play(section);
+    for (Section& section : root_.tables("hear")) read_hear(section);
+    root_.finish();
+    if (const auto error = root_.error()) return tl::unexpected(*error);
+    if (const auto wrong = put_together()) return failure(*wrong);
+    return mapping_;
+  }
+
+ private:
+  std::vector<Section> tables(std::string_view key) {
+    if (root_.has(key)) return root_.tables(key);
+    root_.optional(key);
+    return {};
+  }
+
+  const dbc::Message* message(Section& section, std::string_view key, const std::string& name) {
+    const dbc::Message* found = dbc::find_message(mapping_->database, name);
+    if (found == nullptr && !name.empty())
+      section.reject(key, fmt::format("the DBC has no message '{}'", name), "the name of one");
+    return found;
+  }
+
+  const dbc::Signal* signal(Section& section, std::string_view key, const dbc::Message* message,
+                            std::string_view name) {
+    const dbc::Signal* found = message == nullptr ? nullptr : dbc::find_signal(*message, name);
+    if (found == nullptr && message != nullptr)
+      section.reject(
+          key, fmt::format("{} has no signal '{}'", message->name, name),
+          fmt::format("one of: {}", fmt::join(names_of(message->signals, &dbc::Signal::name), ", ")));
+    return found;
+  }
+
+  // "MESSAGE.SIGNAL" of one of some messages.
+  std::pair<const dbc::Message*, const dbc::Signal*> signal_of(Section& section, std::string_view key,
+                                                               std::string_view text) {
+    const std::size_t dot = std::min(text.find('.'), text.size());
+    const dbc::Message* of = message(section, key, std::string(text.substr(0, dot)));
+    if (dot == text.size() && of != nullptr) section.reject(key, "names no signal", "MESSAGE.SIGNAL");
+    const bool whole = of != nullptr && dot < text.size();
+    return {of, whole ? signal(section, key, of, text.substr(dot + 1)) : nullptr};
+  }
+
+  void read_units(Section& section) {
+    for (const std::string& key : section.keys()) {
+      const auto [of, one] = signal_of(section, key, key);
+      const std::string unit = section.text(key);
+      if (!unit.empty() && !wire_unit(unit))
+        section.reject(key, fmt::format("'{}' is no unit", unit), "one of: " + wire_units());
+      if (one != nullptr) units_[one] = unit;
+    }
+    section.finish();
+  }
+
+  // From the signal's unit to SI; `si`: of the quantity.
+  double factor(Section& section, std::string_view key, const dbc::Message& of, const dbc::Signal& one,
+                std::string_view si, std::string_view quantity) {
+    const auto told = units_.find(&one);
+    const std::string& text = told == units_.end() ? one.unit : told->second;
+    const auto unit = wire_unit(text);
+    if (!unit && !si.empty())
+      section.reject(
+          key,
+          text.empty() ? "has no unit in the DBC" : fmt::format("has the unit '{}', which is none", text),
+          fmt::format("[units] with \"{}.{}\" beside it", of.name, one.name));
+    if (unit && unit->si != si)
+      section.reject(key, fmt::format("is in '{}', {} is in {}", text, quantity, si.empty() ? "no unit" : si),
+                     "a signal of that unit, or [units] that say so");
+    return unit ? unit->factor : 1;
+  }
+
+  void read_protection(Section& section) {
+    std::vector<const dbc::Message*> of;
+    for (const std::string& name : section.texts("messages")) {
+      if (const dbc::Message* one = message(section, "messages", name); one != nullptr) of.push_back(one);
+    }
+    if (of.empty() && !section.error()) section.reject("messages", "names none", "at least one message");
+    for (const dbc::Message* one : of) {
+      if (auto made = mapping::read_protection(section, *one)) protections_.insert_or_assign(one, *made);
+    }
+    section.finish();
+  }
+
+  Mapped mapped(Section& section, std::string_view key, const dbc::Message& message, bool of_target) {
+    auto& all = mapping_->messages;
+    if (std::ranges::find(all, message.name, &MessageInfo::name) != all.end())
+      section.reject(key, fmt::format("{} is played or heard already", message.name), "each message once");
+    MessageInfo info{
+        .name = message.name,
+        .id = message.id,
+        .extended = message.extended,
+        .fd = message.fd,
+        .size = static_cast<std::uint8_t>(message.size),
+        .cycle_time_us = message.cycle_time_us,
+        .sender = of_target ? messages::TargetHeartbeat::info.sender : messages::Sync::info.sender};
+    all.push_back(info);
+    const auto own = protections_.find(&message);
+    return {.message = &message,
+            .place = all.size() - 1,
+            .protection = own == protections_.end() ? std::nullopt : std::optional(own->second)};
+  }
+
+  void read_play(Section& section) {
+    Play play;
+    for (const std::string& name : section.texts("messages")) {
+      const dbc::Message* one = message(section, "messages", name);
+      if (one != nullptr)
+        play.messages.push_back({.of = mapped(section, "messages", *one, false), .sources = {}});
+    }
+    if (section.error()) return;
+    if (play.messages.empty() || play.messages.size() > most_messages_of_a_play)
+      section.reject("messages", fmt::format("are {}", play.messages.size()),
+                     fmt::format("1 to {}", most_messages_of_a_play));
+    if (section.error()) return;
+    const dbc::Message& last = *play.messages.back().of.message;
+    play.name = last.name;
+    if (section.has("every_ms") || last.cycle_time_us == 0)
+      play.period_us = section.time_us("every_ms", Limits::above(0));
+    else {
+      section.optional("every_ms");
+      play.period_us = last.cycle_time_us;
+    }
+    play.latency_us = section.time_us("latency_ms", Limits::between(0, 10'000), 0);
+    Section signals = section.table("signals");
+    for (const std::string& key : signals.keys()) read_source(signals, key, play);
+    signals.finish();
+    if (play.node.empty() && !section.error())
+      section.reject("signals", "play no quantity", "at least one signal that is a quantity of a node");
+    section.finish();
+    mapping_->plays.push_back(std::move(play));
+  }
+
+  void read_source(Section& section, const std::string& key, Play& play) {
+    const auto [of, one] = signal_of(section, key, key);
+    const auto own =
+        std::ranges::find(play.messages, of, [](const PlayedMessage& p) { return p.of.message; });
+    if (of != nullptr && own == play.messages.end())
+      section.reject(
+          key, fmt::format("{} is no message of this play", of->name),
+          fmt::format(
+              "one of: {}",
+              fmt::join(names_of(play.messages, [](const PlayedMessage& p) { return p.of.message->name; }),
+                        ", ")));
+    if (!section.holds_text(key)) {
+      const double value = section.plain_number(key, {});
+      if (one != nullptr && own != play.messages.end())
+        own->sources.push_back({.signal = one, .value = value});
+      return;
+    }
+    std::string word = section.text(key);
+    if (one == nullptr || own == play.messages.end() || section.error()) return;
+    const double sign = word.starts_with('-') ? -1 : 1;
+    if (sign < 0) word.erase(0, 1);
+    if (word == time_word) {
+      own->sources.push_back(
+          {.signal = one, .time = true, .factor = 1 / factor(section, key, *of, *one, "s", time_word)});
+      return;
+    }
+    const Stimulus* stimulus = find_stimulus(word);
+    if (stimulus == nullptr) {
+      section.reject(key, fmt::format("'{}' is no quantity that a node measures", word),
+                     fmt::format("one of: time, {}", fmt::join(names_of(stimuli(), &Stimulus::name), ", ")));
+      return;
+    }
+    if (play.node.empty()) play.node = stimulus->node;  // the first one's: it is sent with its samples
+    own->sources.push_back({.signal = one,
+                            .stimulus = stimulus,
+                            .factor = sign / factor(section, key, *of, *one, stimulus->si, stimulus->name)});
+  }
+
+  void read_hear(Section& section) {
+    const dbc::Message* of = message(section, "message", section.text("message"));
+    if (of == nullptr) return;
+    Hear hear{.of = mapped(section, "message", *of, true), .tellings = {}};
+    if (section.has("answers")) {
+      const std::string name = section.one_of("answers", names_of(mapping_->plays, &Play::name));
+      const auto play = std::ranges::find(mapping_->plays, name, &Play::name);
+      if (play != mapping_->plays.end())
+        hear.answers = static_cast<std::size_t>(play - mapping_->plays.begin());
+    }
+    section.optional("answers");
+    if (auto echo = section.optional_table("echo")) {
+      if (!hear.answers)
+        echo->reject("signal", "repeats nothing", "answers beside it");
+      else
+        read_echo(*echo, hear);
+      echo->finish();
+    }
+    std::optional<Section> invalid = section.optional_table("invalid");
+    if (auto signals = section.optional_table("signals")) {
+      for (const std::string& key : signals->keys()) read_telling(*signals, key, invalid, hear);
+      signals->finish();
+    }
+    if (invalid) invalid->finish();
+    section.finish();
+    mapping_->hears.push_back(std::move(hear));
+  }
+
+  void read_echo(Section& section, Hear& hear) {
+    const dbc::Signal* repeated = signal(section, "signal", hear.of.message, section.text("signal"));
+    const auto [of, original] = signal_of(section, "of", section.text("of"));
+    const auto& own = mapping_->plays[*hear.answers].messages;
+    const auto played = std::ranges::find(own, of, [](const PlayedMessage& p) { return p.of.message; });
+    if (of != nullptr && played == own.end())
+      section.reject("of", fmt::format("{} is not of the play that it answers", of->name),
+                     "one of its messages");
+    if (played == own.end()) return;
+    hear.echo = {.repeated = repeated,
+                 .message = static_cast<std::size_t>(played - own.begin()),
+                 .original = original};
+  }
+
+  void read_telling(Section& section, const std::string& key, std::optional<Section>& invalid, Hear& hear) {
+    constexpr std::string_view sigma = ".sigma";
+    const dbc::Signal* one = signal(section, key, hear.of.message, key);
+    std::string word = section.text(key);
+    if (one == nullptr || word.empty()) return;
+    Telling telling{.signal = one};
+    const double sign = word.starts_with('-') ? -1 : 1;
+    if (sign < 0) word.erase(0, 1);
+    telling.sigma = word.ends_with(sigma);
+    if (telling.sigma) word.erase(word.size() - sigma.size());
+    telling.quantity = find_truth(word);
+    if (telling.quantity == nullptr) {
+      section.reject(
+          key, fmt::format("'{}' is no quantity that has a truth", word),
+          fmt::format(
+              "one of: {}, or one with '.sigma'",
+              fmt::join(names_of(truths(), [](const Truthed& t) { return t.quantity->name; }), ", ")));
+      return;
+    }
+    telling.factor = sign * factor(section, key, *hear.of.message, *one, telling.quantity->si, word);
+    if (invalid && invalid->has(key)) telling.invalid = static_cast<std::uint64_t>(invalid->integer(key, 0));
+    hear.tellings.push_back(telling);
+  }
+
+  // What follows from all of it. Why it is no mapping; none: it is.
+  std::optional<std::string> put_together() {
+    Mapping& mapping = *mapping_;
+    const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };
+    if (mapping.messages.size() > MessagePlaces::most)
+      return wrong(
+          fmt::format("{} messages, expected {} at the most", mapping.messages.size(), MessagePlaces::most));
+    for (const MessageInfo& info : mapping.messages) {
+      if (info.fd != mapping.messages.front().fd)
+        return wrong(fmt::format("{} and {} are of different formats, expected all CAN FD or all classic",
+                                 mapping.messages.front().name, info.name));
+    }
+    for (const Play& play : mapping.plays) {
+      const std::string_view group = mapping.groups.emplace_back(play.name);
+      for (const PlayedMessage& one : play.messages) mapping.messages[one.of.place].sample_group = group;
+    }
+    for (const Hear& hear : mapping.hears) {
+      MessageInfo& info = mapping.messages[hear.of.place];
+      info.sample_group = hear.of.message->name;
+      if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
+      mapping.closing.push_back(hear.of.message->name);
+      for (const Telling& telling : hear.tellings) {
+        if (!telling.sigma &&
+            std::ranges::find(mapping.told, telling.quantity->quantity) != mapping.told.end())
+          return wrong(fmt::format("{} is told twice, expected once", telling.quantity->quantity->name));
+        if (!telling.sigma) mapping.told.push_back(telling.quantity->quantity);
+      }
+    }
+    mapping.layout = {.kept = mapping.told, .answers_untold = mapping.hears.size() > 1};
+    mapping.own.emplace(estimator_of(mapping));
+    mapping.estimator = &*mapping.own;
+    return std::nullopt;
+  }
+
+  std::shared_ptr<Mapping> mapping_;
+  Section root_;
+  std::map<const dbc::Signal*, std::string> units_;
+  std::map<const dbc::Message*, protection::Protection> protections_;
+};
+
+}  // namespace
+
+Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file) {
+  const auto text = read_text_file(file, "a mapping", most_bytes);
+  if (!text) return tl::unexpected(text.error());
+  return Reader(file, *text).read();
+}
+
+Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
+                                       const scenario::Contract& own) {
+  Section root = Section::parse(text, file);
+  if (root.error() || !root.has("target")) return own;
+  for (Section& target : root.table_or_tables("target")) {
+    if (!target.has("mapping")) continue;
+    const std::string name = target.text("mapping");
+    if (const auto error = root.error()) return tl::unexpected(*error);
+    auto mapping = read_mapping((fs::path(file).parent_path() / name).string());
+    if (!mapping) return tl::unexpected(mapping.error());
+    scenario::Contract contract = own;
+    contract.estimators = {(*mapping)->name};
+    contract.algorithms.clear();
+    contract.parameters.clear();
+    contract.messages = names_of((*mapping)->messages, &MessageInfo::name);
+    contract.answers.clear();
+    contract.sent_by.clear();
+    for (const MessageInfo& info : (*mapping)->messages) {
+      if (!info.answers.empty()) contract.answers.emplace_back(info.name);
+      if (info.sender == messages::TargetHeartbeat::info.sender)
+        contract.sent_by[std::string(info.name)] = (*mapping)->name;
+    }
+    contract.known = {&(*mapping)->estimator, 1};
+    contract.facts.clear();
+    contract.facts[(*mapping)->name] = (*mapping)->own->facts;
+    contract.foreign = std::move(*mapping);
+    return contract;
+  }
+  return own;
+}
+
+}  // namespace canhil::mapping

@@ -1,0 +1,37 @@
+// A target that speaks the project's contract: any of its messages shows that it is there, its heartbeat that
+// it gave up, StepDone the end of a step that Sync closed.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "bench/observe/second_target.hpp"
+#include "bench/observe/target_watch.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::observe {
+
+class ContractWatch final : public TargetWatch {
+ public:
+  /// `alone`: nobody else can be on the bus, so a second target is not looked for.
+  explicit ContractWatch(bool alone = false) : alone_(alone) {}
+
+  void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override {
+    if (!alone_) second_.transmitted(frame, t_ns, late_ns);
+  }
+  void received(const Received& received) override;
+  bool heard() override { return std::exchange(heard_, false); }
+  [[nodiscard]] std::optional<std::string> fault() const override;
+  bool closes_step(const Frame& frame) override;
+  [[nodiscard]] bool step_done() const override { return done_; }
+  [[nodiscard]] std::string step() const override;
+
+ private:
+  bool alone_;
+  bool heard_ = false, done_ = false;
+  std::uint16_t awaited_ = 0;
+  std::optional<messages::TargetHeartbeat> fault_;  // that said so
+  SecondTarget second_;
+};
+
+}  // namespace canhil::observe

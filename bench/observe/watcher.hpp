@@ -1,0 +1,15 @@
+// Who makes observations of a run's frames.
+#pragma once
+
+#include "bench/checks/observations.hpp"
+#include "bench/observe/observer.hpp"
+
+namespace canhil::observe {
+
+class Watcher : public Observer {
+ public:
+  /// The run is over: all that was seen.
+  virtual checks::Observations finish() = 0;
+};
+
+}  // namespace canhil::observe
