@@ -11,7 +11,8 @@
 namespace canhil::protection {
 namespace {
 
-constexpr unsigned longest_counter = 32;
+constexpr unsigned longest_counter = 32;  // its modulo and period fit 64 bits with room to add
+constexpr unsigned longest_constant = 64;
 
 /// The fields that the settings write, each inside the message and over no other.
 class Fields {
@@ -129,8 +130,8 @@ Result<void> validate_added(const Settings& settings) {
     return failure(
         "data_id_list: not used, expected data_id_of_counter before or after the checksum's bytes");
   if (of_list && entries != modulo(*settings.counter))
-    return failure(fmt::format("data_id_list: {} entries, expected {}: one a value of the counter", entries,
-                               modulo(*settings.counter)));
+    return failure(fmt::format("data_id_list: {} entries, expected {}: one for each value of the counter",
+                               entries, modulo(*settings.counter)));
   return {};
 }
 
@@ -158,7 +159,7 @@ Result<void> validate(const Settings& settings, const Subject& subject) {
     if (Result<void> valid = validate(*settings.counter); !valid) return valid;
   }
   for (const Constant& constant : settings.constants) {
-    if (Result<void> valid = fields.take("constant", constant.place, 64); !valid) return valid;
+    if (Result<void> valid = fields.take("constant", constant.place, longest_constant); !valid) return valid;
     if (constant.value > wire::mask(constant.place.length))
       return failure(fmt::format("constant: 0x{:X} in {} bits, expected at most 0x{:X}", constant.value,
                                  constant.place.length, wire::mask(constant.place.length)));

@@ -145,6 +145,14 @@ TEST(E2eProfile5, HasThePublishedExamples) {
   EXPECT_EQ(zeros("autosar-e2e-5", with_id(0x1234, 64), 16, 1), at(8, {0xFB, 0xD6, 0x01}, 16));
 }
 
+// The same CRC elsewhere: of zeros, the same bytes are covered in the same order.
+TEST(E2eProfile5, TakesOtherPlaces) {
+  ProfileChoice choice = with_id(0x1234);
+  choice.checksum = Place{48, 16, false};
+  choice.counter = Place{0, 8, false};
+  EXPECT_EQ(zeros("autosar-e2e-5", choice, 8, 1), (Bytes{0x01, 0, 0, 0, 0, 0, 0xCF, 0x8D}));
+}
+
 // E2E Profile 4, 6 and 7 Protocol Examples, as the tests of autosar-e2e on PyPI repeat them.
 TEST(E2eProfile4, HasThePublishedExamples) {
   const std::uint32_t id = 0x0A0B0C0D;
