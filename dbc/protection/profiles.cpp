@@ -162,8 +162,9 @@ Result<Settings> profile(std::string_view name, const ProfileChoice& choice, uns
   if (found == profiles.end())
     return failure(fmt::format("profile '{}', expected one of {}", name, fmt::join(names, ", ")));
   const auto wrong = [&](std::string text) { return failure(fmt::format("profile {}: {}", name, text)); };
-  if (choice.offset_bits % 8 != 0)
-    return wrong(fmt::format("offset of {} bits, expected whole bytes", choice.offset_bits));
+  if (choice.offset_bits % 8 != 0 || choice.offset_bits >= 8 * Frame::max_size)
+    return wrong(fmt::format("offset_bits {}, expected whole bytes, less than {}", choice.offset_bits,
+                             8 * Frame::max_size));
   if (choice.data_id_nibble && !found->nibble)
     return wrong("a place for the data id's nibble, expected none: variants 1c and 11c have one");
   if (found->data_id_bits == 0 && choice.data_id != 0)
