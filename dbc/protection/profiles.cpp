@@ -86,7 +86,6 @@ Settings long_header(const ProfileChoice& choice, const Header& header, unsigned
   };
   Settings settings;
   settings.data_id = choice.data_id;
-  settings.data_id_list = choice.data_id_list;
   settings.counter = Counter{
       .place = choice.counter.value_or(place(header.counter)), .modulo = 0, .skipped = {}, .shared_as = {}};
   Checksum checksum;
