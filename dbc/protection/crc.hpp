@@ -40,8 +40,8 @@ std::span<const PublishedCrc> published_crcs();
 /// The published CRC of a name, as "CRC-8/SAE-J1850". The error lists the names.
 Result<Crc> published_crc(std::string_view name);
 
-/// An error in one line if a value is impossible: a width outside 4..64, a polynomial that is even (it leaves
-/// the last bit unprotected), or a value wider than the CRC.
+/// An error in one line if a value is impossible: a width outside 4..64, a polynomial that is even (one bit
+/// of the CRC would be constant; a reflected polynomial mostly looks so), or a value wider than the CRC.
 Result<void> validate(const Crc& crc);
 
 /// The CRC of some bytes, right-aligned. The model must be valid.

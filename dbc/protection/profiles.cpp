@@ -86,7 +86,6 @@ Settings long_header(const ProfileChoice& choice, const Header& header, unsigned
   };
   Settings settings;
   settings.data_id = choice.data_id;
-  settings.data_id_list = choice.data_id_list;
   settings.counter = Counter{
       .place = choice.counter.value_or(place(header.counter)), .modulo = 0, .skipped = {}, .shared_as = {}};
   Checksum checksum;
@@ -162,8 +161,9 @@ Result<Settings> profile(std::string_view name, const ProfileChoice& choice, uns
   if (found == profiles.end())
     return failure(fmt::format("profile '{}', expected one of {}", name, fmt::join(names, ", ")));
   const auto wrong = [&](std::string text) { return failure(fmt::format("profile {}: {}", name, text)); };
-  if (choice.offset_bits % 8 != 0)
-    return wrong(fmt::format("offset of {} bits, expected whole bytes", choice.offset_bits));
+  if (choice.offset_bits % 8 != 0 || choice.offset_bits >= 8 * Frame::max_size)
+    return wrong(fmt::format("offset_bits {}, expected whole bytes, less than {}", choice.offset_bits,
+                             8 * Frame::max_size));
   if (choice.data_id_nibble && !found->nibble)
     return wrong("a place for the data id's nibble, expected none: variants 1c and 11c have one");
   if (found->data_id_bits == 0 && choice.data_id != 0)

@@ -26,8 +26,9 @@ struct ProfileChoice {
 /// The names that profile() knows, as "autosar-e2e-11c".
 std::span<const std::string_view> profile_names();
 
-/// Settings of a profile for a message of `size` bytes. An error in one line for a name that is none, or a
-/// data id or list that the profile cannot have.
+/// Settings of a profile for a message of `size` bytes. An error in one line for an unknown name, or for a
+/// data id, a list or an offset that the profile cannot have; whether its fields fit the message says
+/// Protection::make().
 Result<Settings> profile(std::string_view name, const ProfileChoice& choice, unsigned size);
 
 }  // namespace canhil::protection

@@ -1,5 +1,5 @@
-// Protection of other people's messages, whatever their maker uses: see settings.hpp. dbc/wire/e2e.hpp is
-// that of our own, fixed at build time.
+// Writes and checks the protection of other makers' messages, as settings.hpp describes it at run time. That
+// of canhil's own messages, fixed at build time, is dbc/wire/e2e.hpp.
 #pragma once
 
 #include <array>

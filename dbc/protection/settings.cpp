@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <numeric>
 #include <utility>
 
 #include "dbc/protection/place.hpp"
@@ -62,6 +63,16 @@ Result<AddedByte> added_byte(std::string_view word) {
       fmt::format("'{}' beside the data, expected data_id_0..data_id_3, data_id_alternating, "
                   "data_id_of_counter, message_id_0..message_id_3, length or a number 0..255",
                   word));
+}
+
+Result<std::vector<unsigned>> byte_range(std::int64_t first, std::int64_t last) {
+  constexpr auto size = static_cast<std::int64_t>(Frame::max_size);
+  if (first < 0 || last < first || last >= size)
+    return failure(
+        fmt::format("bytes {} to {}, expected the first and the last of 0..{}", first, last, size - 1));
+  std::vector<unsigned> bytes(static_cast<std::size_t>(last - first + 1));
+  std::iota(bytes.begin(), bytes.end(), static_cast<unsigned>(first));
+  return bytes;
 }
 
 std::uint64_t modulo(const Counter& counter) {

@@ -30,15 +30,15 @@ struct Counter {
   Place place;
   std::uint64_t modulo = 0;            ///< 0: as many values as the place holds
   std::vector<std::uint64_t> skipped;  ///< values below the modulo that are never sent
-  std::string shared_as;  ///< messages with the same name here count together; empty: this one by itself
+  std::string shared_as;  ///< messages with the same name share one counter; empty: a counter of its own
 };
 
-/// Where a byte comes from that a checksum covers beside the message's own.
+/// Where a byte comes from that a checksum covers in addition to the message's bytes.
 enum class Source : std::uint8_t {
   constant,             ///< AddedByte::value
   data_id,              ///< byte AddedByte::index of the data id, 0: the least significant
-  data_id_alternating,  ///< data id's low byte for an even counter, its second byte for an odd one
-  data_id_of_counter,   ///< the entry of the data id list that the counter counts
+  data_id_alternating,  ///< byte 0 of the data id for an even counter, byte 1 for an odd one
+  data_id_of_counter,   ///< the entry of the data id list at the counter's value
   message_id,           ///< byte AddedByte::index of the CAN id, 0: the least significant
   length                ///< the message's bytes
 };
@@ -53,8 +53,8 @@ struct AddedByte {
 /// What a sum adds up.
 enum class Addition : std::uint8_t { bytes, nibbles, xor_of_bytes, xor_of_nibbles };
 
-/// start + all bytes (or nibbles), negated (two's complement) if so wished, then xor; the lowest bits that
-/// the place holds are sent. Of an xor, start is combined by xor too.
+/// start plus all bytes or nibbles (or their xor), then the two's complement if `negated`, then xor with
+/// final_xor. The lowest bits, as many as the place holds, are sent.
 struct Sum {
   Addition addition = Addition::bytes;
   std::uint64_t start = 0;
@@ -82,14 +82,19 @@ struct Constant {
   std::uint64_t value = 0;
 };
 
-/// Protection of one message. Neither counter nor checksum: none, which make() refuses.
+/// How one message is protected; at least a counter or a checksum is needed.
 struct Settings {
   std::optional<Counter> counter;
   std::optional<Checksum> checksum;
   std::vector<Constant> constants;
   std::uint32_t data_id = 0;
-  std::vector<std::uint8_t> data_id_list;  ///< for Source::data_id_of_counter: one a counter's value
+  std::vector<std::uint8_t>
+      data_id_list;  ///< for Source::data_id_of_counter: an entry for each value below the modulo
 };
+
+/// The bytes first..last, both included, for Checksum::bytes. Error if they are not in 0..63 and in this
+/// order.
+Result<std::vector<unsigned>> byte_range(std::int64_t first, std::int64_t last);
 
 /// The message that is protected.
 struct Subject {
@@ -102,7 +107,7 @@ struct Subject {
 /// cannot be (validate(Crc)).
 Result<void> validate(const Settings& settings, const Subject& subject);
 
-/// The counter's modulo, from its place where none is given.
+/// The counter's modulo, from its place where none is given. The place must have 1..32 bits.
 std::uint64_t modulo(const Counter& counter);
 
 /// The bits of a field, byte by byte. The place must lie in 64 bytes.

@@ -11,7 +11,8 @@
 namespace canhil::protection {
 namespace {
 
-constexpr unsigned longest_counter = 32;
+constexpr unsigned longest_counter = 32;  // its modulo and period fit 64 bits with room to add
+constexpr unsigned longest_constant = 64;
 
 /// The fields that the settings write, each inside the message and over no other.
 class Fields {
@@ -129,8 +130,32 @@ Result<void> validate_added(const Settings& settings) {
     return failure(
         "data_id_list: not used, expected data_id_of_counter before or after the checksum's bytes");
   if (of_list && entries != modulo(*settings.counter))
-    return failure(fmt::format("data_id_list: {} entries, expected {}: one a value of the counter", entries,
-                               modulo(*settings.counter)));
+    return failure(fmt::format("data_id_list: {} entries, expected {}: one for each value of the counter",
+                               entries, modulo(*settings.counter)));
+  return {};
+}
+
+Result<void> validate_checksum(const Settings& settings, unsigned size) {
+  const Checksum& checksum = *settings.checksum;
+  const auto of_rule = [&](const auto& rule) { return validate(rule, checksum.place); };
+  if (Result<void> valid = std::visit(of_rule, checksum.rule); !valid) return valid;
+  if (Result<void> valid = validate_bytes(checksum, size); !valid) return valid;
+  return validate_added(settings);
+}
+
+Result<void> validate_places(const Settings& settings, unsigned size) {
+  Fields fields(size);
+  if (settings.checksum) {
+    if (Result<void> valid = fields.take("checksum", settings.checksum->place, Crc::widest); !valid)
+      return valid;
+  }
+  if (settings.counter) {
+    if (Result<void> valid = fields.take("counter", settings.counter->place, longest_counter); !valid)
+      return valid;
+  }
+  for (const Constant& constant : settings.constants) {
+    if (Result<void> valid = fields.take("constant", constant.place, longest_constant); !valid) return valid;
+  }
   return {};
 }
 
@@ -142,28 +167,17 @@ Result<void> validate(const Settings& settings, const Subject& subject) {
   if (!settings.counter && !settings.checksum)
     return failure("protection: neither counter nor checksum, expected at least one");
 
-  Fields fields(subject.size);
-  if (settings.checksum) {
-    const Checksum& checksum = *settings.checksum;
-    if (Result<void> valid = fields.take("checksum", checksum.place, Crc::widest); !valid) return valid;
-    if (Result<void> valid =
-            std::visit([&](const auto& rule) { return validate(rule, checksum.place); }, checksum.rule);
-        !valid)
-      return valid;
-    if (Result<void> valid = validate_bytes(checksum, subject.size); !valid) return valid;
-  }
+  if (Result<void> valid = validate_places(settings, subject.size); !valid) return valid;
   if (settings.counter) {
-    if (Result<void> valid = fields.take("counter", settings.counter->place, longest_counter); !valid)
-      return valid;
     if (Result<void> valid = validate(*settings.counter); !valid) return valid;
   }
   for (const Constant& constant : settings.constants) {
-    if (Result<void> valid = fields.take("constant", constant.place, 64); !valid) return valid;
-    if (constant.value > wire::mask(constant.place.length))
+    const std::uint64_t most = wire::mask(constant.place.length);
+    if (constant.value > most)
       return failure(fmt::format("constant: 0x{:X} in {} bits, expected at most 0x{:X}", constant.value,
-                                 constant.place.length, wire::mask(constant.place.length)));
+                                 constant.place.length, most));
   }
-  if (settings.checksum) return validate_added(settings);
+  if (settings.checksum) return validate_checksum(settings, subject.size);
   if (!settings.data_id_list.empty())
     return failure("data_id_list: not used, expected a checksum that covers it");
   return {};

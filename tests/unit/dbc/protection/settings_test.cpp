@@ -5,6 +5,8 @@
 
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "dbc/protection/protection.hpp"
 
@@ -127,7 +129,7 @@ TEST(ProtectionSettings, WhatDependsOnTheCounter) {
   EXPECT_EQ(error([](Settings& s) {
               s.checksum->after = {{Source::data_id_of_counter, 0, 0}};
             }),
-            "data_id_list: 0 entries, expected 15: one a value of the counter");
+            "data_id_list: 0 entries, expected 15: one for each value of the counter");
   EXPECT_EQ(error([](Settings& s) { s.data_id_list.resize(15); }),
             "data_id_list: not used, expected data_id_of_counter before or after the checksum's bytes");
   EXPECT_EQ(error([](Settings& s) {
@@ -165,6 +167,17 @@ TEST(ProtectionWords, OfKinds) {
     EXPECT_EQ(kind.error().message,
               "checksum kind '" + std::string(word) +
                   "', expected sum, nibble_sum, xor, nibble_xor or crcN with N = 4..64");
+  }
+}
+
+TEST(ProtectionSettings, RangesOfBytes) {
+  EXPECT_EQ(byte_range(1, 3).value(), (std::vector<unsigned>{1, 2, 3}));
+  EXPECT_EQ(byte_range(63, 63).value(), (std::vector<unsigned>{63}));
+  for (const auto& [first, last] : {std::pair(2, 1), std::pair(-1, 3), std::pair(0, 64)}) {
+    const auto bytes = byte_range(first, last);
+    ASSERT_FALSE(bytes);
+    EXPECT_EQ(bytes.error().message, "bytes " + std::to_string(first) + " to " + std::to_string(last) +
+                                         ", expected the first and the last of 0..63");
   }
 }
 
