@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/drive/buses.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/drive/link.hpp"
 #include "bench/drive/schedule.hpp"

@@ -7,7 +7,7 @@
 #include <charconv>
 
 #include "bench/campaign/database.hpp"
-#include "bench/drive/program_file.hpp"
+#include "bench/drive/target_command.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::campaign {
@@ -30,6 +30,21 @@ std::string schema() {
 std::string with_hash(std::string_view name, const std::string& program) {
   const auto file = drive::look_at_program(program);
   return fmt::format("{}+{:016x}", name, file ? file->hash : 0);
+}
+
+// A target's command, each file of it by its name and hash: wherever it lies it is the same one.
+std::string with_hashes(const std::string& target) {
+  std::string text;
+  const auto words = drive::target_words(target);
+  for (std::size_t i = 0; words && i < words->size(); ++i) {
+    const std::string& word = (*words)[i];
+    const std::string path = i == 0 ? drive::program_path(word) : word;
+    text += text.empty() ? "" : " ";
+    text += i == 0 || drive::look_at_program(path)
+                ? with_hash(std::filesystem::path(path).filename().string(), path)
+                : word;
+  }
+  return text;
 }
 
 std::int64_t hash_of(const Identity& identity, const Sources& sources) {
@@ -87,13 +102,12 @@ Sources read_sources(const SQLite::Database& database) {
 
 Identity identity_of(const Campaign& campaign, const std::string& target) {
   static const std::string program = with_hash(CANHIL_VERSION, "/proc/self/exe");
-  return {
-      .campaign_hash = campaign.hash,
-      .dbc_hash = messages::dbc_hash,
-      .rounding = campaign.rounding,
-      .program = program,
-      .target = target.empty() ? "" : with_hash(std::filesystem::path(target).filename().string(), target),
-      .runs = campaign.runs};
+  return {.campaign_hash = campaign.hash,
+          .dbc_hash = messages::dbc_hash,
+          .rounding = campaign.rounding,
+          .program = program,
+          .target = with_hashes(target),
+          .runs = campaign.runs};
 }
 
 std::string_view in_words(Rounding rounding) {

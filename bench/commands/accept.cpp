@@ -15,7 +15,7 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
-#include "bench/drive/program_file.hpp"
+#include "bench/drive/target_command.hpp"
 #include "bench/report/file.hpp"
 
 namespace canhil::commands {
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 // As typed.
 struct Arguments {
   std::string suites = CANHIL_SUITES;
-  std::string target = own_folder() + "/hil-target";
+  std::string target = drive::quoted_word(own_folder() + "/hil-target");
   std::vector<std::string> estimators, families;
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> share;
@@ -61,10 +61,9 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
-  if (auto distinct =
-          report::check_distinct({arguments.target, arguments.json, arguments.junit, arguments.html});
-      !distinct)
-    return distinct;
+  std::vector<std::string> files = drive::files_of_target(arguments.target);
+  files.insert(files.end(), {arguments.json, arguments.junit, arguments.html});
+  if (auto distinct = report::check_distinct(files); !distinct) return distinct;
   for (const std::string& path : {arguments.json, arguments.junit, arguments.html}) {
     if (path.empty() || (path == report::to_stdout && path != arguments.html)) continue;
     if (auto writable = report::check_writable(path); !writable) return writable;
@@ -125,7 +124,8 @@ ExitCode execute(const Arguments& arguments) {
 void add_accept(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
   const auto command = app.add_subcommand(std::string(accept_name), std::string(accept_summary));
-  command.add_option("--target", arguments->target, "program (default: hil-target beside hil-bench)");
+  command.add_option("--target", arguments->target,
+                     "program and its arguments, as one word (default: hil-target beside hil-bench)");
   command
       .add_option("--estimator", arguments->estimators, "only its suite; may be given again (default: all)")
       .one_word_each();

@@ -137,8 +137,9 @@ ExitCode execute(const Arguments& arguments) {
   }
   const auto file = results_file(arguments, *shard);
   if (!file) return complain(file.error());
-  if (auto distinct = check_distinct(*campaign, {file->string(), arguments.json, arguments.target});
-      !distinct)
+  std::vector<std::string> files = drive::files_of_target(arguments.target);
+  files.insert(files.end(), {file->string(), arguments.json});
+  if (auto distinct = check_distinct(*campaign, std::move(files)); !distinct)
     return complain(distinct.error());
   if (!arguments.json.empty()) {
     if (shard->count > 1)
@@ -311,9 +312,10 @@ void add_campaign(command_line::Command app, int& code) {
   command.add_number("--runs", arguments->runs, "another number of runs than the campaign's", 1,
                      campaign::most_runs);
   const auto resume = command.add_flag("--resume", arguments->resume, "go on with results that are there");
-  const auto target = command.add_option(
-      "--target", arguments->target,
-      "program to fly against, over a bus in lockstep (default: the target's own code in process)");
+  const auto target = command.add_option("--target", arguments->target,
+                                         "program to fly against, with its arguments, as one word; over a "
+                                         "bus in lockstep (default: the target's own "
+                                         "code in process)");
   const auto unrounded =
       command.add_flag("--unrounded", arguments->unrounded,
                        "frames that round nothing: the difference is what the bus's resolution costs");

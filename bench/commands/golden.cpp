@@ -12,8 +12,8 @@
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/drive/contract.hpp"
-#include "bench/drive/program_file.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/drive/target_command.hpp"
 #include "bench/observe/divergence.hpp"
 #include "bench/report/file.hpp"
 
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string folder;
   std::vector<std::string> scenarios;
-  std::string target = own_folder() + "/hil-target";
+  std::string target = drive::quoted_word(own_folder() + "/hil-target");
   std::optional<std::uint64_t> tolerance;
   std::string json;
 };
@@ -167,7 +167,8 @@ void add_golden(command_line::Command app, int& code) {
     auto arguments = std::make_shared<Arguments>();
     const auto own = command.add_subcommand(name, summary);
     own.add_option("FOLDER", arguments->folder, "where scenarios and frames are kept").required();
-    own.add_option("--target", arguments->target, "program (default: hil-target beside hil-bench)");
+    own.add_option("--target", arguments->target,
+                   "program and its arguments, as one word (default: hil-target beside hil-bench)");
     own.on_given([&code, arguments, execute] {
       if (auto fine = drive::check_target(arguments->target); !fine) {
         code = static_cast<int>(complain(fine.error()));

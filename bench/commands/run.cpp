@@ -94,7 +94,9 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   options.bus = std::move(bus);
   // Nobody else can know the name of a private bus, so two benches on one machine do not meet.
   options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
-  if (!external) options.target = arguments.target.empty() ? own_folder() + "/hil-target" : arguments.target;
+  if (!external)
+    options.target =
+        arguments.target.empty() ? drive::quoted_word(own_folder() + "/hil-target") : arguments.target;
   if (arguments.bus_of.empty()) options.controller = controller_of(options.bus.text);
   options.lockstep = arguments.lockstep;
   if (!arguments.log.empty()) options.log_path = arguments.log;
@@ -154,12 +156,10 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
 
 Result<void> check_outputs(const Arguments& arguments) {
   // What is read must not be written over: --dbc and --target may name files too.
-  if (auto distinct =
-          report::check_distinct({arguments.scenario, arguments.dbc, arguments.target, arguments.json,
-                                  arguments.junit, arguments.html, arguments.csv, arguments.log});
-      !distinct) {
-    return distinct;
-  }
+  std::vector<std::string> files = drive::files_of_target(arguments.target);
+  files.insert(files.end(), {arguments.scenario, arguments.dbc, arguments.json, arguments.junit,
+                             arguments.html, arguments.csv, arguments.log});
+  if (auto distinct = report::check_distinct(files); !distinct) return distinct;
   for (const std::string& path : {arguments.json, arguments.junit}) {
     if (path.empty() || path == report::to_stdout) continue;
     if (auto writable = report::check_writable(path); !writable) return writable;
@@ -298,9 +298,10 @@ void add_run(command_line::Command app, int& code) {
                   "NODE=BUS: this node sends on a bus of its own, such as gps=can1; may be given again. The "
                   "target is to listen there too")
       .one_word_each();
-  command.add_option(
-      "--target", arguments->target,
-      "program to start as target (default: hil-target beside hil-bench); none: it runs elsewhere");
+  command.add_option("--target", arguments->target,
+                     "program to start as target, with its arguments, as one word: 'python3 mine.py --gain "
+                     "3' (default: hil-target "
+                     "beside hil-bench); none: it runs elsewhere");
   command.add_option(
       "--dbc", arguments->dbc,
       "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "

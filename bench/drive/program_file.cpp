@@ -1,8 +1,6 @@
 #include "bench/drive/program_file.hpp"
 
-#include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <string_view>
@@ -26,11 +24,6 @@ std::optional<ProgramFile> look_at_program(const std::string& path) {
     program.bytes += count;
   }
   return program;
-}
-
-Result<void> check_target(const std::string& path) {
-  if (look_at_program(path) && access(path.c_str(), X_OK) == 0) return {};
-  return failure(fmt::format("target '{}': is no program, expected the path of an executable file", path));
 }
 
 }  // namespace canhil::drive

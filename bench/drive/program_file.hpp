@@ -5,8 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "dbc/wire/result.hpp"
-
 namespace canhil::drive {
 
 /// A program as it lay on the disk.
@@ -18,8 +16,5 @@ struct ProgramFile {
 
 /// Looks at a file; none: it is no regular file, or cannot be read.
 std::optional<ProgramFile> look_at_program(const std::string& path);
-
-/// Error: a target that is no executable file, in one line.
-Result<void> check_target(const std::string& path);
 
 }  // namespace canhil::drive

@@ -142,7 +142,7 @@ class Session {
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
-  [[nodiscard]] const std::optional<ProgramFile>& target_file() const { return target_file_; }
+  [[nodiscard]] const auto& target_files() const { return target_files_; }
   // What went wrong, and who flooded the bus, or was turned away from it: that may be why.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, words(*link_.flood()));
@@ -166,7 +166,7 @@ class Session {
 
   Result<void> start_target(const std::vector<int>& cpus) {
     if (!options_.target || bus_.in_process) return {};
-    target_file_ = look_at_program(*options_.target);
+    target_files_ = look_at_target(*options_.target);
     std::vector<std::string> arguments = options_.target_arguments;
     // Every target is told, ours or another: it is to speak the same contract.
     if (options_.format != BusFormat::classic)
@@ -219,7 +219,7 @@ class Session {
   observe::LoadMeter load_;
   std::optional<observe::HostWatch> host_;  // watches from its construction on
   std::unique_ptr<observe::Recorder> log_;
-  std::optional<ProgramFile> target_file_;
+  std::vector<std::pair<std::string, ProgramFile>> target_files_;
   std::optional<TargetProcess> target_;
   Ending ending_;
 };
@@ -263,12 +263,12 @@ ClockKind clock_of(BusTime time, bool lockstep) {
   return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
 }
 
-Options in_lockstep_against(std::string program) {
+Options in_lockstep_against(std::string command) {
   static std::atomic<std::uint64_t> buses = 0;  // of this process: flights in other threads have others
   Options options;
   options.bus =
       BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
-  options.target = std::move(program);
+  options.target = std::move(command);
   options.lockstep = true;
   return options;
 }
@@ -304,7 +304,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
              .in_process = session.bus().in_process,
              .timing_unfit = std::move(timing_unfit),
              .host = clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
-             .target_file = session.target_file(),
+             .target_files = session.target_files(),
              .wall_s = wall_s,
              .started_s = started_s,
              .log_error = std::move(flown.log_error)};
@@ -317,9 +317,9 @@ Result<Collected> run_in_process(const scenario::Scenario& scenario, const world
   return fly_for_campaign(scenario, truth, run_index, std::move(options));
 }
 
-Result<Collected> run_against(const std::string& program, const scenario::Scenario& scenario,
+Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index) {
-  return fly_for_campaign(scenario, truth, run_index, in_lockstep_against(program));
+  return fly_for_campaign(scenario, truth, run_index, in_lockstep_against(target));
 }
 
 }  // namespace canhil::drive

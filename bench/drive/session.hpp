@@ -12,8 +12,8 @@
 #include "bench/drive/buses.hpp"
 #include "bench/drive/ending.hpp"
 #include "bench/drive/flight.hpp"
-#include "bench/drive/program_file.hpp"
 #include "bench/drive/real_time.hpp"
+#include "bench/drive/target_command.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/realtime/process.hpp"
 
@@ -28,7 +28,7 @@ ClockKind clock_of(BusTime time, bool lockstep);
 struct Options {
   BusName bus{};
   BusOf bus_of{};
-  std::optional<std::string> target;  ///< program to start; none: the target already runs on the bus
+  std::optional<std::string> target;  ///< command to start (target_words()); none: it already runs on the bus
   BusFormat format = BusFormat::classic;
   WireFacts controller{};                     ///< of an interface, where the kernel tells
   bool lockstep = false;                      ///< rather than real time
@@ -42,8 +42,8 @@ struct Options {
   bool for_verdict = true;  ///< false: only what the target says is observed, not times, load, bus and host
 };
 
-/// Of a flight in lockstep against this program, started for it on a local bus of its own.
-Options in_lockstep_against(std::string program);
+/// Of a flight in lockstep against this target, started for it on a local bus of its own.
+Options in_lockstep_against(std::string command);
 
 /// What a session has seen.
 struct Collected {
@@ -65,10 +65,11 @@ struct Run {
   bool in_process = false;                   ///< the target was the bench's own device
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: it is
   std::optional<realtime::Standing> host{};  ///< of the bench, in real time
-  std::optional<ProgramFile> target_file{};  ///< of Options::target when it was started; none: it was not
-  double wall_s = 0;                         ///< from the start of the estimator to the end
-  std::int64_t started_s = 0;                ///< since 1970, UTC; 0: unknown
-  std::optional<Error> log_error{};          ///< see Collected
+  /// The files of Options::target when it was started, its program first; empty: it was not.
+  std::vector<std::pair<std::string, ProgramFile>> target_files{};
+  double wall_s = 0;                 ///< from the start of the estimator to the end
+  std::int64_t started_s = 0;        ///< since 1970, UTC; 0: unknown
+  std::optional<Error> log_error{};  ///< see Collected
 };
 
 /// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a
@@ -85,7 +86,7 @@ Result<Collected> run_in_process(const scenario::Scenario& scenario, const world
 
 /// The same against a program, started for this run on a private local bus, in lockstep: a target that
 /// behaves as the Device gives the same samples. Error: also a program that does not start or answer.
-Result<Collected> run_against(const std::string& program, const scenario::Scenario& scenario,
+Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index);
 
 }  // namespace canhil::drive

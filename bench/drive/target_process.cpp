@@ -11,35 +11,39 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/drive/target_command.hpp"
 #include "dbc/realtime/process.hpp"
 
 namespace canhil::drive {
 
-Result<TargetProcess> TargetProcess::start(const std::string& program, const std::string& bus,
+Result<TargetProcess> TargetProcess::start(const std::string& command, const std::string& bus,
                                            const std::vector<std::string>& more,
                                            const std::vector<int>& cpus) {
-  const auto no_program = [&program](int reason) {
-    return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", program,
+  auto words = target_words(command);
+  if (!words) return tl::unexpected(words.error());
+  const std::string name = words->front(), program = program_path(name);
+  const auto no_program = [&name](int reason) {
+    return failure(fmt::format("target '{}': {}; expected an executable file, or --target none", name,
                                strerror(reason)));
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(program, ignored)) return no_program(EISDIR);  // or execv says EACCES
-  std::vector<std::string> words{program, "--bus", bus};
-  words.insert(words.end(), more.begin(), more.end());
+  words->insert(words->end(), {"--bus", bus});
+  words->insert(words->end(), more.begin(), more.end());
   std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
+  for (std::string& word : *words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   // Why the program did not start; it closes when it does.
   int refusal[2];
   if (pipe2(refusal, O_CLOEXEC) != 0)
-    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(errno)));
+    return failure(fmt::format("target '{}': cannot start a process: {}", name, strerror(errno)));
   const pid_t parent = getpid();
   const pid_t pid = fork();
   const int fork_error = errno;
   if (pid != 0) close(refusal[1]);
   if (pid < 0) {
     close(refusal[0]);
-    return failure(fmt::format("target '{}': cannot start a process: {}", program, strerror(fork_error)));
+    return failure(fmt::format("target '{}': cannot start a process: {}", name, strerror(fork_error)));
   }
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);

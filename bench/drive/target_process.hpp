@@ -13,9 +13,9 @@ namespace canhil::drive {
 /// A started hil-target; it is terminated with this object, and by the kernel should the bench die.
 class TargetProcess {
  public:
-  /// Starts `program --bus BUS` and what else it is to be told, on the given CPUs (empty: on those of the
-  /// bench). Error: the program cannot be started.
-  static Result<TargetProcess> start(const std::string& program, const std::string& bus,
+  /// Starts `COMMAND --bus BUS` and what else it is to be told, on the given CPUs (empty: on those of the
+  /// bench). The command is split by target_words(). Error: the program cannot be started.
+  static Result<TargetProcess> start(const std::string& command, const std::string& bus,
                                      const std::vector<std::string>& more = {},
                                      const std::vector<int>& cpus = {});
 

@@ -145,10 +145,19 @@ Json target(const drive::Run& run) {
   if (run.in_process) return {{"program", "in hil-bench itself"}};
   if (!run.options.target) return {{"program", "runs elsewhere"}};
   Json json{{"program", *run.options.target}};
-  if (run.target_file) {
-    json["file_hash"] = fmt::format("{:016x}", run.target_file->hash);
-    json["file_bytes"] = run.target_file->bytes;
-    json["file_date"] = date_utc(run.target_file->modified_s);
+  const auto add = [](Json& to, const drive::ProgramFile& file) {
+    to["file_hash"] = fmt::format("{:016x}", file.hash);
+    to["file_bytes"] = file.bytes;
+    to["file_date"] = date_utc(file.modified_s);
+  };
+  for (const auto& [name, file] : run.target_files) {
+    if (!json.contains("file_hash")) {  // of the program itself
+      add(json, file);
+      continue;
+    }
+    Json further{{"file", name}};
+    add(further, file);
+    json["arguments"].push_back(std::move(further));
   }
   return json;
 }

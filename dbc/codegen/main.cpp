@@ -15,6 +15,7 @@
 #include "dbc/codegen/fd.hpp"
 #include "dbc/codegen/generate.hpp"
 #include "dbc/codegen/json.hpp"
+#include "dbc/codegen/kit.hpp"
 #include "dbc/codegen/load.hpp"
 #include "dbc/codegen/rules.hpp"
 #include "dbc/command_line/command_line.hpp"
@@ -33,6 +34,8 @@ struct Options {
   bool json = false;
   bool fd = false;
   bool fd_header = false;
+  bool c = false;
+  bool python = false;
 };
 
 int complain(const std::string& line) {
@@ -50,6 +53,8 @@ canhil::Result<std::string> text_for(const canhil::dbc::Database& database, cons
   const std::string name = std::filesystem::path(options.dbc).filename().string();
   if (options.fd) return canhil::dbc::fd_text(database, name);
   if (options.fd_header) return canhil::dbc::fd_header(database, options.name_space, name);
+  if (options.c) return canhil::dbc::c_header(database, name);
+  if (options.python) return canhil::dbc::python_module(database, name);
   return canhil::dbc::generate_header(database, options.name_space, name);
 }
 
@@ -103,8 +108,10 @@ std::string refused(const Options& options) {
   }
   if (!is_namespace(options.name_space))
     return fmt::format("--namespace: '{}' is no name of a namespace in C++", options.name_space);
-  const int asked = options.quantisation + options.load + options.json + options.fd + options.fd_header;
-  if (asked > 1) return "expected one of --quantisation, --load, --json, --fd and --fd-header";
+  const int asked = options.quantisation + options.load + options.json + options.fd + options.fd_header +
+                    options.c + options.python;
+  if (asked > 1)
+    return "expected one of --quantisation, --load, --json, --fd, --fd-header, --c and --python";
   return {};
 }
 
@@ -124,6 +131,8 @@ int run(int argc, char** argv) {
   program.add_flag("--fd", options.fd,
                    "write the same contract for CAN FD, one frame a sample group, as a DBC file");
   program.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
+  program.add_flag("--c", options.c, "write the contract as a C99 header, for docs/examples/kit");
+  program.add_flag("--python", options.python, "write the contract as a Python module, for the same");
   program.refuse_no_values();
   const auto parsed = program.parse(argc, argv);
   if (!parsed) return complain(fmt::format("dbcgen: {}; see dbcgen --help", parsed.error().message));

@@ -94,7 +94,7 @@ TEST(BadFiles, DbcgenWritesWhatItIsToldOrSaysWhyNot) {
   expect_one_line(dbcgen("-n 'a b;'"), "--namespace: 'a b;' is no name of a namespace in C++");
   expect_one_line(dbcgen("-n ''"), "--namespace: is empty");
   expect_one_line(dbcgen("--load --json"),
-                  "expected one of --quantisation, --load, --json, --fd and --fd-header");
+                  "expected one of --quantisation, --load, --json, --fd, --fd-header, --c and --python");
   std::ofstream(scratch("none.dbc")) << "BS_:\nBU_: A\n";
   expect_one_line(shell(fmt::format("{} {}", DBCGEN, scratch("none.dbc"))),
                   "none.dbc: no messages in the DBC, expected one at least");

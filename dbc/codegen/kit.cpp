@@ -1,0 +1,277 @@
+#include "dbc/codegen/kit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <vector>
+
+#include "dbc/codegen/names.hpp"
+#include "dbc/codegen/rules.hpp"
+#include "dbc/parser/parse.hpp"
+
+namespace canhil::dbc {
+namespace {
+
+struct Group {
+  std::string name;
+  std::vector<const Message*> messages;  // by id: the order of transmission
+};
+
+// By the id of their first message.
+std::vector<Group> groups_of(const Database& database) {
+  std::vector<const Message*> sorted;
+  for (const Message& message : database.messages) sorted.push_back(&message);
+  std::ranges::sort(sorted, {}, &Message::id);
+  std::vector<Group> groups;
+  for (const Message* message : sorted) {
+    const std::string& name = message->sample_group.empty() ? message->name : message->sample_group;
+    auto group = std::ranges::find(groups, name, &Group::name);
+    if (group == groups.end()) group = groups.insert(groups.end(), Group{name, {}});
+    group->messages.push_back(message);
+  }
+  return groups;
+}
+
+// TargetHeartbeat -> TARGET_HEARTBEAT, los_rate -> LOS_RATE.
+std::string upper(std::string_view name) {
+  std::string text;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const auto c = static_cast<unsigned char>(name[i]);
+    const bool word =
+        i > 0 && std::isupper(c) != 0 && std::isupper(static_cast<unsigned char>(name[i - 1])) == 0;
+    if (word && text.back() != '_') text += '_';
+    text += static_cast<char>(std::toupper(c));
+  }
+  return text;
+}
+
+std::string c_name(std::string_view of, std::string_view name) {
+  return fmt::format("CANHIL_{}_{}", upper(of), upper(identifier(name)));
+}
+
+// Why the kit's tables cannot say it; empty: they can.
+std::string unfit(const Message& message) {
+  if (message.extended || message.fd || message.size > 8)
+    return fmt::format("message {}: expected classic CAN of at most 8 bytes with an 11-bit id", message.name);
+  if (message.e2e_data_id == 0) return fmt::format("message {}: expected an E2eDataId", message.name);
+  return {};
+}
+std::string unfit(const Signal& signal, std::set<std::string>& names) {
+  if (!names.insert(signal.name).second)
+    return fmt::format("signal {}: expected a name of its own in its sample group", signal.name);
+  if (signal.byte_order != ByteOrder::little_endian || signal.multiplexor || !signal.multiplexed_by.empty() ||
+      signal.type == RawType::float64 || (!signal.is_float() && !raw_range(signal)))
+    return fmt::format("signal {}: expected little-endian, not multiplexed, no 64-bit float", signal.name);
+  return {};
+}
+
+Result<std::vector<Group>> fit_groups(const Database& database, std::string_view dbc_name) {
+  const auto wrong = [&](const Position& at, const std::string& what) {
+    return failure(fmt::format("{}:{}:{}: {}", dbc_name, at.line, at.column, what));
+  };
+  if (auto broken = find_breach(database)) return wrong(broken->at, broken->what);
+  auto groups = groups_of(database);
+  for (const Group& group : groups) {
+    std::set<std::string> names;
+    for (const Message* message : group.messages) {
+      if (const auto why = unfit(*message); !why.empty()) return wrong(message->at, why);
+      for (const Signal* signal : members_of(*message)) {
+        if (const auto why = unfit(*signal, names); !why.empty()) return wrong(signal->at, why);
+      }
+    }
+  }
+  return groups;
+}
+
+std::vector<ValueName> ascending(std::vector<ValueName> values) {
+  std::ranges::sort(values, {}, &ValueName::value);
+  return values;
+}
+
+std::string kind_of(const Signal& signal) {
+  return signal.is_float() ? "float" : signal.is_signed() ? "signed" : "unsigned";
+}
+
+struct Limits {
+  std::string lowest, highest;  // of the raw value, as numbers of C and Python
+};
+Limits limits_of(const Signal& signal) {
+  if (signal.is_float()) {
+    const RealRange range = real_range(signal);
+    return {literal(range.lowest), literal(range.highest)};
+  }
+  const RawRange range = *raw_range(signal);
+  const auto text = [&](std::int64_t raw) {
+    return signal.is_signed() ? fmt::format("{}.0", raw)
+                              : fmt::format("{}.0", static_cast<std::uint64_t>(raw));
+  };
+  return {text(range.lowest), text(range.highest)};
+}
+
+// The place of a signal among the values of a group; -1: it has none of that name.
+int place_of(const Group& group, std::string_view name) {
+  int place = 0;
+  for (const Message* message : group.messages) {
+    for (const Signal* signal : members_of(*message)) {
+      if (signal->name == name) return place;
+      ++place;
+    }
+  }
+  return -1;
+}
+
+// The name of the value table that has just these values; empty: none.
+std::string table_of(const Database& database, const Signal& signal) {
+  const auto table = std::ranges::find_if(database.value_tables, [&](const ValueTable& one) {
+    return ascending(one.values) == ascending(signal.values);
+  });
+  return signal.values.empty() || table == database.value_tables.end() ? "" : table->name;
+}
+
+std::string c_tables(const std::vector<Group>& groups) {
+  std::string signals, messages, listed;
+  std::size_t first_signal = 0, first_message = 0;
+  for (const Group& group : groups) {
+    std::size_t first_value = 0;
+    for (const Message* message : group.messages) {
+      const auto members = members_of(*message);
+      for (const Signal* signal : members) {
+        const auto [lowest, highest] = limits_of(*signal);
+        signals += fmt::format("  {{{}, {}, CANHIL_{}, {}, {}, {}, {}}}, /* {}.{} */\n", signal->start_bit,
+                               signal->length, upper(kind_of(*signal)), literal(signal->scale),
+                               literal(signal->offset), lowest, highest, message->name, signal->name);
+      }
+      messages += fmt::format("  {{0x{:X}, 0x{:X}, {}, CANHIL_GROUP_{}, {}, {}, {}}}, /* {} */\n",
+                              message->id, message->e2e_data_id, message->size, upper(group.name),
+                              first_signal, members.size(), first_value, message->name);
+      first_signal += members.size();
+      first_value += members.size();
+    }
+    listed += fmt::format(
+        "  {{{}, {}, {}, {}, {}, {}, {}}}, /* {} */\n", first_message, group.messages.size(), first_value,
+        group.messages.front()->sender == "Target" ? 1 : 0, place_of(group, "time_of_validity_us"),
+        place_of(group, "cause_time_us"), place_of(group, "cause_counter"), group.name);
+    first_message += group.messages.size();
+  }
+  return fmt::format(
+      "#ifdef CANHIL_TABLES\n"
+      "enum {{ CANHIL_UNSIGNED, CANHIL_SIGNED, CANHIL_FLOAT }};\n\n"
+      "/* value = raw * scale + offset; raw is held in [lowest, highest]. start counts as in an Intel DBC. "
+      "*/\n"
+      "typedef struct {{ unsigned char start, length, kind; double scale, offset, lowest, highest; }} "
+      "canhil_signal;\n"
+      "static const canhil_signal canhil_signals[] = {{\n{}}};\n\n"
+      "/* In the order of groups, within a group in that of transmission. first_value: of its signals in the "
+      "group's. */\n"
+      "typedef struct {{ unsigned short id, data_id; unsigned char size, group; unsigned short first_signal; "
+      "unsigned char signals, first_value; }} canhil_message;\n"
+      "static const canhil_message canhil_messages[] = {{\n{}}};\n\n"
+      "/* time, cause_time, cause_counter: their place among the values; -1: the group has none. */\n"
+      "typedef struct {{ unsigned char first_message, messages, values, from_target; signed char time, "
+      "cause_time, cause_counter; }} canhil_group;\n"
+      "static const canhil_group canhil_groups[] = {{\n{}}};\n#endif\n",
+      signals, messages, listed);
+}
+
+std::string made_by(std::string_view option, std::string_view dbc_name) {
+  return fmt::format("Made by dbcgen {} from {}: change that, not this.", option, dbc_name);
+}
+
+}  // namespace
+
+Result<std::string> c_header(const Database& database, std::string_view dbc_name) {
+  const auto groups = fit_groups(database, dbc_name);
+  if (!groups) return tl::unexpected(groups.error());
+  std::string text = fmt::format(
+      "/* {} */\n#ifndef CANHIL_MESSAGES_H\n#define CANHIL_MESSAGES_H\n\n#define CANHIL_DBC_HASH24 "
+      "0x{:06X}UL\n\n",
+      made_by("--c", dbc_name), fold24(database.hash));
+  for (const ValueTable& table : database.value_tables) {
+    text += fmt::format("enum {{ /* {} */\n", table.name);
+    const auto values = ascending(table.values);
+    for (const ValueName& value : values)
+      text += fmt::format("  {} = {}{}\n", c_name(table.name, value.name), value.value,
+                          &value == &values.back() ? "" : ",");
+    text += "};\n";
+  }
+  std::size_t most_values = 0, messages = 0;
+  text += "\n/* Sample groups; a message of no group is a group of its own. */\nenum {\n";
+  for (const Group& group : *groups) {
+    text += fmt::format("  CANHIL_GROUP_{},\n", upper(group.name));
+    messages += group.messages.size();
+  }
+  text += "  CANHIL_GROUPS\n};\n\n/* The values of each group, by their place in its array of doubles. */\n";
+  for (const Group& group : *groups) {
+    text += "enum {\n";
+    std::size_t values = 0;
+    for (const Message* message : group.messages) {
+      for (const Signal* signal : members_of(*message)) {
+        text += fmt::format("  {},{}\n", c_name(group.name, signal->name),
+                            signal->unit.empty() ? "" : fmt::format(" /* [{}] */", signal->unit));
+        ++values;
+      }
+    }
+    text += fmt::format("  {}\n}};\n", c_name(group.name, "values"));
+    most_values = std::max(most_values, values);
+  }
+  text += fmt::format("\nenum {{ CANHIL_MESSAGES = {}, CANHIL_MOST_VALUES = {} }};\n", messages, most_values);
+  text += fmt::format("#define CANHIL_HEARTBEAT_MS {}\n",
+                      find_message(database, "TargetHeartbeat") == nullptr
+                          ? 0
+                          : find_message(database, "TargetHeartbeat")->cycle_time_us / 1000);
+  return text + "\n" + c_tables(*groups) + "\n#endif\n";
+}
+
+Result<std::string> python_module(const Database& database, std::string_view dbc_name) {
+  const auto groups = fit_groups(database, dbc_name);
+  if (!groups) return tl::unexpected(groups.error());
+  std::string text =
+      fmt::format("\"\"\"{}\"\"\"\n\nDBC_HASH24 = 0x{:06X}\n\n# name: {{value: name}}\nVALUE_TABLES = {{\n",
+                  made_by("--python", dbc_name), fold24(database.hash));
+  for (const ValueTable& table : database.value_tables) {
+    text += fmt::format("    {}: {{", quoted(table.name));
+    for (const ValueName& value : ascending(table.values))
+      text += fmt::format("{}: {}, ", value.value, quoted(value.name));
+    text += "},\n";
+  }
+  text +=
+      "}\n\n# Sample groups; a message of no group is a group of its own. Messages in the order of "
+      "transmission: (name, id, data id, "
+      "size,\n# signals), a signal: (name, start bit, length, kind, scale, offset, lowest raw value, "
+      "highest, value table or None).\n"
+      "GROUPS = {\n";
+  std::string answers, cycles, from_target;
+  for (const Group& group : *groups) {
+    text += fmt::format("    {}: (\n", quoted(group.name));
+    for (const Message* message : group.messages) {
+      text += fmt::format("        ({}, 0x{:X}, 0x{:X}, {}, (\n", quoted(message->name), message->id,
+                          message->e2e_data_id, message->size);
+      for (const Signal* signal : members_of(*message)) {
+        const auto [lowest, highest] = limits_of(*signal);
+        const std::string table = table_of(database, *signal);
+        text += fmt::format("            ({}, {}, {}, \"{}\", {}, {}, {}, {}, {}),\n", quoted(signal->name),
+                            signal->start_bit, signal->length, kind_of(*signal), literal(signal->scale),
+                            literal(signal->offset), lowest, highest, table.empty() ? "None" : quoted(table));
+      }
+      text += "        )),\n";
+    }
+    text += "    ),\n";
+    const Message& first = *group.messages.front();
+    if (first.cycle_time_us > 0)
+      cycles +=
+          fmt::format("    {}: {},\n", quoted(group.name), static_cast<double>(first.cycle_time_us) / 1000);
+    if (first.sender == "Target") from_target += fmt::format("    {},\n", quoted(group.name));
+    if (first.answers.empty()) continue;
+    answers += fmt::format("    {}: (", quoted(group.name));
+    for (const std::string& answered : first.answers) answers += quoted(answered) + ", ";
+    answers += "),\n";
+  }
+  return text + fmt::format(
+                    "}}\n\n# Group of answers: the groups that it answers.\nANSWERS = {{\n{}}}\n\n"
+                    "CYCLE_MS = {{\n{}}}\n\n# What a target sends.\nFROM_TARGET = {{\n{}}}\n",
+                    answers, cycles, from_target);
+}
+
+}  // namespace canhil::dbc

@@ -1,0 +1,439 @@
+"""A target of the canhil bench, all but its estimator: the state machine, the protection of frames, sample groups, parameters,
+heartbeat and counters of losses, and the buses local:NAME and SocketCAN. Python's standard library alone; docs/own-target.md tells
+the protocol.
+
+    class MyFilter: ...                      # see Estimator
+    sys.exit(canhil_target.serve(MyFilter(), bus))
+"""
+
+import math
+import os
+import signal
+import socket
+import stat
+import struct
+import sys
+import time
+from typing import NamedTuple
+
+from canhil_messages import ANSWERS, CYCLE_MS, DBC_HASH24, FROM_TARGET, GROUPS, VALUE_TABLES
+
+COUNTERS = 15  # of E2E profile 11: 0 to 14
+HEARTBEAT_US = round(CYCLE_MS["TargetHeartbeat"] * 1000)
+LEAD_LIMIT_US = 100_000  # a sample that is valid further ahead of the time base makes no sense
+SILENCE_LIMIT_US = 500_000  # a sensor that stays away for longer is reported
+BENCH_SILENT_S, BENCH_GONE_S = 2e-6 * HEARTBEAT_US, 2.0
+
+
+class Parameter(NamedTuple):
+    """In the unit of its name."""
+    initial: float
+    minimum: float
+    maximum: float
+    whole: bool = False
+    while_running: bool = False
+
+
+class Estimator:
+    """What the user writes. Values of a group are a dictionary by signal; what has a value table in the DBC goes by name."""
+    estimator = "none"  # of the value table Estimator
+    algorithms = ()  # of the value table Algorithm
+    answers = {}  # input group: the group that answers it, or None
+    parameters = {}  # name: Parameter
+
+    def start(self, algorithm, parameters, initial):
+        """Begins anew. parameters: {name: value}, which may change later; initial: of group TargetInit."""
+
+    def sample(self, group, values, t_us):
+        """One whole sample, newer than the one before, valid at t_us in the bench's time base, unwrapped. Returns the values of the
+        answer (0 where left out) but cause_time_us and cause_counter; raises ArithmeticError if the filter cannot go on."""
+        raise NotImplementedError
+
+
+# ---- frames ----
+
+def crc(data, data_id):
+    """AUTOSAR E2E profile 11: CRC-8 SAE J1850 (polynomial 0x1D, start value 0) over the data id, low byte first, and data[1:]."""
+    value = 0
+    for byte in (data_id & 0xFF, data_id >> 8, *data[1:]):
+        value ^= byte
+        for _ in range(8):
+            value = (value << 1) ^ 0x11D if value & 0x80 else value << 1
+    return value
+
+
+def decode(data, signals):
+    word = int.from_bytes(data.ljust(8, b"\0"), "little")
+    values = {}
+    for name, start, length, kind, scale, offset, _, _, table in signals:
+        raw = (word >> start) & ((1 << length) - 1)
+        if kind == "float":
+            raw = struct.unpack("<f", struct.pack("<I", raw))[0]
+        elif kind == "signed" and raw >> (length - 1):
+            raw -= 1 << length
+        values[name] = VALUE_TABLES[table].get(raw, raw) if table else raw if scale == 1 and offset == 0 else raw * scale + offset
+    return values
+
+
+def encode(size, signals, values):
+    """Rounds half to even, holds in the signal's range; NaN becomes the lowest value, and so 0 what is left out."""
+    word = 0
+    for name, start, length, kind, scale, offset, lowest, highest, table in signals:
+        value = values.get(name, 0)
+        if isinstance(value, str):
+            value = next(number for number, known in VALUE_TABLES[table].items() if known == value)
+        raw = (value - offset) / scale
+        raw = min(raw, highest) if raw > lowest else lowest
+        bits = struct.unpack("<I", struct.pack("<f", raw))[0] if kind == "float" else round(raw)
+        word |= (bits & ((1 << length) - 1)) << start
+    return bytearray(word.to_bytes(8, "little")[:size])
+
+
+MESSAGES = {message[1]: (group, place, message) for group, messages in GROUPS.items() for place, message in enumerate(messages)}
+HEARTBEAT_ID = GROUPS["TargetHeartbeat"][0][1]
+
+
+class Target:
+    """Frames in, frames out: `send(id, data)` is called for each frame that answers. Has no clock and no bus."""
+
+    def __init__(self, estimator, send):
+        self.estimator, self.send = estimator, send
+        self.forget()
+
+    def forget(self):
+        """As after a start of the program."""
+        self.state, self.selected, self.algorithm = "idle", "none", 0
+        self.errors = dict.fromkeys(("dbc_mismatch", "not_initialised", "input_lost", "input_silent", "numeric", "command"), False)
+        self.losses = dict.fromkeys(("frames_lost", "bad_crc", "bad_group", "late"), 0)
+        self.untouched = self.lockstep = False
+        self.parameters = {name: one.initial for name, one in self.estimator.parameters.items()}
+        self.initial = {}
+        self.received, self.next = {}, {}  # counters by id
+        self.pending = {}  # group: (counter, {place: values})
+        self.now_us = self.heartbeat_due_us = self.heard_us = 0
+        self.answered_us = {}
+
+    # -- what it says --
+
+    def send_group(self, group, values):
+        """All messages of a group, in the order of their ids: its time comes last."""
+        for _, identifier, data_id, size, signals in GROUPS[group]:
+            data = encode(size, signals, values)
+            counter = self.next.get(identifier, 0)
+            self.next[identifier] = (counter + 1) % COUNTERS
+            data[1] |= counter
+            data[0] = crc(data, data_id)
+            self.send(identifier, bytes(data))
+
+    def send_heartbeat(self):
+        self.send_group("TargetHeartbeat", {"state": self.state, "estimator": self.selected, "algorithm": self.algorithm,
+                                            "dbc_hash": DBC_HASH24, **{"error_" + name: error for name, error in self.errors.items()}})
+
+    def enter(self, state):
+        self.state = state
+        self.send_heartbeat()
+
+    def refuse(self, error):
+        self.errors[error] = True
+        self.send_heartbeat()
+
+    # -- frames to groups --
+
+    def receive(self, identifier, data):
+        """Takes a frame from the bus. Returns 'sample' if it was answered as one, 'bench' if it can come from a bench alone, else ''."""
+        if identifier not in MESSAGES or MESSAGES[identifier][0] in FROM_TARGET:
+            return ""
+        group, place, (_, _, data_id, size, signals) = MESSAGES[identifier]
+        counter = data[1] & 0x0F if len(data) > 1 else COUNTERS
+        if len(data) != size or counter >= COUNTERS or data[0] != crc(data, data_id):
+            self.losses["bad_crc"] += 1
+            self.errors["input_lost"] = True
+            return ""
+        before = self.received.get(identifier)
+        self.received[identifier] = counter
+        if before == counter and group != "TargetCommand":  # a bench that starts anew may come to the counter of the last one's
+            self.losses["late"] += 1
+            return ""
+        lost = 0 if before in (None, counter) else (counter - before - 1) % COUNTERS
+        if lost:
+            self.losses["frames_lost"] += lost
+            self.errors["input_lost"] = True
+        if self.dispatch(group, place, counter, data, signals):
+            return "sample"
+        return "bench" if group in ("Sync", "TargetCommand") else ""
+
+    def dispatch(self, group, place, counter, data, signals):
+        running, sample = self.state == "running", group in self.estimator.answers
+        if group == "TargetInit" and running:
+            self.errors["command"] = True
+            return False
+        if sample and not running:
+            return False
+        if sample:
+            self.untouched = False
+        values = self.completed(group, place, counter, decode(data, signals))
+        if values is None:
+            return False
+        if sample:
+            return self.on_sample(group, counter, values)
+        handle = {"Sync": self.on_sync, "TargetCommand": self.on_command, "ParamSet": self.on_parameter, "TargetInit": self.on_initial}
+        if group in handle:
+            handle[group](values)
+        return False
+
+    def completed(self, group, place, counter, values):
+        """The values of the group once it is whole. A group that another counter interrupts is gone."""
+        before, parts = self.pending.pop(group, (counter, {}))
+        if before != counter:
+            self.losses["bad_group"] += 1
+            self.errors["input_lost"] = True
+            parts = {}
+        parts[place] = values
+        if len(parts) == len(GROUPS[group]):
+            return {name: value for part in parts.values() for name, value in part.items()}
+        self.pending[group] = (counter, parts)
+        return None
+
+    # -- commands --
+
+    def on_command(self, command):
+        if command["dbc_hash"] != DBC_HASH24:
+            self.refuse("dbc_mismatch")
+        elif command["command"] == "reset":
+            self.reset(command["estimator"], command["algorithm"])
+        elif command["command"] == "start":
+            self.start()
+        elif command["command"] == "stop":
+            self.enter("idle" if self.state == "running" else self.state)
+        elif command["command"] == "none":
+            self.send_heartbeat()
+        else:  # add: this target runs one estimator
+            self.refuse("command")
+
+    def reset(self, estimator, algorithm):
+        self.forget()
+        self.algorithm = algorithm
+        if estimator == self.estimator.estimator and algorithm in self.estimator.algorithms:
+            self.selected = estimator
+        else:
+            self.errors["command"] = True
+        self.enter("idle")
+
+    def start(self):
+        if self.state == "ready" or (self.state == "running" and self.untouched):  # a repeated command leaves no trace
+            self.next, self.pending, self.answered_us = {}, {}, {}
+            self.untouched, self.heard_us = True, self.now_us
+            self.estimator.start(self.algorithm, self.parameters, self.initial)
+            self.enter("running")
+        else:
+            self.refuse("not_initialised" if self.state == "idle" else "command")
+
+    def on_parameter(self, request):
+        name, value = request["parameter"], request["value"]
+        parameter = self.estimator.parameters.get(name) if self.selected != "none" else None
+        status = "accepted"
+        if parameter is None:
+            status = "unknown"
+        elif self.state == "running" and not parameter.while_running:
+            status = "wrong_state"
+        elif not parameter.minimum <= value <= parameter.maximum or (parameter.whole and value != round(value)):  # NaN too
+            status = "out_of_range"
+        else:
+            self.parameters[name] = value
+        in_force = value if parameter is None else self.parameters[name]
+        self.send_group("ParamAck", {"parameter": name, "value": in_force, "status": status})
+
+    def on_initial(self, values):
+        self.initial = values
+        if self.selected == "none" or self.state == "fault":
+            self.refuse("command")
+        else:
+            self.enter("ready")
+
+    # -- time and samples --
+
+    def on_sync(self, sync):
+        self.now_us, self.lockstep, self.untouched = sync["time_us"], bool(sync["lockstep"]), False
+        if self.state == "running" and self.now_us - self.heard_us > SILENCE_LIMIT_US:
+            self.errors["input_silent"] = True
+        if self.now_us >= self.heartbeat_due_us:
+            self.heartbeat_due_us = (self.now_us // HEARTBEAT_US + 1) * HEARTBEAT_US
+            self.send_heartbeat()
+            self.send_group("TargetCounters", self.losses)  # a count beyond its signal stays at its end
+        if self.lockstep:
+            self.send_group("StepDone", {"step": sync["step"]})
+
+    def unwrapped_us(self, group, value):
+        """A time that travels modulo 2^length steps: the one that is nearest to now."""
+        _, _, length, _, scale, *_ = next(s for m in GROUPS[group] for s in m[4] if s[0] == "time_of_validity_us")
+        period = round(2**length * scale)
+        return self.now_us + (round(value) - self.now_us + period // 2) % period - period // 2
+
+    def on_sample(self, group, counter, values):
+        t_us = self.unwrapped_us(group, values["time_of_validity_us"]) if "time_of_validity_us" in values else self.now_us
+        if t_us > self.now_us + LEAD_LIMIT_US:
+            self.losses["bad_group"] += 1
+            self.errors["input_lost"] = True
+            return False
+        if t_us <= self.answered_us.get(group, -math.inf):
+            self.losses["late"] += 1
+            return False
+        self.answered_us[group] = self.heard_us = t_us
+        try:
+            answer = self.estimator.sample(group, values, t_us)
+        except ArithmeticError:
+            self.errors["numeric"] = True
+            self.enter("fault")
+            return False
+        if self.estimator.answers[group] is None:
+            return False
+        cause = {"cause_time_us": t_us % 2**32, "cause_counter": counter}  # the time wraps every 71.6 minutes
+        self.send_group(self.estimator.answers[group], {**answer, **cause})
+        return True
+
+
+# ---- buses ----
+
+class LocalBus:
+    """The embedded bus local:NAME. Its format is in docs/own-target.md."""
+    stamp_clock = time.CLOCK_MONOTONIC
+
+    def __init__(self, name):
+        name = name.split("?")[0]  # what follows is the host's
+        runtime = os.environ.get("XDG_RUNTIME_DIR", "")
+        try:
+            entry = os.lstat(runtime)
+            private = stat.S_ISDIR(entry.st_mode) and entry.st_uid == os.geteuid() and not entry.st_mode & 0o077
+        except OSError:
+            private = False
+        folder = f"{runtime}/canhil" if private else f"/tmp/canhil-uid-{os.geteuid()}"
+        self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self.socket.connect(f"{folder}/{name}.classic")
+        # magic "CHH1", own echo, only some ids, a bit for each of them, the name of the node
+        self.socket.send(struct.pack("<IBB256s66s", 0x31484843, 0, 0, b"", b"kit"))
+
+    def receive(self):
+        """(id, data, stamp [ns]); id None: not a classic frame with an 11-bit id. None: the bus is gone."""
+        try:
+            datagram = self.socket.recv(80)
+        except ConnectionResetError:
+            return None
+        if len(datagram) < 16:
+            return None
+        identifier, size, flags, _, t_ns = struct.unpack_from("<IBBHq", datagram)
+        return (identifier if flags == 0 else None), datagram[16:16 + size], t_ns
+
+    def send(self, identifier, data):
+        self.socket.send(struct.pack("<IBBHq", identifier, len(data), 0, 0, 0) + data)
+
+
+class SocketCan:
+    """can0, vcan0."""
+    stamp_clock = time.CLOCK_REALTIME
+    SO_TIMESTAMPNS = 35
+
+    def __init__(self, name):
+        self.socket = socket.socket(socket.PF_CAN, socket.SOCK_RAW, socket.CAN_RAW)
+        self.socket.setsockopt(socket.SOL_SOCKET, self.SO_TIMESTAMPNS, 1)
+        self.socket.bind((name,))
+
+    def receive(self):
+        frame, ancillary, _, _ = self.socket.recvmsg(16, 64)
+        if len(frame) < 16:
+            return None
+        identifier, size = struct.unpack_from("=IB", frame)
+        stamp = time.clock_gettime_ns(self.stamp_clock)
+        for _, kind, data in ancillary:
+            if kind == self.SO_TIMESTAMPNS:
+                seconds, nanoseconds = struct.unpack("qq", data)
+                stamp = seconds * 1_000_000_000 + nanoseconds
+        return (identifier if identifier < 0x800 else None), frame[8:8 + size], stamp  # flags are above the 11 bits
+
+    def send(self, identifier, data):
+        self.socket.send(struct.pack("=IB3x8s", identifier, len(data), data))
+
+
+def open_bus(name):
+    return LocalBus(name[len("local:"):]) if name.startswith("local:") else SocketCan(name)
+
+
+# ---- the process ----
+
+class Process:
+    """A target on a bus, with the messages that speak of the host."""
+
+    def __init__(self, estimator, bus, make_target=Target):
+        self.bus = bus
+        self.target = make_target(estimator, self.send)
+        self.begun = self.report = time.monotonic()
+        self.bench = self.begun - BENCH_SILENT_S
+        self.established = self.bench_heard = False
+        self.timing = []
+
+    def send(self, identifier, data):
+        """A frame for which there is no room in 50 ms is lost; the bench sees that by the counters."""
+        try:
+            self.bus.send(identifier, data)
+        except (TimeoutError, OSError):
+            pass
+
+    def take(self, received):
+        """False: another target answers on this bus."""
+        identifier, data, stamp_ns = received
+        if not self.established:  # before its first word it listens for a heartbeat and a quarter
+            return identifier != HEARTBEAT_ID
+        if identifier is None:
+            return True
+        begun_ns = time.clock_gettime_ns(self.bus.stamp_clock)
+        what = self.target.receive(identifier, data)
+        if what == "sample":
+            ended_ns = time.clock_gettime_ns(self.bus.stamp_clock)
+            self.timing.append((begun_ns - stamp_ns, ended_ns - begun_ns))
+        self.bench_heard = self.bench_heard or what == "bench"
+        return True
+
+    def look_at_clock(self):
+        """In a run the target adds no heartbeat of its own, so that its frames are those of a replay; it speaks up again when the
+        bench has left it behind."""
+        now = time.monotonic()
+        self.established = self.established or now - self.begun >= 1.25e-6 * HEARTBEAT_US
+        if not self.established or now - self.report < 1e-6 * HEARTBEAT_US:
+            return
+        self.report = now
+        if self.bench_heard:
+            self.bench, self.bench_heard = now, False
+        if now - self.bench >= (BENCH_GONE_S if self.target.state == "running" else BENCH_SILENT_S):
+            self.target.send_heartbeat()
+        elif not self.target.lockstep:
+            waits, works = zip(*self.timing) if self.timing else ((0,), (0,))
+            self.target.send_group("TargetTiming", {"queue_max_us": max(waits) / 1e3, "queue_mean_us": sum(waits) / len(waits) / 1e3,
+                                                    "compute_max_us": max(works) / 1e3, "compute_mean_us": sum(works) / len(works) / 1e3})
+        self.timing = []
+
+
+def serve(estimator, bus_name, make_target=Target):
+    """Serves an estimator until a signal or the end of the bus. Returns the exit code: 0, or 2 after one line on standard error."""
+    try:
+        bus = open_bus(bus_name)
+    except OSError as error:
+        print(f"{sys.argv[0]}: {bus_name}: {error.strerror}", file=sys.stderr)
+        return 2
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, lambda *_: sys.exit(0))
+    bus.socket.settimeout(0.02)
+    process = Process(estimator, bus, make_target)
+    while True:
+        try:
+            received = bus.receive()
+        except TimeoutError:
+            process.look_at_clock()
+            continue
+        except OSError as error:
+            print(f"{sys.argv[0]}: {bus_name}: {error.strerror}", file=sys.stderr)
+            return 2
+        if received is None:
+            return 0
+        if not process.take(received):
+            print(f"{sys.argv[0]}: {bus_name}: a target answers here already, expected to be the only one", file=sys.stderr)
+            return 2
+        process.look_at_clock()
