@@ -304,7 +304,7 @@ class Reader {
       MessageInfo& info = mapping.messages[hear.of.place];
       info.sample_group = hear.of.message->name;
       if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
-      mapping.closing.push_back(hear.of.message->name);
+      if (hear.answers) mapping.closing.push_back(hear.of.message->name);
       for (const Telling& telling : hear.tellings) {
         if (!telling.sigma &&
             std::ranges::find(mapping.told, telling.quantity->quantity) != mapping.told.end())
