@@ -111,7 +111,14 @@ std::uint64_t hash_of(const Sources& sources) {
 
 /// Reads the scenario of each variant at each point of the sweep.
 Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, const std::vector<Point>& points,
-                                           const Sources& sources, std::uint64_t seed) {
+                                           Sources& sources, const ScenarioText& text, std::uint64_t seed) {
+  const auto beside = [&](const std::string& name) -> Result<std::string> {
+    if (const auto known = sources.scenarios.find(name); known != sources.scenarios.end())
+      return known->second;
+    auto read = text(name);
+    if (read) sources.scenarios.emplace(name, *read);
+    return read;
+  };
   std::vector<Variant> variants;
   for (const Given& one : given) {
     for (const Point& point : points) {
@@ -121,7 +128,7 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
                       .scenario = {}};
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
-      auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings);
+      auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings, beside);
       const auto refused = [&](std::string_view why) {
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };
@@ -207,9 +214,9 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
     }
     campaign.sources.scenarios.emplace(one.scenario, std::move(*scenario));
   }
-  campaign.hash = hash_of(campaign.sources);
-  auto variants = make_variants(given, expand(sweep), campaign.sources, campaign.seed);
+  auto variants = make_variants(given, expand(sweep), campaign.sources, scenario_text, campaign.seed);
   if (!variants) return tl::unexpected(variants.error());
+  campaign.hash = hash_of(campaign.sources);
   campaign.variants = std::move(*variants);
 
   std::int64_t shortest_us = std::numeric_limits<std::int64_t>::max();

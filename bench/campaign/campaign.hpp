@@ -29,7 +29,8 @@ struct Variant {
 struct Sources {
   std::string file;  ///< as it was named
   std::string text;
-  std::map<std::string, std::string> scenarios;  ///< text by name as written in the campaign
+  /// Text by name as written in the campaign; mappings and DBCs that a scenario names are there too.
+  std::map<std::string, std::string> scenarios;
 };
 
 /// Of one campaign: its list of runs stays in memory.

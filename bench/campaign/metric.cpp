@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "bench/checks/read_quantity.hpp"
+#include "bench/mapping/mapping.hpp"
 #include "bench/scenario/rule.hpp"
 
 namespace canhil::campaign {
@@ -24,20 +25,32 @@ double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 /// Whether campaigns keep a quantity: some of single runs they do not.
 bool is_sampled(const Quantity& quantity) {
+  if (mapping::find_truth(quantity.name) != nullptr) return true;
   return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
     return quantities::tells(one->layout, quantity);
   });
 }
 
+/// Those of the project's estimators, and those that a mapped target may tell.
+std::span<const Quantity* const> every_quantity() {
+  static const std::vector<const Quantity*> all = [] {
+    const auto own = estimators::every_quantity();
+    std::vector<const Quantity*> known(own.begin(), own.end());
+    for (const mapping::Truthed& one : mapping::truths()) {
+      if (std::ranges::find(known, one.quantity) == known.end()) known.push_back(one.quantity);
+    }
+    return known;
+  }();
+  return all;
+}
+
 /// The quantity that `quantity` names, of those that campaigns keep and that are wanted.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
-  return checks::read_quantity(section, estimators::every_quantity(),
-                               [&](const Quantity& one) -> std::string {
-                                 if (!is_sampled(one))
-                                   return "is of single runs, which campaigns do not keep";
-                                 return wanted(one) ? "" : "is none that this kind asks for";
-                               });
+  return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
+    if (!is_sampled(one)) return "is of single runs, which campaigns do not keep";
+    return wanted(one) ? "" : "is none that this kind asks for";
+  });
 }
 
 const Quantity* read_error(Section& section) {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "bench/campaign/database.hpp"
+#include "bench/mapping/mapping.hpp"
 #include "bench/world/hash.hpp"
 
 namespace canhil::campaign {
@@ -87,9 +88,11 @@ Finished read_row(const SQLite::Statement& row, std::uint64_t runs) {
   const std::int64_t kind = row.getColumn(3);
   const std::string columns = row.getColumn(6);
   const estimators::Estimator* estimator = estimators::telling(columns);
+  const quantities::Layout* layout =
+      estimator != nullptr ? &estimator->layout : mapping::find_layout(columns);
   if (kind < 0 || kind > static_cast<std::int64_t>(drive::Ending::last_kind))
     throw damaged(row, fmt::format("has ending {}", kind));
-  if (estimator == nullptr) throw damaged(row, "has columns that no estimator tells");
+  if (layout == nullptr) throw damaged(row, "has columns that no estimator tells");
   const SQLite::Column blob = row.getColumn(7);
   const std::span bytes(static_cast<const std::uint8_t*>(blob.getBlob()),
                         static_cast<std::size_t>(blob.getBytes()));
@@ -97,7 +100,7 @@ Finished read_row(const SQLite::Statement& row, std::uint64_t runs) {
       .kind = static_cast<drive::Ending::Kind>(kind), .t_us = row.getColumn(4), .detail = row.getColumn(5)};
   if (hash_of(row.getColumn(0), key, ending, columns, bytes) != row.getColumn(8).getInt64())
     throw damaged(row, "has another hash than its content");
-  auto samples = quantities::decode(bytes, estimator->layout);
+  auto samples = quantities::decode(bytes, *layout);
   if (!samples) throw damaged(row, samples.error().message);
   return Finished{.variant = key.variant,
                   .series = {.run = key.run, .ending = std::move(ending), .samples = std::move(*samples)}};

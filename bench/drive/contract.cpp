@@ -1,9 +1,13 @@
 #include "bench/drive/contract.hpp"
 
+#include <fmt/format.h>
+
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/mapping/mapping.hpp"
 #include "bench/nodes/registry.hpp"
+#include "bench/scenario/foreign.hpp"
+#include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
 #include "messages/canhil.hpp"
 
@@ -47,10 +51,14 @@ scenario::Contract contract() {
 }
 
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
-                                          std::span<const scenario::Setting> settings) {
-  const auto by = mapping::contract_of(text, name, contract());
+                                          std::span<const scenario::Setting> settings,
+                                          const mapping::ReadText& read) {
+  const auto by = mapping::contract_of(text, name, contract(), read);
   if (!by) return tl::unexpected(by.error());
-  return scenario::parse(text, name, *by, settings);
+  auto scenario = scenario::parse(text, name, *by, settings);
+  if (scenario && by->foreign != nullptr)
+    scenario->hash = world::fnv1a_64(fmt::format("{:x} {:x}", scenario->hash, by->foreign->hash));
+  return scenario;
 }
 
 Result<scenario::Scenario> read_scenario(const std::string& file) {

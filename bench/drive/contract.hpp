@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/mapping/mapping.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/scenario.hpp"
 
@@ -15,8 +16,10 @@ scenario::Contract contract();
 
 /// Reads a scenario by the contract that it is of: that of the mapping which its [target] names, or the
 /// project's. As scenario::parse() and read_file().
+/// `read`: gives mapping and DBC.
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
-                                          std::span<const scenario::Setting> settings = {});
+                                          std::span<const scenario::Setting> settings = {},
+                                          const mapping::ReadText& read = mapping::read_from_disk);
 Result<scenario::Scenario> read_scenario(const std::string& file);
 
 }  // namespace canhil::drive

@@ -24,6 +24,7 @@ struct Setting {
   const world::FlightRecord& truth;
   Flight& flight;
   std::uint64_t run_index = 0;
+  bool in_process = false;    ///< the target is the device of this process
   bool virtual_time = false;  ///< in steps that the target closes
   bool for_verdict = true;    ///< times are taken
   Rounding rounding = Rounding::as_on_the_bus;

@@ -201,9 +201,11 @@ Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting) {
   const auto& mapping = dynamic_cast<const mapping::Mapping&>(*setting.scenario.foreign);
   if (auto fits = mapping::Player::check(mapping, setting.scenario); !fits)
     return tl::unexpected(fits.error());
-  const bool answered =
-      std::ranges::any_of(mapping.hears, [](const mapping::Hear& hear) { return hear.echo.has_value(); });
-  if (setting.virtual_time && !answered)
+  if (setting.in_process)
+    return failure(
+        "the device in this process speaks the project's contract, expected a bus and --target for a "
+        "scenario with a mapping");
+  if (setting.virtual_time && !mapping.answers_by_name)
     return failure(
         fmt::format("{}: no message of the target repeats what it answers, so virtual time would not "
                     "know when to go on; expected [hear.echo], or real time",

@@ -16,6 +16,7 @@
 #include "bench/observe/intruders.hpp"
 #include "bench/observe/load_meter.hpp"
 #include "bench/observe/recorder.hpp"
+#include "bench/scenario/foreign.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -78,6 +79,7 @@ class Session {
                                  .truth = truth_,
                                  .flight = flight_,
                                  .run_index = options_.run_index,
+                                 .in_process = bus_.in_process,
                                  .virtual_time = clock_ == ClockKind::lockstep,
                                  .for_verdict = options_.for_verdict,
                                  .rounding = bus_.rounding,
@@ -169,7 +171,7 @@ class Session {
     target_files_ = look_at_target(*options_.target);
     std::vector<std::string> arguments = options_.target_arguments;
     // Every target is told, ours or another: it is to speak the same contract.
-    if (options_.format != BusFormat::classic)
+    if (options_.format == BusFormat::fd)
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
     return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
         .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
@@ -258,6 +260,12 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
 
 }  // namespace
 
+BusFormat format_of(const scenario::Scenario& scenario) {
+  if (scenario.foreign != nullptr)
+    return scenario.foreign->messages.front().fd ? BusFormat::fd_frames : BusFormat::classic;
+  return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
+}
+
 ClockKind clock_of(BusTime time, bool lockstep) {
   if (time == BusTime::waits) return ClockKind::simulated_wire;
   return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
@@ -319,7 +327,11 @@ Result<Collected> run_in_process(const scenario::Scenario& scenario, const world
 
 Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index) {
-  return fly_for_campaign(scenario, truth, run_index, in_lockstep_against(target));
+  Options options = in_lockstep_against(target);
+  // Of one that does not say what it answers virtual time would not know when to go on.
+  options.lockstep = scenario.foreign == nullptr || scenario.foreign->answers_by_name;
+  options.format = format_of(scenario);
+  return fly_for_campaign(scenario, truth, run_index, std::move(options));
 }
 
 }  // namespace canhil::drive

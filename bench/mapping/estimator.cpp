@@ -76,7 +76,7 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
       values[i] = one.value;
     }
   }
-  quantities::Samples samples(mapping.layout);
+  quantities::Samples samples(*mapping.layout);
   for (const auto& [t_us, values] : by_time) samples.add(t_us, values);
   return samples;
 }
@@ -120,7 +120,7 @@ quantities::Freshness freshness_of(const scenario::Scenario& /*scenario*/) { ret
 estimators::Estimator estimator_of(const Mapping& mapping) {
   return {.name = mapping.name,
           .facts = {.start = scenario::Start::nothing},
-          .layout = mapping.layout,
+          .layout = *mapping.layout,
           .of_runs = mapping.told,
           .reception = nullptr,
           .samples = samples_of,

@@ -1,11 +1,13 @@
 // Somebody else's contract: a DBC, and a TOML file beside it that says which of its signals are which of the
 // bench's quantities. docs/mapping.md.
 //
-// A play is a group of messages that the bench sends; a hear a message of the target. Neither knows a scenario.
+// A play is a group of messages that the bench sends; a hear a message of the target. Neither knows a
+// scenario.
 #pragma once
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,8 +59,8 @@ struct Play {
 struct Telling {
   const dbc::Signal* signal = nullptr;
   const Truthed* quantity = nullptr;
-  bool sigma = false;  ///< of the quantity, in place of its value
-  double factor = 1;   ///< from the signal's unit to SI
+  bool sigma = false;                      ///< of the quantity, in place of its value
+  double factor = 1;                       ///< from the signal's unit to SI
   std::optional<std::uint64_t> invalid{};  ///< raw value that tells nothing
 };
 
@@ -86,13 +88,23 @@ struct Mapping final : scenario::Foreign {
   // What Foreign::messages and Foreign::estimator are made of.
   std::deque<std::string_view> groups;
   std::vector<const quantities::Quantity*> told;  ///< each once
-  quantities::Layout layout;
+  const quantities::Layout* layout = nullptr;
   std::vector<std::string_view> closing;
   std::optional<estimators::Estimator> own;
 };
 
+/// Gives the text of a file that is named. Error: one line.
+using ReadText = std::function<Result<std::string>(const std::string& file)>;
+/// From the disk.
+Result<std::string> read_from_disk(const std::string& file);
+
 /// Reads a mapping and the DBC that it names, relative to itself. Error: one line.
-Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file);
+Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
+                                                    const ReadText& text = read_from_disk);
+
+/// Of samples that tell these quantities, in their order, each of which has a truth here: the same object
+/// each time, so that stored samples and those of a run have the same. None: null.
+const quantities::Layout* find_layout(std::string_view columns);
 
 /// What the bench knows of a target that a mapping describes, as of an estimator. The mapping must stay where
 /// it is.
@@ -101,6 +113,6 @@ estimators::Estimator estimator_of(const Mapping& mapping);
 /// The contract by which a scenario is read: the project's, or that of the mapping that its [target] names,
 /// relative to the scenario's file. Error: one line; a text that is no TOML is left to who reads it.
 Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
-                                       const scenario::Contract& own);
+                                       const scenario::Contract& own, const ReadText& read = read_from_disk);
 
 }  // namespace canhil::mapping

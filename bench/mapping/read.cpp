@@ -5,12 +5,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "bench/checks/probability.hpp"
 #include "bench/mapping/mapping.hpp"
 #include "bench/mapping/read_protection.hpp"
 #include "bench/mapping/units.hpp"
 #include "bench/scenario/section.hpp"
-#include "dbc/files/text_file.hpp"
+#include "bench/world/hash.hpp"
 #include "dbc/parser/parse.hpp"
 #include "dbc/wire/message_places.hpp"
 #include "messages/canhil.hpp"
@@ -22,7 +21,6 @@ namespace fs = std::filesystem;
 using scenario::Limits;
 using scenario::Section;
 
-constexpr std::size_t most_bytes = std::size_t{1} << 20U;
 constexpr std::size_t most_messages_of_a_play = 8;  // as nodes::Transmission holds
 constexpr std::string_view time_word = "time";
 
@@ -35,17 +33,22 @@ std::vector<std::string> names_of(const Range& range, Name name) {
 
 class Reader {
  public:
-  Reader(std::string file, std::string_view text)
-      : mapping_(std::make_shared<Mapping>()), root_(Section::parse(text, file)) {
+  Reader(std::string file, std::string_view text, const ReadText& read_text)
+      : mapping_(std::make_shared<Mapping>()), root_(Section::parse(text, file)), read_text_(read_text) {
     mapping_->file = std::move(file);
+    mapping_->hash = world::fnv1a_64(text);
   }
 
   Result<std::shared_ptr<const Mapping>> read() {
     const std::string named = root_.text("dbc");
     if (root_.error()) return tl::unexpected(*root_.error());
-    auto database = dbc::read_file((fs::path(mapping_->file).parent_path() / named).string());
+    const std::string file = (fs::path(mapping_->file).parent_path() / named).string();
+    const auto text = read_text_(file);
+    if (!text) return tl::unexpected(text.error());
+    auto database = dbc::parse(*text, file);
     if (!database) return tl::unexpected(database.error());
     mapping_->database = std::move(*database);
+    mapping_->hash = world::fnv1a_64(fmt::format("{:x} {:x}", mapping_->hash, mapping_->database.hash));
     mapping_->name = root_.text("name", fs::path(mapping_->file).stem().stem().string());
     if (auto units = root_.optional_table("units")) read_units(*units);
     for (Section& section : tables("protection")) read_protection(section);
@@ -303,6 +306,7 @@ class Reader {
     for (const Hear& hear : mapping.hears) {
       MessageInfo& info = mapping.messages[hear.of.place];
       info.sample_group = hear.of.message->name;
+      mapping.answers_by_name = mapping.answers_by_name || hear.echo;
       if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
       if (hear.answers) mapping.closing.push_back(hear.of.message->name);
       for (const Telling& telling : hear.tellings) {
@@ -312,7 +316,10 @@ class Reader {
         if (!telling.sigma) mapping.told.push_back(telling.quantity->quantity);
       }
     }
-    mapping.layout = {.kept = mapping.told, .answers_untold = mapping.hears.size() > 1};
+    std::string columns;
+    for (const quantities::Quantity* one : mapping.told)
+      columns += (columns.empty() ? "" : " ") + std::string(one->name);
+    mapping.layout = find_layout(columns);
     mapping.own.emplace(estimator_of(mapping));
     mapping.estimator = &*mapping.own;
     return std::nullopt;
@@ -320,47 +327,17 @@ class Reader {
 
   std::shared_ptr<Mapping> mapping_;
   Section root_;
+  const ReadText& read_text_;
   std::map<const dbc::Signal*, std::string> units_;
   std::map<const dbc::Message*, protection::Protection> protections_;
 };
 
 }  // namespace
 
-Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file) {
-  const auto text = read_text_file(file, "a mapping", most_bytes);
+Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file, const ReadText& read) {
+  const auto text = read(file);
   if (!text) return tl::unexpected(text.error());
-  return Reader(file, *text).read();
-}
-
-Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
-                                       const scenario::Contract& own) {
-  Section root = Section::parse(text, file);
-  if (root.error() || !root.has("target")) return own;
-  for (Section& target : root.table_or_tables("target")) {
-    if (!target.has("mapping")) continue;
-    const std::string name = target.text("mapping");
-    if (const auto error = root.error()) return tl::unexpected(*error);
-    auto mapping = read_mapping((fs::path(file).parent_path() / name).string());
-    if (!mapping) return tl::unexpected(mapping.error());
-    scenario::Contract contract = own;
-    contract.estimators = {(*mapping)->name};
-    contract.algorithms.clear();
-    contract.parameters.clear();
-    contract.messages = names_of((*mapping)->messages, &MessageInfo::name);
-    contract.answers.clear();
-    contract.sent_by.clear();
-    for (const MessageInfo& info : (*mapping)->messages) {
-      if (!info.answers.empty()) contract.answers.emplace_back(info.name);
-      if (info.sender == messages::TargetHeartbeat::info.sender)
-        contract.sent_by[std::string(info.name)] = (*mapping)->name;
-    }
-    contract.known = {&(*mapping)->estimator, 1};
-    contract.facts.clear();
-    contract.facts[(*mapping)->name] = (*mapping)->own->facts;
-    contract.foreign = std::move(*mapping);
-    return contract;
-  }
-  return own;
+  return Reader(file, *text, read).read();
 }
 
 }  // namespace canhil::mapping

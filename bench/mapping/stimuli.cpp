@@ -24,7 +24,8 @@ std::vector<Stimulus> all_stimuli() {
   for (const nodes::Kind* kind : nodes::all()) {
     const scenario::NodeTable& table = kind->table;
     for (const MessageInfo& message : messages::all_messages) {
-      if (message.sample_group != table.closes.sample_group || message.sender != table.closes.sender) continue;
+      if (message.sample_group != table.closes.sample_group || message.sender != table.closes.sender)
+        continue;
       for (const SignalInfo* signal : observe::signals_of(message)) {
         const auto unit = signal->unit.empty() ? std::nullopt : wire_unit(signal->unit);
         if (!unit || of_the_sample(*signal)) continue;

@@ -22,11 +22,11 @@ enum class Over : std::uint8_t {
 /// ("imu.rate.z").
 struct Stimulus {
   std::string name;
-  std::string_view si;            ///< its unit
-  std::string_view node;          ///< whose table the scenario must have: "slave_imu"
+  std::string_view si;    ///< its unit
+  std::string_view node;  ///< whose table the scenario must have: "slave_imu"
   const MessageInfo* message = nullptr;
-  std::string_view signal;        ///< of the message
-  double factor = 1;              ///< from the signal's unit to SI
+  std::string_view signal;  ///< of the message
+  double factor = 1;        ///< from the signal's unit to SI
   Over over = Over::newest;
 };
 

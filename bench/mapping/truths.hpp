@@ -12,8 +12,8 @@ namespace canhil::mapping {
 
 struct Truthed {
   const quantities::Quantity* quantity = nullptr;
-  std::string_view si;   ///< its unit
-  bool turns = false;    ///< a whole turn more is the same
+  std::string_view si;  ///< its unit
+  bool turns = false;   ///< a whole turn more is the same
   /// At a time [us] of the run [SI]; none: there is no truth.
   std::optional<double> (*truth)(const estimators::Truth& truth, std::int64_t t_us) = nullptr;
 };

@@ -13,7 +13,7 @@ using world::units::deg;
 using world::units::kmph;
 using world::units::standard_gravity;
 
-constexpr double knot = 1852.0 / 3600;        // [m/s]
+constexpr double knot = 1852.0 / 3600;  // [m/s]
 
 constexpr std::array<std::pair<std::string_view, WireUnit>, 21> known{{
     {"rad", {"rad", 1}},
@@ -69,7 +69,8 @@ std::string plain(std::string_view text) {
 
 std::optional<WireUnit> wire_unit(std::string_view text) {
   const std::string unit = plain(text);
-  const auto found = std::ranges::find(known, std::string_view(unit), &std::pair<std::string_view, WireUnit>::first);
+  const auto found =
+      std::ranges::find(known, std::string_view(unit), &std::pair<std::string_view, WireUnit>::first);
   if (found == known.end()) return std::nullopt;
   return found->second;
 }

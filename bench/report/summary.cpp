@@ -65,7 +65,7 @@ std::string_view stamp_source(const drive::Run& run) {
 }
 
 std::vector<wire::BitRates> load_rates(const drive::Run& run) {
-  const bool fd = run.options.format == BusFormat::fd;
+  const bool fd = run.options.format != BusFormat::classic;
   wire::BitRates known = run.seen.bit_rates;
   if (known.nominal > 0) {
     if (!fd) known.data = 0;

@@ -156,8 +156,10 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   page += fmt::format("{}\n", scenario.title);
   page +=
       fmt::format("  scenario {} · bus {}{} · {} · {:g} s in {:.2f} s\n", scenario.file, run.options.bus.text,
-                  run.options.format == BusFormat::fd ? " · CAN FD (canhil-fd)" : "", clock_name(run),
-                  static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
+                  run.options.format == BusFormat::fd          ? " · CAN FD (canhil-fd)"
+                  : run.options.format == BusFormat::fd_frames ? " · CAN FD"
+                                                               : "",
+                  clock_name(run), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
   if (run.host) {

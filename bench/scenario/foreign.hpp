@@ -2,6 +2,7 @@
 // mapping fills it in (bench/mapping).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "dbc/wire/message_info.hpp"
@@ -20,6 +21,9 @@ struct Foreign {
 
   /// What bench and target send; the target's have the sender of the contract's TargetHeartbeat.
   std::vector<MessageInfo> messages;
+  std::uint64_t hash = 0;  ///< of the texts that it was read from
+  /// Its answers say what they answer, so that virtual time can wait for them.
+  bool answers_by_name = false;
   /// What it tells, as that of an estimator.
   const estimators::Estimator* estimator = nullptr;
 };

@@ -159,9 +159,9 @@ Result<std::optional<LogEntry>> ClassicLogReader::next() {
 }
 
 Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options, BusFormat format) {
-  options.fd = format == BusFormat::fd;
+  options.fd = format != BusFormat::classic;
   auto port = open_port(bus, options);
-  if (!port || format == BusFormat::classic) return port;
+  if (!port || format != BusFormat::fd) return port;
   return in_fd_groups(std::move(*port));
 }
 
@@ -169,12 +169,12 @@ Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions opt
                                            HubRules rules) {
   auto joined = open_bus(bus, options, format);
   if (joined || !is_local(bus)) return joined;
-  options.fd = format == BusFormat::fd;
+  options.fd = format != BusFormat::classic;
   auto hosted = host_local_bus(bus, options, std::move(rules));
   // Where somebody hosts it after all, why it could not be joined says more.
   if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
-  return options.fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
+  return format == BusFormat::fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);
 }
 
 Result<BusFormat> named_contract(const std::string& name_or_file) {

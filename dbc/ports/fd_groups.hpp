@@ -19,15 +19,17 @@
 
 namespace canhil {
 
-/// Which of the two contracts a bus carries.
-enum class BusFormat : std::uint8_t { classic, fd };
+/// What a bus carries: one of the project's two contracts, or the CAN FD frames of another one, as they are.
+enum class BusFormat : std::uint8_t { classic, fd, fd_frames };
 
 constexpr std::string_view name_of(BusFormat format) {
   return format == BusFormat::fd ? "canhil-fd" : "canhil";
 }
 /// "CAN FD (canhil-fd)".
 constexpr std::string_view words(BusFormat format) {
-  return format == BusFormat::fd ? "CAN FD frames (canhil-fd)" : "classic frames (canhil)";
+  return format == BusFormat::fd          ? "CAN FD frames (canhil-fd)"
+         : format == BusFormat::fd_frames ? "CAN FD frames"
+                                          : "classic frames (canhil)";
 }
 
 /// Collects the frames of a group for their container. At most one container is begun at a time, so frames

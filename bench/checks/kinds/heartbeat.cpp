@@ -10,10 +10,8 @@
 namespace canhil::checks {
 
 Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckContext& context) {
-  Heartbeat rule{.message = std::string(messages::TargetHeartbeat::info.name)};
-  if (context.contract.foreign == nullptr)
-    section.refuse("message", "has no effect", "TargetHeartbeat is what this target beats with");
-  else
+  Heartbeat rule;
+  if (context.contract.foreign != nullptr)
     rule.message = section.one_of("message", context.contract.messages);
   rule.silent_at_most_us = section.time_us("silent_at_most_s", scenario::Limits::above(0));
   return rule;

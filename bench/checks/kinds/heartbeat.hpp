@@ -3,12 +3,13 @@
 #pragma once
 
 #include "bench/checks/rule.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::checks {
 
 struct Heartbeat {
   static constexpr std::string_view kind = "heartbeat";
-  std::string message;
+  std::string message{messages::TargetHeartbeat::info.name};
   std::int64_t silent_at_most_us = 0;
 
   static Heartbeat read(scenario::Section& section, const scenario::CheckContext& context);

@@ -2,185 +2,19 @@
 #include "linux_bus.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <linux/can.h>
-#include <net/if.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/un.h>
 #include <time.h>
-#include <unistd.h>
+
+#include "can_bus.h"
 
 static volatile sig_atomic_t stop;
 static void on_signal(int number) {
   (void)number;
   stop = 1;
 }
-
-static int64_t clock_ns(clockid_t clock) {
-  struct timespec now;
-  clock_gettime(clock, &now);
-  return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-typedef struct {
-  int socket;
-  bool local;
-  clockid_t stamp_clock; /* of the stamps of received frames */
-} bus;
-
-/* ---- the embedded bus: docs/own-target.md has its format ---- */
-
-typedef struct {
-  uint32_t magic;
-  uint8_t own_echo, only_some, wanted[256];
-  char node_name[66];
-} hello;
-
-typedef struct {
-  uint32_t id;
-  uint8_t size, flags;
-  uint16_t unused;
-  int64_t t_ns;
-  uint8_t data[64];
-} datagram;
-enum { HEADER_BYTES = 16, HELLO_MAGIC = 0x31484843 }; /* "CHH1" */
-
-static bool is_ours_alone(const char* path) {
-  struct stat entry;
-  return lstat(path, &entry) == 0 && S_ISDIR(entry.st_mode) && entry.st_uid == geteuid() && (entry.st_mode & 077) == 0;
-}
-
-static int open_local(const char* name) {
-  struct sockaddr_un address;
-  hello word;
-  const char* runtime = getenv("XDG_RUNTIME_DIR");
-  const int s = socket(AF_UNIX, SOCK_SEQPACKET, 0);
-  int length;
-  memset(&address, 0, sizeof address);
-  address.sun_family = AF_UNIX;
-  if (runtime != NULL && is_ours_alone(runtime))
-    length = snprintf(address.sun_path, sizeof address.sun_path, "%s/canhil/%s.classic", runtime, name);
-  else
-    length = snprintf(address.sun_path, sizeof address.sun_path, "/tmp/canhil-uid-%u/%s.classic", (unsigned)geteuid(), name);
-  if (length < 0 || (size_t)length >= sizeof address.sun_path) {
-    errno = ENAMETOOLONG;
-    return -1;
-  }
-  if (s < 0 || connect(s, (const struct sockaddr*)&address, sizeof address) != 0) return -1;
-  memset(&word, 0, sizeof word);
-  word.magic = HELLO_MAGIC;
-  strcpy(word.node_name, "kit");
-  return send(s, &word, sizeof word, MSG_NOSIGNAL) < 0 ? -1 : s;
-}
-
-/* ---- SocketCAN ---- */
-
-static int open_can(const char* name) {
-  const int on = 1, s = socket(PF_CAN, SOCK_RAW, CAN_RAW);
-  struct sockaddr_can address;
-  memset(&address, 0, sizeof address);
-  address.can_family = AF_CAN;
-  address.can_ifindex = (int)if_nametoindex(name);
-  if (s < 0 || address.can_ifindex == 0) return -1;
-  setsockopt(s, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
-  return bind(s, (const struct sockaddr*)&address, sizeof address) != 0 ? -1 : s;
-}
-
-/* ---- either ---- */
-
-static bool open_bus(bus* b, const char* name) {
-  b->local = strncmp(name, "local:", 6) == 0;
-  b->stamp_clock = b->local ? CLOCK_MONOTONIC : CLOCK_REALTIME;
-  if (b->local) {
-    char plain[65];
-    const size_t length = strcspn(name + 6, "?"); /* what follows is the host's */
-    if (length == 0 || length >= sizeof plain) {
-      errno = EINVAL;
-      return false;
-    }
-    memcpy(plain, name + 6, length);
-    plain[length] = 0;
-    b->socket = open_local(plain);
-  } else {
-    b->socket = open_can(name);
-  }
-  return b->socket >= 0 && fcntl(b->socket, F_SETFL, O_NONBLOCK) == 0;
-}
-
-/* One who has no room for 50 ms loses the frame. */
-static void send_frame(void* context, const canhil_frame* frame) {
-  bus* b = context;
-  int attempt;
-  datagram d;
-  struct can_frame c;
-  memset(&d, 0, sizeof d);
-  memset(&c, 0, sizeof c);
-  d.id = c.can_id = frame->id;
-  d.size = c.can_dlc = frame->size;
-  memcpy(d.data, frame->data, frame->size);
-  memcpy(c.data, frame->data, frame->size);
-  for (attempt = 0; attempt < 50; ++attempt) {
-    struct pollfd room = {0, POLLOUT, 0};
-    const ssize_t sent = b->local ? send(b->socket, &d, HEADER_BYTES + (size_t)frame->size, MSG_NOSIGNAL)
-                                  : send(b->socket, &c, sizeof c, MSG_NOSIGNAL);
-    if (sent >= 0 || (errno != EAGAIN && errno != ENOBUFS && errno != EINTR)) return;
-    room.fd = b->socket;
-    poll(&room, 1, 1);
-    if (errno == ENOBUFS) usleep(1000); /* SocketCAN's queue is full: poll() does not wait for it */
-  }
-}
-
-/* 1: a frame; 0: none waits; -1: the bus is gone. Frames of no interest have an id that no message has. */
-static int receive_frame(bus* b, canhil_frame* frame, int64_t* stamp_ns) {
-  datagram d;
-  struct can_frame c;
-  union {
-    char bytes[256];
-    struct cmsghdr aligned;
-  } control;
-  struct iovec part;
-  struct msghdr message;
-  struct cmsghdr* one;
-  ssize_t got;
-  memset(&message, 0, sizeof message);
-  part.iov_base = b->local ? (void*)&d : (void*)&c;
-  part.iov_len = b->local ? sizeof d : sizeof c;
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = control.bytes;
-  message.msg_controllen = sizeof control.bytes;
-  got = recvmsg(b->socket, &message, 0);
-  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return 0;
-  if (got <= 0) return -1;
-  memset(frame, 0, sizeof *frame);
-  frame->id = 0xFFFF;
-  *stamp_ns = b->local ? d.t_ns : clock_ns(CLOCK_REALTIME);
-  for (one = CMSG_FIRSTHDR(&message); one != NULL; one = CMSG_NXTHDR(&message, one)) {
-    struct timespec stamp;
-    if (one->cmsg_level != SOL_SOCKET || one->cmsg_type != SO_TIMESTAMPNS) continue;
-    memcpy(&stamp, CMSG_DATA(one), sizeof stamp);
-    *stamp_ns = (int64_t)stamp.tv_sec * 1000000000 + stamp.tv_nsec;
-  }
-  if (b->local && d.flags == 0 && d.size <= 8 && got == (ssize_t)(HEADER_BYTES + d.size)) {
-    frame->id = (uint16_t)d.id;
-    frame->size = d.size;
-    memcpy(frame->data, d.data, d.size);
-  } else if (!b->local && (c.can_id & (CAN_EFF_FLAG | CAN_ERR_FLAG | CAN_RTR_FLAG)) == 0 && c.can_dlc <= 8) {
-    frame->id = (uint16_t)c.can_id;
-    frame->size = c.can_dlc;
-    memcpy(frame->data, c.data, c.can_dlc);
-  }
-  return 1;
-}
-
-/* ---- the process ---- */
 
 static int complain(const char* program, const char* what, const char* why) {
   fprintf(stderr, "%s: %s: %s\n", program, what, why);
@@ -191,7 +25,7 @@ static uint32_t microseconds(int64_t ns) { return ns < 0 ? 0 : (uint32_t)(ns / 1
 
 int canhil_serve(const canhil_estimator* estimator, int argc, char** argv) {
   static canhil_target target;
-  static bus b;
+  static can_bus b;
   const int64_t listen_ns = (int64_t)CANHIL_HEARTBEAT_MS * 1250000; /* a heartbeat and a quarter: is there a target already? */
   int64_t begun_ns;
   const char* name = NULL;
@@ -204,11 +38,11 @@ int canhil_serve(const canhil_estimator* estimator, int argc, char** argv) {
     name = argv[i + 1];
   }
   if (name == NULL) return complain(argv[0], "--bus", "is required: can0, vcan0 or local:NAME");
-  if (!open_bus(&b, name)) return complain(argv[0], name, strerror(errno));
+  if (!can_bus_open(&b, name)) return complain(argv[0], name, strerror(errno));
   signal(SIGINT, on_signal);
   signal(SIGTERM, on_signal);
-  canhil_target_init(&target, estimator, send_frame, &b);
-  begun_ns = clock_ns(CLOCK_MONOTONIC);
+  canhil_target_init(&target, estimator, can_bus_send, &b);
+  begun_ns = can_bus_clock_ns(CLOCK_MONOTONIC);
   while (!stop) {
     struct pollfd waiting = {0, POLLIN, 0};
     int left;
@@ -217,18 +51,18 @@ int canhil_serve(const canhil_estimator* estimator, int argc, char** argv) {
     for (left = 256; left > 0; --left) { /* frames may come for ever: then it looks at the clock */
       canhil_frame frame;
       int64_t stamp_ns, start_ns;
-      const int got = receive_frame(&b, &frame, &stamp_ns);
+      const int got = can_bus_receive(&b, &frame, &stamp_ns);
       if (got < 0) return 0;
       if (got == 0) break;
       if (!established && canhil_is_heartbeat(&frame))
         return complain(argv[0], name, "a target answers here already, expected to be the only one");
       if (!established) continue;
-      start_ns = clock_ns(b.stamp_clock);
+      start_ns = can_bus_clock_ns(b.stamp_clock);
       if (canhil_target_receive(&target, &frame))
-        canhil_target_measured(&target, microseconds(start_ns - stamp_ns), microseconds(clock_ns(b.stamp_clock) - start_ns));
+        canhil_target_measured(&target, microseconds(start_ns - stamp_ns), microseconds(can_bus_clock_ns(b.stamp_clock) - start_ns));
     }
-    established = established || clock_ns(CLOCK_MONOTONIC) - begun_ns >= listen_ns;
-    if (established) canhil_target_poll(&target, (uint32_t)(clock_ns(CLOCK_MONOTONIC) / 1000000));
+    established = established || can_bus_clock_ns(CLOCK_MONOTONIC) - begun_ns >= listen_ns;
+    if (established) canhil_target_poll(&target, (uint32_t)(can_bus_clock_ns(CLOCK_MONOTONIC) / 1000000));
   }
   return 0;
 }

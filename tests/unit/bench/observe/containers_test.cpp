@@ -129,11 +129,12 @@ TEST_F(OnAnFdWire, AContainerWithoutItsLastMessageHasNoResponse) {
 }
 
 TEST(Carriers, AreTheFramesOfTheContract) {
+  const auto classic = wire::carriers_of(all_messages, false);
   for (std::size_t i = 0; i < all_messages.size(); ++i) {
-    EXPECT_EQ(wire::carriers(false)[i].first, i);
-    EXPECT_EQ(wire::carriers(false)[i].name, all_messages[i].name);
+    EXPECT_EQ(classic[i].first, i);
+    EXPECT_EQ(classic[i].name, all_messages[i].name);
   }
-  const auto& fd = wire::carriers(true);
+  const auto fd = wire::carriers_of(all_messages, true);
   EXPECT_EQ(fd[message_index<SlaveImuStatus>()].first, message_index<SlaveImuDeltaTheta>());
   EXPECT_EQ(fd[message_index<SlaveImuStatus>()].name, "SlaveImu");
   EXPECT_EQ(fd[message_index<SlaveImuStatus>()].longest, wire::worst_case_fd_length(24, false, true));

@@ -166,8 +166,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{
             "\"heartbeat\"", "\"banana\"",
             "17: key 'check[1].kind': 'banana' is unknown, expected one of: error, convergence, consistency, "
-            "sigma, answers, latency, latency_growth, output_period, own_times, heartbeat, counters, "
-            "bus_load, bus_errors, "
+            "sigma, answers, latency, latency_growth, delay, output_period, own_times, heartbeat, counters, "
+            "protection, bus_load, bus_errors, "
             "wire_response, "
             "miss_distance"},
         Wrong{

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include "bench/mapping/mapping.hpp"
+#include "bench/scenario/section.hpp"
+#include "dbc/files/text_file.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+namespace fs = std::filesystem;
+using scenario::Section;
+
+constexpr std::size_t most_bytes = std::size_t{16} << 20U;
+
+}  // namespace
+
+Result<std::string> read_from_disk(const std::string& file) {
+  return read_text_file(file, "a file of a mapping", most_bytes);
+}
+
+const quantities::Layout* find_layout(std::string_view columns) {
+  struct Own {
+    std::vector<const quantities::Quantity*> told;
+    quantities::Layout layout;
+  };
+  static std::mutex mutex;
+  static std::map<std::string, Own, std::less<>> known;
+  const std::lock_guard lock(mutex);
+  if (const auto found = known.find(columns); found != known.end()) return &found->second.layout;
+  Own own;
+  for (std::string_view rest = columns; !rest.empty();) {
+    const std::size_t end = std::min(rest.find(' '), rest.size());
+    const Truthed* one = find_truth(rest.substr(0, end));
+    if (one == nullptr) return nullptr;
+    own.told.push_back(one->quantity);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  Own& kept = known.emplace(columns, std::move(own)).first->second;
+  kept.layout = {.kept = kept.told, .answers_untold = true};
+  return &kept.layout;
+}
+
+Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
+                                       const scenario::Contract& own, const ReadText& read) {
+  Section root = Section::parse(text, file);
+  if (root.error() || !root.has("target")) return own;
+  for (Section& target : root.table_or_tables("target")) {
+    if (!target.has("mapping")) continue;
+    const std::string name = target.text("mapping");
+    if (const auto error = root.error()) return tl::unexpected(*error);
+    auto mapping = read_mapping((fs::path(file).parent_path() / name).string(), read);
+    if (!mapping) return tl::unexpected(mapping.error());
+    scenario::Contract contract = own;
+    contract.estimators = {(*mapping)->name};
+    contract.algorithms.clear();
+    contract.parameters.clear();
+    contract.messages.clear();
+    contract.answers.clear();
+    contract.sent_by.clear();
+    for (const MessageInfo& info : (*mapping)->messages) {
+      contract.messages.emplace_back(info.name);
+      if (!info.answers.empty()) contract.answers.emplace_back(info.name);
+      if (info.sender == messages::TargetHeartbeat::info.sender)
+        contract.sent_by[std::string(info.name)] = (*mapping)->name;
+    }
+    contract.known = {&(*mapping)->estimator, 1};
+    contract.facts.clear();
+    contract.facts[(*mapping)->name] = (*mapping)->own->facts;
+    contract.foreign = std::move(*mapping);
+    return contract;
+  }
+  return own;
+}
+
+}  // namespace canhil::mapping

@@ -1,0 +1,82 @@
+"""docs/examples/own_ecu/own_ecu.py with a defect: defective_ecu.py DEFECT --bus BUS."""
+import sys
+import time
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[3] / "docs/examples/own_ecu"))
+import own_ecu
+from canhil_target import open_bus
+
+
+class WrongSign(own_ecu.Ecu):
+    """The pitch rate, as of a sensor that is mounted the other way round."""
+
+    def sample(self, rates, force):
+        super().sample((rates[0], -rates[1], rates[2]), force)
+
+
+class Stale(own_ecu.Ecu):
+    """Answers with the attitude of 50 ms before."""
+
+    def __init__(self):
+        super().__init__()
+        self.past = []
+
+    def answer(self, of):
+        self.past = (self.past + [self.angles])[-6:]
+        now, self.angles = self.angles, self.past[0]
+        frame = super().answer(of)
+        self.angles = now
+        return frame
+
+
+class WrongChecksum(own_ecu.Ecu):
+    """One in a hundred."""
+
+    def __init__(self):
+        super().__init__()
+        self.answers = 0
+
+    def answer(self, of):
+        self.answers += 1
+        frame = super().answer(of)
+        return frame if self.answers % 100 else frame[:7] + bytes([frame[7] ^ 1])
+
+
+class FrozenCounter(own_ecu.Ecu):
+    def answer(self, of):
+        self.counter = 3
+        return super().answer(of)
+
+
+class Slow(own_ecu.Ecu):
+    """Takes 15 ms for each twentieth sample."""
+
+    def __init__(self):
+        super().__init__()
+        self.answers = 0
+
+    def answer(self, of):
+        self.answers += 1
+        if self.answers % 20 == 0:
+            time.sleep(0.015)
+        return super().answer(of)
+
+
+class Silent(own_ecu.Ecu):
+    """Answers no more after 5 s; its status still comes."""
+
+    def __init__(self):
+        super().__init__()
+        self.answers = 0
+
+    def answer(self, of):
+        self.answers += 1
+        return super().answer(of) if self.answers < 500 else None
+
+
+DEFECTS = {"none": own_ecu.Ecu, "wrong_sign": WrongSign, "stale": Stale, "wrong_checksum": WrongChecksum,
+           "frozen_counter": FrozenCounter, "slow": Slow, "silent": Silent}
+
+if __name__ == "__main__":
+    own_ecu.serve(DEFECTS[sys.argv[1]](), open_bus(sys.argv[sys.argv.index("--bus") + 1]))

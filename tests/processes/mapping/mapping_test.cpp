@@ -1,0 +1,221 @@
+// An ECU with a DBC of its own, tested by hil-bench over a bus.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string folder = SOURCE_DIR "/docs/examples/own_ecu";
+const std::string own_ecu = folder + "/own_ecu.toml";
+
+std::string in_python(const std::string& defect) {
+  return fmt::format("--target 'python3 {}/tests/processes/mapping/defective_ecu.py {}'", SOURCE_DIR, defect);
+}
+
+Ended run(const std::string& target, const std::string& report, const std::string& more = "") {
+  return hil_bench(fmt::format("run {} --bus {} {} --json {} {}", own_ecu, bus(), target, report, more));
+}
+
+// The checks with this outcome.
+std::vector<std::string> checks(const nlohmann::json& report, const std::string& outcome) {
+  std::vector<std::string> names;
+  for (const auto& check : report["checks"]) {
+    if (check["outcome"] == outcome)
+      names.push_back(check["kind"].get<std::string>() + " " + check["name"].get<std::string>());
+  }
+  return names;
+}
+
+class Ecu : public testing::TestWithParam<const char*> {};
+
+TEST_P(Ecu, PassesInRealTime) {
+  const std::string report = scratch("ecu.json");
+  const Ended ended = run(GetParam(), report);
+  ASSERT_NE(ended.code, 2) << ended.err;
+  const nlohmann::json seen = read_json(report);
+  expect_outputs_passed(ended, seen);
+  EXPECT_GE(figure(seen, "own_ecu", "answers", "ECU_Attitude"), 1190) << ended.out;
+}
+
+TEST_P(Ecu, PassesInVirtualTime) {
+  const std::string report = scratch("ecu.json");
+  const Ended ended = run(GetParam(), report, "--lockstep");
+  ASSERT_EQ(ended.code, 3) << ended.err << ended.out;
+  EXPECT_THAT(checks(read_json(report), "fail"), testing::IsEmpty());
+  EXPECT_EQ(figure(read_json(report), "own_ecu", "answers", "ECU_Attitude"), 1200);
+}
+
+const std::string python = "--target 'python3 " SOURCE_DIR "/docs/examples/own_ecu/own_ecu.py'";
+INSTANTIATE_TEST_SUITE_P(InPython, Ecu, testing::Values(python.c_str()));
+INSTANTIATE_TEST_SUITE_P(InC, Ecu, testing::Values("--target " OWN_ECU_C));
+
+struct Defect {
+  const char* name;
+  const char* caught_by;  // a check that fails
+  const char* clock;
+};
+
+class DefectiveEcu : public testing::TestWithParam<Defect> {};
+
+TEST_P(DefectiveEcu, IsCaughtByTheCheckThatItIsFor) {
+  const std::string report = scratch("defect.json");
+  const Ended ended = run(in_python(GetParam().name), report, GetParam().clock);
+  const nlohmann::json seen = read_json(report);
+  EXPECT_NE(ended.code, 0) << ended.err << ended.out;
+  const auto failed = checks(seen, "fail");
+  if (!failed.empty() || std::string(GetParam().name) != "slow") {
+    EXPECT_EQ(ended.code, 1) << ended.err;
+    EXPECT_THAT(failed, testing::Contains(HasSubstr(GetParam().caught_by))) << ended.out;
+  } else {  // on a host that is late itself nobody can tell
+    EXPECT_THAT(checks(seen, "not measured"), testing::Contains(HasSubstr(GetParam().caught_by)))
+        << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("this host kept the bench itself")) << ended.out;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, DefectiveEcu,
+                         testing::Values(Defect{"wrong_sign", "error attitude.pitch", "--lockstep"},
+                                         Defect{"stale", "delay attitude.roll", "--lockstep"},
+                                         Defect{"wrong_checksum", "protection", ""},
+                                         Defect{"frozen_counter", "protection", "--lockstep"},
+                                         Defect{"slow", "latency ECU_Attitude", ""},
+                                         Defect{"silent", "answers", ""}),
+                         [](const auto& of) { return std::string(of.param.name); });
+
+// The defects' own harness has none.
+TEST(OwnEcu, WithoutADefectPasses) {
+  const std::string report = scratch("none.json");
+  EXPECT_EQ(run(in_python("none"), report, "--lockstep").code, 3);
+  EXPECT_THAT(checks(read_json(report), "fail"), testing::IsEmpty());
+}
+
+TEST(OwnEcu, IsFlownByACampaign) {
+  const std::string campaign = scratch("campaign.toml"), results = scratch("results");
+  std::ofstream(campaign) << fmt::format(
+      "title = \"own ECU\"\nruns = 3\nseed = 5\n[[variant]]\nname = \"as it is\"\nscenario = \"{}\"\n"
+      "[[metric]]\nkind = \"distribution\"\nname = \"roll\"\nquantity = \"attitude.roll\"\nat_s = 11.0\n"
+      "rms_at_most_mrad = 20.0\n",
+      fs::relative(own_ecu, fs::path(campaign).parent_path()).string());
+  const Ended ended = hil_bench(fmt::format("campaign {} {} --out {}", campaign, python, results));
+  EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
+  const Ended in_process = hil_bench(fmt::format("campaign {} --out {}2", campaign, results));
+  EXPECT_EQ(in_process.code, 2);
+  EXPECT_THAT(in_process.err, HasSubstr("expected a bus and --target")) << in_process.err;
+}
+
+// What it repeats is what was played, over 24 bytes of a frame of CAN FD with float signals.
+TEST(OwnEcu, MayBeOnCanFd) {
+  const std::string dbc = scratch("fd.dbc"), mapping = scratch("fd.mapping.toml"), file = scratch("fd.toml");
+  std::ofstream(dbc) << R"(VERSION ""
+BU_: IMU ECU
+BO_ 768 Rates: 24 IMU
+ SG_ RateX : 0|64@1- (1,0) [0|0] "rad/s" ECU
+ SG_ RateY : 64|64@1- (1,0) [0|0] "rad/s" ECU
+ SG_ Count : 128|16@1+ (1,0) [0|0] "" ECU
+BO_ 769 Echo: 24 ECU
+ SG_ EchoX : 0|64@1- (1,0) [0|0] "rad/s" IMU
+ SG_ EchoY : 64|64@1- (1,0) [0|0] "rad/s" IMU
+ SG_ EchoCount : 128|16@1+ (1,0) [0|0] "" IMU
+SIG_VALTYPE_ 768 RateX : 2;
+SIG_VALTYPE_ 768 RateY : 2;
+SIG_VALTYPE_ 769 EchoX : 2;
+SIG_VALTYPE_ 769 EchoY : 2;
+BA_DEF_ BO_ "VFrameFormat" ENUM "StandardCAN","ExtendedCAN","StandardCAN_FD";
+BA_DEF_DEF_ "VFrameFormat" "StandardCAN";
+BA_ "VFrameFormat" BO_ 768 2;
+BA_ "VFrameFormat" BO_ 769 2;
+)";
+  std::ofstream(mapping) << fmt::format(R"(dbc = "{}"
+[[play]]
+messages = ["Rates"]
+every_ms = 10
+[play.signals]
+"Rates.RateX" = "imu.rate.x"
+"Rates.RateY" = "imu.rate.y"
+[[hear]]
+message = "Echo"
+answers = "Rates"
+echo = {{ signal = "EchoCount", of = "Rates.Count" }}
+signals = {{ EchoX = "rate.x", EchoY = "rate.y" }}
+[[protection]]
+messages = ["Rates"]
+counter = {{ signal = "Count" }}
+)",
+                                        fs::path(dbc).filename().string());
+  std::string text = read(own_ecu);
+  text = text.substr(0, text.find("[[check]]"));
+  const auto at = text.find("own_ecu.mapping.toml");
+  text.replace(at, std::string("own_ecu.mapping.toml").size(), fs::path(mapping).filename().string());
+  std::ofstream(file)
+      << text
+      << "[[check]]\nkind = \"error\"\nquantity = \"rate.x\"\nstatistic = \"rms\"\nbelow_degps = 0.5\n"
+      << "[[check]]\nkind = \"answers\"\nanswers_at_least = 1200\n";
+  const Ended ended = hil_bench(fmt::format("run {} --target {} --lockstep", file, FD_ECU));
+  EXPECT_EQ(ended.code, 0) << ended.err << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("CAN FD")) << ended.out;
+}
+
+// A copy of the example with a text in place of another.
+class Altered : public testing::Test {
+ protected:
+  Ended run_with(const std::string& file, const std::string& text, const std::string& instead) {
+    const std::string copy = scratch("altered");
+    fs::remove_all(copy);
+    fs::copy(folder, copy);
+    std::string all = read(copy + "/" + file);
+    const auto at = all.find(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    std::ofstream(copy + "/" + file) << all.replace(at, text.size(), instead);
+    return hil_bench(fmt::format("run {}/own_ecu.toml {} --lockstep", copy, python));
+  }
+  void expect_refused(const std::string& file, const std::string& text, const std::string& instead,
+                      const std::string& because) {
+    expect_one_line(run_with(file, text, instead), because);
+  }
+};
+
+TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
+  const std::string mapping = "own_ecu.mapping.toml";
+  expect_refused(mapping, "dbc = \"own_ecu.dbc\"", "dbc = \"none.dbc\"", "none.dbc");
+  expect_refused(mapping, "\"IMU_TX3\"]", "\"IMU_TX4\"]", "the DBC has no message 'IMU_TX4'");
+  expect_refused(mapping, "TX1_YawRate\"", "TX1_Yaw\"",
+                 "IMU_TX1 has no signal 'TX1_Yaw', expected one of: TX1_YawRate, TX1_AccY");
+  expect_refused(mapping, "-imu.rate.z", "-imu.rate.w", "'imu.rate.w' is no quantity that a node measures");
+  expect_refused(mapping, "-imu.rate.z", "imu.specific_force.z",
+                 "is in '°/s', imu.specific_force.z is in m/s^2");
+  expect_refused(mapping, "\"attitude.roll\"", "\"attitude.rol\"",
+                 "'attitude.rol' is no quantity that has a truth");
+  expect_refused(mapping, "\"IMU_TX3.TX3_Counter\"", "\"ECU_Status.STS_State\"",
+                 "is not of the play that it answers");
+  expect_refused(mapping, "CRC-8/SAE-J1850", "CRC-8/NOBODY", "CRC-8/NOBODY");
+  expect_refused(mapping, "counter = { signal = \"TX1_Counter\" }", "countr = 3", "countr");
+  expect_refused("own_ecu.toml", "period_ms = 10", "period_ms = 3", "expected a whole share of it");
+  expect_refused("own_ecu.toml", "handshake = \"none\"", "handshake = \"some\"", "handshake");
+  expect_refused("own_ecu.toml", "quantity = \"attitude.roll\"", "quantity = \"velocity.north\"",
+                 "'velocity.north' is unknown, expected one of: attitude.pitch, attitude.roll");
+  expect_refused("own_ecu.toml", "settle_s", "before = \"false\"\nsettle_s",
+                 "'false' ended with 1, expected 0");
+}
+
+TEST_F(Altered, VirtualTimeNeedsAnswersThatSayWhatTheyAnswer) {
+  expect_refused("own_ecu.mapping.toml", "echo = {", "#", "virtual time would not know when to go on");
+}
+
+TEST(OwnEcu, ThatIsNotThereIsNamed) {
+  const Ended ended = hil_bench(fmt::format("run {} --target none --bus local:{}", own_ecu,
+                                            fs::path(scratch("x")).parent_path().filename().string()));
+  expect_one_line(ended, "none of ECU_Status within 5 s; nothing was heard");
+}
+
+}  // namespace
+}  // namespace canhil::test

@@ -1,0 +1,69 @@
+// The lists of docs/mapping.md, as the code has them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "bench/mapping/mapping.hpp"
+#include "bench/mapping/stimuli.hpp"
+#include "bench/mapping/truths.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+std::string page() {
+  std::ostringstream text;
+  text << std::ifstream(SOURCE_DIR "/docs/mapping.md").rdbuf();
+  return text.str();
+}
+
+std::string unit(std::string_view si) { return si.empty() ? "" : fmt::format(" [{}]", si); }
+
+std::string played() {
+  std::map<std::string_view, std::string> by_node;
+  std::string all = "| node | quantities |\n|---|---|\n";
+  std::string_view before;
+  for (const Stimulus& one : stimuli()) {
+    all += one.node == before ? ", " : fmt::format("{}| `[{}]` | ", before.empty() ? "" : " |\n", one.node);
+    all += fmt::format("`{}`{}", one.name, unit(one.si));
+    before = one.node;
+  }
+  return all + " |\n";
+}
+
+std::string told() {
+  std::string all = "| quantity | what it is | unit |\n|---|---|---|\n";
+  for (const Truthed& one : truths()) {
+    std::string meaning(one.quantity->meaning);
+    meaning = meaning.substr(0, meaning.find(';'));  // what campaigns make of it
+    if (meaning.starts_with("error of ")) meaning.erase(0, 9);
+    all += fmt::format("| `{}` | {} | {} |\n", one.quantity->name, meaning, one.si);
+  }
+  return all;
+}
+
+TEST(MappingPage, ListsWhatCanBePlayedAndTold) {
+  EXPECT_NE(page().find("<!-- played -->\n" + played() + "<!-- /played -->"), std::string::npos) << played();
+  EXPECT_NE(page().find("<!-- told -->\n" + told() + "<!-- /told -->"), std::string::npos) << told();
+}
+
+TEST(Lists, NameEachQuantityOnce) {
+  std::set<std::string> names;
+  for (const Stimulus& one : stimuli()) EXPECT_TRUE(names.insert(one.name).second) << one.name;
+  for (const Truthed& one : truths()) EXPECT_EQ(find_truth(one.quantity->name), &one);
+}
+
+TEST(Layouts, OfTheSameColumnsAreTheSameObject) {
+  const auto* layout = find_layout("attitude.roll velocity.north");
+  ASSERT_NE(layout, nullptr);
+  EXPECT_EQ(find_layout("attitude.roll velocity.north"), layout);
+  EXPECT_NE(find_layout("velocity.north attitude.roll"), layout);
+  EXPECT_EQ(quantities::names(*layout), "attitude.roll velocity.north");
+  EXPECT_EQ(find_layout("attitude.roll nobody"), nullptr);
+}
+
+}  // namespace
+}  // namespace canhil::mapping

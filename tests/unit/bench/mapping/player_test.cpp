@@ -1,0 +1,186 @@
+// What goes out and what answers are paired with, by a mapping in a text.
+#include "bench/mapping/player.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "bench/drive/contract.hpp"
+#include "bench/drive/flight.hpp"
+#include "bench/world/units.hpp"
+#include "dbc/parser/codec.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+constexpr const char* dbc_text = R"(VERSION ""
+BU_: IMU ECU
+BO_ 100 Rates: 8 IMU
+ SG_ RateZ : 0|32@1- (1,0) [0|0] "rad/s" ECU
+ SG_ Count : 32|8@1+ (1,0) [0|0] "" ECU
+ SG_ Time : 40|16@1+ (1,0) [0|0] "ms" ECU
+ SG_ Mode : 56|8@1+ (1,0) [0|0] "" ECU
+BO_ 2147484000 Turned: 8 IMU
+ SG_ AngleZ : 7|32@0- (1,0) [0|0] "deg" ECU
+BO_ 101 Answer: 8 ECU
+ SG_ Roll : 0|16@1- (0.01,0) [0|0] "" IMU
+ SG_ Repeated : 16|4@1+ (1,0) [0|0] "" IMU
+SIG_VALTYPE_ 100 RateZ : 1;
+SIG_VALTYPE_ 2147484000 AngleZ : 1;
+)";
+
+constexpr const char* mapping_text = R"(
+dbc = "ecu.dbc"
+[units]
+"Answer.Roll" = "deg"
+[[play]]
+messages = ["Turned", "Rates"]
+every_ms = 20
+latency_ms = 3
+[play.signals]
+"Rates.RateZ" = "-imu.rate.z"
+"Turned.AngleZ" = "slave_imu.delta_theta_z"
+"Rates.Time" = "time"
+"Rates.Mode" = 7
+[[hear]]
+message = "Answer"
+answers = "Rates"
+echo = { signal = "Repeated", of = "Rates.Count" }
+signals = { Roll = "attitude.roll" }
+[[protection]]
+messages = ["Rates"]
+counter = { signal = "Count" }
+)";
+
+std::string scenario_text(const std::string& imu) {
+  return fmt::format(R"(
+title = "a turn"
+duration_s = 1.0
+seed = 3
+[target]
+mapping = "ecu.mapping.toml"
+[truth]
+latitude_deg = 0.0
+longitude_deg = 0.0
+height_m = 0.0
+trajectory = "spiral"
+speed_mps = 5.0
+heading_deg = 0.0
+turn_period_s = 10.0
+[slave_imu]
+period_ms = 10
+{}
+[[check]]
+kind = "answers"
+answers_at_least = 1
+)",
+                     imu);
+}
+
+Result<scenario::Scenario> read(const std::string& imu = "", std::string mapping = mapping_text) {
+  const std::map<std::string, std::string> files{{"ecu.mapping.toml", std::move(mapping)},
+                                                 {"ecu.dbc", dbc_text}};
+  return drive::parse_scenario(
+      scenario_text(imu), "a.toml", {},
+      [&](const std::string& file) -> Result<std::string> { return files.at(file); });
+}
+
+// What a run plays, until it is over.
+struct Flown {
+  explicit Flown(const scenario::Scenario& scenario)
+      : mapping(dynamic_cast<const Mapping&>(*scenario.foreign)),
+        truth(*drive::make_truth(scenario)),
+        conversation(mapping) {
+    Player player(conversation, {.scenario = scenario, .index = 0, .flight = truth});
+    while (player.due_us() != nodes::never_us) {
+      const std::int64_t due_us = player.due_us();
+      nodes::Transmission out;
+      player.transmit(out);
+      if (out.frames().empty()) continue;
+      due.push_back(due_us);
+      for (const Frame& frame : out.frames()) frames.push_back(frame);
+    }
+  }
+  [[nodiscard]] double value(std::size_t place, const char* signal) const {
+    const Frame& frame = frames[place];
+    const dbc::Message* message = dbc::find_message(mapping.database, frame.id, frame.extended);
+    const dbc::Signal& one = *dbc::find_signal(*message, signal);
+    return dbc::to_physical(one, dbc::raw_bits(one, frame.payload()));
+  }
+  const Mapping& mapping;
+  world::FlightRecord truth;
+  Conversation conversation;
+  std::vector<std::int64_t> due;
+  std::vector<Frame> frames;
+};
+
+TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
+  const auto scenario = read();
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  ASSERT_EQ(flown.due.size(), 49U) << "the last sample's 3 ms are after the end";
+  ASSERT_EQ(flown.frames.size(), 98U);
+  const auto exact = flown.truth.increments();
+  for (std::size_t k = 0; k < flown.due.size(); ++k) {
+    EXPECT_EQ(flown.due[k], 20'000 * static_cast<std::int64_t>(k + 1) + 3'000);
+    const double turned = exact[2 * k].delta_theta.z() + exact[2 * k + 1].delta_theta.z();
+    EXPECT_TRUE(flown.frames[2 * k].extended);
+    EXPECT_EQ(flown.value(2 * k, "AngleZ"),
+              static_cast<double>(static_cast<float>(turned / world::units::deg)));
+    EXPECT_EQ(flown.value(2 * k + 1, "RateZ"), static_cast<double>(static_cast<float>(-turned / 0.02)));
+    EXPECT_EQ(flown.value(2 * k + 1, "Time"), 20.0 * static_cast<double>(k + 1));
+    EXPECT_EQ(flown.value(2 * k + 1, "Mode"), 7);
+    EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>(k));
+  }
+  EXPECT_NEAR(flown.value(1, "RateZ"), -2 * std::numbers::pi / 10, 1e-3);
+}
+
+TEST(Player, ALostSampleUsesItsCounterUp) {
+  const auto scenario = read("loss_percent = 30");
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  EXPECT_LT(flown.due.size(), 45U);
+  EXPECT_GT(flown.due.size(), 20U);
+  for (std::size_t k = 0; k < flown.due.size(); ++k)
+    EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>((flown.due[k] - 3'000) / 20'000 - 1));
+}
+
+TEST(Conversation, FindsTheCauseByWhatIsRepeated) {
+  const auto scenario = read();
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  Flown flown(*scenario);
+  const Hear& hear = flown.mapping.hears.front();
+  const auto answer = [&](std::uint64_t repeated) {
+    Frame frame{.id = 101, .size = 8};
+    dbc::put_raw_bits(*hear.echo->repeated, repeated, {frame.data.data(), frame.size});
+    return cause_of(flown.conversation, hear, frame);
+  };
+  // Four bits of the count: the newest with 3 is the 36th (35), 35 mod 16 = 3.
+  ASSERT_NE(answer(3), nullptr);
+  EXPECT_EQ(answer(3)->valid_us, 36 * 20'000);
+  EXPECT_EQ(answer(0)->valid_us, 49 * 20'000) << "48 mod 16";
+}
+
+TEST(Mapping, SaysWhatIsWrongInOneLine) {
+  const auto refused = [](const std::string& text, const std::string& instead) {
+    std::string mapping = mapping_text;
+    const auto at = mapping.find(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    const auto scenario = read("", mapping.replace(at, text.size(), instead));
+    return scenario ? std::string("nothing") : scenario.error().message;
+  };
+  EXPECT_EQ(refused("\"Answer.Roll\" = \"deg\"", ""),
+            "ecu.mapping.toml:18: key 'hear[1].signals.Roll': has no unit in the DBC, expected [units] with "
+            "\"Answer.Roll\" beside it");
+  EXPECT_EQ(refused("every_ms = 20", ""),
+            "ecu.mapping.toml:5: key 'play[1].every_ms': is missing, expected a number above 0");
+  EXPECT_EQ(
+      refused("message = \"Answer\"", "message = \"Rates\""),
+      "ecu.mapping.toml:15: key 'hear[1].message': Rates is played or heard already, expected each message "
+      "once");
+}
+
+}  // namespace
+}  // namespace canhil::mapping
