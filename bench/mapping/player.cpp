@@ -44,7 +44,7 @@ Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& sce
 }
 
 Player::Player(Conversation& conversation, const nodes::Run& run)
-    : conversation_(conversation), values_(conversation.mapping.plays.size()) {
+    : conversation_(conversation), end_us_(run.flight.end_us()), values_(conversation.mapping.plays.size()) {
   for (const nodes::Kind* kind : nodes::all()) {
     const scenario::NodeSettings* node = run.scenario.node(kind->table.key);
     const auto& all = conversation.mapping.plays;
@@ -99,6 +99,7 @@ void Player::sample(Played& played) {
     if (play.node != played.key || played.valid_us < next_us_[i]) continue;
     next_us_[i] += play.period_us;
     Sent sent = put_together(i, played, due_us + play.latency_us);
+    if (sent.due_us > end_us_) continue;  // nobody would hear of the answer
     const auto after = std::ranges::upper_bound(due_, sent.due_us, {}, &Due::due_us);
     due_.insert(after, {.due_us = sent.due_us, .play = i, .sent = std::move(sent), .lost = played.lost});
   }

@@ -51,6 +51,7 @@ class Player final : public nodes::Node {
   double value_of(std::size_t play, const Source& source, std::int64_t valid_us);
 
   Conversation& conversation_;
+  std::int64_t end_us_;  // of the run
   std::vector<Played> nodes_;
   std::vector<std::map<const Stimulus*, Value>> values_;  // by play
   std::vector<std::int64_t> next_us_;                     // by play: the next time of validity
