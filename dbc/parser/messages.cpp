@@ -137,6 +137,9 @@ void read_message(Reader& in, Draft& draft) {
   message.id = raw_id == independent_signals_id ? raw_id : raw_id & ~extended_flag;
   const Position name_at = in.peek().at;
   message.name = in.word("the name of the message");
+  in.mark(':');
+  message.size = static_cast<unsigned>(in.natural_or(Rule::message_size, "the size in bytes", largest_size));
+  read_sender(in, draft, message);
   const bool is_kept = check_id(draft, message, written_id);
   const std::size_t index = draft.database.messages.size();
   const auto [other, is_new] = draft.messages_by_id.emplace(raw_id, index);
@@ -148,9 +151,6 @@ void read_message(Reader& in, Draft& draft) {
     draft.findings.add(Rule::duplicate_message, name_at,
                        fmt::format("message {} a second time, expected a name of its own", message.name));
   }
-  in.mark(':');
-  message.size = static_cast<unsigned>(in.natural_or(Rule::message_size, "the size in bytes", largest_size));
-  read_sender(in, draft, message);
   draft.left_out.push_back(!is_kept || !is_new || message.size > largest_size);
   draft.database.messages.push_back(std::move(message));
   draft.signals.emplace_back();

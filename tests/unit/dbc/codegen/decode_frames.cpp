@@ -35,7 +35,7 @@ nlohmann::json decoded(const canhil::dbc::Database& database, const std::string&
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto database = canhil::dbc::read_file(argc > 1 ? argv[1] : "");
+  const auto database = canhil::dbc::read_file_leniently(argc > 1 ? argv[1] : "");
   if (!database) {
     fmt::print(stderr, "{}\n", database.error().message);
     return 2;
