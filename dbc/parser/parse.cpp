@@ -161,8 +161,12 @@ Result<Database> parse(std::string_view text, std::string_view file_name) {
   return database_unless(inspect(text), Severity::warning, file_name);
 }
 
+Result<Database> usable(Inspection inspection, std::string_view file_name) {
+  return database_unless(std::move(inspection), Severity::error, file_name);
+}
+
 Result<Database> parse_leniently(std::string_view text, std::string_view file_name) {
-  return database_unless(inspect(text), Severity::error, file_name);
+  return usable(inspect(text), file_name);
 }
 
 Result<Database> read_file(const std::string& path) {

@@ -25,11 +25,15 @@ Inspection inspect(std::string_view text);
 /// inspect() of a file's content. Error if the file cannot be read, or is larger than 16 MiB.
 Result<Inspection> inspect_file(const std::string& path);
 
+/// The database of an inspection, or its first error as one line `file_name:line:column: what, expected ...`.
+Result<Database> usable(Inspection inspection, std::string_view file_name);
+
 /// Strict: DBC text (UTF-8 or Windows-1252, any line ends) as a Database.
 /// Error: one line `file_name:line:column: what, expected ...`.
 Result<Database> parse(std::string_view text, std::string_view file_name);
 
-/// Lenient: the same for DBC files of others. What is odd and harmless is taken as the rules say.
+/// Lenient, usable(inspect(text), file_name): the same for DBC files of others. What is odd and harmless is
+/// taken as the rules say.
 Result<Database> parse_leniently(std::string_view text, std::string_view file_name);
 
 /// parse() of a file's content. Error also if the file cannot be read, or is larger than 16 MiB.
