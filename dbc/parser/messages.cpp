@@ -115,8 +115,16 @@ void read_sender(Reader& in, Draft& draft, Message& message) {
   }
 }
 
-/// To the message that was read last.
-void add_signal(Draft& draft, Signal signal) {
+/// A signal of the message that was read last. One that cannot be read does not hide the next.
+void read_next_signal(Reader& in, Draft& draft) {
+  Signal signal;
+  try {
+    signal = read_signal(in, draft);
+  } catch (const SectionFailure& failure) {
+    draft.findings.add(Rule::unreadable_message, failure.at, failure.what);
+    while (!in.at_word("SG_") && !in.at_section() && in.peek().kind != TokenKind::end) in.take();
+    return;
+  }
   Message& message = draft.database.messages.back();
   if (!draft.signals.back().emplace(signal.name, message.signals.size()).second) {
     draft.findings.add(
@@ -156,7 +164,7 @@ void read_message(Reader& in, Draft& draft) {
   draft.signals.emplace_back();
   while (in.at_word("SG_")) {
     in.take();
-    add_signal(draft, read_signal(in, draft));
+    read_next_signal(in, draft);
   }
 }
 

@@ -103,12 +103,11 @@ bool read_section(Reader& in, Draft& draft) {
   return true;
 }
 
-void read_sections(Reader& in, Draft& draft) {
-  const bool is_empty = in.peek().kind == TokenKind::end;
-  bool any = false;
+/// False: there is text, and no section of a DBC in it.
+bool read_sections(Reader& in, Draft& draft) {
+  bool any = in.peek().kind == TokenKind::end;
   while (in.peek().kind != TokenKind::end) any = read_section(in, draft) || any;
-  if (!any && !is_empty)
-    draft.findings.add(Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_");
+  return any;
 }
 
 Severity severity_of(const Finding& finding) { return text_of(finding.rule).severity; }
@@ -139,7 +138,8 @@ Inspection inspect(std::string_view text) {
     if (const auto at = first_not_utf8(text))
       findings.add(Rule::windows_1252, *at, "the text is not UTF-8, expected UTF-8");
     Reader in(tokens_of(to_utf8(text), findings), findings);
-    read_sections(in, draft);
+    if (!read_sections(in, draft))  // what else is odd about the text says nothing
+      return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
     finish(draft);
   } catch (const Findings::Abandoned&) {  // its error is the last finding
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/show/show.hpp"
 #include "dbc/show/table.hpp"
 #include "dbc/wire/bits.hpp"
@@ -17,7 +18,7 @@ std::string label(std::size_t number) {
   return text;
 }
 
-/// "A7": bit 7 of the raw value of signal A; "A7+": and a bit of others too, in frames of their own.
+/// "A7": bit 7 of the raw value of signal A; "A7+": and bits of other signals.
 std::string matrix(const Message& message) {
   std::vector<std::string> cells(std::size_t{8} * message.size, ".");
   for (std::size_t s = 0; s < message.signals.size(); ++s) {
@@ -92,7 +93,9 @@ std::string head(const Message& message) {
   std::string text =
       fmt::format("{} {}, {} bytes{}, cycle {}, sender {}\n", id_text(message), message.name, message.size,
                   message.fd ? " (FD)" : "", cycle_text(message), sender_text(message));
-  return message.comment.empty() ? text : text + message.comment + "\n";
+  std::string comment = message.comment;
+  std::ranges::replace(comment, '\n', ' ');
+  return comment.empty() ? text : text + command_line::one_line(comment) + "\n";
 }
 
 }  // namespace
@@ -101,7 +104,10 @@ std::string message_page(const Message& message) {
   std::vector<Row> rows{{"", "signal", "start", "length", "order", "type", "scale", "offset", "range", "unit",
                          "there when", "values"}};
   for (std::size_t i = 0; i < message.signals.size(); ++i) rows.push_back(signal_row(i, message.signals[i]));
-  return head(message) + "\n" + matrix(message) + "\n" + aligned(rows);
+  const std::string bits = matrix(message);
+  const bool is_shared = bits.find('+') != std::string::npos;
+  return head(message) + "\n" + bits + "A7: bit 7 of the raw value of signal A" +
+         (is_shared ? "; +: and bits of other signals\n\n" : "\n\n") + aligned(rows);
 }
 
 }  // namespace canhil::dbc

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <numeric>
 
+#include "dbc/command_line/command_line.hpp"
 #include "dbc/show/show.hpp"
 #include "dbc/show/table.hpp"
 
@@ -18,7 +19,8 @@ std::size_t width_of(std::string_view text) {
 
 }  // namespace
 
-std::string aligned(const std::vector<Row>& rows) {
+std::string aligned(std::vector<Row> rows) {
+  for (Row& row : rows) std::ranges::transform(row, row.begin(), command_line::one_line);
   std::vector<std::size_t> widths(rows.empty() ? 0 : rows.front().size());
   for (const Row& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], width_of(row[i]));
@@ -35,7 +37,7 @@ std::string aligned(const std::vector<Row>& rows) {
 }
 
 std::string id_text(const Message& message) {
-  return message.extended ? fmt::format("0x{:08X}x", message.id) : fmt::format("0x{:03X}", message.id);
+  return message.extended ? fmt::format("0x{:08X}", message.id) : fmt::format("0x{:03X}", message.id);
 }
 
 std::string cycle_text(const Message& message) {
@@ -69,7 +71,8 @@ Result<const Message*> named_message(const Database& database, const std::string
   const auto read =
       std::from_chars(name.data() + (is_hexadecimal ? 2 : 0), end, id, is_hexadecimal ? 16 : 10);
   if (read.ec == std::errc{} && read.ptr == end) {
-    for (const bool extended : {false, true}) {
+    const bool is_long = is_hexadecimal && name.size() == 10;
+    for (const bool extended : {is_long, !is_long}) {
       if (const Message* message = find_message(database, id, extended)) return message;
     }
   }

@@ -10,10 +10,11 @@ namespace canhil::dbc {
 
 using Row = std::vector<std::string>;
 
-/// Rows of equally many cells, each column as wide as its widest cell, two blanks between columns.
-std::string aligned(const std::vector<Row>& rows);
+/// Rows of equally many cells, each column as wide as its widest cell, two blanks between columns. What would
+/// break a line or steer a terminal becomes '?'.
+std::string aligned(std::vector<Row> rows);
 
-/// "0x123" of 11 bits, "0x00000123x" of 29 bits.
+/// "0x123" of 11 bits, "0x00000123" of 29 bits, as candump writes them.
 std::string id_text(const Message& message);
 
 /// "10 ms"; "-": no cycle time.
