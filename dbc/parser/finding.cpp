@@ -33,7 +33,7 @@ constexpr std::array texts{
     RuleText{Rule::line_comment, "line-comment", warning, "a comment begins with '//'",
              "the rest of the line is left out"},
     RuleText{Rule::unexpected_character, "unexpected-character", warning,
-             "a character that no part of the format uses", "the section with it is left out"},
+             "a character that no part of the format uses", "the section with it cannot be read"},
     RuleText{Rule::name_character, "name-character", warning, "a name holds letters beyond a-z",
              "the name is kept"},
     RuleText{Rule::name_begins_with_digit, "name-begins-with-digit", warning, "a name begins with a digit",

@@ -38,7 +38,7 @@ TEST(DbcLint, ListsFindingsByLineWithWhatFollows) {
   EXPECT_EQ(ended.err, "");
   EXPECT_EQ(
       ended.out,
-      fmt::format("{0}:2:23: warning undeclared-node: no node 'C', expected one listed in BU_; the name "
+      fmt::format("{0}:2:19: warning undeclared-node: no node 'C', expected one listed in BU_; the name "
                   "is kept, a section about the node is left out\n"
                   "{0}:4:6: warning signal-beyond-message: signal Motion.beyond reaches beyond the "
                   "message, expected all 8 bits inside of its 2 bytes; the signal is left out\n"

@@ -238,7 +238,7 @@ const Lenient cases[] = {
     {Rule::attribute_owner, std::string(integer_attribute) + "BA_ \"I\" SG_ 1 s 1;\nCM_ \"read\";",
      "8:9 attribute-owner",
      [](const Database& d) { return s_of(d).attributes.empty() && d.comment == "read"; }},
-    {Rule::attribute_limits, "BA_DEF_ BO_ \"I\" INT 5 4;\nBA_ \"I\" BO_ 1 9;", "7:17 attribute-limits",
+    {Rule::attribute_limits, "BA_DEF_ BO_ \"I\" INT 5 4;\nBA_ \"I\" BO_ 1 9;", "7:21 attribute-limits",
      [](const Database& d) { return i_is(d, 9); }},
     {Rule::attribute_range, std::string(integer_attribute) + "BA_ \"I\" BO_ 1 11;", "8:15 attribute-range",
      [](const Database& d) { return i_is(d, 11); }},
