@@ -10,23 +10,28 @@
 namespace canhil::dbc {
 namespace {
 
-/// Data as long as a window of BitPlacement at least.
-std::array<std::uint8_t, 64 + 8> padded(std::span<const std::uint8_t> data) {
-  std::array<std::uint8_t, 64 + 8> bytes{};
-  std::ranges::copy(data, bytes.begin());
-  return bytes;
-}
+constexpr std::size_t largest_size = 64;
+
+/// The bytes that a signal may lie in, with room for a window of BitPlacement.
+struct Padded {
+  explicit Padded(std::span<const std::uint8_t> data) : size(std::min(data.size(), largest_size)) {
+    std::copy_n(data.begin(), size, bytes.begin());
+  }
+  std::size_t size;
+  std::array<std::uint8_t, largest_size> bytes{};
+};
 
 }  // namespace
 
 std::uint64_t raw_bits(const Signal& signal, std::span<const std::uint8_t> data) {
-  return BitPlacement(signal, data.size()).raw(padded(data).data());
+  const Padded padded(data);
+  return BitPlacement(signal, padded.size).raw(padded.bytes.data());
 }
 
 void put_raw_bits(const Signal& signal, std::uint64_t raw, std::span<std::uint8_t> data) {
-  auto bytes = padded(data);
-  BitPlacement(signal, data.size()).put(raw, bytes.data());
-  std::copy_n(bytes.begin(), data.size(), data.begin());
+  Padded padded(data);
+  BitPlacement(signal, padded.size).put(raw, padded.bytes.data());
+  std::copy_n(padded.bytes.begin(), padded.size, data.begin());
 }
 
 double to_physical(const Signal& signal, std::uint64_t raw) { return Conversion(signal).physical(raw); }

@@ -34,17 +34,13 @@ void read_mux_indicator(Reader& in, Signal& signal) {
 }
 
 bool names_no_node(const Reader& in) {
-  return in.peek().kind == TokenKind::end ||
-         (in.peek().kind == TokenKind::word && is_keyword(in.peek().text));
+  return in.peek().kind == TokenKind::end || (in.peek().kind == TokenKind::word && !in.at_name());
 }
 
 // Separated by commas, in old files by blanks on one line.
 void read_receivers(Reader& in, Draft& draft, Signal& signal) {
   Position at;
-  const auto follows = [&] {
-    return in.take_mark_if(',') ||
-           (in.peek().kind == TokenKind::word && in.peek().at.line == at.line && !is_keyword(in.peek().text));
-  };
+  const auto follows = [&] { return in.take_mark_if(',') || (in.at_name() && in.peek().at.line == at.line); };
   if (names_no_node(in)) return in.report(Rule::missing_node, "a receiver");
   do {
     at = in.peek().at;
@@ -99,8 +95,9 @@ bool check_id(Draft& draft, const Message& message, std::uint32_t written_id) {
   if (id <= last_id) return true;
   const bool is_possible = id <= last_extended_id;
   draft.findings.add(is_possible ? Rule::missing_extended_flag : Rule::impossible_id, message.at,
-                     fmt::format("message id {} out of range, expected at most {}{}", id, last_id,
-                                 is_flagged ? "" : ", or bit 31 set for an extended id"));
+                     fmt::format("message id {} out of range, expected at most {}{}", id,
+                                 is_possible ? last_standard_id : last_extended_id,
+                                 is_possible ? ", or bit 31 set for an extended id" : ""));
   return is_possible;
 }
 

@@ -33,16 +33,17 @@ void read_bit_timing(Reader& in, Draft& /*draft*/) {
 void read_nodes(Reader& in, Draft& draft) {
   in.mark(':');
   auto& nodes = draft.database.nodes;
-  while (in.peek().kind == TokenKind::word && !is_keyword(in.peek().text)) {
-    const Token& name = in.take();
-    if (draft.nodes.contains(name.text)) {
-      draft.findings.add(Rule::duplicate_node, name.at,
-                         fmt::format("node '{}' a second time, expected every node once", name.text));
+  while (in.at_name()) {
+    const Position at = in.peek().at;
+    const std::string name = in.word("a node");
+    if (draft.nodes.contains(name)) {
+      draft.findings.add(Rule::duplicate_node, at,
+                         fmt::format("node '{}' a second time, expected every node once", name));
       continue;
     }
-    if (name.text == nobody) continue;
-    draft.nodes.emplace(name.text, nodes.size());
-    nodes.push_back({name.text, {}, {}});
+    if (name == nobody) continue;
+    draft.nodes.emplace(name, nodes.size());
+    nodes.push_back({name, {}, {}});
   }
 }
 

@@ -101,7 +101,7 @@ std::string Reader::word(std::string_view what) {
     const std::string digits = take().text;
     return digits + take().text;
   }
-  if (peek().kind != TokenKind::word || is_keyword(peek().text)) fail(std::string(what));
+  if (!at_name()) fail(std::string(what));
   return take().text;
 }
 

@@ -13,6 +13,8 @@
 
 namespace canhil::dbc {
 
+bool is_keyword(std::string_view word);
+
 class Reader {
  public:
   Reader(std::vector<Token> tokens, Findings& findings) : tokens_(std::move(tokens)), findings_(findings) {}
@@ -32,6 +34,10 @@ class Reader {
   }
   [[nodiscard]] bool at_word(std::string_view word) const {
     return peek().kind == TokenKind::word && peek().text == word;
+  }
+  /// At what word() takes.
+  [[nodiscard]] bool at_name() const {
+    return at_name_with_digit() || (peek().kind == TokenKind::word && !is_keyword(peek().text));
   }
   bool take_mark_if(char mark);
 
@@ -66,8 +72,6 @@ class Reader {
 
 /// The DBC's word for no node.
 inline constexpr std::string_view nobody = "Vector__XXX";
-
-bool is_keyword(std::string_view word);
 
 /// Where the object of each name stands in its list: a list may have tens of thousands.
 using Index = std::map<std::string, std::size_t, std::less<>>;

@@ -19,11 +19,6 @@ def expect(where, ours, theirs):
         differences.append(f"{where}: canhil {ours!r}, canmatrix {theirs!r}")
 
 
-def unlimited_as_canmatrix(minimum, maximum, signal):
-    """canmatrix writes the raw range's limits where the DBC says [0|0]; no limits are no limits."""
-    return (None, None) if minimum == maximum == 0 else (minimum, maximum)
-
-
 def compare_signal(where, ours, theirs):
     expect(where + " length", ours["length"], theirs.size)
     start = theirs.get_startbit(bit_numbering=1, start_little=None) if theirs.is_little_endian \

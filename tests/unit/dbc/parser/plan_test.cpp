@@ -5,6 +5,7 @@
 
 #include <rapidcheck/gtest.h>
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -198,6 +199,18 @@ Message four_signals() {
   const auto database = read_file(TEST_DATA_DIR "/dbc/multiplexed.dbc");
   EXPECT_TRUE(database) << database.error().message;
   return database->messages.at(1);
+}
+
+// A plain value is not computed with.
+TEST(Plan, ASignallingNanKeepsItsBits) {
+  Message message;
+  message.size = 8;
+  message.signals.resize(1);
+  message.signals[0].length = 64;
+  message.signals[0].type = RawType::float64;
+  std::array<double, 1> value{};
+  ASSERT_TRUE(MessagePlan(message).decode(Bytes{1, 0, 0, 0, 0, 0, 0xF0, 0x7F}, value));
+  EXPECT_EQ(bits_of(value[0]), 0x7FF0'0000'0000'0001U);
 }
 
 TEST(Plan, AllocatesNothingWhenUsed) {
