@@ -125,9 +125,10 @@ Result<Database> database_unless(Inspection inspection, Severity refused, std::s
   return std::move(*inspection.database);
 }
 
-// A token takes up to some twenty times the memory of its text.
-Result<std::string> text_of_file(const std::string& path) {
-  return read_text_file(path, "a DBC file", 16 * mebibyte);
+Result<Database> read_file_unless(const std::string& path, Severity refused) {
+  auto inspection = inspect_file(path);
+  if (!inspection) return tl::unexpected(inspection.error());
+  return database_unless(std::move(*inspection), refused, path);
 }
 
 }  // namespace
@@ -153,7 +154,8 @@ Inspection inspect(std::string_view text) {
 }
 
 Result<Inspection> inspect_file(const std::string& path) {
-  const auto text = text_of_file(path);
+  // A token takes up to some twenty times the memory of its text.
+  const auto text = read_text_file(path, "a DBC file", 16 * mebibyte);
   if (!text) return tl::unexpected(text.error());
   return inspect(*text);
 }
@@ -170,16 +172,10 @@ Result<Database> parse_leniently(std::string_view text, std::string_view file_na
   return usable(inspect(text), file_name);
 }
 
-Result<Database> read_file(const std::string& path) {
-  const auto text = text_of_file(path);
-  if (!text) return tl::unexpected(text.error());
-  return parse(*text, path);
-}
+Result<Database> read_file(const std::string& path) { return read_file_unless(path, Severity::warning); }
 
 Result<Database> read_file_leniently(const std::string& path) {
-  const auto text = text_of_file(path);
-  if (!text) return tl::unexpected(text.error());
-  return parse_leniently(*text, path);
+  return read_file_unless(path, Severity::error);
 }
 
 std::uint64_t hash(std::string_view text) {
