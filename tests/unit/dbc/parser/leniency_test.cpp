@@ -24,7 +24,7 @@ struct Lenient {
 void PrintTo(const Lenient& lenient, std::ostream* out) { *out << text_of(lenient.rule).id; }
 
 // Six lines, so that what follows begins in line 7.
-constexpr const char* before =
+constexpr const char* first_lines =
     "BS_:\nBU_: A B\nBO_ 1 M: 8 A\n SG_ s : 0|8@1+ (1,0) [0|255] \"\" B\n SG_ t : 8|8@1- (1,0) [0|0] \"\" "
     "B\n\n";
 
@@ -268,7 +268,7 @@ std::string places_of(const std::vector<Finding>& findings) {
 class Leniency : public testing::TestWithParam<Lenient> {};
 
 TEST_P(Leniency, TakesTheFileAsTheRuleSays) {
-  const Inspection inspection = inspect(before + GetParam().text);
+  const Inspection inspection = inspect(first_lines + GetParam().text);
   EXPECT_EQ(places_of(inspection.findings), GetParam().findings);
   ASSERT_TRUE(inspection.database);
   EXPECT_TRUE(GetParam().follows(*inspection.database));
@@ -276,7 +276,7 @@ TEST_P(Leniency, TakesTheFileAsTheRuleSays) {
 
 TEST_P(Leniency, StrictTakesNotesAlone) {
   const bool is_note = text_of(GetParam().rule).severity == Severity::note;
-  EXPECT_EQ(parse(before + GetParam().text, "t.dbc").has_value(), is_note);
+  EXPECT_EQ(parse(first_lines + GetParam().text, "t.dbc").has_value(), is_note);
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Leniency, testing::ValuesIn(cases),
@@ -301,12 +301,12 @@ void expect_refused(const std::string& text, const std::string& places) {
 
 TEST(LenientReader, RefusesWhatHidesAMessage) {
   expect_refused("# A page\nof prose.", "1:1 not-a-dbc");
-  expect_refused(std::string(before) + "CM_ \"x", "7:5 unfinished-string, 7:7 missing-semicolon");
-  expect_refused(std::string(before) + "BO_ 2 : 8 A\nCM_ \"x\";", "7:7 unreadable-message");
+  expect_refused(std::string(first_lines) + "CM_ \"x", "7:5 unfinished-string, 7:7 missing-semicolon");
+  expect_refused(std::string(first_lines) + "BO_ 2 : 8 A\nCM_ \"x\";", "7:7 unreadable-message");
   // Every signal that cannot be read is found.
   expect_refused(
-      std::string(before) + message_2("a x : 0|8@1+ (1,0) [0|0] \"\" B\n SG_ b 0|8@1+\n SG_ c : 16|8@1+ "
-                                      "(1,0) [0|0] \"\" B\nCM_ SG_ 2 c \"read\";"),
+      std::string(first_lines) + message_2("a x : 0|8@1+ (1,0) [0|0] \"\" B\n SG_ b 0|8@1+\n SG_ c : 16|8@1+ "
+                                           "(1,0) [0|0] \"\" B\nCM_ SG_ 2 c \"read\";"),
       "8:8 unreadable-message, 9:8 unreadable-message");
   expect_refused("BU_: A\nSG_ a : 0|8@1+ (1,0) [0|0] \"\" A", "2:1 unreadable-message");
 }
@@ -319,7 +319,7 @@ TEST(LenientReader, GivesUpAfterManyFindings) {
 }
 
 TEST(LenientReader, SaysWhyAFileIsRefusedInOneLine) {
-  const auto database = parse_leniently(std::string(before) + "CM_ EV_ x \"x\";\nBO_ 2 : 8 A", "t.dbc");
+  const auto database = parse_leniently(std::string(first_lines) + "CM_ EV_ x \"x\";\nBO_ 2 : 8 A", "t.dbc");
   ASSERT_FALSE(database);
   EXPECT_EQ(database.error().message, "t.dbc:8:7: unexpected ':', expected the name of the message");
 }
