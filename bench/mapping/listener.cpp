@@ -107,11 +107,15 @@ void Listener::hear(const Hear& hear, const Received& received) {
   if (!sent_any_) return;
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
+  values_.resize(hear.of.plan.signals());
+  static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // of the message's size
   const auto value_of = [&](const Telling& telling) -> std::optional<double> {
-    const std::uint64_t raw = dbc::raw_bits(*telling.signal, frame.payload());
-    if (raw == telling.invalid || !dbc::is_present(*hear.of.message, *telling.signal, frame.payload()))
-      return std::nullopt;
-    return dbc::to_physical(*telling.signal, raw) * telling.factor;
+    const double value = values_[hear.of.number(*telling.signal)];
+    const bool invalid =
+        telling.invalid && dbc::raw_bits(*telling.signal, frame.payload()) == *telling.invalid;
+    if (invalid || std::isnan(value))
+      return std::nullopt;  // the latter: of another multiplexor, or a float's own
+    return value * telling.factor;
   };
   for (const Telling& telling : hear.tellings) {
     const auto value = value_of(telling);

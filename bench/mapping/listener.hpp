@@ -33,6 +33,7 @@ class Listener final : public observe::Watcher {
   observe::Stopwatch stopwatch_;
   MessagePlaces places_;
   std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // by place of a message
+  std::vector<double> values_;                                   // of a message's signals
   std::vector<protection::Receiver> receivers_;                  // by hear
   bool virtual_time_ = false, sent_any_ = false;
   std::int64_t due_us_ = 0, due_ns_ = 0;  // of the last play: the bench's time, and the stamps'

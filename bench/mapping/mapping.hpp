@@ -20,6 +20,7 @@
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/foreign.hpp"
 #include "dbc/parser/database.hpp"
+#include "dbc/parser/plan.hpp"
 #include "dbc/protection/protection.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -27,9 +28,17 @@ namespace canhil::mapping {
 
 /// A message of the DBC, and its place in Mapping::messages.
 struct Mapped {
-  const dbc::Message* message = nullptr;
+  explicit Mapped(const dbc::Message& of) : message(&of), plan(of) {}
+
+  const dbc::Message* message;
+  dbc::MessagePlan plan;
   std::size_t place = 0;
   std::optional<protection::Protection> protection{};
+
+  /// The number of one of the message's signals.
+  [[nodiscard]] std::size_t number(const dbc::Signal& signal) const {
+    return static_cast<std::size_t>(&signal - message->signals.data());
+  }
 };
 
 /// What a signal of the bench carries.

@@ -7,7 +7,6 @@
 
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/values.hpp"
-#include "dbc/parser/codec.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -136,20 +135,18 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
   Sent sent{.valid_us = played.valid_us, .due_us = due_us, .frames = {}};
   for (const PlayedMessage& one : conversation_.mapping.plays[place].messages) {
     const dbc::Message& message = *one.of.message;
-    std::vector<dbc::NamedValue> values;
+    std::vector<double> values(one.of.plan.signals(), 0.0);
     for (const Source& source : one.sources) {
       const bool constant = source.stimulus == nullptr && !source.time;
-      values.push_back(
-          {.signal = source.signal->name,
-           .value = constant ? source.value : value_of(place, source, played.valid_us) * source.factor});
+      values[one.of.number(*source.signal)] =
+          constant ? source.value : value_of(place, source, played.valid_us) * source.factor;
     }
-    const auto bytes = dbc::encode(message, values);
     Frame frame{.id = message.id,
                 .size = static_cast<std::uint8_t>(message.size),
                 .extended = message.extended,
                 .fd = message.fd,
                 .brs = message.fd};
-    std::ranges::copy(*bytes, frame.data.begin());
+    static_cast<void>(one.of.plan.encode(values, {frame.data.data(), frame.size}));  // of the message's size
     if (one.of.protection) {
       const auto& counter = one.of.protection->settings().counter;
       const bool shared = counter && !counter->shared_as.empty();

@@ -45,7 +45,7 @@ class Reader {
     const std::string file = (fs::path(mapping_->file).parent_path() / named).string();
     const auto text = read_text_(file);
     if (!text) return tl::unexpected(text.error());
-    auto database = dbc::parse(*text, file);
+    auto database = dbc::parse_leniently(*text, file);
     if (!database) return tl::unexpected(database.error());
     mapping_->database = std::move(*database);
     mapping_->hash = world::fnv1a_64(fmt::format("{:x} {:x}", mapping_->hash, mapping_->database.hash));
@@ -147,10 +147,11 @@ class Reader {
         .cycle_time_us = message.cycle_time_us,
         .sender = of_target ? messages::TargetHeartbeat::info.sender : messages::Sync::info.sender};
     all.push_back(info);
-    const auto own = protections_.find(&message);
-    return {.message = &message,
-            .place = all.size() - 1,
-            .protection = own == protections_.end() ? std::nullopt : std::optional(own->second)};
+    Mapped mapped(message);
+    mapped.place = all.size() - 1;
+    if (const auto own = protections_.find(&message); own != protections_.end())
+      mapped.protection = own->second;
+    return mapped;
   }
 
   void read_play(Section& section) {

@@ -76,4 +76,6 @@ std::string to_json(const Database& database) {
   return json.dump(2);
 }
 
+std::string to_json(const Message& message) { return message_json(message).dump(2); }
+
 }  // namespace canhil::dbc

@@ -9,5 +9,6 @@ namespace canhil::dbc {
 
 /// Messages, signals, value tables, nodes, attributes; in the order of the DBC.
 std::string to_json(const Database& database);
+std::string to_json(const Message& message);
 
 }  // namespace canhil::dbc

@@ -8,17 +8,21 @@
 namespace canhil::dbc {
 namespace {
 
-std::vector<ValueName> read_value_names(Reader& in) {
+std::vector<ValueName> read_value_names(Reader& in, Draft& draft) {
   std::vector<ValueName> values;
   std::set<std::int64_t> named;
-  while (!in.take_mark_if(';')) {
+  while (!in.at_section_end()) {
     const Position at = in.peek().at;
     const std::int64_t value = in.integer("';' or a value");
-    if (!named.insert(value).second) {
-      fail_at(at, fmt::format("value {} named a second time, expected every value once", value));
+    std::string name = in.string("the name of the value");
+    if (named.insert(value).second) {
+      values.push_back({value, std::move(name)});
+    } else {
+      draft.findings.add(Rule::duplicate_value, at,
+                         fmt::format("value {} named a second time, expected every value once", value));
     }
-    values.push_back({value, in.string("the name of the value")});
   }
+  in.semicolon();
   return values;
 }
 
@@ -29,17 +33,17 @@ void read_values(Reader& in, Draft& draft) {
   if (in.peek().kind == TokenKind::word) {
     EnvironmentVariable& variable =
         variable_of(draft, in.word("a message id or an environment variable"), at);
-    variable.values = read_value_names(in);
+    variable.values = read_value_names(in, draft);
     return;
   }
   Message& message = message_of(draft, in.natural("a message id or an environment variable", UINT32_MAX), at);
   const Position signal_at = in.peek().at;
   Signal& signal = signal_of(draft, message, in.word("a signal"), signal_at);
   if (!signal.values.empty()) {
-    fail_at(signal_at,
+    fail_at(Rule::duplicate_values, signal_at,
             fmt::format("values of {}.{} a second time, expected VAL_ once", message.name, signal.name));
   }
-  signal.values = read_value_names(in);
+  signal.values = read_value_names(in, draft);
 }
 
 void read_value_table(Reader& in, Draft& draft) {
@@ -47,10 +51,12 @@ void read_value_table(Reader& in, Draft& draft) {
   ValueTable table;
   table.name = in.word("the name of the value table");
   auto& tables = draft.database.value_tables;
-  if (!draft.tables.emplace(table.name, tables.size()).second) {
-    fail_at(at, fmt::format("value table {} a second time, expected a name of its own", table.name));
+  if (draft.tables.contains(table.name)) {
+    fail_at(Rule::duplicate_table, at,
+            fmt::format("value table {} a second time, expected a name of its own", table.name));
   }
-  table.values = read_value_names(in);
+  table.values = read_value_names(in, draft);
+  draft.tables.emplace(table.name, tables.size());
   tables.push_back(std::move(table));
 }
 
@@ -59,16 +65,16 @@ void read_variable(Reader& in, Draft& draft) {
   EnvironmentVariable variable;
   variable.name = in.word("the name of the environment variable");
   auto& variables = draft.database.variables;
-  if (!draft.variables.emplace(variable.name, variables.size()).second) {
-    fail_at(at,
+  if (draft.variables.contains(variable.name)) {
+    fail_at(Rule::duplicate_variable, at,
             fmt::format("environment variable {} a second time, expected a name of its own", variable.name));
   }
   in.mark(':');
   variable.type = static_cast<int>(in.natural("the type 0, 1 or 2", 2));
   in.mark('[');
-  variable.minimum = in.real("a minimum");
+  variable.minimum = in.limit("a minimum");
   in.mark('|');
-  variable.maximum = in.real("a maximum");
+  variable.maximum = in.limit("a maximum");
   in.mark(']');
   variable.unit = in.string("a unit");
   variable.initial = in.real("the initial value");
@@ -78,10 +84,11 @@ void read_variable(Reader& in, Draft& draft) {
     const Position node_at = in.peek().at;
     std::string node = in.word("an access node");
     if (node == nobody) continue;
-    node_of(draft, node, node_at);
+    check_node(draft, node, node_at);
     variable.nodes.push_back(std::move(node));
   } while (in.take_mark_if(','));
-  in.mark(';');
+  in.semicolon();
+  draft.variables.emplace(variable.name, variables.size());
   variables.push_back(std::move(variable));
 }
 
@@ -90,7 +97,7 @@ void read_variable_data(Reader& in, Draft& draft) {
   EnvironmentVariable& variable = variable_of(draft, in.word("an environment variable"), at);
   in.mark(':');
   variable.data_size = static_cast<unsigned>(in.natural("the size in bytes", UINT32_MAX));
-  in.mark(';');
+  in.semicolon();
 }
 
 void read_comment(Reader& in, Draft& draft) {
@@ -111,7 +118,7 @@ void read_comment(Reader& in, Draft& draft) {
     comment = &variable_of(draft, in.word("an environment variable"), at).comment;
   }
   *comment = in.string("a comment");
-  in.mark(';');
+  in.semicolon();
 }
 
 }  // namespace canhil::dbc

@@ -49,8 +49,9 @@ AttributeDefinition& definition_of(Draft& draft, std::string_view name, bool rel
   const Index& definitions = relation ? draft.relation_definitions : draft.definitions;
   const auto found = definitions.find(name);
   if (found == definitions.end()) {
-    fail_at(at, fmt::format("attribute \"{}\" is not defined, expected a {} above", name,
-                            relation ? "BA_DEF_REL_" : "BA_DEF_"));
+    fail_at(Rule::undefined_attribute, at,
+            fmt::format("attribute \"{}\" is not defined, expected a {} above", name,
+                        relation ? "BA_DEF_REL_" : "BA_DEF_"));
   }
   return draft.database.definitions[found->second];
 }
@@ -66,64 +67,71 @@ AttributeValue read_label(Reader& in, const AttributeDefinition& definition) {
   if (in.peek().kind == TokenKind::string) {
     label = in.take().text;
     if (std::ranges::find(definition.labels, label) == definition.labels.end()) {
-      fail_at(at, fmt::format("\"{}\" is no value of attribute \"{}\", expected one of {}", label,
-                              definition.name, joined(definition.labels)));
+      fail_at(Rule::attribute_label, at,
+              fmt::format("\"{}\" is no value of attribute \"{}\", expected one of {}", label,
+                          definition.name, joined(definition.labels)));
     }
     return label;
   }
   const std::int64_t index = in.integer("a value of the enumeration");
   if (index < 0 || index >= std::ssize(definition.labels)) {
-    fail_at(at, fmt::format("{} is no value of attribute \"{}\", expected 0..{}", index, definition.name,
-                            std::ssize(definition.labels) - 1));
+    fail_at(Rule::attribute_label, at,
+            fmt::format("{} is no value of attribute \"{}\", expected 0..{}", index, definition.name,
+                        std::ssize(definition.labels) - 1));
   }
   return definition.labels[static_cast<std::size_t>(index)];
 }
 
-AttributeValue read_number(Reader& in, const AttributeDefinition& definition) {
+AttributeValue read_number(Reader& in, Draft& draft, const AttributeDefinition& definition) {
   const Position at = in.peek().at;
-  const bool whole = definition.type != AttributeType::real;
-  AttributeValue value = whole ? AttributeValue(in.integer("a value")) : AttributeValue(in.real("a value"));
-  const double number = whole ? static_cast<double>(std::get<std::int64_t>(value)) : std::get<double>(value);
+  const bool is_whole = definition.type != AttributeType::real;
+  AttributeValue value = is_whole ? AttributeValue(in.whole("a value")) : AttributeValue(in.real("a value"));
+  const double number =
+      is_whole ? static_cast<double>(std::get<std::int64_t>(value)) : std::get<double>(value);
   const bool limited = definition.minimum != 0 || definition.maximum != 0;
   if (limited && !(number >= definition.minimum && number <= definition.maximum)) {
-    fail_at(at, fmt::format("{} is outside of attribute \"{}\", expected {}..{}", number, definition.name,
-                            definition.minimum, definition.maximum));
+    draft.findings.add(Rule::attribute_range, at,
+                       fmt::format("{} is outside of attribute \"{}\", expected {}..{}", number,
+                                   definition.name, definition.minimum, definition.maximum));
   }
   return value;
 }
 
-AttributeValue read_value(Reader& in, const AttributeDefinition& definition) {
+AttributeValue read_value(Reader& in, Draft& draft, const AttributeDefinition& definition) {
   switch (definition.type) {
     case AttributeType::text:
       return in.string("a value");
     case AttributeType::enumeration:
       return read_label(in, definition);
     default:
-      return read_number(in, definition);
+      return read_number(in, draft, definition);
   }
 }
 
-void read_limits(Reader& in, AttributeDefinition& definition, bool whole) {
-  if (in.at_mark(';')) return;
+void read_limits(Reader& in, Draft& draft, AttributeDefinition& definition, bool whole) {
+  if (in.at_section_end()) return;
   const Position at = in.peek().at;
-  definition.minimum = whole ? static_cast<double>(in.integer("a minimum")) : in.real("a minimum");
-  definition.maximum = whole ? static_cast<double>(in.integer("a maximum")) : in.real("a maximum");
+  definition.minimum = whole ? static_cast<double>(in.whole("a minimum")) : in.limit("a minimum");
+  definition.maximum = whole ? static_cast<double>(in.whole("a maximum")) : in.limit("a maximum");
   if (definition.minimum > definition.maximum) {
-    fail_at(at, fmt::format("attribute \"{}\" has minimum {} > maximum {}, expected minimum <= maximum",
-                            definition.name, definition.minimum, definition.maximum));
+    draft.findings.add(
+        Rule::attribute_limits, at,
+        fmt::format("attribute \"{}\" has minimum {} > maximum {}, expected minimum <= maximum",
+                    definition.name, definition.minimum, definition.maximum));
+    definition.minimum = definition.maximum = 0;
   }
 }
 
-void read_type(Reader& in, AttributeDefinition& definition) {
+void read_type(Reader& in, Draft& draft, AttributeDefinition& definition) {
   const std::string type = in.peek().text;
   if (type == "INT" || type == "HEX") {
     definition.type = type == "INT" ? AttributeType::integer : AttributeType::hexadecimal;
     in.take();
-    read_limits(in, definition, true);
+    read_limits(in, draft, definition, true);
   } else if (type == "FLOAT") {
     definition.type = AttributeType::real;
     in.take();
-    read_limits(in, definition, false);
+    read_limits(in, draft, definition, false);
   } else if (type == "STRING") {
     definition.type = AttributeType::text;
     in.take();
@@ -146,12 +154,14 @@ void read_definition(Reader& in, Draft& draft, bool relation) {
   const Position at = in.peek().at;
   definition.name = in.string("the name of the attribute");
   Index& definitions = relation ? draft.relation_definitions : draft.definitions;
-  if (!definitions.emplace(definition.name, draft.database.definitions.size()).second) {
-    fail_at(at, fmt::format("attribute \"{}\" defined a second time, expected a name of its own",
-                            definition.name));
+  if (definitions.contains(definition.name)) {
+    fail_at(
+        Rule::duplicate_definition, at,
+        fmt::format("attribute \"{}\" defined a second time, expected a name of its own", definition.name));
   }
-  read_type(in, definition);
-  in.mark(';');
+  read_type(in, draft, definition);
+  in.semicolon();
+  definitions.emplace(definition.name, draft.database.definitions.size());
   draft.database.definitions.push_back(std::move(definition));
 }
 
@@ -160,7 +170,8 @@ void read_default(Reader& in, Draft& draft, bool relation) {
   AttributeDefinition& definition =
       definition_of(draft, in.string("the name of the attribute"), relation, at);
   if (definition.initial) {
-    fail_at(at, fmt::format("default of attribute \"{}\" a second time, expected it once", definition.name));
+    fail_at(Rule::duplicate_default, at,
+            fmt::format("default of attribute \"{}\" a second time, expected it once", definition.name));
   }
   // Tools write "" as the default of an enumeration without one.
   const bool none = definition.type == AttributeType::enumeration && in.peek().kind == TokenKind::string &&
@@ -168,9 +179,9 @@ void read_default(Reader& in, Draft& draft, bool relation) {
   if (none) {
     in.take();
   } else {
-    definition.initial = read_value(in, definition);
+    definition.initial = read_value(in, draft, definition);
   }
-  in.mark(';');
+  in.semicolon();
 }
 
 void read_attribute(Reader& in, Draft& draft) {
@@ -180,8 +191,9 @@ void read_attribute(Reader& in, Draft& draft) {
   const Position owner_at = in.peek().at;
   const Owner owner = read_owner(in, false);
   if (owner != definition.owner) {
-    fail_at(owner_at, fmt::format("attribute \"{}\" given to {}, expected {}", name, name_of(owner),
-                                  name_of(definition.owner)));
+    fail_at(Rule::attribute_owner, owner_at,
+            fmt::format("attribute \"{}\" given to {}, expected {}", name, name_of(owner),
+                        name_of(definition.owner)));
   }
   Attributes* attributes = &draft.database.attributes;
   const Position target_at = in.peek().at;
@@ -197,10 +209,11 @@ void read_attribute(Reader& in, Draft& draft) {
       attributes = &signal_of(draft, message, in.word("a signal"), signal_at).attributes;
     }
   }
-  AttributeValue value = read_value(in, definition);
-  in.mark(';');
+  AttributeValue value = read_value(in, draft, definition);
+  in.semicolon();
   if (!attributes->emplace(name, std::move(value)).second) {
-    fail_at(at, fmt::format("attribute \"{}\" given a second time, expected one value", name));
+    draft.findings.add(Rule::duplicate_attribute, at,
+                       fmt::format("attribute \"{}\" given a second time, expected one value", name));
   }
 }
 
@@ -212,8 +225,9 @@ void read_relation_attribute(Reader& in, Draft& draft) {
   const Position owner_at = in.peek().at;
   relation.owner = read_owner(in, true);
   if (relation.owner != definition.owner) {
-    fail_at(owner_at, fmt::format("attribute \"{}\" given to {}, expected {}", relation.attribute,
-                                  name_of(relation.owner), name_of(definition.owner)));
+    fail_at(Rule::attribute_owner, owner_at,
+            fmt::format("attribute \"{}\" given to {}, expected {}", relation.attribute,
+                        name_of(relation.owner), name_of(definition.owner)));
   }
   const Position node_at = in.peek().at;
   relation.node = in.word("a node");
@@ -233,8 +247,8 @@ void read_relation_attribute(Reader& in, Draft& draft) {
       signal_of(draft, message, relation.target, signal_at);
     }
   }
-  relation.value = read_value(in, definition);
-  in.mark(';');
+  relation.value = read_value(in, draft, definition);
+  in.semicolon();
   draft.database.relations.push_back(std::move(relation));
 }
 

@@ -10,15 +10,12 @@
 #include <map>
 #include <utility>
 
+#include "dbc/parser/check.hpp"
 #include "dbc/parser/reader.hpp"
 #include "dbc/wire/bits.hpp"
 
 namespace canhil::dbc {
 namespace {
-
-std::string full_name(const Message& message, const Signal& signal) {
-  return fmt::format("{}.{}", message.name, signal.name);
-}
 
 /// find_attribute() for every message and signal, of which there may be tens of thousands as of definitions.
 class Defaults {
@@ -68,19 +65,23 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-void read_message_attributes(const Defaults& defaults, Message& message) {
+void read_message_attributes(const Defaults& defaults, Findings& findings, Message& message) {
   const auto number = [&](std::string_view name) {
     return number_or_zero(defaults, message.attributes, Owner::message, name);
   };
-  const double cycle_ms = number("GenMsgCycleTime");
+  double cycle_ms = number("GenMsgCycleTime");
   if (!is_message_time_ms(cycle_ms)) {
-    fail_at(message.at, fmt::format("message {} has GenMsgCycleTime {} ms, expected {}", message.name,
-                                    cycle_ms, message_time_range));
+    findings.add(Rule::cycle_time, message.at,
+                 fmt::format("message {} has GenMsgCycleTime {} ms, expected {}", message.name, cycle_ms,
+                             message_time_range));
+    cycle_ms = 0;
   }
   message.cycle_time_us = std::llround(cycle_ms * 1000);
-  const double data_id = number("E2eDataId");
+  double data_id = number("E2eDataId");
   if (data_id < 0 || data_id > 0xFFFF) {
-    fail_at(message.at, fmt::format("message {} has E2eDataId {}, expected 0..65535", message.name, data_id));
+    findings.add(Rule::data_id, message.at,
+                 fmt::format("message {} has E2eDataId {}, expected 0..65535", message.name, data_id));
+    data_id = 0;
   }
   message.e2e_data_id = static_cast<std::uint16_t>(data_id);
   message.sample_group =
@@ -92,8 +93,9 @@ void read_message_attributes(const Defaults& defaults, Message& message) {
   message.fd = format.ends_with("_FD");
   const bool says_extended = format.starts_with("Extended") || format.starts_with("J1939");
   if (message.attributes.contains("VFrameFormat") && says_extended != message.extended) {
-    fail_at(message.at, fmt::format("message {} has the frame format {} and {} id, expected both the same",
-                                    message.name, format, message.extended ? "an extended" : "a standard"));
+    findings.add(Rule::frame_format, message.at,
+                 fmt::format("message {} has the frame format {} and {} id, expected both the same",
+                             message.name, format, message.extended ? "an extended" : "a standard"));
   }
 }
 
@@ -103,101 +105,58 @@ void read_signal_attributes(const Defaults& defaults, Signal& signal) {
                                                        "CarriesRemainder", "no") == "yes";
 }
 
-void check_size(const Message& message) {
+void check_size(Findings& findings, Message& message) {
   constexpr std::array fd_sizes{12U, 16U, 20U, 24U, 32U, 48U, 64U};
   if (message.size <= 8) return;
   if (!message.fd) {
-    fail_at(message.at,
-            fmt::format("message {} has {} bytes, expected at most 8, or VFrameFormat StandardCAN_FD or "
-                        "ExtendedCAN_FD",
-                        message.name, message.size));
+    findings.add(Rule::fd_format_missing, message.at,
+                 fmt::format("message {} has {} bytes, expected at most 8, or VFrameFormat StandardCAN_FD or "
+                             "ExtendedCAN_FD",
+                             message.name, message.size));
+    message.fd = true;
   }
   if (std::ranges::find(fd_sizes, message.size) == fd_sizes.end()) {
-    fail_at(message.at, fmt::format("message {} has {} bytes, expected 0..8, 12, 16, 20, 24, 32, 48 or 64",
-                                    message.name, message.size));
+    findings.add(Rule::fd_size, message.at,
+                 fmt::format("message {} has {} bytes, expected 0..8, 12, 16, 20, 24, 32, 48 or 64",
+                             message.name, message.size));
   }
 }
 
-/// Simple multiplexing names no multiplexor: it is the message's only one.
-void resolve_multiplexors(Message& message) {
-  const auto is_root = [](const Signal& s) { return s.multiplexor && s.mux_ranges.empty(); };
-  const auto root = std::ranges::find_if(message.signals, is_root);
-  if (root != message.signals.end()) {
-    const auto second = std::find_if(root + 1, message.signals.end(), is_root);
-    const bool all_named = std::ranges::none_of(
-        message.signals, [](const Signal& s) { return !s.mux_ranges.empty() && s.multiplexed_by.empty(); });
-    if (second != message.signals.end() && !all_named) {
-      fail_at(second->at,
-              fmt::format("message {} has a second multiplexor {}, expected one, or SG_MUL_VAL_ for every "
-                          "multiplexed signal",
-                          message.name, second->name));
-    }
-  }
-  for (Signal& signal : message.signals) {
-    if (signal.mux_ranges.empty() || !signal.multiplexed_by.empty()) continue;
-    if (root == message.signals.end()) {
-      fail_at(signal.at,
-              fmt::format("signal {} is multiplexed but {} has no multiplexor, expected a signal with the "
-                          "indicator M",
-                          full_name(message, signal), message.name));
-    }
-    signal.multiplexed_by = root->name;
-  }
-}
-
-void check_multiplexing(const Message& message) {
-  for (const Signal& signal : message.signals) {
-    if (signal.multiplexor && (signal.is_float() || signal.is_signed())) {
-      fail_at(signal.at, fmt::format("multiplexor {} is {}, expected an unsigned integer",
-                                     full_name(message, signal), signal.is_float() ? "a float" : "signed"));
-    }
-    if (signal.multiplexed_by.empty()) continue;
-    const Signal& multiplexor = *find_signal(message, signal.multiplexed_by);
-    const std::uint64_t largest =
-        multiplexor.length >= 64 ? UINT64_MAX : (std::uint64_t{1} << multiplexor.length) - 1;
-    for (const MuxRange& range : signal.mux_ranges) {
-      if (range.last > largest) {
-        fail_at(signal.at,
-                fmt::format("signal {} is there when {} is {}, expected a value of its {} bits: 0..{}",
-                            full_name(message, signal), multiplexor.name, range.last, multiplexor.length,
-                            largest));
-      }
-    }
-    std::size_t depth = 0;
-    for (const Signal* above = &signal; !above->multiplexed_by.empty(); ++depth) {
-      if (depth > message.signals.size()) {
-        fail_at(
-            signal.at,
-            fmt::format("signal {} is multiplexed in a circle, expected a multiplexor that is always there",
-                        full_name(message, signal)));
-      }
-      above = find_signal(message, above->multiplexed_by);
-    }
-  }
-}
-
-void check_numbers(const Message& message, const Signal& signal) {
+/// False: the signal has no length that can be decoded.
+bool check_numbers(Findings& findings, const Message& message, Signal& signal) {
   const std::string name = full_name(message, signal);
+  const auto find = [&](Rule rule, std::string what) { findings.add(rule, signal.at, std::move(what)); };
+  const auto drop_limits = [&] { signal.minimum = signal.maximum = 0; };
+  if (signal.length > 512) return false;  // found when it was read
   if (signal.length == 0 || signal.length > 64) {
-    fail_at(signal.at, fmt::format("signal {} has {} bits, expected 1..64", name, signal.length));
+    find(Rule::signal_length, fmt::format("signal {} has {} bits, expected 1..64", name, signal.length));
+    return false;
   }
-  if (signal.scale == 0) fail_at(signal.at, fmt::format("signal {} has scale 0, expected another", name));
+  if (signal.scale == 0) {
+    find(Rule::scale_zero, fmt::format("signal {} has scale 0, expected another", name));
+    drop_limits();
+  }
   if (signal.minimum > signal.maximum) {
-    fail_at(signal.at, fmt::format("signal {} has minimum {} > maximum {}, expected minimum <= maximum", name,
-                                   signal.minimum, signal.maximum));
+    find(Rule::minimum_above_maximum,
+         fmt::format("signal {} has minimum {} > maximum {}, expected minimum <= maximum", name,
+                     signal.minimum, signal.maximum));
+    drop_limits();
   }
   if (!signal.is_float() && !raw_range(signal)) {
-    fail_at(signal.at,
-            fmt::format("signal {} cannot take any value in [{}|{}], expected a range that its bits, scale "
-                        "and offset reach",
-                        name, signal.minimum, signal.maximum));
+    find(Rule::unreachable_range,
+         fmt::format("signal {} cannot take any value in [{}|{}], expected a range that its bits, scale "
+                     "and offset reach",
+                     name, signal.minimum, signal.maximum));
+    drop_limits();
   }
+  return true;
 }
 
-void check_values(const Message& message, const Signal& signal) {
+void check_values(Findings& findings, const Message& message, const Signal& signal) {
   if (signal.is_float() && !signal.values.empty()) {
-    fail_at(signal.at, fmt::format("float signal {} has named values, expected an integer signal",
-                                   full_name(message, signal)));
+    findings.add(Rule::values_of_float, signal.at,
+                 fmt::format("float signal {} has named values, expected an integer signal",
+                             full_name(message, signal)));
   }
   const unsigned n = signal.length;
   for (const ValueName& value : signal.values) {
@@ -206,14 +165,15 @@ void check_values(const Message& message, const Signal& signal) {
                                         value.value < (std::int64_t{1} << (n - 1)))
                           : value.value >= 0 && (n >= 63 || value.value < (std::int64_t{1} << n));
     if (!fits) {
-      fail_at(signal.at, fmt::format("value {} \"{}\" of {} does not fit, expected one of {} {} bits",
-                                     value.value, value.name, full_name(message, signal), n,
-                                     signal.is_signed() ? "signed" : "unsigned"));
+      findings.add(
+          Rule::value_beyond_bits, signal.at,
+          fmt::format("value {} \"{}\" of {} does not fit, expected one of {} {} bits", value.value,
+                      value.name, full_name(message, signal), n, signal.is_signed() ? "signed" : "unsigned"));
     }
   }
 }
 
-/// Marks the signal's bits (byte * 8 + bit) and says which bit was outside of the message, if any.
+/// Marks the signal's bits (byte * 8 + bit) and says whether all are inside of the message.
 bool bits_of(const Message& message, const Signal& signal, std::bitset<512>& bits) {
   for (unsigned i = 0; i < signal.length; ++i) {
     const unsigned bit = wire::bit_position(signal.start_bit, i, signal.byte_order == ByteOrder::big_endian);
@@ -223,41 +183,80 @@ bool bits_of(const Message& message, const Signal& signal, std::bitset<512>& bit
   return true;
 }
 
-void check_layout(const Message& message) {
+void check_layout(Findings& findings, const Message& message, LeftOut& left_out) {
   std::vector<std::bitset<512>> bits(message.signals.size());
   for (std::size_t i = 0; i < message.signals.size(); ++i) {
     const Signal& signal = message.signals[i];
+    if (left_out[i]) continue;
     if (!bits_of(message, signal, bits[i])) {
-      fail_at(signal.at,
-              fmt::format("signal {} reaches beyond the message, expected all {} bits inside of its {} bytes",
-                          full_name(message, signal), signal.length, message.size));
+      // A start bit that no message has was found when it was read.
+      if (signal.start_bit < bits[i].size()) {
+        findings.add(
+            Rule::signal_beyond_message, signal.at,
+            fmt::format("signal {} reaches beyond the message, expected all {} bits inside of its {} bytes",
+                        full_name(message, signal), signal.length, message.size));
+      }
+      left_out[i] = true;
+      continue;
     }
     for (std::size_t j = 0; j < i; ++j) {
-      if ((bits[i] & bits[j]).any() && !mutually_exclusive(message, signal, message.signals[j])) {
-        fail_at(signal.at, fmt::format("signal {} overlaps {}, expected bits of its own",
-                                       full_name(message, signal), message.signals[j].name));
-      }
+      if (left_out[j] || !(bits[i] & bits[j]).any() ||
+          mutually_exclusive(message, signal, message.signals[j]))
+        continue;
+      findings.add(Rule::overlap, signal.at,
+                   fmt::format("signal {} overlaps {}, expected bits of its own", full_name(message, signal),
+                               message.signals[j].name));
+      break;
     }
   }
 }
 
+/// Takes the signals out of the message and of its groups.
+void leave_out(Message& message, const LeftOut& left_out) {
+  if (std::ranges::find(left_out, true) == left_out.end()) return;
+  std::vector<Signal> kept;
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
+    if (!left_out[i]) kept.push_back(std::move(message.signals[i]));
+  }
+  message.signals = std::move(kept);
+  for (SignalGroup& group : message.groups)
+    std::erase_if(group.signals,
+                  [&](const std::string& name) { return find_signal(message, name) == nullptr; });
+}
+
+/// What no frame can hold, or not this one; sections about it have been read.
+void leave_out_messages(Draft& draft) {
+  std::vector<Message> kept;
+  for (std::size_t i = 0; i < draft.left_out.size(); ++i) {
+    if (!draft.left_out[i]) kept.push_back(std::move(draft.database.messages[i]));
+  }
+  draft.database.messages = std::move(kept);
+}
+
 }  // namespace
 
+std::string full_name(const Message& message, const Signal& signal) {
+  return fmt::format("{}.{}", message.name, signal.name);
+}
+
 void finish(Draft& draft) {
-  Database& database = draft.database;
-  std::erase_if(database.messages, [](const Message& m) { return m.id == independent_signals_id; });
-  const Defaults defaults(database);
-  for (Message& message : database.messages) {
-    read_message_attributes(defaults, message);
-    check_size(message);
-    for (Signal& signal : message.signals) {
+  leave_out_messages(draft);
+  const Defaults defaults(draft.database);
+  for (Message& message : draft.database.messages) {
+    read_message_attributes(defaults, draft.findings, message);
+    check_size(draft.findings, message);
+    LeftOut left_out(message.signals.size());
+    for (std::size_t i = 0; i < message.signals.size(); ++i) {
+      Signal& signal = message.signals[i];
       read_signal_attributes(defaults, signal);
-      check_numbers(message, signal);
-      check_values(message, signal);
+      left_out[i] = !check_numbers(draft.findings, message, signal);
+      if (!left_out[i]) check_values(draft.findings, message, signal);
     }
-    resolve_multiplexors(message);
-    check_multiplexing(message);
-    check_layout(message);
+    resolve_multiplexors(draft.findings, message, left_out);
+    check_multiplexing(draft.findings, message, left_out);
+    check_layout(draft.findings, message, left_out);
+    leave_out_multiplexed(draft.findings, message, left_out);
+    leave_out(message, left_out);
   }
 }
 

@@ -3,100 +3,51 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
-#include "dbc/wire/bits.hpp"
-#include "dbc/wire/quantise.hpp"
+#include "dbc/parser/plan.hpp"
 
 namespace canhil::dbc {
 namespace {
 
-bool is_big_endian(const Signal& signal) { return signal.byte_order == ByteOrder::big_endian; }
+constexpr std::size_t largest_size = 64;
 
-/// Bit i counted from the start bit is this bit of the raw value.
-unsigned raw_index(const Signal& signal, unsigned i) {
-  return is_big_endian(signal) ? signal.length - 1 - i : i;
-}
-
-std::int64_t sign_extended(const Signal& signal, std::uint64_t raw) {
-  const unsigned unused = 64 - signal.length;
-  return static_cast<std::int64_t>(raw << unused) >> unused;
-}
+/// The bytes that a signal may lie in, with room for a window of BitPlacement.
+struct Padded {
+  explicit Padded(std::span<const std::uint8_t> data) : size(std::min(data.size(), largest_size)) {
+    std::copy_n(data.begin(), size, bytes.begin());
+  }
+  std::size_t size;
+  std::array<std::uint8_t, largest_size> bytes{};
+};
 
 }  // namespace
 
 std::uint64_t raw_bits(const Signal& signal, std::span<const std::uint8_t> data) {
-  std::uint64_t raw = 0;
-  for (unsigned i = 0; i < signal.length; ++i) {
-    const unsigned bit = wire::bit_position(signal.start_bit, i, is_big_endian(signal));
-    raw |= std::uint64_t{(data[bit / 8] >> (bit % 8)) & 1U} << raw_index(signal, i);
-  }
-  return raw;
+  const Padded padded(data);
+  return BitPlacement(signal, padded.size).raw(padded.bytes.data());
 }
 
 void put_raw_bits(const Signal& signal, std::uint64_t raw, std::span<std::uint8_t> data) {
-  for (unsigned i = 0; i < signal.length; ++i) {
-    const unsigned bit = wire::bit_position(signal.start_bit, i, is_big_endian(signal));
-    const unsigned mask = 1U << (bit % 8);
-    const bool set = ((raw >> raw_index(signal, i)) & 1U) != 0;
-    data[bit / 8] = static_cast<std::uint8_t>(set ? data[bit / 8] | mask : data[bit / 8] & ~mask);
-  }
+  Padded padded(data);
+  BitPlacement(signal, padded.size).put(raw, padded.bytes.data());
+  std::copy_n(padded.bytes.begin(), padded.size, data.begin());
 }
 
-double to_physical(const Signal& signal, std::uint64_t raw) {
-  double number = 0;
-  switch (signal.type) {
-    case RawType::unsigned_integer:
-      number = static_cast<double>(raw);
-      break;
-    case RawType::signed_integer:
-      number = static_cast<double>(sign_extended(signal, raw));
-      break;
-    case RawType::float32:
-      number = static_cast<double>(wire::real<float>(raw));
-      break;
-    case RawType::float64:
-      number = wire::real<double>(raw);
-      break;
-  }
-  // Plain values are not computed with: a signalling NaN keeps its bits.
-  return signal.scale == 1 && signal.offset == 0 ? number
-                                                 : wire::physical(number, signal.scale, signal.offset);
-}
+double to_physical(const Signal& signal, std::uint64_t raw) { return Conversion(signal).physical(raw); }
 
 std::uint64_t to_raw(const Signal& signal, double value) {
-  const double scale = signal.scale;
-  const double offset = signal.offset;
-  if (signal.is_float()) {
-    const auto [low, high] = real_range(signal);
-    return signal.type == RawType::float32 ? wire::float_bits<float>(value, scale, offset, low, high)
-                                           : wire::float_bits<double>(value, scale, offset, low, high);
-  }
-  const RawRange range = raw_range(signal).value_or(RawRange{});
-  if (signal.is_signed()) {
-    return wire::quantised(value, scale, offset, wire::bound(range.lowest), wire::bound(range.highest)) &
-           wire::mask(signal.length);
-  }
-  const double low = wire::bound(static_cast<std::uint64_t>(range.lowest));
-  const double high = wire::bound(static_cast<std::uint64_t>(range.highest));
-  return signal.length == 64 ? wire::quantised_wide(value, scale, offset, low, high)
-                             : wire::quantised(value, scale, offset, low, high);
+  return quantised(Conversion(signal), RawLimits(signal), value);
 }
 
 std::string_view value_name(const Signal& signal, std::uint64_t raw) {
-  const auto value = signal.is_signed() ? sign_extended(signal, raw) : static_cast<std::int64_t>(raw);
+  const std::int64_t value = Conversion(signal).sign_extended(raw);
   const auto found = std::ranges::find(signal.values, value, &ValueName::value);
   return found == signal.values.end() ? std::string_view{} : found->name;
 }
 
 bool is_present(const Message& message, const Signal& signal, std::span<const std::uint8_t> data) {
-  for (const Signal* s = &signal; !s->multiplexed_by.empty();) {
-    const Signal* multiplexor = find_signal(message, s->multiplexed_by);
-    const std::uint64_t raw = raw_bits(*multiplexor, data);
-    if (std::ranges::none_of(s->mux_ranges, [raw](MuxRange r) { return raw >= r.first && raw <= r.last; }))
-      return false;
-    s = multiplexor;
-  }
-  return true;
+  return MessagePlan(message).is_present(static_cast<std::size_t>(&signal - message.signals.data()), data);
 }
 
 Result<std::vector<DecodedSignal>> decode(const Message& message, std::span<const std::uint8_t> data) {
@@ -104,49 +55,28 @@ Result<std::vector<DecodedSignal>> decode(const Message& message, std::span<cons
     return failure(fmt::format("frame of message {} has {} bytes, expected {}", message.name, data.size(),
                                message.size));
   }
+  const MessagePlan plan(message);
+  std::vector<double> values(plan.signals());
   std::vector<DecodedSignal> decoded;
-  for (const Signal& signal : message.signals) {
-    if (is_present(message, signal, data))
-      decoded.push_back({&signal, to_physical(signal, raw_bits(signal, data))});
+  static_cast<void>(plan.decode(data, values));  // as long as they should be
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (plan.is_present(i, data)) decoded.push_back({&message.signals[i], values[i]});
   }
   return decoded;
 }
 
 Result<std::vector<std::uint8_t>> encode(const Message& message, std::span<const NamedValue> values) {
+  std::vector<double> by_number(message.signals.size());
   for (const NamedValue& value : values) {
-    if (find_signal(message, value.signal) == nullptr) {
+    const Signal* signal = find_signal(message, value.signal);
+    if (signal == nullptr) {
       return failure(
           fmt::format("message {} has no signal '{}', expected one of its DBC", message.name, value.signal));
     }
+    by_number[static_cast<std::size_t>(signal - message.signals.data())] = value.value;
   }
   std::vector<std::uint8_t> data(message.size);
-  const auto put = [&](const Signal& signal) {
-    const auto given = std::ranges::find(values, signal.name, &NamedValue::signal);
-    put_raw_bits(signal, to_raw(signal, given == values.end() ? 0 : given->value), data);
-  };
-  // A multiplexor decides what follows, so those at the top come first, then those below them.
-  std::vector<const Signal*> waiting;
-  for (const Signal& signal : message.signals) {
-    if (signal.multiplexed_by.empty()) {
-      put(signal);
-    } else {
-      waiting.push_back(&signal);
-    }
-  }
-  const auto is_waiting = [&](const std::string& name) {
-    return std::ranges::any_of(waiting, [&](const Signal* s) { return s->name == name; });
-  };
-  while (!waiting.empty()) {
-    std::vector<const Signal*> later;
-    for (const Signal* signal : waiting) {
-      if (is_waiting(signal->multiplexed_by)) {
-        later.push_back(signal);
-      } else if (is_present(message, *signal, data)) {
-        put(*signal);
-      }
-    }
-    waiting = std::move(later);
-  }
+  static_cast<void>(MessagePlan(message).encode(by_number, data));  // as long as they should be
   return data;
 }
 

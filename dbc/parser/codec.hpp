@@ -1,5 +1,5 @@
-// The codec for a DBC known only at run time. Bit for bit what generated code does: the arithmetic is
-// dbc/wire/quantise.hpp.
+// The codec for a DBC known only at run time, by names and a value at a time: a thin layer over plan.hpp,
+// which is what to use for more than a few frames.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace canhil::dbc {
 namespace {
@@ -9,23 +10,24 @@ namespace {
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 class Lexer {
  public:
-  explicit Lexer(std::string_view text) : text_(text) {}
+  Lexer(std::string_view text, Findings& findings) : text_(text), findings_(findings) {}
 
   Token next() {
-    while (!at_end() && is_space(peek())) take();
+    skip_space();
     Token token{TokenKind::end, {}, at_};
     if (at_end()) return token;
     const char c = peek();
     if (c == '"') {
       token.kind = TokenKind::string;
       token.text = string(token.at);
-    } else if (is_letter(c)) {
+    } else if (is_letter(c) || !is_ascii(c)) {
       token.kind = TokenKind::word;
-      while (!at_end() && (is_letter(peek()) || is_digit(peek()))) token.text += take();
+      token.text = word();
     } else if (starts_number()) {
       token.kind = TokenKind::number;
       token.text = number();
@@ -33,8 +35,9 @@ class Lexer {
       token.kind = TokenKind::mark;
       token.text = take();
     } else {
-      throw ParseFailure{token.at, "unexpected character " + printable(c) +
-                                       ", expected a keyword, a name, a number, a string or punctuation"};
+      report(Rule::unexpected_character);
+      token.kind = TokenKind::mark;
+      token.text = take();
     }
     return token;
   }
@@ -53,6 +56,32 @@ class Lexer {
       ++at_.column;
     }
     return c;
+  }
+  void report(Rule rule) {
+    findings_.add(rule, at_,
+                  "unexpected character " + printable(peek()) +
+                      ", expected a keyword, a name, a number, a string or punctuation");
+  }
+  void skip_space() {
+    while (!at_end()) {
+      if (is_space(peek())) {
+        take();
+      } else if (peek() == '/' && peek(1) == '/') {
+        report(Rule::line_comment);
+        while (!at_end() && peek() != '\n') take();
+      } else {
+        return;
+      }
+    }
+  }
+  std::string word() {
+    std::string text;
+    bool reported = false;
+    while (!at_end() && (is_letter(peek()) || is_digit(peek()) || !is_ascii(peek()))) {
+      if (!is_ascii(peek()) && !std::exchange(reported, true)) report(Rule::name_character);
+      text += take();
+    }
+    return text;
   }
   static std::string printable(char c) {
     const auto code = static_cast<unsigned char>(c);
@@ -92,12 +121,17 @@ class Lexer {
       if (c == '\\' && (peek() == '"' || peek() == '\\')) c = take();
       text += c;
     }
-    if (at_end()) throw ParseFailure{start, "string without end, expected '\"' before the end of the file"};
-    take();
+    if (at_end()) {
+      findings_.add(Rule::unfinished_string, start,
+                    "string without end, expected '\"' before the end of the file");
+    } else {
+      take();
+    }
     return text;
   }
 
   std::string_view text_;
+  Findings& findings_;
   std::size_t index_ = 0;
   Position at_;
 };
@@ -115,15 +149,6 @@ std::size_t utf8_length(std::string_view text) {
     if (!is_continuation(text[i])) return 0;
   }
   return length;
-}
-
-bool is_utf8(std::string_view text) {
-  while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
-    if (length == 0) return false;
-    text.remove_prefix(length);
-  }
-  return true;
 }
 
 void append_utf8(std::string& out, std::uint32_t code) {
@@ -147,8 +172,8 @@ constexpr std::array<std::uint16_t, 32> cp1252_high{
 
 }  // namespace
 
-std::vector<Token> tokens_of(std::string_view text) {
-  Lexer lexer(text);
+std::vector<Token> tokens_of(std::string_view text, Findings& findings) {
+  Lexer lexer(text, findings);
   std::vector<Token> tokens;
   do {
     tokens.push_back(lexer.next());
@@ -158,13 +183,24 @@ std::vector<Token> tokens_of(std::string_view text) {
 
 std::string to_utf8(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (is_utf8(text)) return std::string(text);
+  if (!first_not_utf8(text)) return std::string(text);
   std::string out;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     append_utf8(out, byte >= 0x80 && byte < 0xA0 ? cp1252_high[byte - 0x80U] : byte);
   }
   return out;
+}
+
+std::optional<Position> first_not_utf8(std::string_view text) {
+  Position at;
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return at;
+    at = text[0] == '\n' ? Position{at.line + 1, 1} : Position{at.line, at.column + 1};
+    text.remove_prefix(length);
+  }
+  return std::nullopt;
 }
 
 }  // namespace canhil::dbc

@@ -1,22 +1,26 @@
 // DBC text to tokens. Internal to the parser.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "dbc/parser/database.hpp"
+#include "dbc/parser/finding.hpp"
 
 namespace canhil::dbc {
 
-/// Leaves the parser from any depth; parse() turns it into a Result. Never seen outside.
-struct ParseFailure {
+/// Leaves a section of the text from any depth: the reader goes on with the next one. Never seen outside.
+struct SectionFailure {
   Position at;
   std::string what;
+  Rule rule = Rule::unreadable_section;
 };
 
-[[noreturn]] inline void fail_at(Position at, std::string what) { throw ParseFailure{at, std::move(what)}; }
+[[noreturn]] inline void fail_at(Rule rule, Position at, std::string what) {
+  throw SectionFailure{at, std::move(what), rule};
+}
 
 enum class TokenKind : unsigned char { word, number, string, mark, end };
 
@@ -26,10 +30,13 @@ struct Token {
   Position at;
 };
 
-/// Tokens of UTF-8 text, the last one of kind end. Throws ParseFailure.
-std::vector<Token> tokens_of(std::string_view text);
+/// Tokens of UTF-8 text, the last one of kind end. A character of no use becomes a mark of itself.
+std::vector<Token> tokens_of(std::string_view text, Findings& findings);
 
 /// The text as UTF-8: unchanged if it is, else taken for Windows-1252. A byte order mark is dropped.
 std::string to_utf8(std::string_view text);
+
+/// The first byte that belongs to no UTF-8 character, if there is one.
+std::optional<Position> first_not_utf8(std::string_view text);
 
 }  // namespace canhil::dbc

@@ -9,6 +9,9 @@
 namespace canhil::dbc {
 namespace {
 
+constexpr unsigned largest_size = 64;
+constexpr unsigned last_bit = 8 * largest_size - 1;
+
 // M: multiplexor; m3: there when it is 3; m3M: both.
 void read_mux_indicator(Reader& in, Signal& signal) {
   const std::string expected = "':' or a multiplexing indicator M, m<number> or m<number>M";
@@ -30,18 +33,20 @@ void read_mux_indicator(Reader& in, Signal& signal) {
   in.take();
 }
 
+bool names_no_node(const Reader& in) {
+  return in.peek().kind == TokenKind::end || (in.peek().kind == TokenKind::word && !in.at_name());
+}
+
 // Separated by commas, in old files by blanks on one line.
 void read_receivers(Reader& in, Draft& draft, Signal& signal) {
   Position at;
-  const auto follows = [&] {
-    return in.take_mark_if(',') ||
-           (in.peek().kind == TokenKind::word && in.peek().at.line == at.line && !is_keyword(in.peek().text));
-  };
+  const auto follows = [&] { return in.take_mark_if(',') || (in.at_name() && in.peek().at.line == at.line); };
+  if (names_no_node(in)) return in.report(Rule::missing_node, "a receiver");
   do {
     at = in.peek().at;
     std::string name = in.word("a receiver");
     if (name == nobody) continue;
-    node_of(draft, name, at);
+    check_node(draft, name, at);
     signal.receivers.push_back(std::move(name));
   } while (follows());
 }
@@ -52,9 +57,10 @@ Signal read_signal(Reader& in, Draft& draft) {
   signal.name = in.word("the name of a signal");
   if (in.peek().kind == TokenKind::word) read_mux_indicator(in, signal);
   in.mark(':');
-  signal.start_bit = static_cast<unsigned>(in.natural("a start bit", 511));
+  signal.start_bit =
+      static_cast<unsigned>(in.natural_or(Rule::signal_beyond_message, "a start bit", last_bit));
   in.mark('|');
-  signal.length = static_cast<unsigned>(in.natural("a length in bits", 512));
+  signal.length = static_cast<unsigned>(in.natural_or(Rule::signal_length, "a length in bits", 512));
   in.mark('@');
   const bool intel = in.natural("the byte order 0 (Motorola) or 1 (Intel)", 1) == 1;
   signal.byte_order = intel ? ByteOrder::little_endian : ByteOrder::big_endian;
@@ -66,13 +72,63 @@ Signal read_signal(Reader& in, Draft& draft) {
   signal.offset = in.real("an offset");
   in.mark(')');
   in.mark('[');
-  signal.minimum = in.real("a minimum");
+  signal.minimum = in.limit("a minimum");
   in.mark('|');
-  signal.maximum = in.real("a maximum");
+  signal.maximum = in.limit("a maximum");
   in.mark(']');
   signal.unit = in.string("a unit");
   read_receivers(in, draft, signal);
   return signal;
+}
+
+/// Whether a frame can have the id. The pseudo message is left out too.
+bool check_id(Draft& draft, const Message& message, std::uint32_t written_id) {
+  if (message.id == independent_signals_id) {
+    draft.findings.add(
+        Rule::independent_signals, message.at,
+        fmt::format("message {} has the id 0xC0000000: its signals are in no frame", message.name));
+    return false;
+  }
+  const bool is_flagged = (written_id & extended_flag) != 0;
+  const std::uint32_t last_id = is_flagged ? last_extended_id : last_standard_id;
+  const std::uint32_t id = written_id & ~extended_flag;
+  if (id <= last_id) return true;
+  const bool is_possible = id <= last_extended_id;
+  draft.findings.add(is_possible ? Rule::missing_extended_flag : Rule::impossible_id, message.at,
+                     fmt::format("message id {} out of range, expected at most {}{}", id,
+                                 is_possible ? last_standard_id : last_extended_id,
+                                 is_possible ? ", or bit 31 set for an extended id" : ""));
+  return is_possible;
+}
+
+void read_sender(Reader& in, Draft& draft, Message& message) {
+  if (names_no_node(in)) return in.report(Rule::missing_node, "the sender");
+  const Position at = in.peek().at;
+  message.sender = in.word("the sender");
+  if (message.sender == nobody) {
+    message.sender.clear();
+  } else {
+    check_node(draft, message.sender, at);
+  }
+}
+
+/// A signal of the message that was read last. One that cannot be read does not hide the next.
+void read_next_signal(Reader& in, Draft& draft) {
+  Signal signal;
+  try {
+    signal = read_signal(in, draft);
+  } catch (const SectionFailure& failure) {
+    draft.findings.add(Rule::unreadable_message, failure.at, failure.what);
+    while (!in.at_word("SG_") && !in.at_section() && in.peek().kind != TokenKind::end) in.take();
+    return;
+  }
+  Message& message = draft.database.messages.back();
+  if (!draft.signals.back().emplace(signal.name, message.signals.size()).second) {
+    draft.findings.add(
+        Rule::duplicate_signal, signal.at,
+        fmt::format("signal {}.{} a second time, expected a name of its own", message.name, signal.name));
+  }
+  message.signals.push_back(std::move(signal));
 }
 
 }  // namespace
@@ -80,58 +136,49 @@ Signal read_signal(Reader& in, Draft& draft) {
 void read_message(Reader& in, Draft& draft) {
   Message message;
   message.at = in.peek().at;
-  const auto raw_id = static_cast<std::uint32_t>(in.natural("a message id", UINT32_MAX));
+  const auto written_id = static_cast<std::uint32_t>(in.natural("a message id", UINT32_MAX));
+  const auto raw_id = static_cast<std::uint32_t>(text_id(written_id));
   message.extended = (raw_id & extended_flag) != 0;
   message.id = raw_id == independent_signals_id ? raw_id : raw_id & ~extended_flag;
-  const std::uint32_t last_id = message.extended ? 0x1FFF'FFFFU : 0x7FFU;
-  if (message.id > last_id && message.id != independent_signals_id) {
-    fail_at(message.at, fmt::format("message id {} out of range, expected at most {}{}", message.id, last_id,
-                                    message.extended ? "" : ", or bit 31 set for an extended id"));
-  }
   const Position name_at = in.peek().at;
   message.name = in.word("the name of the message");
-  const std::size_t index = draft.database.messages.size();
-  if (const auto [other, is_new] = draft.messages_by_id.emplace(raw_id, index); !is_new) {
-    fail_at(message.at, fmt::format("message {} has the id {} of {}, expected an id of its own", message.name,
-                                    message.id, draft.database.messages[other->second].name));
-  }
-  if (!draft.messages.emplace(message.name, index).second)
-    fail_at(name_at, fmt::format("message {} a second time, expected a name of its own", message.name));
   in.mark(':');
-  message.size = static_cast<unsigned>(in.natural("the size in bytes", 64));
-  const Position sender_at = in.peek().at;
-  message.sender = in.word("the sender");
-  if (message.sender == nobody) {
-    message.sender.clear();
-  } else {
-    node_of(draft, message.sender, sender_at);
+  message.size = static_cast<unsigned>(in.natural_or(Rule::message_size, "the size in bytes", largest_size));
+  read_sender(in, draft, message);
+  const bool is_kept = check_id(draft, message, written_id);
+  const std::size_t index = draft.database.messages.size();
+  const auto [other, is_new] = draft.messages_by_id.emplace(raw_id, index);
+  if (!is_new) {
+    draft.findings.add(Rule::duplicate_id, message.at,
+                       fmt::format("message {} has the id {} of {}, expected an id of its own", message.name,
+                                   message.id, draft.database.messages[other->second].name));
+  } else if (!draft.messages.emplace(message.name, index).second) {
+    draft.findings.add(Rule::duplicate_message, name_at,
+                       fmt::format("message {} a second time, expected a name of its own", message.name));
   }
-  Index& signals = draft.signals.emplace_back();
+  draft.left_out.push_back(!is_kept || !is_new || message.size > largest_size);
+  draft.database.messages.push_back(std::move(message));
+  draft.signals.emplace_back();
   while (in.at_word("SG_")) {
     in.take();
-    Signal signal = read_signal(in, draft);
-    if (!signals.emplace(signal.name, message.signals.size()).second) {
-      fail_at(signal.at, fmt::format("signal {}.{} a second time, expected a name of its own", message.name,
-                                     signal.name));
-    }
-    message.signals.push_back(std::move(signal));
+    read_next_signal(in, draft);
   }
-  draft.database.messages.push_back(std::move(message));
 }
 
 void read_transmitters(Reader& in, Draft& draft) {
   const Position at = in.peek().at;
   Message& message = message_of(draft, in.natural("a message id", UINT32_MAX), at);
   in.mark(':');
-  while (!in.take_mark_if(';')) {
+  while (!in.at_section_end()) {
     const Position node_at = in.peek().at;
     const std::string node = in.word("';' or a sender");
     if (node != nobody) {
-      node_of(draft, node, node_at);
+      check_node(draft, node, node_at);
       if (node != message.sender) message.further_senders.push_back(node);
     }
     in.take_mark_if(',');
   }
+  in.semicolon();
 }
 
 void read_signal_group(Reader& in, Draft& draft) {
@@ -141,12 +188,13 @@ void read_signal_group(Reader& in, Draft& draft) {
   group.name = in.word("the name of the signal group");
   group.repetitions = static_cast<int>(in.natural("the repetitions", INT32_MAX));
   in.mark(':');
-  while (!in.take_mark_if(';')) {
+  while (!in.at_section_end()) {
     const Position signal_at = in.peek().at;
     group.signals.push_back(in.word("';' or a signal"));
     signal_of(draft, message, group.signals.back(), signal_at);
     in.take_mark_if(',');
   }
+  in.semicolon();
   message.groups.push_back(std::move(group));
 }
 
@@ -157,14 +205,16 @@ void read_signal_type(Reader& in, Draft& draft) {
   Signal& signal = signal_of(draft, message, in.word("a signal"), signal_at);
   in.take_mark_if(':');
   const std::uint64_t type = in.natural("the type 0 (integer), 1 (float) or 2 (double)", 2);
-  in.mark(';');
+  in.semicolon();
   if (type == 0) return;
   const unsigned length = type == 1 ? 32 : 64;
   if (signal.length != length) {
-    fail_at(signal_at, fmt::format("signal {}.{} has {} bits, expected {} for a {}", message.name,
+    draft.findings.add(Rule::float_length, signal_at,
+                       fmt::format("signal {}.{} has {} bits, expected {} for a {}", message.name,
                                    signal.name, signal.length, length, type == 1 ? "float" : "double"));
   }
-  signal.type = type == 1 ? RawType::float32 : RawType::float64;
+  if (signal.length == 32) signal.type = RawType::float32;
+  if (signal.length == 64) signal.type = RawType::float64;
 }
 
 void read_extended_mux(Reader& in, Draft& draft) {
@@ -174,22 +224,25 @@ void read_extended_mux(Reader& in, Draft& draft) {
   const Position signal_at = in.peek().at;
   Signal& signal = signal_of(draft, message, in.word("a multiplexed signal"), signal_at);
   const Position mux_at = in.peek().at;
-  const Signal& multiplexor = signal_of(draft, message, in.word("its multiplexor"), mux_at);
-  if (!draft.mux_extended.emplace(fmt::format("{} {}", id, signal.name), signal_at).second) {
-    fail_at(signal_at, fmt::format("multiplexing of {}.{} a second time, expected SG_MUL_VAL_ once",
-                                   message.name, signal.name));
+  Signal& multiplexor = signal_of(draft, message, in.word("its multiplexor"), mux_at);
+  if (!draft.mux_extended.emplace(fmt::format("{} {}", text_id(id), signal.name), signal_at).second) {
+    fail_at(Rule::duplicate_multiplexing, signal_at,
+            fmt::format("multiplexing of {}.{} a second time, expected SG_MUL_VAL_ once", message.name,
+                        signal.name));
   }
   if (signal.mux_ranges.empty()) {
-    fail_at(signal_at,
-            fmt::format("signal {}.{} is not multiplexed, expected the indicator m<number> in its SG_",
-                        message.name, signal.name));
+    draft.findings.add(
+        Rule::indicator_missing, signal_at,
+        fmt::format("signal {}.{} is not multiplexed, expected the indicator m<number> in its SG_",
+                    message.name, signal.name));
   }
   if (!multiplexor.multiplexor) {
-    fail_at(mux_at, fmt::format("signal {}.{} is no multiplexor, expected the indicator M in its SG_",
-                                message.name, multiplexor.name));
+    draft.findings.add(Rule::indicator_missing, mux_at,
+                       fmt::format("signal {}.{} is no multiplexor, expected the indicator M in its SG_",
+                                   message.name, multiplexor.name));
+    multiplexor.multiplexor = true;
   }
-  signal.multiplexed_by = multiplexor.name;
-  signal.mux_ranges.clear();
+  std::vector<MuxRange> ranges;
   do {
     const Position range_at = in.peek().at;
     MuxRange range;
@@ -202,11 +255,15 @@ void read_extended_mux(Reader& in, Draft& draft) {
       range.last = in.natural("the last value", UINT64_MAX);
     }
     if (range.first > range.last) {
-      fail_at(range_at, fmt::format("range {}-{} is empty, expected first <= last", range.first, range.last));
+      draft.findings.add(
+          Rule::empty_range, range_at,
+          fmt::format("range {}-{} is empty, expected first <= last", range.first, range.last));
     }
-    signal.mux_ranges.push_back(range);
+    ranges.push_back(range);
   } while (in.take_mark_if(','));
-  in.mark(';');
+  in.semicolon();
+  signal.multiplexed_by = multiplexor.name;
+  signal.mux_ranges = std::move(ranges);
 }
 
 }  // namespace canhil::dbc

@@ -33,15 +33,17 @@ void read_bit_timing(Reader& in, Draft& /*draft*/) {
 void read_nodes(Reader& in, Draft& draft) {
   in.mark(':');
   auto& nodes = draft.database.nodes;
-  while (in.peek().kind == TokenKind::word && !is_keyword(in.peek().text)) {
-    const Token& name = in.take();
-    if (draft.nodes.contains(name.text)) {
-      throw ParseFailure{name.at,
-                         fmt::format("node '{}' a second time, expected every node once", name.text)};
+  while (in.at_name()) {
+    const Position at = in.peek().at;
+    const std::string name = in.word("a node");
+    if (draft.nodes.contains(name)) {
+      draft.findings.add(Rule::duplicate_node, at,
+                         fmt::format("node '{}' a second time, expected every node once", name));
+      continue;
     }
-    if (name.text == nobody) continue;
-    draft.nodes.emplace(name.text, nodes.size());
-    nodes.push_back({name.text, {}, {}});
+    if (name == nobody) continue;
+    draft.nodes.emplace(name, nodes.size());
+    nodes.push_back({name, {}, {}});
   }
 }
 
@@ -73,44 +75,107 @@ constexpr std::array<Section, 20> sections{{
     {"BA_REL_", read_relation_attribute},
 }};
 
-Database parse_or_throw(std::string_view text) {
-  Reader in(tokens_of(to_utf8(text)));
-  Draft draft;
-  while (in.peek().kind != TokenKind::end) {
-    const auto section = std::ranges::find(sections, in.peek().text, &Section::keyword);
-    if (in.peek().kind != TokenKind::word || section == sections.end())
-      in.fail("a section such as BO_, CM_ or BA_");
-    in.take();
-    section->read(in, draft);
-  }
-  finish(draft);
-  draft.database.hash = hash(text);
-  return std::move(draft.database);
+/// Leaves the rest of a section out, of which one token at least has been taken.
+void skip_section(Reader& in) {
+  while (!in.at_section_end()) in.take();
+  in.take_mark_if(';');
 }
 
-// Quoted text may hold line ends; a message may not.
-std::string on_one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-  return text;
+/// The section that begins with the next token. False if none begins there.
+bool read_section(Reader& in, Draft& draft) {
+  const Token first = in.peek();
+  const auto section = std::ranges::find(sections, first.text, &Section::keyword);
+  if (first.kind != TokenKind::word || section == sections.end()) {
+    const bool is_signal = first.kind == TokenKind::word && first.text == "SG_";
+    in.report(is_signal ? Rule::unreadable_message : Rule::unknown_section,
+              "a section such as BO_, CM_ or BA_");
+    in.take();
+    skip_section(in);
+    return is_signal;
+  }
+  in.take();
+  try {
+    section->read(in, draft);
+  } catch (const SectionFailure& failure) {
+    const bool in_message = section->read == read_message && failure.rule == Rule::unreadable_section;
+    draft.findings.add(in_message ? Rule::unreadable_message : failure.rule, failure.at, failure.what);
+    skip_section(in);
+  }
+  return true;
+}
+
+/// False: there is text, and no section of a DBC in it.
+bool read_sections(Reader& in, Draft& draft) {
+  bool any = in.peek().kind == TokenKind::end;
+  while (in.peek().kind != TokenKind::end) any = read_section(in, draft) || any;
+  return any;
+}
+
+Severity severity_of(const Finding& finding) { return text_of(finding.rule).severity; }
+
+std::string line_of(const Finding& finding, std::string_view file_name) {
+  return fmt::format("{}:{}:{}: {}", file_name, finding.at.line, finding.at.column, finding.what);
+}
+
+/// The database unless a finding is as severe as this.
+Result<Database> database_unless(Inspection inspection, Severity refused, std::string_view file_name) {
+  const auto worst = std::ranges::find_if(
+      inspection.findings, [refused](const Finding& finding) { return severity_of(finding) >= refused; });
+  if (worst != inspection.findings.end()) return failure(line_of(*worst, file_name));
+  return std::move(*inspection.database);
+}
+
+Result<Database> read_file_unless(const std::string& path, Severity refused) {
+  auto inspection = inspect_file(path);
+  if (!inspection) return tl::unexpected(inspection.error());
+  return database_unless(std::move(*inspection), refused, path);
 }
 
 }  // namespace
 
-Result<Database> parse(std::string_view text, std::string_view file_name) {
+Inspection inspect(std::string_view text) {
+  Findings findings;
+  Draft draft(findings);
   try {
-    return parse_or_throw(text);
-  } catch (const ParseFailure& error) {
-    return failure(
-        fmt::format("{}:{}:{}: {}", file_name, error.at.line, error.at.column, on_one_line(error.what)));
+    if (const auto at = first_not_utf8(text))
+      findings.add(Rule::windows_1252, *at, "the text is not UTF-8, expected UTF-8");
+    Reader in(tokens_of(to_utf8(text), findings), findings);
+    if (!read_sections(in, draft))  // what else is odd about the text says nothing
+      return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
+    finish(draft);
+  } catch (const Findings::Abandoned&) {  // its error is the last finding
   }
+  Inspection inspection{std::nullopt, findings.take()};
+  if (std::ranges::count(inspection.findings, Severity::error, severity_of) == 0) {
+    draft.database.hash = hash(text);
+    inspection.database = std::move(draft.database);
+  }
+  return inspection;
 }
 
-Result<Database> read_file(const std::string& path) {
+Result<Inspection> inspect_file(const std::string& path) {
   // A token takes up to some twenty times the memory of its text.
   const auto text = read_text_file(path, "a DBC file", 16 * mebibyte);
   if (!text) return tl::unexpected(text.error());
-  return parse(*text, path);
+  return inspect(*text);
+}
+
+Result<Database> parse(std::string_view text, std::string_view file_name) {
+  return database_unless(inspect(text), Severity::warning, file_name);
+}
+
+Result<Database> usable(Inspection inspection, std::string_view file_name) {
+  return database_unless(std::move(inspection), Severity::error, file_name);
+}
+
+Result<Database> parse_leniently(std::string_view text, std::string_view file_name) {
+  return usable(inspect(text), file_name);
+}
+
+Result<Database> read_file(const std::string& path) { return read_file_unless(path, Severity::warning); }
+
+Result<Database> read_file_leniently(const std::string& path) {
+  return read_file_unless(path, Severity::error);
 }
 
 std::uint64_t hash(std::string_view text) {

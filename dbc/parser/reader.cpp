@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <limits>
 
 namespace canhil::dbc {
 namespace {
@@ -18,6 +20,14 @@ std::string shown(const Token& token) {
     default:
       return fmt::format("'{}'", token.text);
   }
+}
+
+std::string unexpected(const Token& token, std::string_view expected) {
+  return fmt::format("unexpected {}, expected {}", shown(token), expected);
+}
+
+std::string undeclared(std::string_view node) {
+  return fmt::format("no node '{}', expected one listed in BU_", node);
 }
 
 template <class Number>
@@ -47,7 +57,26 @@ constexpr std::array<std::string_view, 27> keywords{"VERSION",      "NS_",
 bool is_keyword(std::string_view word) { return std::ranges::find(keywords, word) != keywords.end(); }
 
 void Reader::fail(const std::string& expected) const {
-  throw ParseFailure{peek().at, fmt::format("unexpected {}, expected {}", shown(peek()), expected)};
+  throw SectionFailure{peek().at, unexpected(peek(), expected)};
+}
+
+void Reader::report(Rule rule, const std::string& expected) {
+  findings_.add(rule, peek().at, unexpected(peek(), expected));
+}
+
+bool Reader::at_section() const {
+  const Token& token = peek();
+  return token.kind == TokenKind::word && is_keyword(token.text) && token.text != "SG_" &&
+         (index_ == 0 || tokens_[index_ - 1].at.line != token.at.line);
+}
+
+// "2017_5" is read as the number 2017 and the word _5.
+bool Reader::at_name_with_digit() const {
+  const Token& digits = peek();
+  const Token& rest = peek(1);
+  return digits.kind == TokenKind::number && rest.kind == TokenKind::word &&
+         digits.text.find_first_not_of("0123456789") == std::string::npos && rest.at.line == digits.at.line &&
+         rest.at.column == digits.at.column + static_cast<int>(digits.text.size());
 }
 
 bool Reader::take_mark_if(char mark) {
@@ -60,8 +89,19 @@ void Reader::mark(char mark) {
   if (!take_mark_if(mark)) fail(fmt::format("'{}'", mark));
 }
 
+void Reader::semicolon() {
+  if (take_mark_if(';')) return;
+  if (!at_section_end()) fail("';'");
+  report(Rule::missing_semicolon, "';'");
+}
+
 std::string Reader::word(std::string_view what) {
-  if (peek().kind != TokenKind::word || is_keyword(peek().text)) fail(std::string(what));
+  if (at_name_with_digit()) {
+    report(Rule::name_begins_with_digit, std::string(what));
+    const std::string digits = take().text;
+    return digits + take().text;
+  }
+  if (!at_name()) fail(std::string(what));
   return take().text;
 }
 
@@ -94,6 +134,41 @@ std::uint64_t Reader::natural(std::string_view what, std::uint64_t maximum) {
   return value;
 }
 
+std::uint64_t Reader::natural_or(Rule rule, std::string_view what, std::uint64_t maximum) {
+  std::uint64_t value = 0;
+  const bool larger = peek().kind == TokenKind::number && read_all(peek().text, value) && value > maximum;
+  if (!larger) return natural(what, maximum);
+  report(rule, fmt::format("{}, an integer in 0..{}", what, maximum));
+  take();
+  return maximum + 1;
+}
+
+std::int64_t Reader::whole(std::string_view what) {
+  std::int64_t value = 0;
+  double number = 0;
+  if (peek().kind != TokenKind::number || read_all(peek().text, value) || !read_all(peek().text, number))
+    return integer(what);
+  report(Rule::not_whole, fmt::format("{}, an integer", what));
+  take();
+  constexpr double end = 9223372036854775808.0;
+  if (number >= end) return INT64_MAX;
+  return number <= -end ? INT64_MIN : std::llround(number);
+}
+
+double Reader::limit(std::string_view what) {
+  double number = 0;
+  std::string_view text = peek().text;
+  if (text.starts_with('+')) text.remove_prefix(1);
+  if (peek().kind != TokenKind::number ||
+      std::from_chars(text.data(), text.data() + text.size(), number).ec != std::errc::result_out_of_range)
+    return real(what);
+  report(Rule::number_too_large, std::string(what));
+  take();
+  const bool vanishing = text.find("e-") != text.npos || text.find("E-") != text.npos;
+  const double largest = vanishing ? 0 : std::numeric_limits<double>::max();
+  return text.starts_with('-') ? -largest : largest;
+}
+
 std::uint64_t Reader::natural_after_minus(std::string_view what) {
   std::uint64_t value = 0;
   const std::string_view text = peek().text;
@@ -104,10 +179,10 @@ std::uint64_t Reader::natural_after_minus(std::string_view what) {
 }
 
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at) {
-  const auto found = draft.messages_by_id.find(raw_id);
+  const auto found = draft.messages_by_id.find(text_id(raw_id));
   if (found == draft.messages_by_id.end()) {
-    throw ParseFailure{at,
-                       fmt::format("no message has the id {}, expected one defined by BO_ above", raw_id)};
+    fail_at(Rule::unknown_message, at,
+            fmt::format("no message has the id {}, expected one defined by BO_ above", raw_id));
   }
   return draft.database.messages[found->second];
 }
@@ -116,8 +191,8 @@ Signal& signal_of(Draft& draft, Message& message, std::string_view name, Positio
   const Index& signals = draft.signals[static_cast<std::size_t>(&message - draft.database.messages.data())];
   const auto found = signals.find(name);
   if (found == signals.end()) {
-    throw ParseFailure{
-        at, fmt::format("message {} has no signal '{}', expected one of its SG_", message.name, name)};
+    fail_at(Rule::unknown_signal, at,
+            fmt::format("message {} has no signal '{}', expected one of its SG_", message.name, name));
   }
   return message.signals[found->second];
 }
@@ -125,16 +200,20 @@ Signal& signal_of(Draft& draft, Message& message, std::string_view name, Positio
 Node& node_of(Draft& draft, std::string_view name, Position at) {
   const auto found = draft.nodes.find(name);
   if (found == draft.nodes.end()) {
-    throw ParseFailure{at, fmt::format("no node '{}', expected one listed in BU_", name)};
+    fail_at(Rule::undeclared_node, at, undeclared(name));
   }
   return draft.database.nodes[found->second];
+}
+
+void check_node(Draft& draft, const std::string& name, Position at) {
+  if (!draft.nodes.contains(name)) draft.findings.add_once(Rule::undeclared_node, at, name, undeclared(name));
 }
 
 EnvironmentVariable& variable_of(Draft& draft, std::string_view name, Position at) {
   const auto found = draft.variables.find(name);
   if (found == draft.variables.end()) {
-    throw ParseFailure{at,
-                       fmt::format("no environment variable '{}', expected one defined by EV_ above", name)};
+    fail_at(Rule::unknown_variable, at,
+            fmt::format("no environment variable '{}', expected one defined by EV_ above", name));
   }
   return draft.database.variables[found->second];
 }

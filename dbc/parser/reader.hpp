@@ -13,53 +13,79 @@
 
 namespace canhil::dbc {
 
+bool is_keyword(std::string_view word);
+
 class Reader {
  public:
-  explicit Reader(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
+  Reader(std::vector<Token> tokens, Findings& findings) : tokens_(std::move(tokens)), findings_(findings) {}
 
   [[nodiscard]] const Token& peek(std::size_t ahead = 0) const {
     return tokens_[std::min(index_ + ahead, tokens_.size() - 1)];
   }
   const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
+  /// The token to come is the first on its line, and a word that a section may begin with.
+  [[nodiscard]] bool at_section() const;
+  /// At ';', or where there can be none any more.
+  [[nodiscard]] bool at_section_end() const {
+    return at_mark(';') || at_section() || peek().kind == TokenKind::end;
+  }
   [[nodiscard]] bool at_mark(char mark) const {
     return peek().kind == TokenKind::mark && peek().text[0] == mark;
   }
   [[nodiscard]] bool at_word(std::string_view word) const {
     return peek().kind == TokenKind::word && peek().text == word;
   }
+  /// At what word() takes.
+  [[nodiscard]] bool at_name() const {
+    return at_name_with_digit() || (peek().kind == TokenKind::word && !is_keyword(peek().text));
+  }
   bool take_mark_if(char mark);
 
   void mark(char mark);
+  void semicolon();                         ///< the end of a section
   std::string word(std::string_view what);  ///< any name that is no keyword
   std::string string(std::string_view what);
   double real(std::string_view what);
   std::int64_t integer(std::string_view what);
   std::uint64_t natural(std::string_view what, std::uint64_t maximum);
+  /// The same, but what is larger is a finding, and maximum + 1.
+  std::uint64_t natural_or(Rule rule, std::string_view what, std::uint64_t maximum);
+  /// An integer; another number is a finding, and rounded.
+  std::int64_t whole(std::string_view what);
+  /// A real number; one too large for a double is a finding, and the largest double.
+  double limit(std::string_view what);
   /// A natural number with a '-' in front of it: the end of a range.
   std::uint64_t natural_after_minus(std::string_view what);
 
   /// At the token to come.
   [[noreturn]] void fail(const std::string& expected) const;
+  /// The same without leaving the section.
+  void report(Rule rule, const std::string& expected);
 
  private:
+  [[nodiscard]] bool at_name_with_digit() const;
+
   std::vector<Token> tokens_;
+  Findings& findings_;
   std::size_t index_ = 0;
 };
 
 /// The DBC's word for no node.
 inline constexpr std::string_view nobody = "Vector__XXX";
 
-bool is_keyword(std::string_view word);
-
 /// Where the object of each name stands in its list: a list may have tens of thousands.
 using Index = std::map<std::string, std::size_t, std::less<>>;
 
-/// A Database in the making: a pseudo message may be among the messages until finish() drops it.
+/// A Database in the making. What is left out stays until finish() drops it, as sections may be about it.
 struct Draft {
+  explicit Draft(Findings& all) : findings(all) {}
+
+  Findings& findings;
   Database database;
   Index nodes, messages, variables, tables;
-  std::map<std::uint64_t, std::size_t> messages_by_id;  ///< as in the text, with the flag of extended ids
+  std::map<std::uint64_t, std::size_t> messages_by_id;  ///< by text_id()
   std::vector<Index> signals;                           ///< of each message
+  std::vector<bool> left_out;                           ///< of each message
   Index definitions, relation_definitions;
   std::map<std::string, Position, std::less<>> mux_extended;  ///< "id signal" given by SG_MUL_VAL_
 };
@@ -67,10 +93,20 @@ struct Draft {
 /// Identifier of the pseudo message VECTOR__INDEPENDENT_SIG_MSG, whose signals are in no frame.
 inline constexpr std::uint32_t independent_signals_id = 0xC000'0000;
 inline constexpr std::uint32_t extended_flag = 0x8000'0000;
+inline constexpr std::uint32_t last_standard_id = 0x7FF;
+inline constexpr std::uint32_t last_extended_id = 0x1FFF'FFFF;
 
+/// An id as the text should have it: with the flag where only an extended id is so large.
+constexpr std::uint64_t text_id(std::uint64_t id) {
+  return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
+}
+
+/// These leave the section where there is no such thing.
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
 Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at);
 Node& node_of(Draft& draft, std::string_view name, Position at);
+/// A finding where BU_ does not list the node.
+void check_node(Draft& draft, const std::string& name, Position at);
 EnvironmentVariable& variable_of(Draft& draft, std::string_view name, Position at);
 
 /// One section each; the keyword has been taken.

@@ -1,16 +1,39 @@
-// Any text: the parser ends, with a Database or with one line that says where.
+// Any text: both readers end, with a Database that the codec can work with, or with one line that says where.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <vector>
 
 #include "dbc/parser/parse.hpp"
+#include "dbc/parser/plan.hpp"
+
+namespace {
+
+using namespace canhil::dbc;
+
+void expect_one_line(const canhil::Error& error) {
+  if (!error.message.starts_with("fuzz.dbc:") || error.message.find('\n') != std::string::npos) std::abort();
+}
+
+/// The sanitizers see whether it stays inside of the data.
+void expect_usable(const Database& database) {
+  for (const Message& message : database.messages) {
+    const MessagePlan plan(message);
+    std::vector<std::uint8_t> data(plan.size(), 0xFF);
+    std::vector<double> values(plan.signals());
+    if (!plan.decode(data, values) || !plan.encode(values, data)) std::abort();
+  }
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const auto database = canhil::dbc::parse(text, "fuzz.dbc");
-  if (!database) {
-    const std::string& message = database.error().message;
-    if (!message.starts_with("fuzz.dbc:") || message.find('\n') != std::string::npos) std::abort();
-  }
+  const auto strict = parse(text, "fuzz.dbc");
+  const auto lenient = parse_leniently(text, "fuzz.dbc");
+  if (!strict) expect_one_line(strict.error());
+  if (!lenient) expect_one_line(lenient.error());
+  if (strict && !lenient) std::abort();
+  if (lenient) expect_usable(*lenient);
   return 0;
 }

@@ -3,6 +3,7 @@
 
 #include "dbc/parser/codec.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/parser/plan.hpp"
 #include "dbc/wire/message.hpp"
 #include "messages/canhil.hpp"
 #include "perf_messages/four_signals.hpp"
@@ -81,15 +82,50 @@ void check_and_unpack_a_frame(benchmark::State& state) {
 }
 BENCHMARK(check_and_unpack_a_frame);
 
-void decode_at_run_time(benchmark::State& state) {
+dbc::Message at_run_time(std::string_view name) {
   const auto database = dbc::read_file(SOURCE_DIR "/tests/perf/codec/four_signals.dbc");
+  return *dbc::find_message(database.value(), name);
+}
+
+// By names, with a plan of its own for each frame.
+void decode_by_name(benchmark::State& state) {
+  const dbc::Message message = at_run_time("FourSignals");
   const std::array<std::uint8_t, 8> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};
   for ([[maybe_unused]] auto _ : state) {
-    auto signals = dbc::decode(database->messages[0], bytes);
+    auto signals = dbc::decode(message, bytes);
     benchmark::DoNotOptimize(signals);
   }
 }
-BENCHMARK(decode_at_run_time);
+BENCHMARK(decode_by_name);
+
+void decode_by_plan(benchmark::State& state, std::string_view name) {
+  const dbc::MessagePlan plan(at_run_time(name));
+  std::array<std::uint8_t, 8> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};
+  std::array<double, 4> values{};
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(bytes);
+    auto done = plan.decode(bytes, values);
+    benchmark::DoNotOptimize(done);
+    benchmark::DoNotOptimize(values);
+  }
+}
+BENCHMARK_CAPTURE(decode_by_plan, FourSignals, "FourSignals");
+BENCHMARK_CAPTURE(decode_by_plan, FourSignalsBig, "FourSignalsBig");
+
+void encode_by_plan(benchmark::State& state, std::string_view name) {
+  const dbc::MessagePlan plan(at_run_time(name));
+  std::array<std::uint8_t, 8> bytes{0x12, 0x34, 0x56, 0x78, 0x9A, 0x1C, 0x2E, 0x30};
+  std::array<double, 4> values{};
+  auto done = plan.decode(bytes, values);
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(values);
+    done = plan.encode(values, bytes);
+    benchmark::DoNotOptimize(done);
+    benchmark::DoNotOptimize(bytes);
+  }
+}
+BENCHMARK_CAPTURE(encode_by_plan, FourSignals, "FourSignals");
+BENCHMARK_CAPTURE(encode_by_plan, FourSignalsBig, "FourSignalsBig");
 
 }  // namespace
 }  // namespace canhil

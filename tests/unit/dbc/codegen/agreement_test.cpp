@@ -8,6 +8,7 @@
 
 #include "dbc/parser/codec.hpp"
 #include "dbc/parser/parse.hpp"
+#include "dbc/parser/plan.hpp"
 #include "messages/canhil.hpp"
 #include "test_messages/fd.hpp"
 #include "test_messages/floats.hpp"
@@ -162,12 +163,15 @@ void expect_same_pack(const dbc::Message& definition, const Packed& packed) {
   EXPECT_TRUE(std::ranges::equal(packed.bytes, *encoded)) << definition.name;
 }
 
-void expect_same_unpack(const dbc::Message& definition, Bytes bytes, const std::vector<NamedValue>& values) {
+void expect_same_unpack(const dbc::Message& definition, const MessagePlan& plan, Bytes bytes,
+                        const std::vector<NamedValue>& values) {
+  std::vector<double> planned(plan.signals());
+  ASSERT_TRUE(plan.decode(bytes, planned));
   for (const auto& [name, value] : values) {
     const Signal* signal = find_signal(definition, name);
     ASSERT_NE(signal, nullptr);
-    const bool present = is_present(definition, *signal, bytes);
-    const double expected = present ? to_physical(*signal, raw_bits(*signal, bytes)) : 0.0;
+    const auto number = static_cast<std::size_t>(signal - definition.signals.data());
+    const double expected = plan.is_present(number, bytes) ? planned[number] : 0.0;
     EXPECT_EQ(bits_of(value), bits_of(expected)) << definition.name << "." << name;
   }
 }
@@ -176,11 +180,12 @@ void expect_agreement(const Database& database, const Codec& codec) {
   const dbc::Message* definition = find_message(database, codec.info.id, codec.info.extended);
   ASSERT_NE(definition, nullptr);
   EXPECT_EQ(definition->name, codec.info.name);
+  const MessagePlan plan(*definition);
   std::mt19937_64 random(codec.info.id);
   for (int i = 0; i < 2000 && !testing::Test::HasFailure(); ++i) {
     std::vector<std::uint8_t> bytes(codec.size);
     std::ranges::generate(bytes, [&] { return static_cast<std::uint8_t>(random()); });
-    expect_same_unpack(*definition, bytes, codec.unpacked(bytes));
+    expect_same_unpack(*definition, plan, bytes, codec.unpacked(bytes));
     expect_same_pack(*definition, codec.repacked(bytes));
     expect_same_pack(*definition, codec.packed_random(random));
   }

@@ -5,6 +5,13 @@
 namespace canhil::dbc {
 namespace {
 
+std::vector<Token> tokens_of(std::string_view text) {
+  Findings findings;
+  auto tokens = dbc::tokens_of(text, findings);
+  EXPECT_TRUE(findings.all().empty());
+  return tokens;
+}
+
 TEST(Lexer, ASignIsOfTheNumberOnlyBeforeADigit) {
   const auto tokens = tokens_of("@1- (-2.5E-3,+.5)");
   const std::vector<std::string> expected{"@", "1", "-", "(", "-2.5E-3", ",", "+.5", ")", ""};

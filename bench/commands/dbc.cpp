@@ -1,0 +1,123 @@
+// hil-bench dbc: what can be asked of a DBC file, also of somebody else's.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/subcommands.hpp"
+#include "bench/report/file.hpp"
+#include "dbc/codegen/json.hpp"
+#include "dbc/lint/lint.hpp"
+#include "dbc/parser/parse.hpp"
+#include "dbc/show/show.hpp"
+
+namespace canhil::commands {
+namespace {
+
+// As typed.
+struct LintArguments {
+  std::vector<std::string> files;
+  std::string sarif;
+  bool json = false;
+  bool strict = false;
+};
+
+struct ShowArguments {
+  std::string file;
+  std::string message;
+  bool json = false;
+};
+
+ExitCode printed(const std::string& text) {
+  const auto shown = report::write_stdout(text);
+  return shown ? ExitCode::pass : complain(shown.error());
+}
+
+ExitCode write_findings(const LintArguments& arguments, const std::vector<dbc::Linted>& files) {
+  if (!arguments.sarif.empty()) {
+    const auto written = report::write(arguments.sarif, dbc::to_sarif(files));
+    if (!written) return complain(written.error());
+    if (arguments.sarif == report::to_stdout) return ExitCode::pass;
+  }
+  return printed(arguments.json ? dbc::to_json(files) : dbc::to_text(files));
+}
+
+ExitCode lint(const LintArguments& arguments) {
+  if (arguments.json && arguments.sarif == report::to_stdout)
+    return complain({"--json, --sarif -: both to standard output, expected one of them"});
+  std::vector<std::string> names = arguments.files;
+  names.push_back(arguments.sarif);
+  if (const auto distinct = report::check_distinct(names); !distinct) return complain(distinct.error());
+  std::vector<dbc::Linted> files;
+  for (const std::string& file : arguments.files) {
+    auto linted = dbc::lint(file);
+    if (!linted) return complain(linted.error());
+    files.push_back(std::move(*linted));
+  }
+  if (const ExitCode code = write_findings(arguments, files); code != ExitCode::pass) return code;
+  const auto is_refused = [&](const dbc::Linted& linted) {
+    return !linted.loads || (arguments.strict && count(linted, dbc::Severity::warning) > 0);
+  };
+  return std::ranges::any_of(files, is_refused) ? ExitCode::fail : ExitCode::pass;
+}
+
+// What of the file is not shown must not go unnoticed.
+void say_warnings(const dbc::Inspection& inspection, const std::string& file) {
+  const auto warnings =
+      std::ranges::count(inspection.findings, dbc::Severity::warning,
+                         [](const auto& finding) { return dbc::text_of(finding.rule).severity; });
+  if (warnings == 0) return;
+  const std::string line = fmt::format("{}: {} warning{}, which 'hil-bench dbc lint' lists", file, warnings,
+                                       warnings == 1 ? "" : "s");
+  fmt::print(stderr, "hil-bench: {}\n", command_line::one_line(line));
+}
+
+ExitCode show(const ShowArguments& arguments) {
+  auto inspection = dbc::inspect_file(arguments.file);
+  if (!inspection) return complain(inspection.error());
+  const auto database = dbc::usable(*inspection, arguments.file);
+  if (!database) return complain(database.error());
+  say_warnings(*inspection, arguments.file);
+  if (arguments.message.empty())
+    return printed(arguments.json ? dbc::to_json(*database) + "\n" : dbc::message_table(*database));
+  const auto message = dbc::named_message(*database, arguments.message);
+  if (!message) return complain({fmt::format("{}: {}", arguments.file, message.error().message)});
+  return printed(arguments.json ? dbc::to_json(**message) + "\n" : dbc::message_page(**message));
+}
+
+void add_lint(command_line::Command command, int& code) {
+  auto arguments = std::make_shared<LintArguments>();
+  const auto own = command.add_subcommand("lint", "what is odd about DBC files, and what follows from it");
+  own.add_option("FILE", arguments->files, "DBC files").required();
+  own.add_flag("--json", arguments->json, "JSON instead of a line for each finding");
+  own.add_option("--sarif", arguments->sarif,
+                 "also as SARIF 2.1.0, to a file; -: to stdout, in place of the text");
+  own.add_flag("--strict", arguments->strict, "exit code 1 with warnings too");
+  own.on_given([&code, arguments] { code = static_cast<int>(lint(*arguments)); });
+}
+
+void add_show(command_line::Command command, int& code) {
+  auto arguments = std::make_shared<ShowArguments>();
+  const auto own = command.add_subcommand("show", "the messages of a DBC, or the layout of one of them");
+  own.add_option("FILE", arguments->file, "the DBC").required();
+  own.add_option("MESSAGE", arguments->message, "its name or id (291, 0x123)");
+  own.add_flag("--json", arguments->json, "JSON instead of text");
+  own.on_given([&code, arguments] { code = static_cast<int>(show(*arguments)); });
+}
+
+}  // namespace
+
+void add_dbc(command_line::Command app, int& code) {
+  const auto command = app.add_subcommand("dbc", "what a DBC file says, and what is odd about it");
+  command.require_subcommands(1, 1);
+  add_lint(command, code);
+  add_show(command, code);
+  command.add_subcommand("rules", "what lint finds, as a table in Markdown").on_given([&code] {
+    code = static_cast<int>(printed(dbc::rule_table()));
+  });
+}
+
+}  // namespace canhil::commands

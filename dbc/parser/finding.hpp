@@ -1,0 +1,122 @@
+// What is odd about a DBC text: each oddity is a finding of a rule. The table of the rules says what follows
+// from it; docs/dbc.md shows the table.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dbc/parser/database.hpp"
+
+namespace canhil::dbc {
+
+/// note: nothing is lost, and the strict reader takes it too. warning: the strict reader refuses the file,
+/// the lenient one takes it as the rule's consequence says. error: neither takes the file.
+enum class Severity : std::uint8_t { note, warning, error };
+
+enum class Rule : std::uint8_t {
+  not_a_dbc,
+  unfinished_string,
+  unreadable_message,
+  too_many_findings,
+  windows_1252,
+  independent_signals,
+  unreadable_section,
+  unknown_section,
+  missing_semicolon,
+  line_comment,
+  unexpected_character,
+  name_character,
+  name_begins_with_digit,
+  number_too_large,
+  not_whole,
+  undeclared_node,
+  missing_node,
+  duplicate_node,
+  missing_extended_flag,
+  impossible_id,
+  duplicate_id,
+  duplicate_message,
+  message_size,
+  fd_format_missing,
+  fd_size,
+  frame_format,
+  cycle_time,
+  data_id,
+  duplicate_signal,
+  signal_beyond_message,
+  signal_length,
+  overlap,
+  scale_zero,
+  minimum_above_maximum,
+  unreachable_range,
+  float_length,
+  multiplexor_type,
+  multiplexor_missing,
+  second_multiplexor,
+  multiplexor_value,
+  multiplexing_circle,
+  multiplexor_left_out,
+  indicator_missing,
+  empty_range,
+  duplicate_multiplexing,
+  unknown_message,
+  unknown_signal,
+  unknown_variable,
+  duplicate_variable,
+  duplicate_table,
+  duplicate_value,
+  duplicate_values,
+  value_beyond_bits,
+  values_of_float,
+  undefined_attribute,
+  duplicate_definition,
+  attribute_owner,
+  attribute_limits,
+  attribute_range,
+  attribute_label,
+  duplicate_default,
+  duplicate_attribute,
+};
+
+struct RuleText {
+  Rule rule;
+  std::string_view id;  ///< for programs and for people: "undeclared-node"
+  Severity severity;
+  std::string_view finding;      ///< what is odd, for any file
+  std::string_view consequence;  ///< what the lenient reader does then
+};
+
+/// All rules, in the order of the enumeration.
+std::span<const RuleText> rule_texts();
+const RuleText& text_of(Rule rule);
+std::string_view name_of(Severity severity);
+
+struct Finding {
+  Rule rule;
+  Position at;
+  std::string what;  ///< one line: what, and what was expected
+};
+
+/// Where the readers of a text put what they find. After 10,000 findings it throws Abandoned.
+class Findings {
+ public:
+  struct Abandoned {};
+
+  void add(Rule rule, Position at, std::string what);
+  /// The same once for each name: a node that is not declared may be named a thousand times.
+  void add_once(Rule rule, Position at, const std::string& name, std::string what);
+
+  [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
+  [[nodiscard]] std::vector<Finding> take() { return std::move(all_); }
+
+ private:
+  std::vector<Finding> all_;
+  std::set<std::pair<Rule, std::string>> named_;
+};
+
+}  // namespace canhil::dbc

@@ -1,0 +1,111 @@
+// A message compiled for the codec at run time: where the bits of each signal lie, how they become a number,
+// and when a frame holds it. Made once when a DBC is read; using it allocates nothing. Bit for bit what
+// generated code does: the arithmetic is dbc/wire/quantise.hpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dbc/parser/database.hpp"
+
+namespace canhil::dbc {
+
+/// Where a signal lies in the data, as a window of eight bytes, shifted and masked. A signal of 58 bits or
+/// more may reach into a ninth byte.
+struct BitPlacement {
+  std::uint64_t mask = 0;
+  std::uint8_t first_byte = 0;  ///< of the window
+  std::uint8_t shift = 0;       ///< of the signal in the window, from its least significant bit
+  std::uint8_t ninth_bits = 0;  ///< of the signal in the byte after the window
+  bool big_endian = false;
+
+  BitPlacement() = default;
+  /// For data of at least `size` bytes, of which all bits of the signal are a part.
+  BitPlacement(const Signal& signal, std::size_t size);
+
+  /// The signal's bits, right-aligned. The data has eight bytes at least.
+  [[nodiscard]] std::uint64_t raw(const std::uint8_t* data) const;
+  /// Writes them; leaves other bits alone.
+  void put(std::uint64_t raw, std::uint8_t* data) const;
+};
+
+/// How raw bits become a physical value: raw * scale + offset.
+struct Conversion {
+  enum class Kind : std::uint8_t { integer, wide_unsigned, float32, float64 };
+
+  double scale = 1;
+  double offset = 0;
+  std::uint64_t mask = 0;
+  std::uint64_t sign_bit = 0;  ///< of a signed integer
+  Kind kind = Kind::integer;
+  bool is_plain = true;  ///< scale 1, offset 0
+
+  Conversion() = default;
+  explicit Conversion(const Signal& signal);
+
+  [[nodiscard]] std::int64_t sign_extended(std::uint64_t raw) const {
+    return static_cast<std::int64_t>((raw ^ sign_bit) - sign_bit);
+  }
+  /// In the signal's unit.
+  [[nodiscard]] double physical(std::uint64_t raw) const;
+};
+
+/// What the raw number may be, before it is rounded.
+struct RawLimits {
+  double lowest = 0;
+  double highest = 0;
+
+  RawLimits() = default;
+  explicit RawLimits(const Signal& signal);
+};
+
+/// Raw bits, right-aligned, of a physical value: rounded half to even, saturated to the limits; NaN becomes
+/// the minimum.
+std::uint64_t quantised(const Conversion& conversion, const RawLimits& limits, double value);
+
+class MessagePlan {
+ public:
+  /// Of a message as the parser gives it.
+  explicit MessagePlan(const Message& message);
+
+  /// Bytes of the message.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// How many signals the message has; they are numbered as in Message::signals.
+  [[nodiscard]] std::size_t signals() const { return steps_.size(); }
+
+  /// The physical value of every signal that the frame holds, NaN for the others. False, and nothing is
+  /// written, if the data is shorter than the message or there is not a value for each signal.
+  [[nodiscard]] bool decode(std::span<const std::uint8_t> data, std::span<double> values) const;
+
+  /// The message's bytes for physical values. Bits of no signal are 0, and signals that the multiplexors'
+  /// values leave out are not written; where signals overlap, the later one counts. Bytes beyond the message
+  /// stay. False, and nothing is written, as for decode().
+  [[nodiscard]] bool encode(std::span<const double> values, std::span<std::uint8_t> data) const;
+
+  /// Whether the frame holds a signal: every multiplexor above it has one of the values that it asks for. The
+  /// data is as long as the message.
+  [[nodiscard]] bool is_present(std::size_t signal, std::span<const std::uint8_t> data) const;
+
+ private:
+  static constexpr std::uint32_t always = UINT32_MAX;
+
+  struct Step {
+    BitPlacement bits;
+    Conversion conversion;
+    std::uint32_t multiplexor = always;  ///< its number
+    std::uint32_t first_range = 0, end_range = 0;
+  };
+
+  [[nodiscard]] std::size_t multiplexors_above(std::uint32_t signal) const;
+  [[nodiscard]] bool holds(const Step& step, const std::uint8_t* data) const;
+
+  std::size_t size_ = 0;
+  std::vector<Step> steps_;
+  std::vector<RawLimits> limits_;
+  std::vector<MuxRange> ranges_;      ///< of all signals
+  std::vector<std::uint32_t> order_;  ///< of encoding: multiplexors before what they decide
+};
+
+}  // namespace canhil::dbc

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dbc/command_line/command_line.hpp"
+#include "dbc/show/show.hpp"
+#include "dbc/show/table.hpp"
+#include "dbc/wire/bits.hpp"
+
+namespace canhil::dbc {
+namespace {
+
+/// A, B, ... Z, AA, AB, ...: short, as a cell of the matrix has little room.
+std::string label(std::size_t number) {
+  std::string text;
+  for (std::size_t rest = number + 1; rest > 0; rest = (rest - 1) / 26)
+    text.insert(text.begin(), static_cast<char>('A' + (rest - 1) % 26));
+  return text;
+}
+
+/// "A7": bit 7 of the raw value of signal A; "A7+": and bits of other signals.
+std::string matrix(const Message& message) {
+  std::vector<std::string> cells(std::size_t{8} * message.size, ".");
+  for (std::size_t s = 0; s < message.signals.size(); ++s) {
+    const Signal& signal = message.signals[s];
+    const bool big_endian = signal.byte_order == ByteOrder::big_endian;
+    for (unsigned i = 0; i < signal.length; ++i) {
+      std::string& cell = cells[wire::bit_position(signal.start_bit, i, big_endian)];
+      if (cell == ".") {
+        cell = label(s) + std::to_string(big_endian ? signal.length - 1 - i : i);
+      } else if (!cell.ends_with('+')) {
+        cell += '+';
+      }
+    }
+  }
+  std::vector<Row> rows{{"byte", "bit 7", "6", "5", "4", "3", "2", "1", "0"}};
+  for (std::size_t byte = 0; byte < message.size; ++byte) {
+    Row row{std::to_string(byte)};
+    for (std::size_t bit = 8; bit-- > 0;) row.push_back(cells[8 * byte + bit]);
+    rows.push_back(std::move(row));
+  }
+  return aligned(rows);
+}
+
+std::string_view type_text(RawType type) {
+  switch (type) {
+    case RawType::unsigned_integer:
+      return "unsigned";
+    case RawType::signed_integer:
+      return "signed";
+    case RawType::float32:
+      return "float";
+    case RawType::float64:
+      break;
+  }
+  return "double";
+}
+
+std::string when_text(const Signal& signal) {
+  if (signal.multiplexed_by.empty()) return signal.multiplexor ? "always, multiplexor" : "always";
+  std::string text;
+  for (const MuxRange& range : signal.mux_ranges) {
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", range.first);
+    if (range.last != range.first) text += fmt::format("..{}", range.last);
+  }
+  return fmt::format("{} is {}{}", signal.multiplexed_by, text, signal.multiplexor ? ", multiplexor" : "");
+}
+
+std::string values_text(const Signal& signal) {
+  std::string text;
+  for (const ValueName& value : signal.values)
+    text += fmt::format("{}{}={}", text.empty() ? "" : ", ", value.value, value.name);
+  return text.empty() ? "-" : text;
+}
+
+Row signal_row(std::size_t number, const Signal& signal) {
+  const bool limited = signal.minimum != 0 || signal.maximum != 0;
+  return {label(number),
+          signal.name,
+          std::to_string(signal.start_bit),
+          std::to_string(signal.length),
+          signal.byte_order == ByteOrder::big_endian ? "Motorola" : "Intel",
+          std::string(type_text(signal.type)),
+          fmt::format("{}", signal.scale),
+          fmt::format("{}", signal.offset),
+          limited ? fmt::format("{}..{}", signal.minimum, signal.maximum) : "-",
+          signal.unit.empty() ? "-" : signal.unit,
+          when_text(signal),
+          values_text(signal)};
+}
+
+std::string head(const Message& message) {
+  std::string text =
+      fmt::format("{} {}, {} bytes{}, cycle {}, sender {}\n", id_text(message), message.name, message.size,
+                  message.fd ? " (FD)" : "", cycle_text(message), sender_text(message));
+  std::string comment = message.comment;
+  std::ranges::replace(comment, '\n', ' ');
+  return comment.empty() ? text : text + command_line::one_line(comment) + "\n";
+}
+
+}  // namespace
+
+std::string message_page(const Message& message) {
+  std::vector<Row> rows{{"", "signal", "start", "length", "order", "type", "scale", "offset", "range", "unit",
+                         "there when", "values"}};
+  for (std::size_t i = 0; i < message.signals.size(); ++i) rows.push_back(signal_row(i, message.signals[i]));
+  const std::string bits = matrix(message);
+  const bool is_shared = bits.find('+') != std::string::npos;
+  return head(message) + "\n" + bits + "A7: bit 7 of the raw value of signal A" +
+         (is_shared ? "; +: and bits of other signals\n\n" : "\n\n") + aligned(rows);
+}
+
+}  // namespace canhil::dbc

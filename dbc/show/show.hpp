@@ -1,0 +1,22 @@
+// What a DBC file says, as text for people.
+#pragma once
+
+#include <string>
+
+#include "dbc/parser/database.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::dbc {
+
+/// A line for each message: id, name, size, cycle time, sender, names of its signals.
+std::string message_table(const Database& database);
+
+/// One message: its bits as a matrix of bytes and bits, and a line for each signal.
+std::string message_page(const Message& message);
+
+/// The message of this name, or of this id: decimal, or hexadecimal after 0x. Of a standard and an extended
+/// one with the same id: the standard one, or with eight hexadecimal digits the extended one. Error: one
+/// line.
+Result<const Message*> named_message(const Database& database, const std::string& name);
+
+}  // namespace canhil::dbc
