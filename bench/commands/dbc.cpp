@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/subcommands.hpp"
+#include "bench/mapping/check.hpp"
 #include "bench/report/file.hpp"
 #include "dbc/codegen/json.hpp"
 #include "dbc/lint/lint.hpp"
@@ -28,6 +30,11 @@ struct LintArguments {
 struct ShowArguments {
   std::string file;
   std::string message;
+  bool json = false;
+};
+
+struct CheckArguments {
+  std::string file;
   bool json = false;
 };
 
@@ -88,6 +95,46 @@ ExitCode show(const ShowArguments& arguments) {
   return printed(arguments.json ? dbc::to_json(**message) + "\n" : dbc::message_page(**message));
 }
 
+std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::Remark>& remarks) {
+  std::string text;
+  for (const mapping::Remark& one : remarks) {
+    const bool warning = one.grade == mapping::Remark::Grade::warning;
+    text += fmt::format("{}: {} {}: {} {}\n", mapping.file, warning ? "warning" : "note", one.rule,
+                        one.subject, one.what);
+  }
+  text += fmt::format(
+      "{}: {} messages played, {} heard, {} quantities told; bus load", mapping.file,
+      std::ranges::count_if(mapping.messages, [](const MessageInfo& m) { return m.sender == "Bench"; }),
+      mapping.hears.size(), mapping.told.size());
+  std::string_view separator = "";
+  for (const std::int64_t kbitps : {125, 250, 500, 1000}) {
+    const double load = mapping::load_of(mapping, {.nominal = kbitps * 1000, .data = 4000 * kbitps});
+    text += fmt::format("{} {:.1f} % at {} kbit/s", separator, load * 100, kbitps);
+    separator = ",";
+  }
+  return text + "\n";
+}
+
+ExitCode check(const CheckArguments& arguments) {
+  const auto mapping = mapping::read_mapping(arguments.file);
+  if (!mapping) return complain(mapping.error());
+  const auto remarks = mapping::remarks_on(**mapping);
+  const bool warned = std::ranges::any_of(
+      remarks, [](const mapping::Remark& one) { return one.grade == mapping::Remark::Grade::warning; });
+  std::string text = text_of(**mapping, remarks);
+  if (arguments.json) {
+    auto all = nlohmann::ordered_json::array();
+    for (const mapping::Remark& one : remarks)
+      all.push_back({{"severity", one.grade == mapping::Remark::Grade::warning ? "warning" : "note"},
+                     {"rule", one.rule},
+                     {"subject", one.subject},
+                     {"what", one.what}});
+    text = all.dump(1) + "\n";
+  }
+  if (const ExitCode code = printed(text); code != ExitCode::pass) return code;
+  return warned ? ExitCode::fail : ExitCode::pass;
+}
+
 void add_lint(command_line::Command command, int& code) {
   auto arguments = std::make_shared<LintArguments>();
   const auto own = command.add_subcommand("lint", "what is odd about DBC files, and what follows from it");
@@ -97,6 +144,15 @@ void add_lint(command_line::Command command, int& code) {
                  "also as SARIF 2.1.0, to a file; -: to stdout, in place of the text");
   own.add_flag("--strict", arguments->strict, "exit code 1 with warnings too");
   own.on_given([&code, arguments] { code = static_cast<int>(lint(*arguments)); });
+}
+
+void add_check(command_line::Command command, int& code) {
+  auto arguments = std::make_shared<CheckArguments>();
+  const auto own =
+      command.add_subcommand("check", "what a mapping leaves out, and what its signals cannot carry");
+  own.add_option("MAPPING", arguments->file, "mapping (TOML), which names its DBC").required();
+  own.add_flag("--json", arguments->json, "JSON instead of a line for each remark");
+  own.on_given([&code, arguments] { code = static_cast<int>(check(*arguments)); });
 }
 
 void add_show(command_line::Command command, int& code) {
@@ -115,6 +171,7 @@ void add_dbc(command_line::Command app, int& code) {
   command.require_subcommands(1, 1);
   add_lint(command, code);
   add_show(command, code);
+  add_check(command, code);
   command.add_subcommand("rules", "what lint finds, as a table in Markdown").on_given([&code] {
     code = static_cast<int>(printed(dbc::rule_table()));
   });

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bench/drive/flight.hpp"
 #include "bench/drive/link.hpp"
@@ -50,6 +51,8 @@ class Dialect {
                                  const std::function<std::optional<std::string>()>& gone) = 0;
   /// The run is over.
   virtual void stop(Link& link, nodes::Transmission& out) = 0;
+  /// What is to be known of the run beside its observations, a line each.
+  [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
   /// In real time a target that says nothing for so long is gone.
   [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
 };

@@ -200,6 +200,7 @@ class Session {
     seen.bus.late_in_queue = link_.late_in_queue();
     seen.bus.foreign = port_->counters().foreign;
     seen.bus.notes = *notes_;
+    for (std::string& note : dialect_->notes()) seen.bus.notes.push_back(std::move(note));
     if (link_.flood()) seen.bus.notes.push_back(words(*link_.flood()));
     seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
   }

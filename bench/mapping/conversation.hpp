@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "bench/mapping/mapping.hpp"
@@ -29,7 +31,8 @@ struct Conversation {
   }
 
   const Mapping& mapping;
-  std::vector<std::deque<Sent>> sent;  ///< by play, the newest last
+  std::vector<std::deque<Sent>> sent;            ///< by play, the newest last
+  std::map<std::string, std::uint64_t> clipped;  ///< by MESSAGE.SIGNAL: how often it could not hold its value
 };
 
 /// What a frame of the target answers, by what it repeats, or by being the latest; null: nothing that is

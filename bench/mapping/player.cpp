@@ -138,8 +138,10 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
     std::vector<double> values(one.of.plan.signals(), 0.0);
     for (const Source& source : one.sources) {
       const bool constant = source.stimulus == nullptr && !source.time;
-      values[one.of.number(*source.signal)] =
-          constant ? source.value : value_of(place, source, played.valid_us) * source.factor;
+      double& value = values[one.of.number(*source.signal)];
+      value = constant ? source.value : value_of(place, source, played.valid_us) * source.factor;
+      if (!dbc::holds(*source.signal, value))
+        ++conversation_.clipped[message.name + "." + source.signal->name];
     }
     Frame frame{.id = message.id,
                 .size = static_cast<std::uint8_t>(message.size),

@@ -97,6 +97,21 @@ std::optional<RawRange> raw_range(const Signal& signal) {
   return RawRange{to_bits(lowest, is_signed), to_bits(highest, is_signed)};
 }
 
+bool holds(const Signal& signal, double value) {
+  const double raw = (value - signal.offset) / signal.scale;
+  if (signal.is_float()) {
+    const RealRange range = real_range(signal);
+    return raw >= range.lowest && raw <= range.highest;
+  }
+  const auto range = raw_range(signal);
+  if (!range) return false;
+  const auto number = [&](std::int64_t bits) {
+    return signal.is_signed() ? static_cast<double>(bits)
+                              : static_cast<double>(static_cast<std::uint64_t>(bits));
+  };
+  return raw >= number(range->lowest) - 1 && raw <= number(range->highest) + 1;
+}
+
 RealRange real_range(const Signal& signal) {
   const bool narrow = signal.type == RawType::float32;
   const double largest = narrow ? std::numeric_limits<float>::max() : std::numeric_limits<double>::max();

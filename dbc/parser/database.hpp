@@ -193,6 +193,9 @@ struct RawRange {
 };
 std::optional<RawRange> raw_range(const Signal& signal);
 
+/// Whether a signal can carry a physical value: within a step of what its bits and its limits allow.
+bool holds(const Signal& signal, double value);
+
 /// The same for a float signal: finite, and inside [minimum, maximum].
 struct RealRange {
   double lowest = 0;

@@ -207,6 +207,23 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
                  "'false' ended with 1, expected 0");
 }
 
+TEST_F(Altered, WhatAMappingLeavesOutIsListed) {
+  const Ended fine = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", folder));
+  EXPECT_EQ(fine.code, 0) << fine.err;
+  EXPECT_THAT(fine.out, HasSubstr("note unheard: ECU_Status.STS_State tells the bench nothing"));
+  EXPECT_THAT(fine.out, HasSubstr("3 messages played, 2 heard, 2 quantities told; bus load"));
+  static_cast<void>(
+      run_with("own_ecu.mapping.toml", "\"IMU_TX1.TX1_AccY\" = \"-imu.specific_force.y\"", "#"));
+  const Ended ended = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", scratch("altered")));
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.out, HasSubstr("warning unmapped: IMU_TX1.TX1_AccY nothing is put into it"));
+  static_cast<void>(run_with("own_ecu.mapping.toml", "[play.signals]", "every_ms = 20\n[play.signals]"));
+  const Ended slow = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml --json", scratch("altered")));
+  EXPECT_EQ(slow.code, 1);
+  EXPECT_EQ(json_of(slow.out)[6]["rule"], "cycle-time") << slow.out;
+  expect_one_line(hil_bench("dbc check " + own_ecu), "own_ecu.toml");
+}
+
 TEST_F(Altered, VirtualTimeNeedsAnswersThatSayWhatTheyAnswer) {
   expect_refused("own_ecu.mapping.toml", "echo = {", "#", "virtual time would not know when to go on");
 }

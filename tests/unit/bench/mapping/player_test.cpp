@@ -21,7 +21,7 @@ BO_ 100 Rates: 8 IMU
  SG_ RateZ : 0|32@1- (1,0) [0|0] "rad/s" ECU
  SG_ Count : 32|8@1+ (1,0) [0|0] "" ECU
  SG_ Time : 40|16@1+ (1,0) [0|0] "ms" ECU
- SG_ Mode : 56|8@1+ (1,0) [0|0] "" ECU
+ SG_ Mode : 56|8@1+ (1,0) [0|100] "" ECU
 BO_ 2147484000 Turned: 8 IMU
  SG_ AngleZ : 7|32@0- (1,0) [0|0] "deg" ECU
 BO_ 101 Answer: 8 ECU
@@ -135,6 +135,17 @@ TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
     EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>(k));
   }
   EXPECT_NEAR(flown.value(1, "RateZ"), -2 * std::numbers::pi / 10, 1e-3);
+}
+
+TEST(Player, SaysWhatASignalCouldNotHold) {
+  std::string mapping = mapping_text;
+  const auto at = mapping.find("Rates.Mode\" = 7");
+  const auto scenario = read("", mapping.replace(at, 16, "Rates.Mode\" = 200"));
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const Flown flown(*scenario);
+  ASSERT_EQ(flown.conversation.clipped.size(), 1U);
+  EXPECT_EQ(flown.conversation.clipped.at("Rates.Mode"), 49U);
+  EXPECT_EQ(flown.value(1, "Mode"), 100) << "its limit in the DBC";
 }
 
 TEST(Player, ALostSampleUsesItsCounterUp) {

@@ -1,0 +1,153 @@
+#include "bench/mapping/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bench/observe/values.hpp"
+#include "dbc/parser/database.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+using Grade = Remark::Grade;
+
+constexpr double most_of_sensor_noise = 0.25;  // that rounding may add, as in the project's own contract
+
+class Remarks {
+ public:
+  explicit Remarks(const Mapping& mapping) : mapping_(mapping) {}
+
+  std::vector<Remark> all() {
+    for (const Play& play : mapping_.plays) on(play);
+    for (const Hear& hear : mapping_.hears) on(hear);
+    on_messages_that_nobody_hears();
+    return std::move(remarks_);
+  }
+
+ private:
+  void add(Grade grade, std::string_view rule, std::string subject, std::string what) {
+    remarks_.push_back(
+        {.grade = grade, .rule = std::string(rule), .subject = std::move(subject), .what = std::move(what)});
+  }
+  static std::string name(const Mapped& of, const dbc::Signal& signal) {
+    return of.message->name + "." + signal.name;
+  }
+
+  // Whether counter, checksum or a constant of the message's protection lies in a signal.
+  static bool is_protection(const Mapped& of, const dbc::Signal& signal) {
+    if (!of.protection) return false;
+    const protection::Settings& settings = of.protection->settings();
+    const protection::Place place{.start_bit = signal.start_bit,
+                                  .length = signal.length,
+                                  .big_endian = signal.byte_order == dbc::ByteOrder::big_endian};
+    return (settings.counter && settings.counter->place == place) ||
+           (settings.checksum && settings.checksum->place == place) ||
+           std::ranges::find(settings.constants, place, &protection::Constant::place) !=
+               settings.constants.end();
+  }
+
+  void on(const Play& play) {
+    for (const PlayedMessage& one : play.messages) {
+      for (const dbc::Signal& signal : one.of.message->signals) {
+        const bool played = std::ranges::find(one.sources, &signal, &Source::signal) != one.sources.end();
+        if (!played && !is_protection(one.of, signal))
+          add(Grade::warning, "unmapped", name(one.of, signal),
+              "nothing is put into it: it is encoded from 0");
+      }
+      if (!one.of.protection)
+        add(Grade::note, "unprotected", one.of.message->name, "has neither counter nor checksum here");
+      for (const Source& source : one.sources) {
+        if (source.stimulus != nullptr) on(one.of, source, play);
+      }
+    }
+    const dbc::Message& last = *play.messages.back().of.message;
+    if (last.cycle_time_us != 0 && last.cycle_time_us != play.period_us)
+      add(Grade::warning, "cycle-time", last.name,
+          fmt::format("is played every {:g} ms, the DBC says {:g} ms",
+                      1e-3 * static_cast<double>(play.period_us),
+                      1e-3 * static_cast<double>(last.cycle_time_us)));
+  }
+
+  void on(const Mapped& of, const Source& source, const Play& play) {
+    const dbc::Signal& signal = *source.signal;
+    const SignalInfo* own = observe::signal_of(*source.stimulus->message, source.stimulus->signal);
+    // From the node's unit to the signal's; of a rate by its interval, that of the play at the least.
+    const double interval_s =
+        source.stimulus->over == Over::rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
+    const double factor = std::abs(source.factor * source.stimulus->factor) / interval_s;
+    if (signal.is_float()) return;
+    const double step = std::abs(signal.scale), sigma = own->sensor_sigma * factor;
+    if (sigma > 0 && step / std::sqrt(12.0) > most_of_sensor_noise * sigma)
+      add(Grade::warning, "coarse", name(of, signal),
+          fmt::format("its step of {:g} {} adds {:.2g} of rounding to the {:.2g} of the sensor's noise", step,
+                      signal.unit, step / std::sqrt(12.0), sigma));
+    const auto range = dbc::raw_range(signal);
+    if (!range) return;
+    const double low = static_cast<double>(range->lowest) * signal.scale + signal.offset,
+                 high = static_cast<double>(range->highest) * signal.scale + signal.offset;
+    const double least = std::min(std::abs(low), std::abs(high));
+    const double most = std::max(std::abs(own->minimum), std::abs(own->maximum)) * factor;
+    if (std::max(std::abs(low), std::abs(high)) < most || (own->minimum < 0 && low >= 0) || least < most)
+      add(Grade::note, "saturates", name(of, signal),
+          fmt::format("holds {:g} to {:g} {}; the node may send {:g} to either side", std::min(low, high),
+                      std::max(low, high), signal.unit, most));
+  }
+
+  void on(const Hear& hear) {
+    for (const dbc::Signal& signal : hear.of.message->signals) {
+      const bool told = std::ranges::find(hear.tellings, &signal, &Telling::signal) != hear.tellings.end();
+      const bool echo = hear.echo && hear.echo->repeated == &signal;
+      if (!told && !echo && !is_protection(hear.of, signal))
+        add(Grade::note, "unheard", name(hear.of, signal), "tells the bench nothing");
+    }
+    if (!hear.of.protection)
+      add(Grade::note, "unprotected", hear.of.message->name,
+          "is taken as it comes: neither counter nor checksum");
+    if (hear.answers && !hear.echo)
+      add(Grade::note, "no-echo", hear.of.message->name,
+          "does not say what it answers: the latest before it counts, and virtual time cannot wait for it");
+    if (!hear.answers && hear.of.message->cycle_time_us == 0)
+      add(Grade::warning, "no-cycle-time", hear.of.message->name,
+          "comes by itself and has none in the DBC: its period cannot be judged");
+  }
+
+  void on_messages_that_nobody_hears() {
+    std::set<std::string> senders;
+    for (const Hear& hear : mapping_.hears) senders.insert(hear.of.message->sender);
+    for (const dbc::Message& message : mapping_.database.messages) {
+      const bool mapped =
+          std::ranges::find(mapping_.messages, message.name, &MessageInfo::name) != mapping_.messages.end();
+      if (!mapped && !message.sender.empty() && senders.contains(message.sender))
+        add(Grade::note, "unheard", message.name, "is sent by the target too, and nobody hears it");
+    }
+  }
+
+  const Mapping& mapping_;
+  std::vector<Remark> remarks_;
+};
+
+}  // namespace
+
+std::vector<Remark> remarks_on(const Mapping& mapping) { return Remarks(mapping).all(); }
+
+double load_of(const Mapping& mapping, const wire::BitRates& rates) {
+  double load = 0;
+  const auto add = [&](const Mapped& of, std::int64_t period_us) {
+    if (period_us == 0) return;
+    const dbc::Message& message = *of.message;
+    load += wire::bus_load(message.fd ? wire::worst_case_fd_length(message.size, message.extended, true)
+                                      : wire::worst_case_length(message.size, message.extended),
+                           1e-6 * static_cast<double>(period_us), rates);
+  };
+  for (const Play& play : mapping.plays) {
+    for (const PlayedMessage& one : play.messages) add(one.of, play.period_us);
+  }
+  for (const Hear& hear : mapping.hears)
+    add(hear.of, hear.answers ? mapping.plays[*hear.answers].period_us : hear.of.message->cycle_time_us);
+  return load;
+}
+
+}  // namespace canhil::mapping
