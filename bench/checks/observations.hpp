@@ -7,13 +7,14 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string_view>
 #include <typeindex>
 #include <vector>
 
 #include "bench/checks/bus.hpp"
 #include "bench/checks/host.hpp"
+#include "bench/checks/loss_counts.hpp"
+#include "bench/checks/sighting.hpp"
 #include "bench/checks/timing_record.hpp"
 #include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
@@ -51,8 +52,9 @@ struct Observations {
 
   std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group, those that are answered
   std::array<std::uint64_t, messages::all_messages.size()> answers{};  ///< by place in all_messages
-  /// Sample groups whose answers keep an interval of their own where their stimuli come faster.
-  std::set<std::string_view> of_own_interval{};
+  std::array<Sighting, messages::all_messages.size()> from_target{};   ///< by place in all_messages
+  /// The least interval [s] that groups of answers keep where their stimuli come faster.
+  std::map<std::string_view, double> own_interval_s{};
   std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
   std::int64_t last_ns = 0;             ///< and of its last one
   wire::BitRates bit_rates{};           ///< of the bus; nominal 0: not known, or it has none
@@ -60,6 +62,7 @@ struct Observations {
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
+  ExpectedCounts expected_counts{};                  ///< of them
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
   std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages
   std::uint32_t target_bad_crc = 0;

@@ -45,7 +45,7 @@ Golden golden(const fs::path& folder, const fs::path& scenario) {
 Result<void> fly(const scenario::Scenario& scenario, const Arguments& arguments, const fs::path& log) {
   drive::Options options = drive::in_lockstep_against(arguments.target);
   options.log_path = log.string();
-  if (scenario.fd.value_or(false)) options.format = BusFormat::fd;
+  options.format = drive::format_of(scenario);
   const ProgressLine line;
   const auto run = drive::run(scenario, options, interrupted, [&](std::int64_t t_us) {
     line.show([&] { return fmt::format("{} {:.0f} s", scenario.title, 1e-6 * static_cast<double>(t_us)); });

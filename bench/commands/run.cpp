@@ -218,7 +218,7 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
 
 // The contract of the bus: by the command line, by the scenario, or by both alike.
 Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario& scenario) {
-  if (arguments.dbc.empty()) return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
+  if (arguments.dbc.empty()) return drive::format_of(scenario);
   auto named = named_contract(arguments.dbc);
   if (named && scenario.fd && *scenario.fd != (*named == BusFormat::fd)) {
     return failure(fmt::format("--dbc '{}': {} has dbc = \"{}\", expected one of the two or both alike",

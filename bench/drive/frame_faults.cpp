@@ -97,6 +97,7 @@ void FrameFaults::put(Own& own, const Frame& frame) {
     case FaultKind::changed:
       left_.push_back(frame);
       set(left_.back(), *own.message, *own.signal, own.fault->value);
+      ++changed_;
       return;
   }
 }

@@ -20,6 +20,9 @@ class FrameFaults {
   /// What is left of the frames of a transmission that is due at `t_us`; valid until the next call.
   std::span<const Frame> befall(std::span<const Frame> frames, std::int64_t t_us);
 
+  /// Frames whose values are others than a node sent, right by their protection.
+  [[nodiscard]] std::uint64_t changed() const { return changed_; }
+
  private:
   // Of one message.
   struct Own {
@@ -32,6 +35,7 @@ class FrameFaults {
 
   std::vector<Own> faults_;
   std::vector<Frame> left_, before_;
+  std::uint64_t changed_ = 0;
 };
 
 }  // namespace canhil::drive

@@ -10,6 +10,7 @@
 #include "bench/drive/handshake.hpp"
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/target_process.hpp"
+#include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
 #include "bench/observe/host_watch.hpp"
@@ -37,10 +38,14 @@ observe::LoadBy load_by(const Capabilities& bus, ClockKind clock) {
   return bus.wire.rates.nominal > 0 ? observe::LoadBy::stamps : observe::LoadBy::time_base;
 }
 
-observe::Monitor monitor_of(const scenario::Scenario& scenario, const Options& options, WireFacts wire) {
-  if (!options.for_verdict) return observe::Monitor();
+std::optional<observe::Asked> asked_of(const scenario::Scenario& scenario, const Options& options,
+                                       WireFacts wire) {
+  if (!options.for_verdict) return std::nullopt;
   wire.fd = options.format == BusFormat::fd;
-  return observe::Monitor(checks::timed_windows(scenario.checks), wire);
+  return observe::Asked{.windows = checks::timed_windows(scenario.checks),
+                        .wire = wire,
+                        .takers = estimators::takers(scenario),
+                        .own_interval_s = estimators::own_intervals_s(scenario)};
 }
 
 // One run, stage by stage: open, configure, drive, collect.
@@ -77,7 +82,7 @@ class Session {
         link_(*port_),
         schedule_(make_schedule(scenario, truth, flight_.own_truth, options.run_index,
                                 clock_ == ClockKind::lockstep, bus_.rounding)),
-        monitor_(monitor_of(scenario, options, bus_.wire)),
+        monitor_(asked_of(scenario, options, bus_.wire)),
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_)) {
     if (!options.for_verdict) return;
@@ -94,7 +99,7 @@ class Session {
     };
     auto ready = drive::configure(link_, schedule_.outbox(), scenario_.targets, flight_.initial, gone,
                                   options_.format);
-    if (!ready) return failure(explained(ready.error().message));
+    if (!ready) return failure(explained(ready.error().message) + log_of_the_handshake());
     return ready;
   }
 
@@ -123,6 +128,10 @@ class Session {
     if (options_.for_verdict) stop(link_, schedule_.outbox(), scenario_.targets);
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = monitor_.finish();
+    // A changed value may make an estimator refuse a group that is otherwise right, or find it late.
+    const std::uint64_t refusable = schedule_.faults().changed() * scenario_.targets.size();
+    seen.expected_counts.most.bad_group += refusable;
+    seen.expected_counts.most.late += refusable;
     if (options_.for_verdict) add_watched(seen);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
@@ -164,6 +173,13 @@ class Session {
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
     return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
         .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
+  }
+
+  // What passed on the bus before a run that did not begin.
+  std::string log_of_the_handshake() {
+    if (!log_) return {};
+    const auto name = log_->close_early();
+    return name ? fmt::format("; its frames are in '{}'", *name) : "; " + name.error().message;
   }
 
   std::string why_silent() {
@@ -237,6 +253,7 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
                      .seen = {}};
   }
   options.run_index = run_index;
+  options.format = format_of(scenario);
   options.for_verdict = false;
   const auto session = Session::open(scenario, truth, std::move(*flight), options);
   if (!session) return tl::unexpected(session.error());
@@ -250,6 +267,10 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
 ClockKind clock_of(BusTime time, bool lockstep) {
   if (time == BusTime::waits) return ClockKind::simulated_wire;
   return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
+}
+
+BusFormat format_of(const scenario::Scenario& scenario) {
+  return scenario.fd.value_or(false) ? BusFormat::fd : BusFormat::classic;
 }
 
 Options in_lockstep_against(std::string program) {

@@ -42,6 +42,9 @@ struct Options {
   bool for_verdict = true;  ///< false: only what the target says is observed, not times, load, bus and host
 };
 
+/// The contract of the bus that a scenario asks for.
+BusFormat format_of(const scenario::Scenario& scenario);
+
 /// Of a flight in lockstep against this program, started for it on a local bus of its own.
 Options in_lockstep_against(std::string program);
 
