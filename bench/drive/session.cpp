@@ -128,10 +128,11 @@ class Session {
     if (options_.for_verdict) stop(link_, schedule_.outbox(), scenario_.targets);
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = monitor_.finish();
-    // A changed value may make an estimator refuse a group that is otherwise right, or find it late.
-    const std::uint64_t refusable = schedule_.faults().changed() * scenario_.targets.size();
-    seen.expected_counts.most.bad_group += refusable;
-    seen.expected_counts.most.late += refusable;
+    // A changed value may make an estimator refuse a group that is otherwise right, a changed time find it
+    // late.
+    const FrameFaults::Changed& changed = schedule_.faults().changed();
+    seen.expected_counts.most.bad_group += changed.all * scenario_.targets.size();
+    seen.expected_counts.most.late += changed.times * scenario_.targets.size();
     if (options_.for_verdict) add_watched(seen);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),

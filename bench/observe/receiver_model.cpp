@@ -17,7 +17,7 @@ constexpr Routes bench_messages([](const MessageInfo& info) {
   return info.sender != TargetHeartbeat::info.sender;
 });
 
-// A group that comes later than this after its validity, or is valid so much later, need not be used.
+// A group that comes later than this after its validity, or so long before it, need not be used.
 constexpr std::int64_t promised_us = 200'000;
 constexpr std::size_t syncs_of_a_period =
     static_cast<std::size_t>(TargetHeartbeat::info.cycle_time_us / Sync::info.cycle_time_us);
@@ -78,31 +78,32 @@ void ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_u
     case e2e::Check::ok:
       break;
   }
-  if (places_[index].group != nullptr) group(frame, places_[index], valid_us, now_us);
+  if (places_[index].group != nullptr) put(frame, places_[index], valid_us, now_us);
 }
 
-void ReceiverModel::group(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us,
-                          std::int64_t now_us) {
+void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us,
+                        std::int64_t now_us) {
   Group& group = *place.group;
   const std::uint8_t counter = e2e::counter(frame.payload());
   if (group.seen != 0 && counter != group.counter) {
     counts_.bad_group += group.takers;
     group.seen = 0;
   }
-  if (group.seen == 0) group.doubtful = false;
+  if (group.seen == 0) group.invalid = false;
   group.counter = counter;
   group.seen |= place.bit;
-  group.doubtful = group.doubtful || (bits_of(frame) & place.validity_bits) != place.validity_bits;
+  group.invalid = group.invalid || (bits_of(frame) & place.validity_bits) != place.validity_bits;
   if (valid_us) group.valid_us = valid_us;
   if (group.seen != group.all) return;
   group.seen = 0;
+  bool early = false, late = false;
   if (group.valid_us) {
-    const bool in_order = !group.last_valid_us || *group.valid_us > *group.last_valid_us;
-    group.doubtful = group.doubtful || !in_order || *group.valid_us < now_us - promised_us ||
-                     *group.valid_us > now_us + promised_us;
+    early = *group.valid_us > now_us + promised_us;
+    late = *group.valid_us < now_us - promised_us || *group.valid_us <= group.last_valid_us;
     group.last_valid_us = group.valid_us;
   }
-  if (group.doubtful) doubtful_ += group.takers;
+  if (early || group.invalid) refusable_ += group.takers;
+  if (late) may_be_late_ += group.takers;
 }
 
 void ReceiverModel::synchronised(bool lockstep) {
@@ -114,8 +115,8 @@ void ReceiverModel::synchronised(bool lockstep) {
 checks::ExpectedCounts ReceiverModel::expected() const {
   checks::ExpectedCounts expected{.least = {}, .most = counts_};
   if (!at_sync_.empty()) expected.least = lockstep_ ? at_sync_.back() : at_sync_.front();
-  expected.most.bad_group += doubtful_;
-  expected.most.late += doubtful_;
+  expected.most.bad_group += refusable_;
+  expected.most.late += may_be_late_;
   return expected;
 }
 

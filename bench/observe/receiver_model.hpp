@@ -41,7 +41,7 @@ class ReceiverModel {
     std::uint64_t takers = 0;
     unsigned all = 0, seen = 0;  // a bit a message
     std::uint8_t counter = 0;
-    bool doubtful = false;  // a flag in it says invalid
+    bool invalid = false;  // a flag in it says so
     std::optional<std::int64_t> valid_us{}, last_valid_us{};
   };
   struct Place {
@@ -50,13 +50,14 @@ class ReceiverModel {
     std::uint64_t validity_bits = 0;  // of the payload: all 1 where the sensor vouches for the sample
   };
 
-  void group(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us, std::int64_t now_us);
+  void put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us, std::int64_t now_us);
 
   std::map<std::string_view, Group> groups_;
   std::array<Place, messages::all_messages.size()> places_{};
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   checks::LossCounts counts_;
-  std::uint64_t doubtful_ = 0;              // whole groups that an estimator may refuse, or count as late
+  // Whole groups that an estimator may refuse, and such as it may count as late.
+  std::uint64_t refusable_ = 0, may_be_late_ = 0;
   std::deque<checks::LossCounts> at_sync_;  // the last ones, the newest last
   bool lockstep_ = false;
 };
