@@ -43,7 +43,8 @@ std::string to_blame(const Observations& seen, const std::vector<std::size_t>& g
     if (sighting.right > 0) continue;
     const MessageInfo& info = messages::all_messages[index];
     const std::string faults = faults_of(sighting, info);
-    line += fmt::format("{}{} {}", line.empty() ? "" : ", ", info.name, faults.empty() ? "missing" : faults);
+    line += fmt::format("{}{}{}", line.empty() ? "" : ", ", info.name,
+                        faults.empty() ? " missing" : ": " + faults);
   }
   return line.empty() ? "its messages never have one counter" : line;
 }

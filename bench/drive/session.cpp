@@ -180,7 +180,7 @@ class Session {
   std::string log_of_the_handshake() {
     if (!log_) return {};
     const auto name = log_->close_early();
-    return name ? fmt::format("; its frames are in '{}'", *name) : "; " + name.error().message;
+    return name ? fmt::format("; the log of the handshake is '{}'", *name) : "; " + name.error().message;
   }
 
   std::string why_silent() {

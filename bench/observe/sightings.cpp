@@ -52,7 +52,7 @@ std::string Sightings::faults() const {
   for (std::size_t i = 0; i < seen_.of_target.size(); ++i) {
     const MessageInfo& message = messages::all_messages[i];
     if (const std::string what = faults_of(seen_.of_target[i], message); !what.empty())
-      parts.push_back(fmt::format("{} {}", message.name, what));
+      parts.push_back(fmt::format("{}: {}", message.name, what));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -62,7 +62,7 @@ std::string Sightings::words() const {
   if (std::string wrong = faults(); !wrong.empty()) parts.push_back(std::move(wrong));
   for (std::size_t i = 0; i < seen_.of_target.size(); ++i) {
     if (seen_.of_target[i].right > 0)
-      parts.push_back(fmt::format("{} {}", messages::all_messages[i].name, seen_.of_target[i].right));
+      parts.push_back(fmt::format("{}: {}", messages::all_messages[i].name, seen_.of_target[i].right));
   }
   if (!seen_.others.empty()) {
     std::vector<std::string> ids;

@@ -23,7 +23,7 @@ class Sightings final : public Observer {
 
   /// The frames under the id of a message, by its place in all_messages.
   [[nodiscard]] const checks::Sighting& of(std::size_t message) const { return seen_.of_target[message]; }
-  /// What was wrong with frames of the target: "TargetHeartbeat 50 with a wrong CRC"; empty: nothing.
+  /// What was wrong with frames of the target: "TargetHeartbeat: 50 with a wrong CRC"; empty: nothing.
   [[nodiscard]] std::string faults() const;
   /// The same, what else the target sent, and other ids; "no frame" where none came.
   [[nodiscard]] std::string words() const;
