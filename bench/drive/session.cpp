@@ -180,7 +180,8 @@ class Session {
   std::string log_of_the_handshake() {
     if (!log_) return {};
     const auto name = log_->close_early();
-    return name ? fmt::format("; the log of the handshake is '{}'", *name) : "; " + name.error().message;
+    if (!name) return "; " + name.error().message;
+    return name->empty() ? "" : fmt::format("; the log of the handshake is '{}'", *name);
   }
 
   std::string why_silent() {

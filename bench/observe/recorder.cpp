@@ -83,6 +83,7 @@ Result<void> Recorder::close() {
 
 // A run that does not begin takes nothing away from an earlier one.
 Result<std::string> Recorder::close_early() {
+  if (!started_ && early_.empty()) return std::string();
   std::string name = path_;
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored)) name += ".incomplete";

@@ -28,7 +28,7 @@ class Recorder final : public Observer {
   /// was written under `path`.incomplete.
   Result<void> close();
   /// Finishes the log of a run that did not begin: under `path`, or where something stands there under
-  /// `path`.incomplete. Gives its name. Error: as of close().
+  /// `path`.incomplete. Gives its name; empty: no frame passed, and there is no log. Error: as of close().
   Result<std::string> close_early();
 
  private:

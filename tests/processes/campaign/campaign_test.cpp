@@ -262,7 +262,8 @@ TEST(Target, IsToldTheContractOfItsScenario) {
   const std::string file = scratch("fd_campaign.toml");
   std::ofstream(file) << fmt::format(
       "title = \"FD\"\nruns = 2\nseed = 1\n[[variant]]\nname = \"KF\"\nscenario = \"{}\"\n", fd);
-  expect_done(hil_bench(fmt::format("campaign {} --out {} --target {}", file, folder("fd"), target)));
+  const Ended ended = hil_bench(fmt::format("campaign {} --out {} --target {}", file, folder("fd"), target));
+  EXPECT_THAT(ended.out, HasSubstr("2 of 2 runs completed")) << ended.err;
   EXPECT_THAT(read(told), HasSubstr("--dbc canhil-fd"));
 }
 

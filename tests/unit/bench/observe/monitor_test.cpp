@@ -365,7 +365,8 @@ TEST_F(Watched, CountsAnswersThatNeverCameAndThoseToNothing) {
   const auto& answers = seen().timing.answers[message_index<AlignVelocityD>()];
   EXPECT_EQ(answers.unpaired, 1U);
   EXPECT_EQ(answers.nearest_us, 5'000);
-  EXPECT_EQ(answers.wrong_counter, 2U) << "the answers say 0 of each";
+  EXPECT_EQ(answers.wrong_counter, 1U) << "the answers say 0, which is that of the first";
+  EXPECT_EQ(answers.counter_sent, 2);
   EXPECT_EQ(answers.latency.count(), 2U);
   EXPECT_EQ(answers.repeated, 0U);
 }
