@@ -55,8 +55,8 @@ ReceiverModel::ReceiverModel(const Takers& takers) {
   }(std::type_identity<AllMessages>{});
 }
 
-// As the contract has it: a frame that is damaged or has another size is as good as not sent, and is counted
-// both as damaged and, by the counter of the next one, as lost.
+// A frame that is damaged or has another size does not move the receiver's counter: it is counted as damaged
+// and, when the next one comes, as lost.
 void ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us) {
   const std::size_t index = bench_messages(frame);
   if (index == Routes::nowhere) return;

@@ -167,6 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
             "\"heartbeat\"", "\"banana\"",
             "17: key 'check[1].kind': 'banana' is unknown, expected one of: error, convergence, consistency, "
             "sigma, answers, latency, latency_growth, output_period, own_times, heartbeat, counters, "
+            "counts_match, "
             "bus_load, bus_errors, "
             "wire_response, "
             "miss_distance"},
