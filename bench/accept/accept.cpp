@@ -126,6 +126,7 @@ class Run {
     answers.clear();
     drive::Options options = drive::in_lockstep_against(options_.target);
     options.lockstep = !flight.real_time;
+    options.format = drive::format_of(flight.scenario);
     options.onlooker = &answers;
     const auto run = drive::run(flight.scenario, options, stop_, [&](std::int64_t) {});
     if (!run) return Items{item(flight.requirement, name, run.error().message, flown_to_its_end)};

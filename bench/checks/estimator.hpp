@@ -63,7 +63,7 @@ struct Estimator {
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
   std::span<const std::string_view> closing;  ///< the last message of each group of its answers
-  /// The group that keeps an interval of its own where its stimuli come faster.
+  /// The group that keeps an interval of its own where its stimuli come faster: output_interval_ms.
   std::string_view of_own_interval{};
   std::span<const scenario::CheckKind> check_kinds{};               ///< that nobody else can have
   std::span<const scenario::FormerCheckKind> former_check_kinds{};  ///< that only it had

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/checks/answer_faults.hpp"
 #include "bench/checks/finding.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/checks/kinds/of_tracks.hpp"
@@ -52,6 +53,10 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
 
 }  // namespace
 
+bool is_implied(std::string_view kind) {
+  return kind == BusErrorLimits::kind || kind == causes_kind || kind == groups_kind || kind == senders_kind;
+}
+
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity) {
   std::vector<const quantities::Track*> found;
@@ -95,15 +100,23 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
                               .measured = std::move(finding.measured),
                               .expected = std::move(finding.expected)});
   }
-  // With others on the bus in their names, neither bench nor target can be shown to have met a check.
-  if (std::string others = other_senders(evidence.seen); !others.empty()) {
-    verdict.checks.push_back({.name = std::string(senders_kind),
-                              .kind = std::string(senders_kind),
+  const auto imply = [&](std::string_view kind, Outcome outcome, std::string found,
+                         std::string_view expected) {
+    if (found.empty()) return;
+    verdict.checks.push_back({.name = std::string(kind),
+                              .kind = std::string(kind),
                               .requirement = "",
-                              .outcome = Outcome::not_measured,
-                              .measured = std::move(others),
-                              .expected = "each message from its own sender alone"});
-  }
+                              .outcome = outcome,
+                              .measured = std::move(found),
+                              .expected = std::string(expected)});
+  };
+  // With others on the bus in their names, neither bench nor target can be shown to have met a check, nor to
+  // have missed one.
+  const Outcome fault = evidence.seen.bus.intruded.empty() ? Outcome::fail : Outcome::not_measured;
+  imply(causes_kind, fault, wrong_causes(evidence.seen), "each answer with time and counter of its cause");
+  imply(groups_kind, fault, broken_groups(evidence.seen), "all messages of an answer, with one counter");
+  imply(senders_kind, Outcome::not_measured, other_senders(evidence.seen),
+        "each message from its own sender alone");
   conclude(verdict, evidence.ended_early);
   return verdict;
 }

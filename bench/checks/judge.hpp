@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/checks/evidence.hpp"
@@ -13,6 +14,9 @@ namespace canhil::checks {
 
 /// Judges every check of the scenario. A run that ended early fails, whatever its checks say.
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
+
+/// Whether judge() adds a check of this kind where it does not pass, though the scenario has none.
+bool is_implied(std::string_view kind);
 
 /// The windows, each once, for which the checks ask for the timing of a message: empty, to be filled.
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,

@@ -9,6 +9,7 @@
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/convergence.hpp"
 #include "bench/checks/kinds/counters.hpp"
+#include "bench/checks/kinds/counts_match.hpp"
 #include "bench/checks/kinds/delay.hpp"
 #include "bench/checks/kinds/error.hpp"
 #include "bench/checks/kinds/heartbeat.hpp"
@@ -24,12 +25,12 @@ namespace canhil::checks {
 namespace {
 
 constexpr std::array of_any_estimator{
-    check_kind<Error>,           check_kind<Convergence>, check_kind<Consistency>,
-    check_kind<Sigma>,           check_kind<Answers>,     check_kind<Latency>,
-    check_kind<LatencyGrowth>,   check_kind<DelayBelow>,  check_kind<OutputPeriod>,
-    check_kind<OwnTimes>,        check_kind<Heartbeat>,   check_kind<Counters>,
-    check_kind<Protection>,      check_kind<BusLoad>,     check_kind<BusErrorLimits>,
-    check_kind<WireResponseRule>};
+    check_kind<Error>,          check_kind<Convergence>,     check_kind<Consistency>,
+    check_kind<Sigma>,          check_kind<Answers>,         check_kind<Latency>,
+    check_kind<LatencyGrowth>,  check_kind<DelayBelow>,      check_kind<OutputPeriod>,
+    check_kind<OwnTimes>,       check_kind<Heartbeat>,       check_kind<Counters>,
+    check_kind<CountsMatch>,    check_kind<Protection>,      check_kind<BusLoad>,
+    check_kind<BusErrorLimits>, check_kind<WireResponseRule>};
 
 }  // namespace
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <span>
 #include <string_view>
 #include <typeindex>
@@ -14,6 +13,8 @@
 
 #include "bench/checks/bus.hpp"
 #include "bench/checks/host.hpp"
+#include "bench/checks/loss_counts.hpp"
+#include "bench/checks/sighting.hpp"
 #include "bench/checks/timing_record.hpp"
 #include "dbc/wire/bit_length.hpp"
 #include "messages/canhil.hpp"
@@ -32,18 +33,12 @@ struct StimulusCount {
   }
 };
 
-/// What was wrong with a message of the target as it came.
-struct Protected {
-  std::uint64_t wrong_checksum = 0, wrong_size = 0;
-  std::uint64_t wrong_counter = 0;  ///< repeated, or a value that is never sent
-  std::uint64_t lost = 0;           ///< by what its counter left out
-};
-
 /// Everything that the checks judge, apart from the truth.
 struct Observations {
   Observations() : Observations(messages::all_messages) {}
   /// `on_bus`: the messages of the bus.
-  explicit Observations(std::span<const MessageInfo> on_bus) : answers(on_bus.size()), timing(on_bus) {}
+  explicit Observations(std::span<const MessageInfo> on_bus)
+      : answers(on_bus.size()), from_target(on_bus.size()), timing(on_bus) {}
 
   /// What an estimator answered, in the type of its folder; what was not touched yet is empty.
   template <class Answers>
@@ -62,8 +57,9 @@ struct Observations {
 
   std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group, those that are answered
   std::vector<std::uint64_t> answers;                 ///< by place in timing.messages
-  /// Sample groups whose answers keep an interval of their own where their stimuli come faster.
-  std::set<std::string_view> of_own_interval{};
+  std::vector<Sighting> from_target;                  ///< by place in timing.messages
+  /// The least interval [s] that groups of answers keep where their stimuli come faster.
+  std::map<std::string_view, double> own_interval_s{};
   std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
   std::int64_t last_ns = 0;             ///< and of its last one
   wire::BitRates bit_rates{};           ///< of the bus; nominal 0: not known, or it has none
@@ -71,12 +67,12 @@ struct Observations {
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
+  ExpectedCounts expected_counts{};                  ///< of them
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
   std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages
   std::uint32_t target_bad_crc = 0;
-  std::map<std::string_view, Protected> protection{};  ///< by message, of a target with a mapping
-  std::uint32_t receive_overflows = 0;                 ///< frames that the bench's own port lost
-  std::uint16_t queue_max_us = 0;                      ///< largest of TargetTiming; saturates at 8191
+  std::uint32_t receive_overflows = 0;  ///< frames that the bench's own port lost
+  std::uint16_t queue_max_us = 0;       ///< largest of TargetTiming; saturates at 8191
   std::uint16_t compute_max_us = 0;
   bool target_timing_seen = false;
   BusRecord bus;

@@ -18,16 +18,13 @@ std::string other_senders(const Observations& seen) {
   std::string line;
   if (!seen.bus.intruded.empty())
     line = "somebody else sent frames of the bench: " + counts(seen.bus.intruded);
-  std::map<std::string_view, std::uint64_t> unasked;  // by sample group
+  std::map<std::string_view, std::uint64_t> twice;  // by sample group
   for (std::size_t i = 0; i < seen.timing.messages.size(); ++i) {
-    const AnswerTiming& answers = seen.timing.answers[i];
-    if (const std::uint64_t count = answers.unpaired + answers.repeated; count > 0)
-      unasked[seen.timing.messages[i].sample_group] = count;
+    if (const std::uint64_t count = seen.timing.answers[i].repeated; count > 0)
+      twice[seen.timing.messages[i].sample_group] = count;
   }
-  if (!unasked.empty()) {
-    line += fmt::format("{}answers to nothing that was asked, or given twice: {}", line.empty() ? "" : "; ",
-                        counts(unasked));
-  }
+  if (!twice.empty())
+    line += fmt::format("{}answers given twice: {}", line.empty() ? "" : "; ", counts(twice));
   return line;
 }
 

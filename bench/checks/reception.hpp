@@ -16,6 +16,7 @@ struct Whole {
   std::span<const std::size_t> messages;  ///< their places in TimingRecord::messages
   std::int64_t cause_us = 0;              ///< time of validity of the cause
   std::string_view cause_group;
+  std::optional<std::uint8_t> cause_counter{};  ///< of the cause; none: the group does not carry it
 };
 
 /// Of one run.

@@ -148,7 +148,8 @@ double nominal_period_s(const Observations& seen, std::string_view message) {
   if (all.empty() || all[0].count < 2) return cycle_s;
   const double span_us = static_cast<double>(all[0].last_us - all[0].first_us);
   const double stimulus_s = span_us / static_cast<double>(all[0].count - 1) * 1e-6;
-  return seen.of_own_interval.contains(info->sample_group) ? std::max(cycle_s, stimulus_s) : stimulus_s;
+  const auto own = seen.own_interval_s.find(info->sample_group);
+  return own == seen.own_interval_s.end() ? stimulus_s : std::max(own->second, stimulus_s);
 }
 
 }  // namespace canhil::checks

@@ -51,8 +51,9 @@ PeriodDeviation period_deviation(const Histogram& periods, double nominal_s, dou
 /// The longest time [s] without a message, the beginning and the end of the run included.
 double longest_silence_s(const Observations& seen, std::string_view message);
 
-/// The period [s] a message should have: that of its stimulus as it was sent, or its cycle time in the DBC;
-/// 0: none, as it answers groups of several rhythms.
+/// The period [s] a message should have: that of its stimulus as it was sent, or the interval that its group
+/// keeps if that is longer; its cycle time in the DBC if it answers nothing; 0: none, as it answers groups of
+/// several rhythms.
 double nominal_period_s(const Observations& seen, std::string_view message);
 
 /// How much later [s] than its stimuli within the window a message ended: from its last arrival to the last

@@ -24,6 +24,7 @@ struct Arrival {
 /// The last frame of a sample group that the bench sent.
 struct Stimulus {
   std::int64_t valid_us = 0;
+  std::uint8_t counter = 0;      ///< E2E counter of the group
   std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
   std::int64_t hardware_ns = 0;  ///< the controller's own, of the echo; 0: none
   std::int64_t due_ns = 0;       ///< when it was to be sent, by the clock of t_ns
@@ -42,10 +43,13 @@ struct AnswerTiming {
   /// |deviation| of the time between two arrivals from what it should be: between the deadlines of the two
   /// stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
-  TimeLine latency_line;       ///< over the time of arrival
-  std::uint64_t count = 0;     ///< arrivals
-  std::uint64_t unpaired = 0;  ///< answers to what the bench did not send
-  std::uint64_t repeated = 0;  ///< to what was answered before
+  TimeLine latency_line;                     ///< over the time of arrival
+  std::uint64_t count = 0;                   ///< arrivals
+  std::uint64_t unpaired = 0;                ///< answers to what the bench did not send
+  std::uint64_t repeated = 0;                ///< to what was answered before
+  std::optional<std::int64_t> nearest_us{};  ///< of `unpaired`: how near the time of a cause came to one sent
+  std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
+  std::uint8_t counter_told = 0, counter_sent = 0;  ///< of the first of them
   std::int64_t reply_wire_ns =
       0;  ///< over all of `latency`: the frames of the answer up to this one on the wire
   std::optional<std::int64_t> last_ns{};  ///< its last arrival

@@ -1,6 +1,7 @@
 #include "bench/checks/judge.hpp"
 #include "bench/drive/dialect.hpp"
 #include "bench/drive/handshake.hpp"
+#include "bench/estimators/of_scenario.hpp"
 #include "bench/observe/contract_watch.hpp"
 #include "bench/observe/monitor.hpp"
 #include "messages/canhil.hpp"
@@ -23,7 +24,11 @@ class ContractDialect final : public Dialect {
     if (!of_.for_verdict) return std::make_unique<observe::Monitor>();
     WireFacts wire = of_.wire;
     wire.fd = of_.format == BusFormat::fd;
-    return std::make_unique<observe::Monitor>(checks::timed_windows(of_.scenario.checks), wire);
+    return std::make_unique<observe::Monitor>(
+        observe::Asked{.windows = checks::timed_windows(of_.scenario.checks),
+                       .wire = wire,
+                       .takers = estimators::takers(of_.scenario),
+                       .own_interval_s = estimators::own_intervals_s(of_.scenario)});
   }
   std::unique_ptr<observe::TargetWatch> target_watch(bool alone) override {
     return std::make_unique<observe::ContractWatch>(alone);

@@ -98,6 +98,8 @@ void FrameFaults::put(Own& own, const Frame& frame) {
     case FaultKind::changed:
       left_.push_back(frame);
       set(left_.back(), *own.message, *own.signal, own.fault->value);
+      ++changed_.all;
+      if (own.signal->name.starts_with("time_of_validity")) ++changed_.times;
       return;
   }
 }

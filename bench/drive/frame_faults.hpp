@@ -23,6 +23,12 @@ class FrameFaults {
   /// What is left of the frames of a transmission that is due at `t_us`; valid until the next call.
   std::span<const Frame> befall(std::span<const Frame> frames, std::int64_t t_us);
 
+  /// Frames with a value that the node did not send, right by their protection; of those, with another time.
+  struct Changed {
+    std::uint64_t all = 0, times = 0;
+  };
+  [[nodiscard]] const Changed& changed() const { return changed_; }
+
  private:
   // Of one message.
   struct Own {
@@ -35,6 +41,7 @@ class FrameFaults {
 
   std::vector<Own> faults_;
   std::vector<Frame> left_, before_;
+  Changed changed_;
 };
 
 }  // namespace canhil::drive

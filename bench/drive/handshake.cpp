@@ -5,9 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "bench/observe/heard.hpp"
+#include "bench/drive/target_dialogue.hpp"
 #include "bench/observe/heartbeat_errors.hpp"
-#include "bench/observe/second_target.hpp"
 #include "target/device/device.hpp"
 
 namespace canhil::drive {
@@ -15,119 +14,8 @@ namespace {
 
 using namespace messages;
 
-constexpr std::int64_t repeat_ns = 300'000'000;        // longer than a heartbeat period
 constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
-constexpr std::int64_t answer_limit_ns = 2'000'000'000;
 constexpr std::int64_t several_syncs_ns = 8 * Sync::info.cycle_time_us * 1000;
-constexpr std::int64_t poll_ns = 20'000'000;
-
-// The latest answers of the target to commands.
-class Mailbox final : public observe::Observer {
- public:
-  void received(const Received& received) override {
-    if (const auto beat = observe::heard<TargetHeartbeat>(received)) {
-      heartbeat = beat;
-      beats_[static_cast<std::size_t>(beat->estimator)] = *beat;
-    }
-    if (const auto ack = observe::heard<ParamAck>(received)) acknowledgement = ack;
-    if (observe::heard<Sync>(received)) other_bench = true;
-  }
-  void foreign(const Received& received) override {
-    foreign_heartbeat = foreign_heartbeat || (received.frame.id == TargetHeartbeat::info.id &&
-                                              received.frame.extended == TargetHeartbeat::info.extended);
-  }
-  [[nodiscard]] bool is(Estimator estimator, TargetState state) const {
-    const auto& beat = beats_[static_cast<std::size_t>(estimator)];
-    return beat && beat->state == state;
-  }
-  [[nodiscard]] bool has_stopped(Estimator estimator) const {
-    const auto& beat = beats_[static_cast<std::size_t>(estimator)];
-    return beat && beat->state != TargetState::running;
-  }
-  void forget_heartbeats() {
-    heartbeat.reset();
-    beats_ = {};
-  }
-  std::optional<TargetHeartbeat> heartbeat;  // the last one
-  std::optional<ParamAck> acknowledgement;
-  bool foreign_heartbeat = false;  // in the format that this bus does not have
-  bool other_bench = false;        // somebody else keeps the time base
-
- private:
-  std::array<std::optional<TargetHeartbeat>, 8> beats_;  // of each estimator, by the three bits of its name
-};
-
-// Sends commands and waits for what they should bring about.
-class Dialogue {
- public:
-  Dialogue(Link& link, nodes::Transmission& out, const std::function<std::optional<std::string>()>& gone)
-      : link_(link), out_(out), gone_(gone), attached_(link, mailbox_), second_attached_(link, second_) {}
-
-  // Waits until `condition` holds of the mailbox, calling `request` first and whenever it went unanswered for
-  // a while.
-  template <class Request, class Condition>
-  Result<void> until(std::string_view what, std::int64_t limit_ns, Request&& request, Condition&& condition) {
-    const std::int64_t deadline_ns = link_.now_ns() + limit_ns;
-    std::int64_t repeat_at_ns = 0;
-    for (;;) {
-      if (link_.now_ns() >= repeat_at_ns) {
-        if (auto sent = send(request); !sent) return sent;
-        repeat_at_ns = link_.now_ns() + repeat_ns;
-      }
-      if (link_.drain() == LinkState::down)
-        return failure(fmt::format("bus '{}': gone while {}", link_.port().name(), what));
-      if (second_.found())
-        return failure(fmt::format("target on '{}': {}, expected to be the only one", link_.port().name(),
-                                   observe::SecondTarget::complaint));
-      if (condition(mailbox_)) return {};
-      if (const auto why = gone_()) return failure(fmt::format("{} while {}", *why, what));
-      if (link_.now_ns() >= deadline_ns) return failure(complaint(what, limit_ns));
-      link_.wait_until(std::min(link_.now_ns() + poll_ns, deadline_ns));
-    }
-  }
-
-  // Hears whatever comes for a while.
-  void listen(std::int64_t duration_ns) {
-    const std::int64_t deadline_ns = link_.now_ns() + duration_ns;
-    while (link_.now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
-  }
-
-  Mailbox& mailbox() { return mailbox_; }
-
- private:
-  // A target that beats and does not do as it was told has a reason.
-  [[nodiscard]] std::string complaint(std::string_view what, std::int64_t limit_ns) const {
-    const double limit_s = static_cast<double>(limit_ns) * 1e-9;
-    std::string text =
-        fmt::format("target on '{}': no answer within {:g} s while {}", link_.port().name(), limit_s, what);
-    if (const auto& beat = mailbox_.heartbeat)
-      text +=
-          fmt::format("; its state is {}, its errors: {}", name_of(beat->state), observe::errors_of(*beat));
-    return text;
-  }
-
-  template <class Request>
-  Result<void> send(Request& request) {
-    out_.clear();
-    request(out_);
-    for (const Frame& frame : out_.frames()) {
-      if (link_.send(frame, answer_limit_ns) != LinkState::up) {
-        return failure(
-            fmt::format("bus '{}': takes no frames; is another node connected and the interface up?",
-                        link_.port().name()));
-      }
-    }
-    return {};
-  }
-
-  Link& link_;
-  nodes::Transmission& out_;
-  const std::function<std::optional<std::string>()>& gone_;
-  Mailbox mailbox_;
-  observe::SecondTarget second_;
-  Attached attached_;
-  Attached second_attached_;
-};
 
 TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
   return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
@@ -176,9 +64,10 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
   const auto parameter = from_name<Parameter>(wanted.name);
   if (!parameter) return failure(fmt::format("{}: not in the DBC", wanted.where));
   const auto value = static_cast<float>(wanted.value);
-  dialogue.mailbox().acknowledgement.reset();
   auto answered = dialogue.until(
-      fmt::format("setting parameter '{}'", wanted.name), answer_limit_ns,
+      {.doing = fmt::format("setting parameter '{}'", wanted.name),
+       .awaited = "ParamAck for it",
+       .limit_ns = answer_limit_ns},
       [&](nodes::Transmission& out) { out.send(ParamSet{.parameter = *parameter, .value = value}); },
       [&](const Mailbox& box) {
         return box.acknowledgement && box.acknowledgement->parameter == *parameter;
@@ -201,7 +90,8 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
 Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) {
   const Mailbox& box = dialogue.mailbox();
   auto found = dialogue.until(
-      "waiting for its heartbeat", find_limit_ns, [](nodes::Transmission&) {},
+      {.doing = "waiting for its heartbeat", .awaited = "heartbeat", .limit_ns = find_limit_ns},
+      [](nodes::Transmission&) {},
       [](const Mailbox& mailbox) { return mailbox.heartbeat || mailbox.foreign_heartbeat; });
   if (!found) return found;
   if (!box.heartbeat) {
@@ -233,8 +123,10 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
   }
   dialogue.mailbox().forget_heartbeats();
   auto selected = dialogue.until(
-      selection == Command::reset ? "being reset" : fmt::format("adding '{}'", setup.estimator),
-      answer_limit_ns, [&](nodes::Transmission& o) { o.send(command(selection, *estimator, *algorithm)); },
+      {.doing = selection == Command::reset ? "being reset" : fmt::format("adding '{}'", setup.estimator),
+       .awaited = fmt::format("idle with {} of {}", setup.algorithm, setup.estimator),
+       .limit_ns = answer_limit_ns},
+      [&](nodes::Transmission& o) { o.send(command(selection, *estimator, *algorithm)); },
       [&](const Mailbox& box) {
         if (!box.heartbeat) return false;
         const bool as_told = box.heartbeat->estimator == *estimator &&
@@ -254,7 +146,8 @@ Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selecti
     if (auto set = set_parameter(dialogue, *estimator, parameter); !set) return set;
   }
   return dialogue.until(
-      "taking its initial state", answer_limit_ns, [&](nodes::Transmission& o) { drive::send(initial, o); },
+      {.doing = "taking its initial state", .awaited = "ready", .limit_ns = answer_limit_ns},
+      [&](nodes::Transmission& o) { drive::send(initial, o); },
       [&](const Mailbox& box) { return box.is(*estimator, TargetState::ready); });
 }
 
@@ -272,7 +165,7 @@ Result<void> configure(Link& link, nodes::Transmission& out,
     if (auto ready = prepare(dialogue, bus, selection, estimators[i], initial[i]); !ready) return ready;
   }
   return dialogue.until(
-      "starting", answer_limit_ns,
+      {.doing = "starting", .awaited = "running", .limit_ns = answer_limit_ns},
       [](nodes::Transmission& o) { o.send(command(Command::start, Estimator::none, Algorithm::kalman)); },
       [&](const Mailbox& box) {
         return std::ranges::all_of(estimators, [&](const scenario::TargetSetup& setup) {

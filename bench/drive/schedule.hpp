@@ -48,6 +48,9 @@ class Schedule final : public observe::Observer {
     for (nodes::Node* node : listeners_) node->hear(received.frame);
   }
 
+  /// What befell the frames.
+  [[nodiscard]] const FrameFaults& faults() const { return faults_; }
+
   /// Counters of the bench's own messages live in the same outbox.
   nodes::Transmission& outbox() { return out_; }
 

@@ -10,6 +10,7 @@
 #include "bench/drive/dialect.hpp"
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/target_process.hpp"
+#include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
 #include "bench/observe/host_watch.hpp"
@@ -103,7 +104,7 @@ class Session {
       return why ? std::optional("target: " + *why) : std::nullopt;
     };
     auto ready = dialect_->configure(link_, schedule_->outbox(), gone);
-    if (!ready) return failure(explained(ready.error().message));
+    if (!ready) return failure(explained(ready.error().message) + log_of_the_handshake());
     return ready;
   }
 
@@ -134,6 +135,11 @@ class Session {
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = watcher_->finish();
+    // A changed value may make an estimator refuse a group that is otherwise right, a changed time find it
+    // late.
+    const FrameFaults::Changed& changed = schedule_->faults().changed();
+    seen.expected_counts.most.bad_group += changed.all * scenario_.targets.size();
+    seen.expected_counts.most.late += changed.times * scenario_.targets.size();
     if (options_.for_verdict) add_watched(seen);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
@@ -175,6 +181,14 @@ class Session {
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
     return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
         .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
+  }
+
+  // What passed on the bus before a run that did not begin.
+  std::string log_of_the_handshake() {
+    if (!log_) return {};
+    const auto name = log_->close_early();
+    if (!name) return "; " + name.error().message;
+    return name->empty() ? "" : fmt::format("; the log of the handshake is '{}'", *name);
   }
 
   std::string why_silent() {
@@ -251,6 +265,7 @@ Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const wor
                      .seen = {}};
   }
   options.run_index = run_index;
+  options.format = format_of(scenario);
   options.for_verdict = false;
   const auto session = Session::open(scenario, truth, std::move(*flight), options);
   if (!session) return tl::unexpected(session.error());

@@ -37,7 +37,8 @@ class AnswerGroup {
     using Last = std::tuple_element_t<sizeof...(Messages) - 1, std::tuple<Messages...>>;
     return {.messages = messages,
             .cause_us = unwrap_us(get<Last>().cause_time_us, now_us),
-            .cause_group = Last::info.answers.front()};
+            .cause_group = Last::info.answers.front(),
+            .cause_counter = cause_counter()};
   }
   template <class Message>
   [[nodiscard]] const Message& get() const {
@@ -45,6 +46,17 @@ class AnswerGroup {
   }
 
  private:
+  // One of the messages carries it, if any does.
+  [[nodiscard]] std::optional<std::uint8_t> cause_counter() const {
+    std::optional<std::uint8_t> counter;
+    const auto look_at = [&](const auto& message) {
+      if constexpr (requires { message.cause_counter; })
+        counter = static_cast<std::uint8_t>(message.cause_counter);
+    };
+    (look_at(get<Messages>()), ...);
+    return counter;
+  }
+
   static constexpr std::array<std::size_t, sizeof...(Messages)> messages{message_index<Messages>()...};
   SampleGroup<Messages...> group_;
 };

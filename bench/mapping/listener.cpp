@@ -70,28 +70,32 @@ void Listener::received(const Received& received) {
 void Listener::hear(const Hear& hear, const Received& received) {
   const Frame& frame = received.frame;
   const std::size_t place = hear.of.place;
-  checks::Protected& counts = seen_.protection[hear.of.message->name];
+  checks::Sighting& sighting = seen_.from_target[place];
   if (frame.size != hear.of.message->size || frame.fd != hear.of.message->fd) {
-    ++counts.wrong_size;
+    ++sighting.wrong_size;
+    sighting.size = frame.size;
     return;
   }
   if (hear.of.protection) {
     auto& receiver = receivers_[static_cast<std::size_t>(&hear - conversation_.mapping.hears.data())];
     switch (receiver.check(*hear.of.protection, frame.payload())) {
       case protection::Check::wrong_checksum:
-        ++counts.wrong_checksum;
+        ++sighting.wrong_crc;
         return;
       case protection::Check::counter_not_allowed:
+        ++sighting.wrong_counter;
+        return;
       case protection::Check::repeated:
-        ++counts.wrong_counter;
+        ++sighting.repeated;
         return;
       case protection::Check::some_lost:
-        counts.lost += receiver.lost();
+        sighting.lost += receiver.lost();
         break;
       case protection::Check::ok:
         break;
     }
   }
+  ++sighting.right;
   stopwatch_.arrived(place, received);
   ++seen_.answers[place];
   std::int64_t t_us = bench_us(received.t_ns);

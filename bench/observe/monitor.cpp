@@ -1,9 +1,12 @@
 #include "bench/observe/monitor.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/heard.hpp"
+#include "bench/observe/sightings.hpp"
+#include "dbc/wire/e2e.hpp"
 #include "dbc/wire/time_base.hpp"
 
 namespace canhil::observe {
@@ -54,13 +57,19 @@ Closed closed_by(const Frame& frame) {
 
 }  // namespace
 
-Monitor::Monitor() {
+Monitor::Monitor(std::optional<Asked> asked) {
+  if (asked) {
+    seen_.timing.windows = std::move(asked->windows);
+    seen_.timing.wire = asked->wire;
+    seen_.own_interval_s = std::move(asked->own_interval_s);
+    stopwatch_.emplace(seen_.timing);
+    model_.emplace(asked->takers);
+  }
   for (const estimators::Estimator* estimator : estimators::all()) {
     estimators::Reception* own = receptions_.emplace_back(estimator->reception()).get();
     for (std::size_t message = 0; message < reception_of_.size(); ++message) {
       if (own->takes(message)) reception_of_[message] = own;
     }
-    if (!estimator->of_own_interval.empty()) seen_.of_own_interval.insert(estimator->of_own_interval);
   }
 }
 
@@ -70,14 +79,21 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
   seen_.last_ns = t_ns;
   if (stopwatch_) stopwatch_->sent(frame, t_ns, late_ns);
   if (frame.id == Sync::info.id) {
-    now_us_ = static_cast<std::int64_t>(from_frame<Sync>(frame).time_us);
+    const auto sync = from_frame<Sync>(frame);
+    now_us_ = static_cast<std::int64_t>(sync.time_us);
+    if (model_) model_->synchronised(sync.lockstep != 0);
   } else if (const Closed closed = closed_by(frame); !closed.group.empty()) {
     const std::int64_t valid_us = unwrap_us(closed.valid_us, now_us_);
     seen_.stimuli[closed.group].add(valid_us);
     for (const auto& reception : receptions_) reception->sent(closed.group, valid_us, seen_);
     if (stopwatch_)
-      stopwatch_->stimulus(closed.group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = t_ns - late_ns});
+      stopwatch_->stimulus(closed.group, {.valid_us = valid_us,
+                                          .counter = e2e::counter(frame.payload()),
+                                          .t_ns = t_ns,
+                                          .due_ns = t_ns - late_ns});
+    if (model_) return model_->sent(frame, valid_us, now_us_);
   }
+  if (model_) model_->sent(frame, std::nullopt, now_us_);
 }
 
 // The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
@@ -93,14 +109,15 @@ void Monitor::received(const Received& received) {
   const std::size_t index = target_messages(frame);
   if (index == Routes::nowhere) return;
   const MessageInfo* info = &all_messages[index];
-  if (frame.size != info->size || frame.fd != info->fd) {
+  checks::Sighting& sighting = seen_.from_target[index];
+  const auto spoilt = [&] {
+    look_at(frame, *info, sighting);
     ++seen_.target_bad_crc;
-    return;
-  }
+  };
+  if (frame.size != info->size || frame.fd != info->fd) return spoilt();
   switch (receivers_[index].check(frame.payload(), info->e2e_data_id)) {
     case e2e::Check::wrong_crc:
-      ++seen_.target_bad_crc;
-      return;
+      return spoilt();
     case e2e::Check::repeated:
       return;
     case e2e::Check::some_lost:
@@ -109,6 +126,7 @@ void Monitor::received(const Received& received) {
     case e2e::Check::ok:
       break;
   }
+  ++sighting.right;
   if (stopwatch_) stopwatch_->arrived(index, received);
   decode(frame, index);
 }
@@ -119,11 +137,13 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     const auto whole = reception->take(frame, index, now_us_, seen_);
     if (!whole) return;
     for (const std::size_t message : whole->messages) ++seen_.answers[message];
-    if (stopwatch_) stopwatch_->answered(whole->messages, whole->cause_group, whole->cause_us);
+    if (stopwatch_)
+      stopwatch_->answered(whole->messages, whole->cause_group, whole->cause_us, whole->cause_counter);
     return;
   }
   if (frame.id == TargetCounters::info.id) {
     seen_.counters = from_frame<TargetCounters>(frame);
+    if (model_) seen_.expected_counts = model_->expected();
   } else if (frame.id == TargetTiming::info.id) {
     const auto timing = from_frame<TargetTiming>(frame);
     seen_.target_timing_seen = true;

@@ -2,28 +2,34 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "bench/checks/reception.hpp"
+#include "bench/observe/receiver_model.hpp"
 #include "bench/observe/stopwatch.hpp"
 #include "bench/observe/watcher.hpp"
 #include "dbc/wire/e2e.hpp"
 
 namespace canhil::observe {
 
+/// What a verdict asks for, beside the answers.
+struct Asked {
+  std::vector<checks::TimedWindow> windows{};  ///< of the checks, for times
+  WireFacts wire{};
+  Takers takers{};
+  std::map<std::string_view, double> own_interval_s{};  ///< see Observations
+};
+
 /// Watches a run from the target's start on.
 class Monitor final : public Watcher {
  public:
-  /// Takes no times: those of virtual time say nothing, and a campaign flies thousands of runs in it.
-  Monitor();
-  /// Takes times, also within the windows.
-  explicit Monitor(std::vector<checks::TimedWindow> windows, const WireFacts& wire = {}) : Monitor() {
-    seen_.timing.windows = std::move(windows);
-    seen_.timing.wire = wire;
-    stopwatch_.emplace(seen_.timing);
-  }
+  /// None asked for: takes no times, as those of virtual time say nothing, and a campaign flies thousands of
+  /// runs in it.
+  explicit Monitor(std::optional<Asked> asked = std::nullopt);
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
@@ -41,6 +47,7 @@ class Monitor final : public Watcher {
   void decode(const Frame& frame, std::size_t index);
   checks::Observations seen_;
   std::optional<Stopwatch> stopwatch_;
+  std::optional<ReceiverModel> model_;
   bool sent_any_ = false;
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   std::vector<std::unique_ptr<estimators::Reception>> receptions_;

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <utility>
 
 #include "dbc/files/unfinished_name.hpp"
 
@@ -18,7 +22,7 @@ Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const 
 Recorder::Recorder(LogWriter writer, std::string path, const Port& port)
     : writer_(std::move(writer)),
       path_(std::move(path)),
-      interface_(port.name()),
+      port_(port),
       to_realtime_ns_(clock_ns(CLOCK_REALTIME) - port.now_ns()) {}
 
 Recorder::~Recorder() {
@@ -27,23 +31,46 @@ Recorder::~Recorder() {
 
 void Recorder::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t /*late_ns*/) {
   started_ = true;
-  write(frame, t_ns, true);
+  early_ = {};
+  write(frame, t_ns, port_.bus_of(frame), true);
 }
 
 void Recorder::received(const Received& received) {
-  if (started_ && !received.own) write(received.frame, received.t_ns, false);
+  if (received.own) return;
+  if (started_) {
+    write(received.frame, received.t_ns, received.bus, false);
+  } else {
+    keep_early(received);
+  }
 }
 
-void Recorder::write(const Frame& frame, std::int64_t t_ns, bool transmitted) {
-  writer_.write(
-      {.t_ns = t_ns + to_realtime_ns_, .interface = interface_, .frame = frame, .transmitted = transmitted});
+// No part of a run, but it may be why one does not begin.
+void Recorder::foreign(const Received& received) {
+  if (!started_) keep_early(received);
+}
+
+void Recorder::keep_early(const Received& received) {
+  if (early_.size() < most_early) early_.push_back(received);
+}
+
+void Recorder::write_early() {
+  for (const Received& received : early_) write(received.frame, received.t_ns, received.bus, false);
+  early_ = {};
+}
+
+void Recorder::write(const Frame& frame, std::int64_t t_ns, std::uint8_t bus, bool transmitted) {
+  writer_.write({.t_ns = t_ns + to_realtime_ns_,
+                 .interface = port_.bus_name(bus),
+                 .frame = frame,
+                 .transmitted = transmitted});
+}
+
+bool Recorder::give_name(const std::string& name) {
+  closed_ = std::rename(unfinished_name(path_).c_str(), name.c_str()) == 0;
+  return closed_;
 }
 
 Result<void> Recorder::close() {
-  const auto give_name = [&](const std::string& name) {
-    closed_ = std::rename(unfinished_name(path_).c_str(), name.c_str()) == 0;
-    return closed_;
-  };
   auto written = writer_.close();
   if (written && give_name(path_)) return {};
   Error error =
@@ -52,6 +79,18 @@ Result<void> Recorder::close() {
   if (const std::string rest = path_ + ".incomplete"; give_name(rest))
     error.message += fmt::format("; what was written is in '{}'", rest);
   return tl::unexpected(std::move(error));
+}
+
+// A run that does not begin takes nothing away from an earlier one.
+Result<std::string> Recorder::close_early() {
+  if (!started_ && early_.empty()) return std::string();
+  std::string name = path_;
+  std::error_code ignored;
+  if (std::filesystem::exists(path_, ignored)) name += ".incomplete";
+  write_early();
+  if (auto written = writer_.close(); !written) return tl::unexpected(written.error());
+  if (give_name(name)) return name;
+  return failure(fmt::format("log '{}': cannot be given its name: {}", name, std::strerror(errno)));
 }
 
 }  // namespace canhil::observe

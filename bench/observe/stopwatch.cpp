@@ -134,12 +134,33 @@ void Stopwatch::arrived(std::size_t index, const Received& received) {
   last_[index] = {.arrival = arrival, .due_ns = 0};
 }
 
-void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view group,
-                         std::int64_t cause_us) {
-  Sent* sent = find(group, cause_us);
-  if (sent == nullptr) {
-    for (const std::size_t index : indices) ++record_.answers[index].unpaired;
-    return;
+void Stopwatch::without_cause(std::span<const std::size_t> indices, std::string_view group,
+                              std::int64_t cause_us) {
+  std::optional<std::int64_t> nearest_us;
+  if (const auto found = groups_.find(group); found != groups_.end()) {
+    for (const Sent& sent : found->second.sent) {
+      const std::int64_t off_us = std::abs(sent.stimulus.valid_us - cause_us);
+      nearest_us = std::min(nearest_us.value_or(off_us), off_us);
+    }
+  }
+  for (const std::size_t index : indices) {
+    checks::AnswerTiming& timing = record_.answers[index];
+    ++timing.unpaired;
+    if (nearest_us) timing.nearest_us = std::min(timing.nearest_us.value_or(*nearest_us), *nearest_us);
+  }
+}
+
+void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us,
+                         std::optional<std::uint8_t> counter) {
+  Sent* sent = find(group, cause_us, counter);
+  if (sent == nullptr) return without_cause(indices, group, cause_us);
+  if (counter && *counter != sent->stimulus.counter) {
+    for (const std::size_t index : indices) {
+      checks::AnswerTiming& timing = record_.answers[index];
+      if (timing.wrong_counter++ > 0) continue;
+      timing.counter_told = *counter;
+      timing.counter_sent = sent->stimulus.counter;
+    }
   }
   const bool again = sent->answered_by.test(indices.back());
   sent->answered_by.set(indices.back());
@@ -231,14 +252,21 @@ void Stopwatch::finish() {
   }
 }
 
-// The newest first: an answer comes soon, or not at all.
-Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us) {
+// The newest first: an answer comes soon, or not at all. Of several that are valid at one time the one with
+// the counter.
+Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
+                                 std::optional<std::uint8_t> counter) {
   const auto group = groups_.find(name);
   if (group == groups_.end()) return nullptr;
   std::deque<Sent>& sent = group->second.sent;
   const auto found = std::find_if(sent.rbegin(), sent.rend(),
                                   [&](const Sent& s) { return s.stimulus.valid_us == valid_us; });
-  return found == sent.rend() ? nullptr : &*found;
+  if (found == sent.rend()) return nullptr;
+  if (!counter || found->stimulus.counter == *counter) return &*found;
+  const auto same = std::find_if(found, sent.rend(), [&](const Sent& s) {
+    return s.stimulus.valid_us == valid_us && s.stimulus.counter == *counter;
+  });
+  return same == sent.rend() ? &*found : &*same;
 }
 
 // By now its echo has come, if it ever does.

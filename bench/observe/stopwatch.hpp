@@ -40,8 +40,10 @@ class Stopwatch {
   void echoed(const Received& received, std::string_view group, std::int64_t valid_us);
   /// A message of the target came; `index`: its place in the record's messages.
   void arrived(std::size_t index, const Received& received);
-  /// The newest arrivals of these messages are the answer to a stimulus.
-  void answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us);
+  /// The newest arrivals of these messages are the answer to a stimulus. `counter`: of the cause, if the
+  /// answer carries it.
+  void answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us,
+                std::optional<std::uint8_t> counter = std::nullopt);
   /// The target accounted for its time since it last did.
   void told(const messages::TargetTiming& timing);
   /// The run is over.
@@ -78,7 +80,8 @@ class Stopwatch {
     checks::SlowestAnswer slowest{};
   };
 
-  Sent* find(std::string_view group, std::int64_t valid_us);
+  Sent* find(std::string_view group, std::int64_t valid_us, std::optional<std::uint8_t> counter = {});
+  void without_cause(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us);
   void forget_oldest(std::string_view name, Group& group);
   void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
                 std::int64_t cause_us);

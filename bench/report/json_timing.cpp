@@ -94,6 +94,7 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run
       latency["closes_group"] = std::ranges::find(closing, name) != closing.end();
       latency["unanswered"] = never_came;
       latency["unpaired"] = answers.unpaired;
+      latency["wrong_counter"] = answers.wrong_counter;
       latency["repeated"] = answers.repeated;
       latency["line"] = object(answers.latency_line);
     }

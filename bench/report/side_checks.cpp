@@ -8,8 +8,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "bench/checks/kinds/bus_errors.hpp"
-#include "bench/checks/other_senders.hpp"
+#include "bench/checks/judge.hpp"
 #include "bench/checks/verdict.hpp"
 
 namespace canhil::report {
@@ -76,9 +75,8 @@ struct Tally {
 };
 
 Tally tally_of(const std::vector<std::vector<Judged>>& side, const Key& key) {
-  // The bus and who sends on it are judged unasked too; their checks are there when they do not pass.
-  const bool implied =
-      key.name == key.kind && (key.kind == checks::BusErrorLimits::kind || key.kind == checks::senders_kind);
+  // Some kinds are judged unasked too; their checks are there when they do not pass.
+  const bool implied = key.name == key.kind && checks::is_implied(key.kind);
   Tally tally;
   for (const auto& run : side) {
     const auto found = std::ranges::find(run, key, &Judged::key);

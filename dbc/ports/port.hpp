@@ -30,6 +30,7 @@ struct Received {
   bool own = false;  ///< the echo of a frame that this port sent: its stamp is the transmit time
   bool foreign =
       false;  ///< FD where the bus's contract is classic, or classic where it is FD: not part of it
+  std::uint8_t bus = 0;  ///< of several buses behind one port: which, see Port::bus_name()
 };
 
 enum class SendOutcome : std::uint8_t {
@@ -122,6 +123,9 @@ class Port {
   virtual void tell_time(std::int64_t /*t_ns*/) {}
   /// As given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
+  /// Of several buses behind one port: the name of one, and which of them send() gives a frame to.
+  [[nodiscard]] virtual const std::string& bus_name(std::uint8_t /*bus*/) const { return name(); }
+  [[nodiscard]] virtual std::uint8_t bus_of(const Frame& /*frame*/) const { return 0; }
 };
 
 /// Opens `local:NAME`, `log:FILE`, or a SocketCAN interface by its name. Error: one line naming the bus and

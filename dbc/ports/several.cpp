@@ -33,7 +33,10 @@ class Several final : public Port {
   std::optional<Received> receive() override {
     std::optional<Received>* oldest = nullptr;
     for (std::size_t i = 0; i < ports_.size(); ++i) {
-      if (!waiting_[i]) waiting_[i] = ports_[i]->receive();
+      if (!waiting_[i]) {
+        waiting_[i] = ports_[i]->receive();
+        if (waiting_[i]) waiting_[i]->bus = static_cast<std::uint8_t>(i);
+      }
       watch(i);
       if (waiting_[i] && (oldest == nullptr || waiting_[i]->t_ns < (*oldest)->t_ns)) oldest = &waiting_[i];
     }
@@ -67,6 +70,12 @@ class Several final : public Port {
   }
   [[nodiscard]] int stamp_clock() const override { return ports_.front()->stamp_clock(); }
   [[nodiscard]] const std::string& name() const override { return ports_.front()->name(); }
+  [[nodiscard]] const std::string& bus_name(std::uint8_t bus) const override {
+    return ports_.at(bus)->name();
+  }
+  [[nodiscard]] std::uint8_t bus_of(const Frame& frame) const override {
+    return static_cast<std::uint8_t>(route_(frame));
+  }
 
  private:
   // An interface that came back has another socket, and the set has dropped the old one.

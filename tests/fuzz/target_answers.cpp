@@ -13,6 +13,7 @@
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/real_time.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/observe/bus_watch.hpp"
 #include "bench/observe/contract_watch.hpp"
@@ -83,7 +84,10 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
                                       [] { return std::nullopt; });
   if (!ready) return fuzz::expect_words(ready.error().message);
 
-  observe::Monitor monitor(checks::timed_windows(scenario.checks), port.capabilities().wire);
+  observe::Monitor monitor(observe::Asked{.windows = checks::timed_windows(scenario.checks),
+                                          .wire = port.capabilities().wire,
+                                          .takers = estimators::takers(scenario),
+                                          .own_interval_s = estimators::own_intervals_s(scenario)});
   observe::LoadMeter load(BusFormat::classic, observe::LoadBy::stamps);
   drive::Ending ending;
   observe::ContractWatch watch;

@@ -28,17 +28,21 @@ Protection Protection::read(scenario::Section& section, const scenario::CheckCon
 }
 
 Finding Protection::judge(const Evidence& evidence) const {
-  Protected all;
-  for (const auto& [name, one] : evidence.seen.protection) {
-    if (message && name != *message) continue;
-    all.wrong_checksum += one.wrong_checksum;
-    all.wrong_counter += one.wrong_counter;
+  const auto messages = evidence.seen.timing.messages;
+  Sighting all;
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    if (message && messages[i].name != *message) continue;
+    const Sighting& one = evidence.seen.from_target[i];
+    all.right += one.right;
+    all.wrong_crc += one.wrong_crc;
+    all.wrong_counter += one.wrong_counter + one.repeated;
     all.wrong_size += one.wrong_size;
     all.lost += one.lost;
   }
-  if (evidence.seen.protection.empty()) return {Outcome::fail, "no messages of the target", "some"};
+  const bool any = all.right + all.wrong_crc + all.wrong_counter + all.wrong_size > 0;
+  if (!any) return {Outcome::fail, "no messages of the target", "some"};
   return within_limits(
-      std::array<CountLimit, 4>{{{"wrong checksums", wrong_checksums_at_most, all.wrong_checksum},
+      std::array<CountLimit, 4>{{{"wrong checksums", wrong_checksums_at_most, all.wrong_crc},
                                  {"wrong counters", wrong_counters_at_most, all.wrong_counter},
                                  {"wrong sizes", wrong_sizes_at_most, all.wrong_size},
                                  {"lost by the counter", lost_at_most, all.lost}}});

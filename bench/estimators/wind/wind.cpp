@@ -12,6 +12,7 @@
 #include "bench/estimators/freshness.hpp"
 #include "bench/estimators/marks.hpp"
 #include "bench/estimators/names.hpp"
+#include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/tracks.hpp"
 #include "bench/estimators/wind/answers.hpp"
 #include "bench/estimators/wind/quantities.hpp"
@@ -142,10 +143,7 @@ Freshness freshness_of(const scenario::Scenario& scenario) {
   const scenario::NodeSettings* navigation = scenario.node("glider_nav");
   if (navigation == nullptr) return {};
   double answers_us = period_us(*navigation);
-  for (const scenario::Parameter& parameter : scenario.targets.front().parameters) {
-    if (parameter.name == name_of(messages::Parameter::output_interval_ms))
-      answers_us = std::max(answers_us, 1e3 * parameter.value);
-  }
+  answers_us = std::max(answers_us, output_interval_us(scenario.targets.front()).value_or(answers_us));
   return {.age_limit_us = std::llround(checks::longest_wait_us(answers_us)), .end_us = scenario.duration_us};
 }
 
@@ -180,6 +178,7 @@ constinit const Estimator wind{.name = "wind",
                                .marks = marks_of,
                                .results = results_of,
                                .closing = closing,
+                               .of_own_interval = messages::WindUpdate::info.sample_group,
                                .former_check_kinds = former,
                                .freshness = freshness_of};
 

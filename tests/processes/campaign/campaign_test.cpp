@@ -254,6 +254,19 @@ TEST(Target, AProgramGivesTheSamplesOfTheDeviceInProcess) {
                   "expected the bench's own device");
 }
 
+TEST(Target, IsToldTheContractOfItsScenario) {
+  const std::string told = scratch("told"), target = scratch("fd_target"), fd = scratch("fd.toml");
+  std::ofstream(target) << fmt::format("#!/bin/sh\necho \"$@\" >> {}\nexec {} \"$@\"\n", told, HIL_TARGET);
+  ASSERT_EQ(shell("chmod +x " + target).code, 0);
+  std::ofstream(fd) << "dbc = \"canhil-fd\"\n" << read(scenario("transfer_alignment_quick"));
+  const std::string file = scratch("fd_campaign.toml");
+  std::ofstream(file) << fmt::format(
+      "title = \"FD\"\nruns = 2\nseed = 1\n[[variant]]\nname = \"KF\"\nscenario = \"{}\"\n", fd);
+  const Ended ended = hil_bench(fmt::format("campaign {} --out {} --target {}", file, folder("fd"), target));
+  EXPECT_THAT(ended.out, HasSubstr("2 of 2 runs completed")) << ended.err;
+  EXPECT_THAT(read(told), HasSubstr("--dbc canhil-fd"));
+}
+
 TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   const auto against = [](const std::string& arguments) {
     return hil_bench(fmt::format("campaign {} --out {} {}", campaign_file(3), folder("nobody"), arguments));

@@ -43,6 +43,10 @@ std::vector<Frame> target_frames(const std::string& log_path);
 /// again.
 bool whole(const nlohmann::json& report);
 
+/// Runs hil-bench until the run whose report it is told to write to `report` is whole, four times at the
+/// most; the last one. A configuration that is refused is not tried again.
+Ended hil_bench_whole(const std::string& arguments, const std::string& report);
+
 /// Bad input: exit code 2, one line on stderr that says `what`, nothing on stdout.
 void expect_one_line(const Ended& ended, const std::string& what);
 

@@ -21,8 +21,8 @@ using testing::HasSubstr;
 
 TEST(Run, ThePapersFlightPassesInRealTime) {
   const std::string report = scratch("report.json");
-  const Ended ended =
-      hil_bench(fmt::format("run {} --bus {} --json {}", scenario("transfer_alignment"), bus(), report));
+  const Ended ended = hil_bench_whole(
+      fmt::format("run {} --bus {} --json {}", scenario("transfer_alignment"), bus(), report), report);
   ASSERT_NE(ended.code, 2) << ended.err;
   expect_outputs_passed(ended, read_json(report));
   EXPECT_EQ(figure(read_json(report), "transfer_alignment", "answers", "answers"), 2000);
@@ -47,8 +47,8 @@ INSTANTIATE_TEST_SUITE_P(Run, RunOfScenario,
 
 TEST(Run, AMissileIsGuidedByTheTargetInRealTime) {
   const std::string report = scratch("los.json");
-  const Ended ended =
-      hil_bench(fmt::format("run {} --bus {} --json {}", scenario("los_closed_loop"), bus(), report));
+  const Ended ended = hil_bench_whole(
+      fmt::format("run {} --bus {} --json {}", scenario("los_closed_loop"), bus(), report), report);
   ASSERT_NE(ended.code, 2) << ended.err;
   expect_outputs_passed(ended, read_json(report));
   EXPECT_LT(figure(read_json(report), "los_rate", "end", "miss"), 2.0);
@@ -144,6 +144,37 @@ nlohmann::json with_bounds(const std::string& options) {
   EXPECT_NEAR(page["split"]["parts_s"]["not_explained"].get<double>(), 0, 20e-6)
       << "what Sync and heartbeats take";
   return page;
+}
+
+/// A scenario with a line after that of a table, and a check of the period of a message behind it.
+std::string with_interval(const std::string& name, const std::string& message, int within_percent) {
+  constexpr std::string_view table = "[target.parameters]\n";
+  std::string text = read(scenario(name));
+  text.insert(text.find(table) + table.size(), "output_interval_ms = 60\n");
+  std::string path = scratch("interval.toml");
+  std::ofstream(path)
+      << text
+      << fmt::format(
+             "\n[[check]]\nname = \"own interval\"\nkind = \"output_period\"\nmessage = \"{}\"\n"
+             "within_percent = {}\n",
+             message, within_percent);
+  return path;
+}
+
+// An interval of the scenario is the period of the answers that keep it, whatever the cycle time in the DBC.
+TEST(SimulatedWire, ThePeriodOfAnswersIsTheIntervalThatTheScenarioSets) {
+  for (const auto& [name, message] :
+       {std::pair("transfer_alignment_quick", "AlignAttitude"), std::pair("inflight_ssbl", "FixVelocityD"),
+        std::pair("wind_quick", "WindUpdate")}) {
+    std::string file = with_interval(name, message, 2);
+    if (name == std::string("inflight_ssbl")) {  // which sets an interval itself
+      std::string text = read(file);
+      text.erase(text.find("output_interval_ms = 20\n"), 24);
+      std::ofstream(file) << text;
+    }
+    const std::string out = hil_bench(fmt::format("run {} --bus 'in-process?bitrate=1000000'", file)).out;
+    EXPECT_THAT(out, ContainsRegex(fmt::format("PASS +own interval .*{} every 60 ms", message))) << name;
+  }
 }
 
 TEST(SimulatedWire, EveryMessageKeepsItsBoundAndTheWholeLatencyIsExplained) {

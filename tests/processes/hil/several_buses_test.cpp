@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "dbc/ports/candump_log.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"
@@ -122,6 +123,24 @@ TEST(SeveralBuses, ATargetOnBothIsAlignedAndTheReportsSayWhoIsWhere) {
   expect_answers(flown, 300, 30);
   EXPECT_EQ(flown.report["provenance"]["bus_of"]["MasterIns"], flown.aiding_name);
   EXPECT_THAT(flown.ended.out, HasSubstr(fmt::format("MasterIns on bus {}\n", flown.aiding_name)));
+}
+
+TEST(SeveralBuses, TheLogNamesTheBusThatEachFramePassedOn) {
+  const std::string log = scratch("several.log");
+  const Flown flown =
+      fly([&](const std::string& bench, const std::string&) { return bench + " --log " + log; });
+  ASSERT_NE(flown.ended.code, 2) << flown.ended.err;
+  auto reader = LogReader::open(log);
+  ASSERT_TRUE(reader) << reader.error().message;
+  std::map<std::string, Counts> logged;
+  for (auto entry = reader->next(); entry && *entry; entry = reader->next()) {
+    const MessageInfo* info = messages::find_message((*entry)->frame.id);
+    if (info != nullptr) ++logged[(*entry)->interface][std::string(info->name)];
+  }
+  EXPECT_EQ(logged[flown.aiding_name], flown.aiding);
+  EXPECT_EQ(of(logged[flown.main_name], "SlaveImuStatus"), 300);
+  EXPECT_EQ(of(logged[flown.main_name], "AlignAttitude"), 300);
+  EXPECT_EQ(logged.size(), 2U);
 }
 
 TEST(SeveralBuses, ATargetThatListensOnTheFirstAloneHearsNothingOfTheSecond) {

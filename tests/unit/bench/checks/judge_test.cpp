@@ -10,6 +10,7 @@
 #include "bench/checks/kinds/consistency.hpp"
 #include "bench/checks/kinds/convergence.hpp"
 #include "bench/checks/kinds/counters.hpp"
+#include "bench/checks/kinds/counts_match.hpp"
 #include "bench/checks/kinds/heartbeat.hpp"
 #include "bench/checks/kinds/latency.hpp"
 #include "bench/checks/kinds/output_period.hpp"
@@ -36,6 +37,7 @@ struct Came {
   std::int64_t t_ns = 0;
   std::int64_t cause_us = -1;
   std::int64_t hardware_ns = 0;
+  std::optional<std::uint8_t> counter{};
 };
 
 // A run of 4 s at rest with perfect answers; tests spoil it.
@@ -83,7 +85,8 @@ class Judged : public testing::Test {
       for (const Came& one : came_[index]) {
         stopwatch.arrived(index, {.frame = {}, .t_ns = one.t_ns, .hardware_ns = one.hardware_ns});
         if (one.cause_us >= 0)
-          stopwatch.answered({&index, 1}, messages::all_messages[index].answers.front(), one.cause_us);
+          stopwatch.answered({&index, 1}, messages::all_messages[index].answers.front(), one.cause_us,
+                             one.counter);
       }
     }
     stopwatch.finish();
@@ -368,8 +371,76 @@ TEST_F(Judged, WithOthersWhoSendInTheBenchsOrTheTargetsNameNothingIsShown) {
   came<messages::AlignAttitude>().push_back({.t_ns = duration_us * 1000, .cause_us = duration_us});
   judge(attitude);
   ASSERT_EQ(verdict_.checks.size(), 2U);
-  EXPECT_EQ(verdict_.checks[1].measured, "answers to nothing that was asked, or given twice: AlignNav 1");
+  EXPECT_EQ(verdict_.checks[1].measured, "answers given twice: AlignNav 1");
   EXPECT_EQ(verdict_.outcome, Outcome::not_measured);
+}
+
+TEST_F(Judged, AnswersThatNameNoCauseOrTheCounterOfAnotherFailTheRun) {
+  came<messages::AlignVelocityD>().push_back({.t_ns = 1, .cause_us = second_us + 5});
+  judge(attitude);
+  ASSERT_EQ(verdict_.checks.size(), 2U);
+  EXPECT_EQ(verdict_.checks[1].kind, "causes");
+  EXPECT_EQ(verdict_.checks[1].measured, "AlignNav: 1 answers with no cause, nearest 5 us off");
+  EXPECT_EQ(verdict_.outcome, Outcome::fail);
+  seen_.bus.intruded = {{"Sync", 2}};
+  judge(attitude);
+  EXPECT_EQ(verdict_.outcome, Outcome::not_measured) << "the target may have answered somebody else";
+  seen_.bus.intruded.clear();
+  came<messages::AlignVelocityD>() = {{.t_ns = 1, .cause_us = second_us, .counter = 3},
+                                      {.t_ns = 2, .cause_us = 2 * second_us, .counter = 0}};
+  judge(attitude);
+  ASSERT_EQ(verdict_.checks.size(), 2U);
+  EXPECT_EQ(
+      verdict_.checks[1].measured,
+      "AlignNav: 1 answers with the counter of another cause than that of their time, first 3, expected 0");
+  EXPECT_EQ(verdict_.outcome, Outcome::fail);
+}
+
+TEST_F(Judged, OfAGroupThatIsNeverWholeTheMissingMessageIsNamed) {
+  for (const std::size_t index :
+       {message_index<messages::LosRateEstimate>(), message_index<messages::LosRateTarget>()})
+    seen_.from_target[index].right = 100;
+  judge(attitude);
+  ASSERT_EQ(verdict_.checks.size(), 2U);
+  EXPECT_EQ(verdict_.checks[1].kind, "answer_groups");
+  EXPECT_EQ(verdict_.checks[1].measured, "LosRate: 200 frames and no whole group: LosRateSigma missing");
+  EXPECT_EQ(verdict_.outcome, Outcome::fail);
+  seen_.answers[message_index<messages::LosRateTarget>()] = 1;
+  judge(attitude);
+  EXPECT_EQ(verdict_.checks.size(), 1U) << "some may be lost on the way";
+}
+
+TEST_F(Judged, TheTargetsCountsAreHeldAgainstWhatTheBenchWithheld) {
+  CountsMatch rule;
+  seen_.expected_counts = {.least = {.frames_lost = 5, .bad_group = 2},
+                           .most = {.frames_lost = 5, .bad_group = 4}};
+  seen_.counters = messages::TargetCounters{.frames_lost = 5, .bad_group = 3};
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  EXPECT_EQ(judge(rule).expected,
+            "frames lost 5, bad CRC 0, bad groups 2 to 4, late 0, as the bench withheld and damaged");
+  for (const messages::TargetCounters wrong : {messages::TargetCounters{.frames_lost = 4, .bad_group = 3},
+                                               messages::TargetCounters{.frames_lost = 6, .bad_group = 3},
+                                               messages::TargetCounters{.frames_lost = 5, .bad_group = 1},
+                                               messages::TargetCounters{.frames_lost = 5, .bad_group = 5}}) {
+    seen_.counters = wrong;
+    EXPECT_EQ(judge(rule).outcome, Outcome::fail) << judge(rule).measured;
+  }
+  rule.bad_group_slack = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::pass);
+  seen_.counters->late = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+  seen_.bus.downs = 1;
+  EXPECT_EQ(judge(rule).outcome, Outcome::not_measured) << "an outage loses what the bench sent";
+  seen_.counters.reset();
+  EXPECT_EQ(judge(rule).outcome, Outcome::fail);
+}
+
+TEST_F(Judged, CountsStayAtTheirEnd) {
+  seen_.expected_counts = {.least = {.frames_lost = 20'000}, .most = {.frames_lost = 20'000}};
+  seen_.counters = messages::TargetCounters{.frames_lost = 8191};
+  EXPECT_EQ(judge(CountsMatch()).outcome, Outcome::pass);
+  seen_.counters->frames_lost = 8190;
+  EXPECT_EQ(judge(CountsMatch()).outcome, Outcome::fail);
 }
 
 TEST_F(Judged, TheControllersStampsAreUsedWhereItGaveThem) {

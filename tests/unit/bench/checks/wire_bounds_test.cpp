@@ -25,7 +25,7 @@ class OnTheWire : public testing::Test {
     seen_.timing.wire.rates = {.nominal = 1'000'000};
     seen_.transmit_stamps_echoed = true;
     seen_.last_ns = 1'000'000'000;
-    seen_.of_own_interval = {"AlignNav"};
+    seen_.own_interval_s = {{"AlignNav", 0.01}};
     seen_.timing.lateness.add(1);
     for (std::int64_t t_us = 10'000; t_us <= 1'000'000; t_us += 10'000) {
       seen_.stimuli["SlaveImu"].add(t_us);

@@ -188,7 +188,8 @@ TEST_F(Handshake, SaysInWhichStateATargetIsThatDoesNotStart) {
   const auto done = configure();
   ASSERT_FALSE(done);
   EXPECT_THAT(done.error().message,
-              HasSubstr("while starting; its state is ready, its errors: not_initialised"));
+              HasSubstr("answers, but never says running within 2 s while starting: state ready, estimator "
+                        "transfer_alignment, algorithm robust_h2, errors: not_initialised"));
 }
 
 TEST_F(Handshake, DoesNotWaitForATargetThatIsGone) {

@@ -63,7 +63,7 @@ class OnAnFdWire : public testing::Test {
   }
 
   FdNode bench_, target_;
-  Monitor monitor_{std::vector<checks::TimedWindow>{}, WireFacts{.rates = rates, .fd = true}};
+  Monitor monitor_{Asked{.wire = {.rates = rates, .fd = true}}};
 };
 
 TEST_F(OnAnFdWire, TheLatencyIsSplitIntoTheTimesOfContainers) {

@@ -98,7 +98,7 @@ class Watched : public testing::Test {
   [[nodiscard]] const checks::Histogram& latency() const {
     return seen().timing.answers[message_index<Message>()].latency;
   }
-  Monitor monitor_{std::vector<checks::TimedWindow>{}};
+  Monitor monitor_{Asked{.own_interval_s = {{AlignVelocityD::info.sample_group, 0.01}}}};
   Outbox<1> bench_;
   Outbox<1> target_;
 };
@@ -364,6 +364,9 @@ TEST_F(Watched, CountsAnswersThatNeverCameAndThoseToNothing) {
   answer(35'000, 25'000'000);
   const auto& answers = seen().timing.answers[message_index<AlignVelocityD>()];
   EXPECT_EQ(answers.unpaired, 1U);
+  EXPECT_EQ(answers.nearest_us, 5'000);
+  EXPECT_EQ(answers.wrong_counter, 1U) << "the answers say 0, which is that of the first";
+  EXPECT_EQ(answers.counter_sent, 2);
   EXPECT_EQ(answers.latency.count(), 2U);
   EXPECT_EQ(answers.repeated, 0U);
 }
@@ -412,8 +415,7 @@ TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
 // At 1 Mbit/s a bit takes 1 us: what a frame takes is its length in bits.
 class OnAWire : public Watched {
  protected:
-  OnAWire()
-      : monitor_at_rate_(std::vector<checks::TimedWindow>{}, WireFacts{.rates = {.nominal = 1'000'000}}) {}
+  OnAWire() : monitor_at_rate_(Asked{.wire = {.rates = {.nominal = 1'000'000}}}) {}
   static std::int64_t ns(const Frame& frame) { return wire::bit_length(frame).nominal * 1000; }
 
   Monitor monitor_at_rate_;

@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
             "\"heartbeat\"", "\"banana\"",
             "17: key 'check[1].kind': 'banana' is unknown, expected one of: error, convergence, consistency, "
             "sigma, answers, latency, latency_growth, delay, output_period, own_times, heartbeat, counters, "
-            "protection, bus_load, bus_errors, "
+            "counts_match, protection, bus_load, bus_errors, "
             "wire_response, "
             "miss_distance"},
         Wrong{

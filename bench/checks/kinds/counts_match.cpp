@@ -1,0 +1,74 @@
+#include "bench/checks/kinds/counts_match.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/scenario/section.hpp"
+
+namespace canhil::checks {
+namespace {
+
+// The counts stay at their end.
+std::uint64_t largest() {
+  const auto signals = messages::TargetCounters::signals();
+  return static_cast<std::uint64_t>(std::ranges::max_element(signals, {}, &SignalInfo::maximum)->maximum);
+}
+
+struct Count {
+  std::string_view what;
+  std::uint64_t told = 0;
+  std::uint64_t least = 0, most = 0;
+};
+
+Count count(std::string_view what, std::uint64_t told, std::uint64_t least, std::uint64_t most,
+            std::int64_t slack) {
+  const auto room = static_cast<std::uint64_t>(slack);
+  const std::uint64_t saturated_at = largest();
+  return {.what = what,
+          .told = told,
+          .least = std::min(least - std::min(least, room), saturated_at),
+          .most = std::min(most + room, saturated_at)};
+}
+
+}  // namespace
+
+CountsMatch CountsMatch::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
+  const auto slack = [&](std::string_view key) { return section.optional_integer(key, 0).value_or(0); };
+  return {.frames_lost_slack = slack("frames_lost_slack"),
+          .bad_crc_slack = slack("bad_crc_slack"),
+          .bad_group_slack = slack("bad_group_slack"),
+          .late_slack = slack("late_slack")};
+}
+
+Finding CountsMatch::judge(const Evidence& evidence) const {
+  const Observations& seen = evidence.seen;
+  if (!seen.counters) return {Outcome::fail, "no TargetCounters", "counts of what the bench withheld"};
+  const auto& [least, most] = seen.expected_counts;
+  const std::array counts{
+      count("frames lost", seen.counters->frames_lost, least.frames_lost, most.frames_lost,
+            frames_lost_slack),
+      count("bad CRC", seen.counters->bad_crc, least.bad_crc, most.bad_crc, bad_crc_slack),
+      count("bad groups", seen.counters->bad_group, least.bad_group, most.bad_group, bad_group_slack),
+      count("late", seen.counters->late, least.late, most.late, late_slack)};
+  Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
+  for (const Count& one : counts) {
+    const std::string_view separator = finding.expected.empty() ? "" : ", ";
+    finding.measured += fmt::format("{}{} {}", separator, one.what, one.told);
+    finding.expected += fmt::format("{}{} {}", separator, one.what, one.least);
+    if (one.most > one.least) finding.expected += fmt::format(" to {}", one.most);
+    if (one.told < one.least || one.told > one.most) finding.outcome = Outcome::fail;
+  }
+  finding.expected += ", as the bench withheld and damaged";
+  // What the bus lost the bench did not withhold.
+  const std::uint64_t outages = seen.bus.downs + seen.bus.errors.bus_off;
+  if (finding.outcome == Outcome::fail && outages > 0) {
+    finding.outcome = Outcome::not_measured;
+    finding.measured += fmt::format("; the bus was away {} time{}", outages, outages == 1 ? "" : "s");
+  }
+  return finding;
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,17 @@
+// The target's own counters (TargetCounters) beside what the bench withheld and damaged.
+#pragma once
+
+#include "bench/checks/rule.hpp"
+
+namespace canhil::checks {
+
+/// Each count lies between the limits of ExpectedCounts, give or take a slack.
+struct CountsMatch {
+  static constexpr std::string_view kind = "counts_match";
+  std::int64_t frames_lost_slack = 0, bad_crc_slack = 0, bad_group_slack = 0, late_slack = 0;
+
+  static CountsMatch read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

@@ -1,0 +1,96 @@
+// What the bench asks of a target before a run, and what the target answers.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/drive/link.hpp"
+#include "bench/nodes/node.hpp"
+#include "bench/observe/second_target.hpp"
+#include "bench/observe/sightings.hpp"
+#include "dbc/wire/result.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+
+/// The latest answers of the target to commands.
+class Mailbox final : public observe::Observer {
+ public:
+  void received(const Received& received) override;
+  void foreign(const Received& received) override;
+  [[nodiscard]] bool is(messages::Estimator estimator, messages::TargetState state) const {
+    const auto& beat = beats_[static_cast<std::size_t>(estimator)];
+    return beat && beat->state == state;
+  }
+  [[nodiscard]] bool has_stopped(messages::Estimator estimator) const {
+    const auto& beat = beats_[static_cast<std::size_t>(estimator)];
+    return beat && beat->state != messages::TargetState::running;
+  }
+  void forget_heartbeats() {
+    heartbeat.reset();
+    beats_ = {};
+  }
+  std::optional<messages::TargetHeartbeat> heartbeat;  ///< the last one
+  std::optional<messages::ParamAck> acknowledgement;   ///< of this step
+  bool foreign_heartbeat = false;                      ///< in the format that this bus does not have
+  bool other_bench = false;                            ///< somebody else keeps the time base
+
+ private:
+  std::array<std::optional<messages::TargetHeartbeat>, 8> beats_;  // by the three bits of the estimator
+};
+
+/// Sends requests and waits for what they should bring about.
+class Dialogue {
+ public:
+  /// Says why there is no point in waiting any more, if so.
+  using Gone = std::function<std::optional<std::string>()>;
+  using Request = std::function<void(nodes::Transmission&)>;
+  using Condition = std::function<bool(const Mailbox&)>;
+
+  /// One step: "being reset", and what the target is to say, "idle".
+  struct Step {
+    std::string doing;
+    std::string awaited;
+    std::int64_t limit_ns = 0;
+  };
+
+  Dialogue(Link& link, nodes::Transmission& out, const Gone& gone)
+      : link_(link),
+        out_(out),
+        gone_(gone),
+        attached_(link, mailbox_),
+        second_attached_(link, second_),
+        sightings_attached_(link, sightings_) {}
+
+  /// Waits until `condition` holds, sending `request` first and whenever it went unanswered for a while.
+  /// Error: one line that says what was seen instead.
+  Result<void> until(const Step& step, const Request& request, const Condition& condition);
+
+  /// Hears whatever comes for a while.
+  void listen(std::int64_t duration_ns);
+
+  Mailbox& mailbox() { return mailbox_; }
+
+ private:
+  [[nodiscard]] std::string complaint(const Step& step) const;
+  Result<void> send(const Request& request);
+
+  Link& link_;
+  nodes::Transmission& out_;
+  const Gone& gone_;
+  Mailbox mailbox_;
+  observe::SecondTarget second_;
+  observe::Sightings sightings_;  // of this step
+  Attached attached_, second_attached_, sightings_attached_;
+};
+
+/// How long a request waits for its answer before it is sent again; longer than a heartbeat period.
+inline constexpr std::int64_t repeat_ns = 300'000'000;
+/// How long the target has for each step but the first.
+inline constexpr std::int64_t answer_limit_ns = 2'000'000'000;
+
+}  // namespace canhil::drive

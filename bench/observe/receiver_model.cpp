@@ -1,0 +1,123 @@
+#include "bench/observe/receiver_model.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+
+#include "dbc/wire/bits.hpp"
+#include "dbc/wire/routes.hpp"
+#include "dbc/wire/transmit.hpp"
+
+namespace canhil::observe {
+namespace {
+
+using namespace messages;
+
+constexpr Routes bench_messages([](const MessageInfo& info) {
+  return info.sender != TargetHeartbeat::info.sender;
+});
+
+// A group that comes later than this after its validity, or so long before it, need not be used.
+constexpr std::int64_t promised_us = 200'000;
+constexpr std::size_t syncs_of_a_period =
+    static_cast<std::size_t>(TargetHeartbeat::info.cycle_time_us / Sync::info.cycle_time_us);
+
+template <class Message>
+std::uint64_t validity_bits_of() {
+  std::uint64_t bits = 0;
+  const Message any{};
+  Message::visit(any, [&](const SignalInfo& signal, const auto& value) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Validity>)
+      bits |= std::uint64_t{1} << wire::bit_position(signal.start_bit, 0, signal.big_endian);
+  });
+  return bits;
+}
+
+std::uint64_t bits_of(const Frame& frame) {
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < 8; ++i) bits |= std::uint64_t{frame.data[i]} << (8 * i);
+  return bits;
+}
+
+}  // namespace
+
+ReceiverModel::ReceiverModel(const Takers& takers) {
+  for (std::size_t i = 0; i < all_messages.size(); ++i) {
+    const auto taken = takers.find(all_messages[i].sample_group);
+    if (taken == takers.end()) continue;
+    Group& group = groups_[taken->first];
+    group.takers = taken->second;
+    places_[i] = {.group = &group, .bit = group.all + 1};
+    group.all = 2 * group.all + 1;
+  }
+  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+    ((places_[message_index<Messages>()].validity_bits = validity_bits_of<Messages>()), ...);
+  }(std::type_identity<AllMessages>{});
+}
+
+// A frame that is damaged or has another size does not move the receiver's counter: it is counted as damaged
+// and, when the next one comes, as lost.
+void ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us) {
+  const std::size_t index = bench_messages(frame);
+  if (index == Routes::nowhere) return;
+  const MessageInfo& info = all_messages[index];
+  if (frame.size != info.size || frame.fd != info.fd) {
+    ++counts_.bad_crc;
+    return;
+  }
+  switch (receivers_[index].check(frame.payload(), info.e2e_data_id)) {
+    case e2e::Check::wrong_crc:
+      ++counts_.bad_crc;
+      return;
+    case e2e::Check::repeated:
+      ++counts_.late;
+      return;
+    case e2e::Check::some_lost:
+      counts_.frames_lost += static_cast<std::uint64_t>(receivers_[index].lost());
+      break;
+    case e2e::Check::ok:
+      break;
+  }
+  if (places_[index].group != nullptr) put(frame, places_[index], valid_us, now_us);
+}
+
+void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us,
+                        std::int64_t now_us) {
+  Group& group = *place.group;
+  const std::uint8_t counter = e2e::counter(frame.payload());
+  if (group.seen != 0 && counter != group.counter) {
+    counts_.bad_group += group.takers;
+    group.seen = 0;
+  }
+  if (group.seen == 0) group.invalid = false;
+  group.counter = counter;
+  group.seen |= place.bit;
+  group.invalid = group.invalid || (bits_of(frame) & place.validity_bits) != place.validity_bits;
+  if (valid_us) group.valid_us = valid_us;
+  if (group.seen != group.all) return;
+  group.seen = 0;
+  bool early = false, late = false;
+  if (group.valid_us) {
+    early = *group.valid_us > now_us + promised_us;
+    late = *group.valid_us < now_us - promised_us || *group.valid_us <= group.last_valid_us;
+    group.last_valid_us = group.valid_us;
+  }
+  if (early || group.invalid) refusable_ += group.takers;
+  if (late) may_be_late_ += group.takers;
+}
+
+void ReceiverModel::synchronised(bool lockstep) {
+  lockstep_ = lockstep;
+  at_sync_.push_back(counts_);
+  if (at_sync_.size() > syncs_of_a_period) at_sync_.pop_front();
+}
+
+checks::ExpectedCounts ReceiverModel::expected() const {
+  checks::ExpectedCounts expected{.least = {}, .most = counts_};
+  if (!at_sync_.empty()) expected.least = lockstep_ ? at_sync_.back() : at_sync_.front();
+  expected.most.bad_group += refusable_;
+  expected.most.late += may_be_late_;
+  return expected;
+}
+
+}  // namespace canhil::observe

@@ -1,0 +1,149 @@
+// A target that is right in everything but one, as its first word says: what a bench must not believe.
+//   lying_target LIE --bus BUS
+#include <array>
+#include <atomic>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+#include "dbc/ports/fd_groups.hpp"
+#include "dbc/wire/message.hpp"
+#include "messages/canhil.hpp"
+#include "target/process/event_loop.hpp"
+
+namespace {
+
+using namespace canhil;
+using namespace canhil::messages;
+
+// Changes a frame, or says that it is not sent.
+using Lie = std::function<bool(Frame&)>;
+
+// The message with other values under the same counter, if the frame is one.
+template <class Message, class Change>
+void change(Frame& frame, const Change& values) {
+  if (frame.id != Message::info.id) return;
+  auto message = from_frame<Message>(frame);
+  values(message);
+  frame = to_frame(message, e2e::counter(frame.payload()));
+}
+
+template <class Change>
+void change_every(Frame& frame, const Change& values) {
+  [&]<class... Messages>(std::type_identity<std::tuple<Messages...>>) {
+    (change<Messages>(frame, values), ...);
+  }(std::type_identity<AllMessages>{});
+}
+
+template <class Message>
+Lie when(const std::function<void(Frame&)>& spoil) {
+  return [spoil](Frame& frame) {
+    if (frame.id == Message::info.id) spoil(frame);
+    return true;
+  };
+}
+
+std::uint8_t moved(std::uint8_t counter) { return e2e::next(counter); }
+
+void protect(Frame& frame, std::uint8_t counter) {
+  e2e::protect({frame.data.data(), frame.size}, find_message(frame.id)->e2e_data_id, counter);
+}
+
+const std::map<std::string_view, Lie>& lies() {
+  static const std::map<std::string_view, Lie> all{
+      {"forgets_losses",
+       [](Frame& frame) {
+         change<TargetCounters>(frame, [](TargetCounters& told) { told = {}; });
+         return true;
+       }},
+      {"counts_one_loss_more",
+       [](Frame& frame) {
+         change<TargetCounters>(frame, [](TargetCounters& told) { ++told.frames_lost; });
+         return true;
+       }},
+      {"cause_counter_off_by_one",
+       [](Frame& frame) {
+         change_every(frame, [](auto& told) {
+           if constexpr (requires { told.cause_counter; }) told.cause_counter = moved(told.cause_counter);
+         });
+         return true;
+       }},
+      {"cause_time_off",
+       [](Frame& frame) {
+         change_every(frame, [](auto& told) {
+           if constexpr (requires { told.cause_time_us; }) told.cause_time_us += 5;
+         });
+         return true;
+       }},
+      {"no_sigma", [](Frame& frame) { return frame.id != LosRateSigma::info.id; }},
+      {"sigma_with_wrong_crc", when<LosRateSigma>([](Frame& frame) { frame.data[0] ^= 1U; })},
+      {"sigma_with_another_counter",
+       when<LosRateSigma>([](Frame& frame) { protect(frame, moved(e2e::counter(frame.payload()))); })},
+      {"heartbeat_with_wrong_crc", when<TargetHeartbeat>([](Frame& frame) { frame.data[0] ^= 1U; })},
+      {"heartbeat_with_counter_15", when<TargetHeartbeat>([](Frame& frame) { protect(frame, 15); })},
+      {"short_heartbeat", when<TargetHeartbeat>([](Frame& frame) { --frame.size; })},
+      {"other_ids", when<TargetHeartbeat>([](Frame& frame) { frame.id = 0x456; })},
+      {"acknowledges_another_parameter",
+       [](Frame& frame) {
+         change<ParamAck>(frame, [](ParamAck& told) { told.parameter = Parameter::closed_loop; });
+         return true;
+       }},
+      {"never_ready",
+       [](Frame& frame) {
+         change<TargetHeartbeat>(frame, [](TargetHeartbeat& told) { told.state = TargetState::idle; });
+         return true;
+       }},
+  };
+  return all;
+}
+
+// The bus as the target sees it, with what it sends changed on the way.
+class LyingPort final : public Port {
+ public:
+  LyingPort(std::unique_ptr<Port> bus, Lie lie) : bus_(std::move(bus)), lie_(std::move(lie)) {}
+  SendOutcome send(const Frame& frame) override {
+    Frame told = frame;
+    return lie_(told) ? bus_->send(told) : SendOutcome::sent;
+  }
+  std::optional<Received> receive() override { return bus_->receive(); }
+  [[nodiscard]] int descriptor() const override { return bus_->descriptor(); }
+  [[nodiscard]] RoomWait room_wait() const override { return bus_->room_wait(); }
+  bool wait_for_frame(std::int64_t deadline_ns) override { return bus_->wait_for_frame(deadline_ns); }
+  bool wait_for_room(std::int64_t deadline_ns) override { return bus_->wait_for_room(deadline_ns); }
+  [[nodiscard]] bool closed() const override { return bus_->closed(); }
+  [[nodiscard]] bool up() const override { return bus_->up(); }
+  [[nodiscard]] PortCounters counters() const override { return bus_->counters(); }
+  [[nodiscard]] Capabilities capabilities() const override { return bus_->capabilities(); }
+  [[nodiscard]] int stamp_clock() const override { return bus_->stamp_clock(); }
+  [[nodiscard]] const std::string& name() const override { return bus_->name(); }
+
+ private:
+  std::unique_ptr<Port> bus_;
+  Lie lie_;
+};
+
+int complain(const std::string& what) {
+  std::fprintf(stderr, "lying_target: %s\n", what.c_str());
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 4 || std::string_view(argv[2]) != "--bus") return complain("expected LIE --bus BUS");
+  const auto lie = lies().find(argv[1]);
+  if (lie == lies().end()) return complain(std::string("no such lie: ") + argv[1]);
+  PortOptions options;
+  options.node_name = "lying-target";
+  auto bus = open_bus(argv[3], options, BusFormat::classic);
+  if (!bus) return complain(bus.error().message);
+  LyingPort port(std::move(*bus), lie->second);
+  const std::atomic<bool> never = false;
+  const auto served = target::serve(port, BusFormat::classic, never);
+  return served ? 0 : complain(served.error().message);
+}

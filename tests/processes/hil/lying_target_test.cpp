@@ -1,0 +1,202 @@
+// Targets that are right in everything but one: the bench says what is wrong, and a run does not pass.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "dbc/ports/candump_log.hpp"
+#include "messages/canhil.hpp"
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A program that tells one lie, to be started as a target.
+std::string liar(const std::string& lie) {
+  std::string path = scratch(lie);
+  std::ofstream(path) << fmt::format("#!/bin/sh\nexec {} {} \"$@\"\n", LYING_TARGET, lie);
+  EXPECT_EQ(shell("chmod +x " + path).code, 0);
+  return path;
+}
+
+/// A scenario of bench/flights with more behind it.
+std::string with(const std::string& flight, const std::string& more) {
+  std::string path = scratch(flight + "_and_more.toml");
+  std::ofstream(path) << read(scenario(flight)) << more;
+  return path;
+}
+
+/// Samples that get lost, repeated and damaged, and the target's counts of them as the only bar.
+std::string lossy() {
+  return with("transfer_alignment_quick", R"(
+[[fault]]
+kind = "lost"
+messages = ["SlaveImuDeltaV"]
+from_s = 0.5
+to_s = 1.0
+every = 20
+[[fault]]
+kind = "damaged"
+messages = ["SlaveImuStatus"]
+from_s = 1.0
+to_s = 1.5
+every = 20
+[[fault]]
+kind = "repeated"
+messages = ["MasterInsVelocityNE"]
+from_s = 0.5
+to_s = 1.5
+every = 3
+[[check]]
+kind = "counts_match"
+)");
+}
+
+struct Flown {
+  Ended ended;
+  nlohmann::json report;
+};
+Flown fly(const std::string& file, const std::string& more) {
+  const std::string report = scratch("report.json");
+  Flown flown{
+      .ended = hil_bench(fmt::format("run {} --bus {} --lockstep --json {} {}", file, bus(), report, more)),
+      .report = {}};
+  EXPECT_NE(flown.ended.code, 2) << flown.ended.err;
+  if (flown.ended.code != 2) flown.report = read_json(report);
+  return flown;
+}
+
+/// The kinds of the checks that failed, each once.
+std::vector<std::string> failed(const nlohmann::json& report) {
+  std::vector<std::string> kinds;
+  for (const auto& check : report["checks"]) {
+    if (check["outcome"] == "fail") kinds.push_back(check["kind"]);
+  }
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+  return kinds;
+}
+
+std::string measured(const nlohmann::json& report, const std::string& kind) {
+  for (const auto& check : report["checks"]) {
+    if (check["kind"] == kind) return check["measured"];
+  }
+  return "no such check";
+}
+
+using Kinds = std::vector<std::string>;
+
+TEST(Lies, TheCountsOfAnHonestTargetMatchWhatTheBenchDid) {
+  const Flown flown = fly(lossy(), "");
+  EXPECT_EQ(measured(flown.report, "counts_match"), "frames lost 6, bad CRC 3, bad groups 6, late 4");
+  EXPECT_THAT(failed(flown.report), testing::Not(testing::Contains("counts_match")));
+}
+
+TEST(Lies, CountsThatAreNotThoseOfTheBenchFailWhereErrorsPass) {
+  const Kinds honest = failed(fly(lossy(), "").report);
+  for (const char* lie : {"forgets_losses", "counts_one_loss_more"}) {
+    const Flown flown = fly(lossy(), "--target " + liar(lie));
+    EXPECT_EQ(flown.ended.code, 1) << lie;
+    Kinds expected = honest;
+    expected.emplace_back("counts_match");
+    std::erase(expected, lie == std::string("forgets_losses") ? "counters" : "");
+    EXPECT_EQ(failed(flown.report), expected) << lie;
+  }
+}
+
+TEST(Lies, InRealTimeTheCountsMatchTooAndALieIsFound) {
+  const std::string report = scratch("real_time.json");
+  const std::string run = fmt::format("run {} --bus {} --json {}", lossy(), bus(), report);
+  Kinds honest;
+  for (int attempt = 0; attempt < 4;
+       ++attempt) {  // a host that is away for long keeps the target from reading
+    ASSERT_NE(hil_bench(run).code, 2);
+    honest = failed(read_json(report));
+    if (std::ranges::find(honest, "counts_match") == honest.end()) break;
+  }
+  EXPECT_THAT(honest, testing::Not(testing::Contains("counts_match")));
+  EXPECT_EQ(hil_bench(run + " --target " + liar("forgets_losses")).code, 1);
+  EXPECT_THAT(failed(read_json(report)), testing::Contains("counts_match"));
+}
+
+TEST(Lies, AnswersWithTheCounterOfAnotherCauseFailTheRun) {
+  for (const char* flight : {"transfer_alignment_quick", "inflight_quick", "los_quick", "wind_quick"}) {
+    EXPECT_THAT(failed(fly(scenario(flight), "").report), IsEmpty()) << flight;
+    const Flown flown = fly(scenario(flight), "--target " + liar("cause_counter_off_by_one"));
+    EXPECT_EQ(flown.ended.code, 1) << flight;
+    EXPECT_EQ(failed(flown.report), Kinds{"causes"}) << flight;
+    EXPECT_THAT(flown.ended.out, ContainsRegex("FAIL +causes .* answers with the counter of another cause"))
+        << flight;
+  }
+}
+
+TEST(Lies, AnswersWithTheTimeOfNoCauseFailTheRun) {
+  const Flown flown = fly(scenario("los_quick"), "--target " + liar("cause_time_off"));
+  EXPECT_EQ(flown.ended.code, 1);
+  EXPECT_THAT(failed(flown.report), testing::Contains("causes"));
+  EXPECT_THAT(measured(flown.report, "causes"),
+              ContainsRegex("^LosRate: [1-9][0-9]+ answers with no cause, nearest 5 us off$"));
+}
+
+TEST(Lies, OfAGroupThatIsNeverWholeTheMessageToBlameIsNamed) {
+  const auto blamed = [](const std::string& lie) {
+    const Flown flown = fly(scenario("los_quick"), "--target " + liar(lie));
+    EXPECT_EQ(flown.ended.code, 1) << lie;
+    return measured(flown.report, "answer_groups");
+  };
+  EXPECT_THAT(blamed("no_sigma"),
+              ContainsRegex("^LosRate: [0-9]+ frames and no whole group: LosRateSigma missing$"));
+  EXPECT_THAT(blamed("sigma_with_wrong_crc"), ContainsRegex("group: LosRateSigma: [0-9]+ with a wrong CRC$"));
+  EXPECT_THAT(blamed("sigma_with_another_counter"), HasSubstr("its messages never have one counter"));
+}
+
+TEST(Lies, AHandshakeThatFailsSaysWhatItSaw) {
+  const auto seen = [](const std::string& lie) {
+    const Ended ended =
+        hil_bench(fmt::format("run {} --bus {} --target {}", scenario("los_quick"), bus(), liar(lie)));
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    EXPECT_EQ(ended.code, 2) << lie;
+    return ended.err;
+  };
+  const std::string nothing = "no answer within 5 s while waiting for its heartbeat; seen: ";
+  EXPECT_THAT(seen("heartbeat_with_wrong_crc"),
+              ContainsRegex(nothing + "TargetHeartbeat: [1-9][0-9]* with a wrong CRC"));
+  EXPECT_THAT(seen("heartbeat_with_counter_15"),
+              ContainsRegex(nothing + "TargetHeartbeat: [1-9][0-9]* with counter 15, which is not allowed"));
+  EXPECT_THAT(seen("short_heartbeat"),
+              ContainsRegex(nothing + "TargetHeartbeat: [1-9][0-9]* of 7 bytes, expected 8"));
+  EXPECT_THAT(seen("other_ids"), AllOf(HasSubstr("frames of other ids: 0x456"), HasSubstr("no heartbeat")));
+  EXPECT_THAT(seen("acknowledges_another_parameter"),
+              HasSubstr("ParamAck for another parameter: closed_loop"));
+  EXPECT_THAT(
+      seen("never_ready"),
+      ContainsRegex("answers, but never says ready within 2 s while taking its initial state: state idle, "
+                    "estimator los_rate, .*errors: none"));
+}
+
+TEST(Lies, AHandshakeThatFailsLeavesItsLog) {
+  const std::string log = scratch("handshake.log");
+  const auto fail = [&] {
+    return hil_bench(fmt::format("run {} --bus {} --log {} --target {}", scenario("los_quick"), bus(), log,
+                                 liar("heartbeat_with_wrong_crc")))
+        .err;
+  };
+  EXPECT_THAT(fail(), HasSubstr("; the log of the handshake is '" + log + "'\n"));
+  auto reader = LogReader::open(log);
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto entry = reader->next();
+  ASSERT_TRUE(entry && *entry);
+  EXPECT_EQ((*entry)->frame.id, messages::TargetHeartbeat::info.id);
+  const std::string first = read(log);
+  EXPECT_THAT(fail(), HasSubstr("; the log of the handshake is '" + log + ".incomplete'\n"));
+  EXPECT_EQ(read(log), first) << "a run that does not begin takes nothing away";
+}
+
+}  // namespace
+}  // namespace canhil::test
