@@ -27,6 +27,7 @@ scenario::Contract make_contract() {
                               .former_check_kinds = checks::former_kinds(estimators::all())};
   contract.facts = estimators::facts();
   contract.nodes = nodes::tables();
+  contract.read_recorded = nodes::read_recorded;
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);

@@ -19,6 +19,8 @@ struct Estimator;
 namespace canhil::scenario {
 
 struct NodeTable;
+class NodeSettings;
+class Section;
 
 struct Contract {
   std::vector<std::string> estimators;  ///< value table Estimator, without "none"
@@ -33,6 +35,8 @@ struct Contract {
   std::map<std::string, std::string, std::less<>> sent_by{};
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
+  /// Reads the table of any node that has a key `recorded`; null: none may.
+  NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
 };
 
 /// Of an estimator; one that nobody knows is one that navigates.

@@ -51,6 +51,10 @@ class Outbox {
   void send(const Message& message) {
     if (size_ < capacity) frames_[size_++] = to_frame(message, counters_.take<Message>(), rounding_);
   }
+  /// Appends a frame as it is.
+  void put(const Frame& frame) {
+    if (size_ < capacity) frames_[size_++] = frame;
+  }
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), size_}; }
   /// What becomes of the scaled signals of what is sent.
   [[nodiscard]] Rounding rounding() const { return rounding_; }
