@@ -56,8 +56,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"tilt_deg", "tilt", "7: key 'target.initial_sigma.tilt': is unknown, expected 'tilt_deg'"},
         Wrong{
             "heading_deg = 90", "heading_deg = 90\nspeed_kmph = 3",
-            "14: key 'truth.speed_kmph': is unknown, expected one of: latitude_deg, longitude_deg, height_m, "
-            "trajectory, roll_deg, pitch_deg, heading_deg"},
+            "14: key 'truth.speed_kmph': is unknown, expected one of: trajectory, latitude_deg, longitude_deg, "
+            "height_m, roll_deg, pitch_deg, heading_deg"},
         Wrong{"[[check]]", "[[check]]\nbelow_mrad = 3",
               "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
               "silent_at_most_s, name"},
