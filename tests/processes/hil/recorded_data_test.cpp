@@ -202,7 +202,7 @@ TEST(RecordedData, AWrongFileIsOneLine) {
   std::string text = read(scenario("transfer_alignment_quick"));
   const std::string own = write("wrong.toml", with_table(text, "[slave_imu]", "recorded = \"rows.csv\"\n"));
   expect_one_line(hil_bench("run " + own),
-                  "rows.csv:1: column 'delta_theta_y_rad': is missing, expected it or 'delta_theta_y_mrad'");
+                  "rows.csv:1: column 'delta_theta_y_rad': is missing, expected it or 'delta_theta_y_deg'");
   const std::string none = write("none.toml", with_table(text, "[slave_imu]", "recorded = \"none.log\"\n"));
   expect_one_line(hil_bench("run " + none), "none.log: cannot be read (No such file or directory)");
 }

@@ -78,8 +78,8 @@ TEST(RecordedFlight, BeginsAtItsTimeAndCrossesNorth) {
   EXPECT_NEAR(scenario->truth.start.latitude, 37 * deg, 1e-9);
   const world::Movement start = movement(scenario->truth.motion, 0),
                         later = movement(scenario->truth.motion, 5);
-  EXPECT_NEAR(euler_from(start.C_bn).heading, -5 * deg, 1e-9);
-  EXPECT_NEAR(euler_from(later.C_bn).heading, 0, 1e-9);
+  EXPECT_NEAR(world::euler_from(start.C_bn).heading, -5 * deg, 1e-9);
+  EXPECT_NEAR(world::euler_from(later.C_bn).heading, 0, 1e-9);
   EXPECT_NEAR(later.omega_nb_b.norm(), 1 * deg, 1e-6) << "no jump where the heading wraps";
   EXPECT_TRUE(scenario->truth_is_known());
 }
@@ -199,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"jump", put(100, 1, "37.001"),
               "f.csv:101: column 'latitude_deg': velocity and positions contradict each other: the way by "
               "the velocities "
-              "passes 109 m from this position, expected at most 5 (key 'agree_within_m')"},
+              "passes 91 m from this position, expected at most 5 (key 'agree_within_m')"},
         Wrong{"sign",
               [](std::vector<Row>& all) {
                 for (std::size_t i = 1; i < all.size(); ++i) all[i][4] = "-10";
