@@ -78,7 +78,6 @@ NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_
                    "FILE.csv, or FILE.log of candump or --log");
   }
   if (!read) section.reject("recorded", read.error());
-  // What the node's error model or faults would take would have no effect: each is unknown here.
   return {table, std::move(own)};
 }
 

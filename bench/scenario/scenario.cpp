@@ -48,7 +48,8 @@ void read_nodes(Section& root, Scenario& scenario, const Contract& contract, Tru
     if (!recorded && truth == TruthOf::navigation && !scenario.truth_is_known())
       root.reject(node->key, "has no truth to measure, as trajectory is \"unknown\"",
                   "'recorded', and what was measured");
-    section->finish();
+    // Error models and faults work on what is measured here, not on what was.
+    section->finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
   }
 }
 

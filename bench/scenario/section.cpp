@@ -369,7 +369,7 @@ void Section::refuse(std::string_view key, std::string_view what, std::string_vi
   optional(key);
 }
 
-void Section::finish() {
+void Section::finish(std::string_view unasked) {
   if (state_->table == nullptr) return;
   // The first in the file, as the table itself is sorted by key.
   const toml::node* unknown = nullptr;
@@ -381,7 +381,7 @@ void Section::finish() {
     unknown_key = key.str();
   }
   if (unknown != nullptr) {
-    state_->fail(unknown_key, line_of(*unknown), "is unknown", expected_instead(unknown_key, state_->asked));
+    state_->fail(unknown_key, line_of(*unknown), unasked, expected_instead(unknown_key, state_->asked));
   }
   for (const auto& [key, expected] : state_->missing) reject(key, "is missing", expected);
 }

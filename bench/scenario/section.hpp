@@ -91,8 +91,9 @@ class Section {
   void reject(std::string_view key, const Error& error);
   /// Rejects a key that is there though it has no effect beside the others.
   void refuse(std::string_view key, std::string_view what, std::string_view expected);
-  /// To be called when all keys have been asked for: reports an unknown key, or else a missing one.
-  void finish();
+  /// To be called when all keys have been asked for: reports one that nobody asked for, as what it is, or
+  /// else a missing one.
+  void finish(std::string_view unasked = "is unknown");
 
   /// The first error of the whole file.
   [[nodiscard]] std::optional<Error> error() const;

@@ -16,11 +16,19 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// A table of a scenario and what stands in it, up to the next one.
-std::string with_table(const std::string& text, const std::string& header, const std::string& lines) {
-  const std::size_t at = text.find(header + "\n");
-  const std::size_t end = text.find("\n[", at + header.size());
-  return at == std::string::npos ? text : text.substr(0, at) + header + "\n" + lines + text.substr(end);
+/// The text with other lines in place of those of a table; its header may have a comment.
+std::string with_table(const std::string& text, const std::string& table, const std::string& lines) {
+  const std::size_t at = text.find("\n[" + table + "]") + 1;
+  const std::size_t header_end = text.find('\n', at), end = text.find("\n[", header_end);
+  if (at == 0) ADD_FAILURE() << "there is no [" << table << "]";
+  return at == 0 ? text : text.substr(0, header_end + 1) + lines + text.substr(end);
+}
+
+/// The line of a table that begins with a word, with its line end; empty: there is none.
+std::string line_of(const std::string& text, const std::string& table, const std::string& word) {
+  const std::size_t at = text.find("\n[" + table + "]");
+  const std::size_t end = text.find("\n[", at + 1), found = text.find("\n" + word, at);
+  return found < end ? text.substr(found + 1, text.find('\n', found + 1) - found) : "";
 }
 
 std::string write(const std::string& name, const std::string& text) {
@@ -46,8 +54,8 @@ TEST_P(LogFlownAgain, GivesTheSameAnswers) {
   ASSERT_NE(first.code, 2) << first.err;
   std::string text = read(scenario(name));
   for (const std::string& node : GetParam().nodes)
-    text = with_table(text, "[" + node + "]",
-                      (node == "slave_imu" && name == "inflight_quick" ? "period_ms = 20\n" : "") +
+    text = with_table(text, node,
+                      line_of(text, node, "period_ms") +
                           fmt::format("recorded = \"{}\"\n", std::filesystem::path(log).filename().string()));
   const std::string own = write(name + ".again.toml", text);
   const Ended second = hil_bench(fmt::format("run {} --lockstep --bus {} --log {}", own, bus(), again));
@@ -79,7 +87,9 @@ TEST_P(LogFlownAgain, GivesTheSameAnswers) {
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, LogFlownAgain,
                          testing::Values(Case{"transfer_alignment_quick", {"master_ins", "slave_imu"}},
-                                         Case{"inflight_quick", {"slave_imu", "ssbl"}}),
+                                         Case{"all_four",
+                                              {"master_ins", "slave_imu", "ssbl", "gps", "seeker",
+                                               "glider_nav", "fins"}}),
                          [](const auto& one) { return one.param.scenario; });
 
 /// The samples of a log's IMU and of its master, as a user would have them in files.
@@ -140,8 +150,8 @@ TEST(RecordedData, TheSamplesOfARunAsCsvFilesGiveTheSameAnswers) {
   write("imu.csv", csv.imu);
   write("master.csv", csv.master);
   std::string text = read(scenario("transfer_alignment_quick"));
-  text = with_table(text, "[slave_imu]", "recorded = \"imu.csv\"\n");
-  text = with_table(text, "[master_ins]", "recorded = \"master.csv\"\n");
+  text = with_table(text, "slave_imu", "recorded = \"imu.csv\"\n");
+  text = with_table(text, "master_ins", "recorded = \"master.csv\"\n");
   const std::string own = write("csv.toml", text);
   const Ended second = hil_bench(fmt::format("run {} --lockstep --bus {} --log {}", own, bus(), again));
   ASSERT_NE(second.code, 2) << second.err;
@@ -167,10 +177,10 @@ velocity_mps = [138.9, 0.0, 0.0]
 heading_deg = 0.0
 
 )" + text.substr(master);
-  text = with_table(text, "[slave_imu]", "recorded = \"unknown.log\"\n");
+  text = with_table(text, "slave_imu", "recorded = \"unknown.log\"\n");
   const std::string measures = write("measures.toml", text);
   expect_one_line(hil_bench("run " + measures), "key 'master_ins': has no truth to measure");
-  text = with_table(text, "[master_ins]", "recorded = \"unknown.log\"\n");
+  text = with_table(text, "master_ins", "recorded = \"unknown.log\"\n");
   const std::string own = write("unknown.toml", text);
   const Ended ended = hil_bench(
       fmt::format("run {} --lockstep --bus {} --json {} --csv {}", own, bus(), json, scratch("unknown.csv")));
@@ -200,10 +210,10 @@ heading_deg = 0.0
 TEST(RecordedData, AWrongFileIsOneLine) {
   write("rows.csv", "t_s,rate_x_degps\n0.01,1\n0.02,2\n");
   std::string text = read(scenario("transfer_alignment_quick"));
-  const std::string own = write("wrong.toml", with_table(text, "[slave_imu]", "recorded = \"rows.csv\"\n"));
+  const std::string own = write("wrong.toml", with_table(text, "slave_imu", "recorded = \"rows.csv\"\n"));
   expect_one_line(hil_bench("run " + own),
                   "rows.csv:1: column 'delta_theta_y_rad': is missing, expected it or 'delta_theta_y_deg'");
-  const std::string none = write("none.toml", with_table(text, "[slave_imu]", "recorded = \"none.log\"\n"));
+  const std::string none = write("none.toml", with_table(text, "slave_imu", "recorded = \"none.log\"\n"));
   expect_one_line(hil_bench("run " + none), "none.log: cannot be read (No such file or directory)");
 }
 
