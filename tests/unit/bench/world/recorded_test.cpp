@@ -127,6 +127,25 @@ TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded
 
 INSTANTIATE_TEST_SUITE_P(Rates, RecordedEvery, testing::Values(10'000, 20'000, 40'000));
 
+// Rounded velocities, at times of no grid: the derivatives of their spline jump at each of them, and no
+// quadrature may step across. Sums of ten or of a hundred parts round to 1e-15 of 0.1 m/s and 2 mrad.
+TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
+  const FlightRecord flown(turning, 4'000'000, 1'000);
+  auto states = states_of(flown, 37'000);
+  for (RecordedState& state : states) state.v_eb_n = (state.v_eb_n * 100).array().round() / 100;
+  const Flight again = flown_again(states);
+  const FlightRecord coarse(again, 3'900'000, 10'000), fine(again, 3'900'000, 1'000);
+  for (std::size_t k = 0; k < coarse.increments().size(); ++k) {
+    Vector3 theta = Vector3::Zero(), v = Vector3::Zero();
+    for (std::size_t j = 10 * k; j < 10 * k + 10; ++j) {
+      theta += fine.increments()[j].delta_theta;
+      v += fine.increments()[j].delta_v;
+    }
+    ASSERT_LT((coarse.increments()[k].delta_theta - theta).norm(), 1e-14) << k;
+    ASSERT_LT((coarse.increments()[k].delta_v - v).norm(), 1e-12) << k;
+  }
+}
+
 // A navigation system whose velocity is off while its positions are right: over a long flight that is where
 // the truth goes.
 TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
