@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 #include "bench/estimators/registry.hpp"
 
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
+#include "bench/scenario/table.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -71,7 +73,7 @@ Result<void> check_density(const scenario::Scenario& scenario) {
   constexpr std::int64_t most_intervals = 10;
   const auto* recorded = std::get_if<world::Recorded>(&scenario.truth.motion);
   if (recorded == nullptr) return {};
-  const std::int64_t median_us = recorded->path->median_interval_us();
+  const std::int64_t median_us = scenario::median_step(recorded->path->sample_times_us());
   const std::int64_t interval_us = epoch_interval_us(scenario);
   if (median_us <= most_intervals * interval_us) return {};
   return failure(fmt::format(

@@ -27,6 +27,7 @@ class IncrementRounding {
  public:
   explicit IncrementRounding(const SignalInfo& signal) : signal_(signal) {}
 
+  /// The increment of each axis, as round_increment() gives it.
   world::Vector3 round(const world::Vector3& increment, Rounding rounding) {
     const double lsb = rounding == Rounding::none ? 0 : wire::lsb(signal_);
     world::Vector3 sent;

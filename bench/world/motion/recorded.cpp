@@ -78,14 +78,6 @@ std::vector<std::int64_t> RecordedPath::samples_between(std::int64_t from_us, st
   return {first, last};
 }
 
-std::int64_t RecordedPath::median_interval_us() const {
-  std::vector<std::int64_t> intervals;
-  for (std::size_t i = 1; i < t_us_.size(); ++i) intervals.push_back(t_us_[i] - t_us_[i - 1]);
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::ranges::nth_element(intervals, middle);
-  return *middle;
-}
-
 Position RecordedPath::advanced_from(const Position& position, double from, double to) const {
   return advanced(position, velocity(from), velocity(0.5 * (from + to)), velocity(to), to - from);
 }

@@ -46,8 +46,7 @@ class RecordedPath {
   [[nodiscard]] Position position(double t) const;
   /// Times of samples between two times, ends excluded [us].
   [[nodiscard]] std::vector<std::int64_t> samples_between(std::int64_t from_us, std::int64_t to_us) const;
-  /// The middle one of the times from a sample to the next [us].
-  [[nodiscard]] std::int64_t median_interval_us() const;
+  [[nodiscard]] std::span<const std::int64_t> sample_times_us() const { return t_us_; }
 
   /// Where positions and velocities contradict each other most.
   struct Contradiction {
