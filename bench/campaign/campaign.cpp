@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 #include "bench/drive/contract.hpp"
@@ -12,6 +13,8 @@
 
 namespace canhil::campaign {
 namespace {
+
+namespace fs = std::filesystem;
 
 using scenario::Section;
 using scenario::Setting;
@@ -109,6 +112,15 @@ std::uint64_t hash_of(const Sources& sources) {
   return world::fnv1a_64(all);
 }
 
+/// Recordings that a scenario flies are no part of the sources, but of what was flown.
+std::uint64_t with_recordings(std::uint64_t hash, const std::vector<Variant>& variants) {
+  for (const Variant& variant : variants) {
+    const std::uint64_t own = variant.scenario.recordings_hash;
+    if (own != 0) hash = world::fnv1a_64(fmt::format("{:016x}", own), hash);
+  }
+  return hash;
+}
+
 /// Reads the scenario of each variant at each point of the sweep.
 Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, const std::vector<Point>& points,
                                            Sources& sources, const ScenarioText& text, std::uint64_t seed) {
@@ -128,11 +140,18 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
                       .scenario = {}};
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
-      auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings, beside);
+      // Named from the campaign's folder, and what it names from its own.
+      const fs::path place = fs::path(sources.file).parent_path() / one.scenario;
+      auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings,
+                                        place.parent_path().string(), beside);
       const auto refused = [&](std::string_view why) {
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };
       if (!read) return refused(read.error().message);
+      for (const estimators::Estimator* estimator : estimators::all()) {
+        if (std::string why = scenario::why_no_truth(*read, estimator->facts); !why.empty())
+          return refused(fmt::format("{} has {}, expected a truth to compare with", one.scenario, why));
+      }
       if (read->targets.size() > 1)
         return refused(
             fmt::format("{} runs {} estimators, expected one", one.scenario, read->targets.size()));
@@ -218,6 +237,7 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
   if (!variants) return tl::unexpected(variants.error());
   campaign.hash = hash_of(campaign.sources);
   campaign.variants = std::move(*variants);
+  campaign.hash = with_recordings(campaign.hash, campaign.variants);
 
   std::int64_t shortest_us = std::numeric_limits<std::int64_t>::max();
   for (const Variant& variant : campaign.variants) {

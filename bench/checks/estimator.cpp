@@ -1,8 +1,24 @@
 #include "bench/checks/estimator.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace canhil::estimators {
+
+void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
+                 const quantities::TrackSink& give) {
+  if (truth.flight.is_known()) return of.tracks(seen, truth, give);
+  of.tracks(seen, truth, [&](quantities::Track track) {
+    if (!track.quantity->white) {
+      if (track.kind == quantities::Track::Kind::statistic) return;
+      for (quantities::Told& told : track.told) {
+        told.value = std::numeric_limits<double>::quiet_NaN();
+        told.truth.reset();
+      }
+    }
+    give(std::move(track));
+  });
+}
 
 const Estimator* find(std::span<const Estimator* const> estimators, std::string_view name) {
   const auto found = std::ranges::find(estimators, name, [](const Estimator* one) { return one->name; });

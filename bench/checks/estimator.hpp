@@ -71,6 +71,11 @@ struct Estimator {
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
 };
 
+/// The tracks of an estimator over a run. Of a flight that is not known they tell no error and no truth, only
+/// what was estimated; those that are errors alone are left out.
+void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
+                 const quantities::TrackSink& give);
+
 /// The one of this name; none: null.
 const Estimator* find(std::span<const Estimator* const> estimators, std::string_view name);
 /// Every quantity that any of these tells, each once, in their order.

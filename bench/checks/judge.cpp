@@ -44,11 +44,29 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
       });
     };
     if (!looks_at(nullptr)) continue;
-    one->tracks(evidence.seen, evidence.truth, [&](quantities::Track track) {
+    estimators::give_tracks(*one, evidence.seen, evidence.truth, [&](quantities::Track track) {
       if (looks_at(track.quantity)) tracks.push_back({one->name, std::move(track)});
     });
   }
   return tracks;
+}
+
+// Why a rule cannot be judged, as there is no truth for what it looks at; empty: it can.
+std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule& rule,
+                         const Evidence& evidence) {
+  const std::vector<std::string> held = rule.held_against_truth();
+  const std::vector<Subject> subjects = rule.subjects();
+  for (const estimators::Estimator* one : evidence.estimators) {
+    std::string why = scenario::why_no_truth(scenario, one->facts);
+    // What is no error may hang on the truth too: when which sample was how far from the end.
+    const auto is_untold = [&](const Subject& subject) {
+      return subject.estimator == one->name && tracks_of(evidence, one->name, *subject.quantity).empty();
+    };
+    if (!why.empty() &&
+        (std::ranges::find(held, one->name) != held.end() || std::ranges::any_of(subjects, is_untold)))
+      return why;
+  }
+  return "";
 }
 
 }  // namespace
@@ -89,6 +107,10 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
   evidence.tracks = tracks_for(all, evidence);
   for (const scenario::Check& check : all) {
     Finding finding = check.rule->judge(evidence);
+    if (std::string why = why_no_truth(scenario, *check.rule, evidence); !why.empty()) {
+      finding.outcome = Outcome::not_measured;
+      finding.measured = std::move(why);
+    }
     if (!evidence.ended_early.empty()) {  // what was seen until then proves nothing either way
       finding.outcome = Outcome::not_measured;
       finding.measured = "the run ended early";

@@ -6,6 +6,9 @@
 // and, where they say something,
 //   std::string subject() const                  what tells one check of the kind from another
 //   std::vector<Subject> subjects() const        the quantities that it looks at
+//   std::vector<std::string> held_against_truth() const
+//                                                the estimators whose truth it takes; without it: those of
+//                                                its subjects that are no innovations
 //   std::optional<Bar> bar() const               what it asks of them, for pictures
 //   std::vector<Timed> timed() const             the messages whose times it looks at, and when
 #pragma once
@@ -18,11 +21,8 @@
 #include <vector>
 
 #include "bench/checks/finding.hpp"
+#include "bench/quantities/quantity.hpp"
 #include "bench/scenario/checks.hpp"
-
-namespace canhil::quantities {
-struct Quantity;
-}
 
 namespace canhil::checks {
 
@@ -63,6 +63,7 @@ class Rule {
 
   [[nodiscard]] virtual Finding judge(const Evidence& evidence) const = 0;
   [[nodiscard]] virtual std::vector<Subject> subjects() const = 0;
+  [[nodiscard]] virtual std::vector<std::string> held_against_truth() const = 0;
   [[nodiscard]] virtual std::optional<Bar> bar() const = 0;
   [[nodiscard]] virtual std::vector<Timed> timed() const = 0;
 };
@@ -75,6 +76,17 @@ class RuleOf final : public Rule {
   [[nodiscard]] std::vector<Subject> subjects() const override {
     if constexpr (requires { kind_.subjects(); }) return kind_.subjects();
     return {};
+  }
+  [[nodiscard]] std::vector<std::string> held_against_truth() const override {
+    std::vector<std::string> estimators;
+    if constexpr (requires { kind_.held_against_truth(); }) {
+      estimators = kind_.held_against_truth();
+    } else {
+      for (const Subject& subject : subjects()) {
+        if (!subject.quantity->white) estimators.push_back(subject.estimator);
+      }
+    }
+    return estimators;
   }
   [[nodiscard]] std::optional<Bar> bar() const override {
     if constexpr (requires { kind_.bar(); }) return kind_.bar();

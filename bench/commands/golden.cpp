@@ -65,6 +65,11 @@ ExitCode record(const Arguments& arguments) {
     const Golden kept = golden(folder, scenario);
     auto read = drive::read_scenario(scenario);
     if (!read) return complain(read.error());
+    if (read->recordings_hash != 0)
+      return complain(
+          {fmt::format("{}: flies recordings, which are not kept beside it, expected a scenario "
+                       "without 'recorded'",
+                       scenario)});
     std::error_code unknown;
     if (std::ranges::find(names, kept.name()) != names.end())
       return complain({fmt::format("scenario '{}': is named twice, expected each name once", kept.name())});

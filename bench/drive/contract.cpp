@@ -33,6 +33,7 @@ scenario::Contract make_contract() {
                               .former_check_kinds = checks::former_kinds(estimators::all())};
   contract.facts = estimators::facts();
   contract.nodes = nodes::tables();
+  contract.read_recorded = nodes::read_recorded;
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
     contract.messages.emplace_back(info.name);
@@ -52,10 +53,10 @@ scenario::Contract contract() {
 
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings,
-                                          const mapping::ReadText& read) {
+                                          std::optional<std::string> folder, const mapping::ReadText& read) {
   const auto by = mapping::contract_of(text, name, contract(), read);
   if (!by) return tl::unexpected(by.error());
-  auto scenario = scenario::parse(text, name, *by, settings);
+  auto scenario = scenario::parse(text, name, *by, settings, std::move(folder));
   if (scenario && by->foreign != nullptr)
     scenario->hash = world::fnv1a_64(fmt::format("{:x} {:x}", scenario->hash, by->foreign->hash));
   return scenario;

@@ -1,6 +1,7 @@
 // The names that scenarios may use, from the DBC that this bench was built with.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,9 +17,10 @@ scenario::Contract contract();
 
 /// Reads a scenario by the contract that it is of: that of the mapping which its [target] names, or the
 /// project's. As scenario::parse() and read_file().
-/// `read`: gives mapping and DBC.
+/// `folder`: see scenario::parse(). `read`: gives mapping and DBC.
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings = {},
+                                          std::optional<std::string> folder = {},
                                           const mapping::ReadText& read = mapping::read_from_disk);
 Result<scenario::Scenario> read_scenario(const std::string& file);
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 #include "bench/estimators/registry.hpp"
 
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
+#include "bench/scenario/table.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -48,7 +50,14 @@ Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_
                       run_index, missing_s, own.glide->epochs().back().height));
     }
   }
-  if (scenario.engagement) own.engagement.emplace();
+  const auto is_recorded = [&](scenario::TruthOf truth) {
+    return std::ranges::any_of(scenario.nodes, [&](const scenario::NodeSettings& node) {
+      return node.is_recorded() && node.table().samples == truth;
+    });
+  };
+  own.glide_is_sampled = !is_recorded(scenario::TruthOf::glide);
+  // A recorded seeker flies nothing.
+  if (scenario.engagement && !is_recorded(scenario::TruthOf::engagement)) own.engagement.emplace();
   return own;
 }
 
@@ -59,20 +68,35 @@ std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
   return node == nullptr ? kind.table.closes.cycle_time_us : node->period_us();
 }
 
+/// What a vehicle does between samples of its flight nobody knows: an IMU would not feel it.
+Result<void> check_density(const scenario::Scenario& scenario) {
+  constexpr std::int64_t most_intervals = 10;
+  const auto* recorded = std::get_if<world::Recorded>(&scenario.truth.motion);
+  if (recorded == nullptr) return {};
+  const std::int64_t median_us = scenario::median_step(recorded->path->sample_times_us());
+  const std::int64_t interval_us = epoch_interval_us(scenario);
+  if (median_us <= most_intervals * interval_us) return {};
+  return failure(fmt::format(
+      "key 'truth.file': a row every {:g} ms (median) is too few for an IMU of {:g} ms, expected "
+      "one in {} of its intervals at least",
+      1e-3 * static_cast<double>(median_us), 1e-3 * static_cast<double>(interval_us), most_intervals));
+}
+
 }  // namespace
 
 estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us) {
   return {.flight = flight,
           .duration_us = duration_us,
           .engagement = own.engagement ? &*own.engagement : nullptr,
-          .glide = own.glide ? &*own.glide : nullptr};
+          .glide = own.glide && own.glide_is_sampled ? &*own.glide : nullptr};
 }
 
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
+  if (auto dense = check_density(scenario); !dense) return tl::unexpected(dense.error());
   world::FlightRecord truth(scenario.truth, scenario.duration_us, epoch_interval_us(scenario));
   for (const nodes::Kind* kind : nodes::all()) {
     const scenario::NodeSettings* node = scenario.node(kind->table.key);
-    if (node == nullptr || kind->fits == nullptr) continue;
+    if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
   if (const auto faults = FrameFaults::make(scenario.faults); !faults) return tl::unexpected(faults.error());

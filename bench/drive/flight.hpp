@@ -24,6 +24,7 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 struct OwnTruth {
   std::optional<world::EngagementRecord> engagement{};  ///< none: not in the scenario; filled as it goes on
   std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
+  bool glide_is_sampled = true;  ///< false: its nodes send what was recorded of another
 };
 
 /// All of it, as answers are held against it. `duration_us`: of the run.

@@ -27,6 +27,7 @@ FixFaults read_fix_faults(scenario::Section& section);
 /// The share of a node's fixes that nobody can answer. `Own`: its settings, with a member `faults`.
 template <class Own>
 double lost_fixes(const scenario::NodeSettings& node) {
+  if (node.is_recorded()) return 0;  // what was lost in it is not known: all are owed an answer
   const FixFaults& faults = node.own<Own>()->faults;
   return 1 - (1 - faults.loss_probability) * (1 - faults.invalid_probability);
 }

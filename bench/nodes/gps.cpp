@@ -1,6 +1,7 @@
 #include "bench/nodes/gps.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "bench/nodes/sampler.hpp"
 #include "bench/world/units.hpp"
@@ -14,6 +15,7 @@ using world::Vector3;
 using world::units::deg;
 
 constexpr std::uint8_t satellites = 9;  // the error model knows no constellation
+constexpr std::array<scenario::Assumed, 1> assumed{{{"satellites", satellites}}};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
@@ -60,7 +62,8 @@ constinit const Kind gps{.table = {.key = "gps",
                                    .closes = messages::GpsTime::info,
                                    .samples = scenario::TruthOf::navigation,
                                    .read = read,
-                                   .aid = scenario::Aid{.aiding = 1, .lost = lost_fixes<GpsSettings>}},
+                                   .aid = scenario::Aid{.aiding = 1, .lost = lost_fixes<GpsSettings>},
+                                   .assumed = assumed},
                          .make = make<Gps>};
 
 }  // namespace canhil::nodes

@@ -11,29 +11,33 @@
 
 namespace canhil::nodes {
 
+/// Rounds a scalar to steps of `lsb` (0: not at all), within a signal's range, and keeps the remainder:
+/// sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the signal.
+inline double round_increment(double increment, double lsb, const SignalInfo& signal, double& remainder) {
+  const double wanted = increment + remainder;
+  const double near = lsb == 0 ? wanted : std::nearbyint(wanted / lsb) * lsb;
+  const double sent = std::clamp(near, signal.minimum, signal.maximum);
+  remainder = wanted - sent;
+  return sent;
+}
+
 /// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders. Without
 /// rounding only what the range cuts off remains.
 class IncrementRounding {
  public:
-  explicit IncrementRounding(const SignalInfo& signal)
-      : lsb_(wire::lsb(signal)), minimum_(signal.minimum), maximum_(signal.maximum) {}
+  explicit IncrementRounding(const SignalInfo& signal) : signal_(signal) {}
 
-  /// sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the signal.
+  /// The increment of each axis, as round_increment() gives it.
   world::Vector3 round(const world::Vector3& increment, Rounding rounding) {
-    const double step = rounding == Rounding::none ? 0 : lsb_;
-    const world::Vector3 wanted = increment + remainder_;
-    world::Vector3 sent =
-        wanted.unaryExpr([&](double x) { return std::clamp(nearest(x, step), minimum_, maximum_); });
-    remainder_ = wanted - sent;
+    const double lsb = rounding == Rounding::none ? 0 : wire::lsb(signal_);
+    world::Vector3 sent;
+    for (int axis = 0; axis < 3; ++axis)
+      sent[axis] = round_increment(increment[axis], lsb, signal_, remainder_[axis]);
     return sent;
   }
 
  private:
-  static double nearest(double x, double step) { return step == 0 ? x : std::nearbyint(x / step) * step; }
-
-  double lsb_;
-  double minimum_;
-  double maximum_;
+  SignalInfo signal_;
   world::Vector3 remainder_ = world::Vector3::Zero();
 };
 

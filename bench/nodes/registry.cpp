@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "bench/nodes/fins.hpp"
@@ -43,9 +45,20 @@ std::vector<std::unique_ptr<Node>> make(const Run& run) {
   std::ranges::sort(kinds, {},
                     [](const Kind* kind) { return std::pair(kind->table.samples, kind->table.closes.id); });
   std::vector<std::unique_ptr<Node>> nodes;
+  std::map<std::string, std::vector<const RecordedFrames*>> logs;
   for (const Kind* kind : kinds) {
-    if (const auto* node = run.scenario.node(kind->table.key)) nodes.push_back(kind->make(*node, run));
+    const auto* node = run.scenario.node(kind->table.key);
+    if (node == nullptr) continue;
+    const auto* recorded = node->own<RecordedSettings>();
+    if (recorded == nullptr) {
+      nodes.push_back(kind->make(*node, run));
+    } else if (recorded->samples) {
+      nodes.push_back(make_samples(*node, run));
+    } else {
+      logs[recorded->recorded_from].push_back(recorded->frames.get());
+    }
   }
+  for (const auto& [log, frames] : logs) nodes.push_back(make_frames(frames, run));
   return nodes;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/nodes/kind.hpp"
+#include "bench/nodes/recorded.hpp"
 
 namespace canhil::nodes {
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <deque>
 #include <type_traits>
@@ -18,6 +19,11 @@ namespace canhil::nodes {
 namespace {
 
 using namespace messages;
+
+constexpr std::array<scenario::Increment, 3> increments{
+    {{"antenna_increment_roll_rad", "antenna_rate_roll_radps"},
+     {"antenna_increment_pitch_rad", "antenna_rate_pitch_radps"},
+     {"antenna_increment_yaw_rad", "antenna_rate_yaw_radps"}}};
 
 constexpr Validity validity(bool valid) { return valid ? Validity::valid : Validity::invalid; }
 
@@ -227,7 +233,8 @@ constexpr std::array rates{Rate{"seeker.antenna_rate.roll", "antenna_increment_r
 constinit const Kind seeker{.table = {.key = "seeker",
                                       .closes = messages::SeekerRange::info,
                                       .samples = scenario::TruthOf::engagement,
-                                      .read = read},
+                                      .read = read,
+                                      .increments = increments},
                             .make = make<Seeker>,
                             .fits = fits,
                             .rates = rates};

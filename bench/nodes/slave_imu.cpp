@@ -21,6 +21,13 @@ using messages::SlaveImuStatus;
 using messages::Validity;
 
 constexpr std::int8_t temperature_degc = 25;  // the error model knows no temperature
+constexpr std::array<scenario::Assumed, 1> assumed{{{"temperature_degc", temperature_degc}}};
+constexpr std::array<scenario::Increment, 6> increments{{{"delta_theta_x_rad", "rate_x_radps"},
+                                                         {"delta_theta_y_rad", "rate_y_radps"},
+                                                         {"delta_theta_z_rad", "rate_z_radps"},
+                                                         {"delta_v_x_mps", "specific_force_x_mps2"},
+                                                         {"delta_v_y_mps", "specific_force_y_mps2"},
+                                                         {"delta_v_z_mps", "specific_force_z_mps2"}}};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
@@ -157,7 +164,9 @@ constexpr std::array rates{Rate{"imu.rate.x", "delta_theta_x_rad"},
 constinit const Kind slave_imu{.table = {.key = "slave_imu",
                                          .closes = messages::SlaveImuStatus::info,
                                          .samples = scenario::TruthOf::navigation,
-                                         .read = read},
+                                         .read = read,
+                                         .assumed = assumed,
+                                         .increments = increments},
                                .make = make<SlaveImu>,
                                .fits = fits,
                                .at_every_epoch = true,

@@ -18,7 +18,7 @@ std::string csv(const scenario::Scenario& scenario, const drive::Run& run) {
     const bool is_error = track.kind == Track::Kind::error;
     for (const quantities::Told& told : track.told) {
       const auto estimate = is_error ? told.estimate : std::optional(told.value);
-      const auto error = is_error ? std::optional(told.value) : std::nullopt;
+      const auto error = is_error && run.truth.is_known() ? std::optional(told.value) : std::nullopt;
       table += fmt::format("{:.6f},{},{},{},{},{},{},{}\n", static_cast<double>(told.t_us) * 1e-6, estimator,
                            track.quantity->name, quantities::si_name(track.unit), field(estimate),
                            field(told.truth), field(error), field(told.sigma));

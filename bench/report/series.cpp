@@ -127,7 +127,7 @@ void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, cons
   const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
   for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;
-    one->tracks(run.seen, truth, [&](const Track& track) { give(one->name, track); });
+    estimators::give_tracks(*one, run.seen, truth, [&](const Track& track) { give(one->name, track); });
   }
 }
 

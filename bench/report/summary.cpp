@@ -29,7 +29,13 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
   for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;
     const auto target = std::ranges::find(scenario.targets, one->name, &scenario::TargetSetup::estimator);
-    EstimatorResults own{one->name, one->results(run.seen, truth, target->algorithm)};
+    EstimatorResults own{one->name, {}};
+    if (const std::string why = scenario::why_no_truth(scenario, one->facts); why.empty()) {
+      own.lines = one->results(run.seen, truth, target->algorithm);
+    } else {
+      own.lines.push_back({.name = "errors", .what = "errors"});
+      own.lines.back().add("errors", std::nullopt, "not measured: " + why);
+    }
     estimators::ResultLine answers{.name = "answers", .what = "answers by what they say"};
     for (const estimators::Mark& mark : one->marks(run.seen)) {
       const bool told = !mark.t_us.empty() || mark.name == "answers";  // programs are told of none, too

@@ -21,6 +21,8 @@ namespace canhil::scenario {
 
 struct Foreign;
 struct NodeTable;
+class NodeSettings;
+class Section;
 
 struct Contract {
   std::vector<std::string> estimators;  ///< value table Estimator, without "none"
@@ -36,6 +38,8 @@ struct Contract {
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
   std::shared_ptr<const Foreign> foreign{};  ///< null: the target speaks the project's own contract
+  /// Reads the table of any node that has a key `recorded`; null: none may.
+  NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
 };
 
 /// Of an estimator; one that nobody knows is one that navigates.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +29,18 @@ struct Aid {
   double (*lost)(const NodeSettings& node) = nullptr;
 };
 
+/// A signal that a recording may lack, and what is sent in its place.
+struct Assumed {
+  std::string_view signal;
+  double value = 0;
+};
+
+/// An increment that a recording may have as its rate: "delta_theta_x_rad" as "rate_x_radps".
+struct Increment {
+  std::string_view signal;
+  std::string_view rate;
+};
+
 /// What a scenario has to know of a kind of node.
 struct NodeTable {
   std::string_view key;       ///< of its table: "gps"
@@ -36,20 +49,26 @@ struct NodeTable {
   /// Reads the table; what nobody asked for is found afterwards.
   NodeSettings (*read)(const NodeTable& table, Section& section) = nullptr;
   std::optional<Aid> aid{};
+  // What else a recording of it may lack or have: of signals of its group, by their names in the DBC.
+  std::span<const Assumed> assumed{};
+  std::span<const Increment> increments{};
 };
 
 /// What a scenario says of a node that is on the bus. Never changes; copies of the scenario share it.
 class NodeSettings {
  public:
-  /// `own`: the node's own type, with a member `schedule`.
+  /// `own`: the node's own type, with a member `schedule`; of a recording also `recorded_from`.
   template <class Own>
-  NodeSettings(const NodeTable& table, Own own) : table_(&table) {
+  NodeSettings(const NodeTable& table, Own own)
+      : table_(&table), is_recorded_(requires { own.recorded_from; }) {
     auto shared = std::make_shared<const Own>(std::move(own));
     schedule_ = &shared->schedule;
     own_ = std::move(shared);
   }
 
   [[nodiscard]] const NodeTable& table() const { return *table_; }
+  /// What it sends was recorded: its own type is not that of a node that is played.
+  [[nodiscard]] bool is_recorded() const { return is_recorded_; }
   [[nodiscard]] std::int64_t latency_us() const { return schedule_->latency_us; }
   [[nodiscard]] std::int64_t period_us() const {
     return schedule_->period_us.value_or(table_->closes.cycle_time_us);
@@ -64,6 +83,7 @@ class NodeSettings {
 
  private:
   const NodeTable* table_;
+  bool is_recorded_;
   const Schedule* schedule_;  // a part of what follows
   std::any own_;              // std::shared_ptr<const Own>
 };

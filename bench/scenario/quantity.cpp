@@ -32,7 +32,8 @@ double factor_of(std::string_view key) {
                                     Unit{"_g", units::standard_gravity},
                                     Unit{"_ppm", units::ppm},
                                     Unit{"_percent", 0.01},
-                                    Unit{"_ms", 1e-3}};
+                                    Unit{"_ms", 1e-3},
+                                    Unit{"_us", 1e-6}};
   const auto* const unit =
       std::ranges::find_if(table, [&](const Unit& candidate) { return key.ends_with(candidate.ending); });
   return unit == table.end() ? 1.0 : unit->factor;

@@ -42,8 +42,14 @@ void read_nodes(Section& root, Scenario& scenario, const Contract& contract, Tru
                         });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
     if (!section) continue;
-    scenario.nodes.push_back(node->read(*node, *section));
-    section->finish();
+    const bool recorded = contract.read_recorded != nullptr && section->has("recorded");
+    scenario.nodes.push_back(recorded ? contract.read_recorded(*node, *section, scenario.duration_us)
+                                      : node->read(*node, *section));
+    if (!recorded && truth == TruthOf::navigation && !scenario.truth_is_known())
+      root.reject(node->key, "has no truth to measure, as trajectory is \"unknown\"",
+                  "'recorded', and what was measured");
+    // Error models and faults work on what is measured here, not on what was.
+    section->finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
   }
 }
 
@@ -99,13 +105,23 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Co
 void read_navigation(Section& root, Scenario& scenario, const Contract& contract) {
   if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
-    scenario.truth = read_truth(truth);
+    scenario.truth = read_truth(truth, scenario.duration_us);
     return;
   }
   root.optional("truth");
   for (const std::string_view key : keys_of(TruthOf::navigation, contract, {"initial_error"})) {
     if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
   }
+}
+
+/// What the target is told of an unknown flight is what the scenario says, as it says it.
+void refuse_errors_of_start(Section& root, const Scenario& scenario) {
+  const bool own = std::ranges::any_of(
+      scenario.targets, [](const TargetSetup& target) { return target.initial_error.has_value(); });
+  if (own || root.has("initial_error"))
+    root.reject(own ? "target" : "initial_error",
+                "has errors of a start whose truth is not known, as trajectory is \"unknown\"",
+                "no 'initial_error'");
 }
 
 /// An estimator that is aided takes the fixes of one aid, the first unless its parameter says another, and
@@ -160,9 +176,22 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 }  // namespace
 
+// An estimator goes by the truth that its nodes sample. Of a glide or an engagement the bench flies a truth
+// of its own, which has nothing to do with what was recorded of another.
+std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) {
+  for (const NodeSettings& node : scenario.nodes) {
+    if (std::ranges::find(facts.nodes, node.table().key) == facts.nodes.end()) continue;
+    if (node.table().samples == TruthOf::navigation)
+      return scenario.truth_is_known() ? "" : "no truth: trajectory is \"unknown\"";
+    if (node.is_recorded()) return fmt::format("no truth: [{}] is recorded", node.table().key);
+  }
+  return "";
+}
+
 Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
-                       std::span<const Setting> settings) {
+                       std::span<const Setting> settings, std::optional<std::string> folder) {
   Section root = Section::parse(text, name, settings);
+  if (folder) root.look_in(std::move(*folder));
   Scenario scenario;
   scenario.file = name;
   scenario.hash = hash_of(text, settings);
@@ -187,10 +216,14 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
     if (node.table().samples == TruthOf::engagement && !scenario.engagement)
       root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));
   }
+  if (!scenario.truth_is_known()) refuse_errors_of_start(root, scenario);
   scenario.faults = read_faults(root, contract);
   scenario.checks = read_checks(root, scenario, contract);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
+  scenario.recordings_hash = root.files_hash();
+  if (scenario.recordings_hash != 0)
+    scenario.hash = world::fnv1a_64(fmt::format("{:016x}", scenario.recordings_hash), scenario.hash);
   return scenario;
 }
 

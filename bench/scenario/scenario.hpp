@@ -33,7 +33,8 @@ namespace canhil::scenario {
 
 struct Scenario {
   std::string file;        ///< as it was named
-  std::uint64_t hash = 0;  ///< FNV-1a of the file's text and settings: provenance in reports and campaigns
+  std::uint64_t hash = 0;  ///< FNV-1a of text, settings and recordings: provenance in reports and campaigns
+  std::uint64_t recordings_hash = 0;  ///< of these alone; 0: it flies none
   std::string title;
   std::int64_t duration_us = 0;
   std::uint64_t seed = 0;
@@ -49,6 +50,8 @@ struct Scenario {
   std::vector<Fault> faults;
   std::vector<Check> checks;
 
+  /// False: answers cannot be held against the carrier's flight.
+  [[nodiscard]] bool truth_is_known() const { return !std::holds_alternative<world::Unknown>(truth.motion); }
   [[nodiscard]] bool runs(std::string_view estimator) const {
     return std::ranges::find(targets, estimator, &TargetSetup::estimator) != targets.end();
   }
@@ -63,11 +66,15 @@ struct Scenario {
 Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract);
 
 /// Reads a scenario's text; `name` stands for the file in messages. Settings replace what the text says, and
-/// are read as strictly.
+/// are read as strictly. Files that it names are in `folder`, by default that of `name`.
 Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
-                       std::span<const Setting> settings = {});
+                       std::span<const Setting> settings = {}, std::optional<std::string> folder = {});
 
 /// At most so much is read of a scenario or campaign file.
 inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
+
+/// Why the answers of an estimator, which may do without nodes, have no truth to be held against; empty: they
+/// have one.
+std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts);
 
 }  // namespace canhil::scenario

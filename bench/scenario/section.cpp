@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "bench/scenario/key_depth.hpp"
@@ -46,6 +47,8 @@ std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
 struct Section::File {
   std::string name;
+  std::string folder;            // where the files are that it names
+  std::uint64_t files_hash = 0;  // of those that were read
   toml::table root;
   std::optional<Error> error;
 
@@ -169,6 +172,7 @@ Section Section::parse(std::string_view text, std::string_view file_name, std::s
   auto state = std::make_shared<State>();
   state->file = std::make_shared<File>();
   state->file->name = file_name;
+  state->file->folder = std::filesystem::path(file_name).parent_path().string();
   if (const auto line = line_of_deep_key(text)) {
     state->file->fail(*line, deep_key);
     return Section(std::move(state));
@@ -182,6 +186,8 @@ Section Section::parse(std::string_view text, std::string_view file_name, std::s
   }
   return Section(std::move(state));
 }
+
+void Section::look_in(std::string folder) { state_->file->folder = std::move(folder); }
 
 bool Section::has(std::string_view key) const {
   return state_->table != nullptr && state_->table->contains(key);
@@ -281,6 +287,12 @@ std::string Section::one_of(std::string_view key, std::span<const std::string> n
   return {};
 }
 
+std::string Section::beside(std::string_view path) const {
+  return (std::filesystem::path(state_->file->folder) / path).string();
+}
+
+std::uint64_t& Section::files_hash() { return state_->file->files_hash; }
+
 std::vector<std::string> Section::some_of(std::string_view key, std::span<const std::string> names) {
   constexpr std::string_view expected = "an array of names";
   std::vector<std::string> chosen;
@@ -371,12 +383,16 @@ void Section::reject(std::string_view key, std::string_view what, std::string_vi
   state_->fail(key, state_->line_of_key(key), what, expected);
 }
 
+void Section::reject(std::string_view key, const Error& error) {
+  state_->file->fail(state_->line_of_key(key), fmt::format("key '{}': {}", path(key), error.message));
+}
+
 void Section::refuse(std::string_view key, std::string_view what, std::string_view expected) {
   if (has(key)) reject(key, what, expected);
   optional(key);
 }
 
-void Section::finish() {
+void Section::finish(std::string_view unasked) {
   if (state_->table == nullptr) return;
   // The first in the file, as the table itself is sorted by key.
   const toml::node* unknown = nullptr;
@@ -388,7 +404,7 @@ void Section::finish() {
     unknown_key = key.str();
   }
   if (unknown != nullptr) {
-    state_->fail(unknown_key, line_of(*unknown), "is unknown", expected_instead(unknown_key, state_->asked));
+    state_->fail(unknown_key, line_of(*unknown), unasked, expected_instead(unknown_key, state_->asked));
   }
   for (const auto& [key, expected] : state_->missing) reject(key, "is missing", expected);
 }

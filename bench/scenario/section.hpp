@@ -28,6 +28,9 @@ class Section {
   static Section parse(std::string_view text, std::string_view file_name,
                        std::span<const Setting> settings = {});
 
+  /// Files that it names are looked for in another folder than its own.
+  void look_in(std::string folder);
+
   [[nodiscard]] bool has(std::string_view key) const;
   [[nodiscard]] int line() const;
   /// The key with the path of the tables around it.
@@ -63,6 +66,13 @@ class Section {
   std::string one_of(std::string_view key, std::span<const std::string> names,
                      const std::optional<std::string>& fallback = {});
 
+  /// A path that the file names, as seen from the file's folder.
+  [[nodiscard]] std::string beside(std::string_view path) const;
+  /// The content of the file that a key names; none: it cannot be read, and that has been said.
+  std::optional<std::string> read_beside(std::string_view key, std::string_view kind, std::size_t most_bytes);
+  /// FNV-1a of all that was read so; 0: nothing was.
+  [[nodiscard]] std::uint64_t& files_hash();
+
   /// An array of some of these names; absent: none.
   std::vector<std::string> some_of(std::string_view key, std::span<const std::string> names);
   /// Arrays; absent: empty.
@@ -85,10 +95,13 @@ class Section {
 
   /// Says what is wrong with the value of a key that is there, or should be.
   void reject(std::string_view key, std::string_view what, std::string_view expected);
+  /// The same of what the key names: what is wrong there stands in one line.
+  void reject(std::string_view key, const Error& error);
   /// Rejects a key that is there though it has no effect beside the others.
   void refuse(std::string_view key, std::string_view what, std::string_view expected);
-  /// To be called when all keys have been asked for: reports an unknown key, or else a missing one.
-  void finish();
+  /// To be called when all keys have been asked for: reports one that nobody asked for, as what it is, or
+  /// else a missing one.
+  void finish(std::string_view unasked = "is unknown");
 
   /// The first error of the whole file.
   [[nodiscard]] std::optional<Error> error() const;

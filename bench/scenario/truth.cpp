@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scenario/recorded_flight.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::scenario {
@@ -123,16 +124,19 @@ constexpr std::array motion_readers{MotionReader{"rest", read_rest},
 
 }  // namespace
 
-world::Flight read_truth(Section& section) {
-  world::Flight flight;
-  // NED axes have no north at a pole, hence 89 degrees.
-  flight.start = {.latitude = section.number("latitude_deg", Limits::between(-89, 89)),
-                  .longitude = section.number("longitude_deg", Limits::between(-180, 180)),
-                  .height = section.number("height_m", Limits::between(-1000, 50'000))};
+world::Flight read_truth(Section& section, std::int64_t duration_us) {
   std::vector<std::string> names;
-  names.reserve(motion_readers.size());
   for (const MotionReader& reader : motion_readers) names.emplace_back(reader.name);
+  names.insert(names.end(), {"recorded", "unknown"});
   const std::string name = section.one_of("trajectory", names);
+  world::Flight flight;
+  if (name == "recorded") {
+    flight = read_recorded_flight(section, duration_us);
+  } else if (name == "unknown") {
+    flight = read_unknown_flight(section);
+  } else {
+    flight.start = read_position(section);
+  }
   for (const MotionReader& reader : motion_readers) {
     if (reader.name == name) flight.motion = reader.read(section);
   }

@@ -1,5 +1,5 @@
 // [truth]: where the carrier starts and how it moves. A new motion is a reader in truth.cpp and a line in its
-// table.
+// table; one that is flown from a recording, or unknown, is in recorded_flight.cpp.
 #pragma once
 
 #include "bench/world/motion.hpp"
@@ -8,6 +8,6 @@ namespace canhil::scenario {
 
 class Section;
 
-world::Flight read_truth(Section& section);
+world::Flight read_truth(Section& section, std::int64_t duration_us);
 
 }  // namespace canhil::scenario

@@ -17,6 +17,12 @@ double e2() {
   return f * (2.0 - f);
 }
 
+Position moved(const Position& position, const Position& rate, double dt) {
+  return {.latitude = position.latitude + rate.latitude * dt,
+          .longitude = position.longitude + rate.longitude * dt,
+          .height = position.height + rate.height * dt};
+}
+
 // 1 - e^2 sin^2(latitude)
 double radius_divisor(double latitude) {
   const double s = std::sin(latitude);
@@ -60,6 +66,19 @@ Position position_rate(const Position& position, const Vector3& v_eb_n) {
       (transverse_radius(position.latitude) + position.height) * std::cos(position.latitude);
   return {
       .latitude = v_eb_n.x() / north_radius, .longitude = v_eb_n.y() / east_radius, .height = -v_eb_n.z()};
+}
+
+Position advanced(const Position& position, const Vector3& v_begin, const Vector3& v_middle,
+                  const Vector3& v_end, double dt) {
+  const Position k1 = position_rate(position, v_begin);
+  const Position k2 = position_rate(moved(position, k1, 0.5 * dt), v_middle);
+  const Position k3 = position_rate(moved(position, k2, 0.5 * dt), v_middle);
+  const Position k4 = position_rate(moved(position, k3, dt), v_end);
+  const auto mean = [](double a, double b, double c, double d) { return (a + 2.0 * (b + c) + d) / 6.0; };
+  const Position rate{.latitude = mean(k1.latitude, k2.latitude, k3.latitude, k4.latitude),
+                      .longitude = mean(k1.longitude, k2.longitude, k3.longitude, k4.longitude),
+                      .height = mean(k1.height, k2.height, k3.height, k4.height)};
+  return moved(position, rate, dt);
 }
 
 Position displaced(const Position& position, const Vector3& displacement_n) {

@@ -31,6 +31,11 @@ Vector3 gravity_n(const Position& position);
 /// d(position)/dt for a velocity in NED [rad/s, rad/s, m/s]. Groves (2013), eq. (2.111).
 Position position_rate(const Position& position, const Vector3& v_eb_n);
 
+/// The position dt [s] on, by one Runge-Kutta step of fourth order, of the velocities in NED [m/s] at the
+/// beginning, in the middle and at the end.
+Position advanced(const Position& position, const Vector3& v_begin, const Vector3& v_middle,
+                  const Vector3& v_end, double dt);
+
 /// The position a small displacement in NED [m] away (first order in displacement / Earth radius).
 Position displaced(const Position& position, const Vector3& displacement_n);
 

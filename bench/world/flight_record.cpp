@@ -16,43 +16,28 @@ struct Rates {
   Vector3 f_ib_b;
 };
 
-Rates rates_of(const Kinematics& now, const Matrix3& C_bn, const Position& position) {
+Rates rates_of(const Movement& now, const Position& position) {
+  const Matrix3& C_bn = now.C_bn;
   const Vector3 omega_ie = omega_ie_n(position.latitude);
   const Vector3 omega_en = omega_en_n(position, now.v_eb_n);
   const Vector3 f_ib_n =
       now.v_eb_n_rate + (2.0 * omega_ie + omega_en).cross(now.v_eb_n) - gravity_n(position);
-  return {.omega_ib_b = omega_nb_b(now.angles, now.rates) + C_bn.transpose() * (omega_ie + omega_en),
+  return {.omega_ib_b = now.omega_nb_b + C_bn.transpose() * (omega_ie + omega_en),
           .f_ib_b = C_bn.transpose() * f_ib_n};
 }
 
-Position moved(const Position& position, const Position& rate, double dt) {
-  return {.latitude = position.latitude + rate.latitude * dt,
-          .longitude = position.longitude + rate.longitude * dt,
-          .height = position.height + rate.height * dt};
-}
-
-/// Position at t + dt by one Runge-Kutta step of fourth order.
 Position advanced(const Motion& motion, const Position& position, double t, double dt) {
-  const Vector3 v_middle = kinematics(motion, t + 0.5 * dt).v_eb_n;
-  const Position k1 = position_rate(position, kinematics(motion, t).v_eb_n);
-  const Position k2 = position_rate(moved(position, k1, 0.5 * dt), v_middle);
-  const Position k3 = position_rate(moved(position, k2, 0.5 * dt), v_middle);
-  const Position k4 = position_rate(moved(position, k3, dt), kinematics(motion, t + dt).v_eb_n);
-  const auto mean = [](double a, double b, double c, double d) { return (a + 2.0 * (b + c) + d) / 6.0; };
-  const Position rate{.latitude = mean(k1.latitude, k2.latitude, k3.latitude, k4.latitude),
-                      .longitude = mean(k1.longitude, k2.longitude, k3.longitude, k4.longitude),
-                      .height = mean(k1.height, k2.height, k3.height, k4.height)};
-  return moved(position, rate, dt);
+  return advanced(position, velocity(motion, t), velocity(motion, t + 0.5 * dt), velocity(motion, t + dt),
+                  dt);
 }
 
 Truth truth_of(const Motion& motion, const Position& position, std::int64_t t_us) {
-  const Kinematics now = kinematics(motion, seconds(t_us));
-  const Matrix3 C_bn = C_bn_from(now.angles);
-  const Rates rates = rates_of(now, C_bn, position);
+  const Movement now = movement(motion, seconds(t_us));
+  const Rates rates = rates_of(now, position);
   return {.t_us = t_us,
           .position = position,
           .v_eb_n = now.v_eb_n,
-          .C_bn = C_bn,
+          .C_bn = now.C_bn,
           .omega_ib_b = rates.omega_ib_b,
           .f_ib_b = rates.f_ib_b};
 }
@@ -77,8 +62,7 @@ std::array<Node, 5> gauss_legendre() {
 /// Calls piece(from, to) for the parts of an interval between jumps of the motion.
 template <class Piece>
 void between_jumps(const Motion& motion, std::int64_t from_us, std::int64_t to_us, Piece piece) {
-  for (const std::int64_t jump : jumps_us(motion)) {
-    if (jump <= from_us || jump >= to_us) continue;
+  for (const std::int64_t jump : jumps_us(motion, from_us, to_us)) {
     piece(from_us, jump);
     from_us = jump;
   }
@@ -95,8 +79,7 @@ void integrate(const Motion& motion, std::int64_t a_us, std::int64_t b_us, Posit
     const double t_node = seconds(a_us) + node.at * length;
     position = advanced(motion, position, t, t_node - t);
     t = t_node;
-    const Kinematics now = kinematics(motion, t);
-    const Rates rates = rates_of(now, C_bn_from(now.angles), position);
+    const Rates rates = rates_of(movement(motion, t), position);
     sum.delta_theta += node.weight * length * rates.omega_ib_b;
     sum.delta_v += node.weight * length * rates.f_ib_b;
   }

@@ -1,8 +1,9 @@
 // The truth of a scenario, the same for every run of it: computed once, then only read (and so shared by
 // threads).
 //
-// Velocity and attitude are the motion's, exactly. Position is integrated. Rate and specific force follow by
-// inverting the navigation equations in NED, Groves (2013), section 5.4:
+// Velocity and attitude are the motion's, exactly (of a recorded one: motion/recorded.hpp). Position is
+// integrated. Rate and specific force follow by inverting the navigation equations in NED, Groves (2013),
+// section 5.4:
 //   omega_ib_b = omega_nb_b + C_nb (omega_ie_n + omega_en_n)
 //   f_ib_b     = C_nb (d(v_eb_n)/dt + (2 omega_ie_n + omega_en_n) x v_eb_n - g_n)
 // IMU increments are their integrals over a sample, by Gauss-Legendre quadrature.
@@ -40,6 +41,9 @@ class FlightRecord {
   /// Flies from 0 to the last epoch at or before duration_us; epochs every interval_us. Both must be
   /// positive.
   FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us);
+
+  /// False: nothing is known of it but the start, and nothing may be held against it.
+  [[nodiscard]] bool is_known() const { return !std::holds_alternative<Unknown>(flight_.motion); }
 
   /// Truth at epochs 0, 1, ...: epoch k is at k * interval_us().
   [[nodiscard]] std::span<const Truth> epochs() const { return epochs_; }

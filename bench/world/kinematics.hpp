@@ -13,4 +13,12 @@ struct Kinematics {
   Euler rates;                            ///< [rad/s]
 };
 
+/// The same with the attitude as a rotation: what the truth takes of a motion.
+struct Movement {
+  Vector3 v_eb_n = Vector3::Zero();       ///< [m/s]
+  Vector3 v_eb_n_rate = Vector3::Zero();  ///< derivative of the NED components [m/s^2]
+  Matrix3 C_bn = Matrix3::Identity();
+  Vector3 omega_nb_b = Vector3::Zero();  ///< [rad/s]
+};
+
 }  // namespace canhil::world

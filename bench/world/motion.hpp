@@ -8,18 +8,24 @@
 #include "bench/world/earth.hpp"
 #include "bench/world/motion/along_the_nose.hpp"
 #include "bench/world/motion/level_acceleration.hpp"
+#include "bench/world/motion/recorded.hpp"
 #include "bench/world/motion/rest.hpp"
+#include "bench/world/motion/unknown.hpp"
 #include "bench/world/motion/weave.hpp"
 
 namespace canhil::world {
 
-using Motion = std::variant<Rest, LevelAcceleration, Weave, SPath, Racetrack, Spiral, RestThenGo>;
+using Motion =
+    std::variant<Rest, LevelAcceleration, Weave, SPath, Racetrack, Spiral, RestThenGo, Recorded, Unknown>;
 
 /// Velocity and attitude at time t [s] from the start; right-continuous where the motion has a jump.
-Kinematics kinematics(const Motion& motion, double t);
+Movement movement(const Motion& motion, double t);
+/// Of that the velocity alone [m/s].
+Vector3 velocity(const Motion& motion, double t);
 
-/// Times [us], ascending, at which an acceleration or a rate jumps: quadrature never steps across one.
-std::vector<std::int64_t> jumps_us(const Motion& motion);
+/// Times [us] between two times, ends excluded, ascending, at which an acceleration or a rate, or one of
+/// their derivatives, jumps: quadrature never steps across one.
+std::vector<std::int64_t> jumps_us(const Motion& motion, std::int64_t from_us, std::int64_t to_us);
 
 /// A whole truth: where it starts and how it moves.
 struct Flight {

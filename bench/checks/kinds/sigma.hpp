@@ -17,6 +17,7 @@ struct Sigma {
   static Sigma read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return of.words; }
   [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::vector<std::string> held_against_truth() const { return {}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -16,6 +16,8 @@ MissDistance MissDistance::read(scenario::Section& section, const scenario::Chec
   return {.below = section.number("below_m", scenario::Limits::above(0))};
 }
 
+std::vector<std::string> MissDistance::held_against_truth() const { return {std::string(los_rate.name)}; }
+
 checks::Finding MissDistance::judge(const checks::Evidence& evidence) const {
   using checks::Outcome;
   const std::string expected = fmt::format("miss < {:g} m", below);

@@ -10,6 +10,7 @@ struct MissDistance {
   double below = 0;  ///< [m]
 
   static MissDistance read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::vector<std::string> held_against_truth() const;
   [[nodiscard]] checks::Finding judge(const checks::Evidence& evidence) const;
 };
 

@@ -83,7 +83,7 @@ Result<scenario::Scenario> read(const std::string& imu = "", std::string mapping
   const std::map<std::string, std::string> files{{"ecu.mapping.toml", std::move(mapping)},
                                                  {"ecu.dbc", dbc_text}};
   return drive::parse_scenario(
-      scenario_text(imu), "a.toml", {},
+      scenario_text(imu), "a.toml", {}, {},
       [&](const std::string& file) -> Result<std::string> { return files.at(file); });
 }
 

@@ -54,10 +54,10 @@ INSTANTIATE_TEST_SUITE_P(
               "15: key 'master_ins.perod_ms': is unknown, expected 'period_ms'"},
         Wrong{"[slave_imu]", "[slave_imuu]", "15: key 'slave_imuu': is unknown, expected 'slave_imu'"},
         Wrong{"tilt_deg", "tilt", "7: key 'target.initial_sigma.tilt': is unknown, expected 'tilt_deg'"},
-        Wrong{
-            "heading_deg = 90", "heading_deg = 90\nspeed_kmph = 3",
-            "14: key 'truth.speed_kmph': is unknown, expected one of: latitude_deg, longitude_deg, height_m, "
-            "trajectory, roll_deg, pitch_deg, heading_deg"},
+        Wrong{"heading_deg = 90", "heading_deg = 90\nspeed_kmph = 3",
+              "14: key 'truth.speed_kmph': is unknown, expected one of: trajectory, latitude_deg, "
+              "longitude_deg, "
+              "height_m, roll_deg, pitch_deg, heading_deg"},
         Wrong{"[[check]]", "[[check]]\nbelow_mrad = 3",
               "17: key 'check[1].below_mrad': is unknown, expected one of: kind, requirement, "
               "silent_at_most_s, name"},
@@ -97,7 +97,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"\"rest\"", "5",
               "9: key 'truth.trajectory': is a number, expected one of: rest, level_acceleration, weave, "
               "s_path, racetrack, spiral, "
-              "rest_then_go"},
+              "rest_then_go, "
+              "recorded, unknown"},
         Wrong{sigma, "initial_sigma = 1", "7: key 'target.initial_sigma': is a number, expected a table"},
         Wrong{"[[check]]", "[check]", "16: key 'check': is a table, expected at least one [[check]]"},
         Wrong{"seed = 7\n", "seed = 7\ncheck = [ 5 ]\n",

@@ -1,0 +1,224 @@
+// Samples of a table, and the node that sends them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "bench/nodes/increment_rounding.hpp"
+#include "bench/nodes/recorded.hpp"
+#include "bench/nodes/recorded_group.hpp"
+#include "bench/scenario/table.hpp"
+#include "dbc/wire/time_base.hpp"
+
+namespace canhil::nodes {
+namespace {
+
+using scenario::Table;
+
+constexpr std::size_t time_column = 0;
+
+double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
+
+/// Where a signal's value comes from.
+struct Source {
+  SignalInfo signal;
+  Role role = Role::value;
+  std::optional<std::size_t> column{};  ///< of the table's names; none: constant
+  std::optional<std::size_t> rate{};    ///< the same, times the interval
+  double constant = 0;
+};
+
+const scenario::Increment* increment_of(const NodeTable& table, const SignalInfo& signal) {
+  const auto found = std::ranges::find(table.increments, signal.name, &scenario::Increment::signal);
+  return found == table.increments.end() ? nullptr : &*found;
+}
+
+std::optional<double> assumed(const NodeTable& table, const GroupSignal& signal) {
+  if (signal.role == Role::validity) return static_cast<double>(messages::Validity::valid);
+  const auto found = std::ranges::find(table.assumed, signal.info.name, &scenario::Assumed::signal);
+  return found == table.assumed.end() ? std::nullopt : std::optional(found->value);
+}
+
+Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows) {
+  if (!rows.has(time_column)) return tl::unexpected(rows.missing(time_column));
+  std::vector<Source> sources;
+  std::size_t column = time_column + 1;
+  for (const GroupSignal& signal : signals_of(table.closes)) {
+    Source source{.signal = signal.info, .role = signal.role};
+    if (signal.role == Role::validity || signal.role == Role::value) {
+      const scenario::Increment* increment = increment_of(table, signal.info);
+      const std::size_t own = column++;
+      const std::optional<std::size_t> rate = increment == nullptr ? std::nullopt : std::optional(column++);
+      const bool has_rate = rate && rows.has(*rate);
+      if (has_rate && rows.has(own))
+        return failure(fmt::format("{}:1: column '{}': is there beside '{}', expected one of the two",
+                                   rows.file, rows.found[*rate], rows.found[own]));
+      if (rows.has(own)) {
+        source.column = own;
+      } else if (has_rate) {
+        source.rate = rate;
+      } else if (const auto value = assumed(table, signal)) {
+        source.constant = *value;
+      } else {
+        Error error = rows.missing(own);
+        if (increment != nullptr) error.message += fmt::format(", or '{}', its rate", increment->rate);
+        return tl::unexpected(std::move(error));
+      }
+    }
+    sources.push_back(source);
+  }
+  return sources;
+}
+
+/// Rows valid within the run, after its start. Error: too long without one.
+Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int64_t>& t_us,
+                                  std::int64_t gap_us, std::int64_t end_us) {
+  scenario::Rows rows;
+  rows.first = static_cast<std::size_t>(std::ranges::upper_bound(t_us, 0) - t_us.begin());
+  rows.last = static_cast<std::size_t>(std::ranges::upper_bound(t_us, end_us) - t_us.begin());
+  const auto silent = [&](std::size_t row, std::int64_t from_us, std::int64_t to_us) {
+    return tl::unexpected(table.about(
+        std::min(row, table.rows() - 1), time_column,
+        fmt::format("no sample from {:g} to {:g} s of the run, expected at most {:g} s without (key 'gap_s'; "
+                    "'from_s' says where the run begins)",
+                    seconds(from_us), seconds(to_us), seconds(gap_us))));
+  };
+  std::int64_t before_us = 0;
+  for (std::size_t row = rows.first; row < rows.last; ++row) {
+    if (t_us[row] - before_us > gap_us) return silent(row, before_us, t_us[row]);
+    before_us = t_us[row];
+  }
+  if (end_us - before_us > gap_us || rows.last - rows.first < 2) return silent(rows.last, before_us, end_us);
+  return rows;
+}
+
+/// A value of a row in the unit of its signal.
+Result<double> value_of(const Source& source, const Table& table, std::size_t row, double interval) {
+  if (!source.column && !source.rate) return source.constant;
+  const std::size_t place = source.column ? *source.column : *source.rate;
+  double value = table.value(row, place) * (source.rate ? interval : 1);
+  const SignalInfo& signal = source.signal;
+  if (signal.unit == "deg" && signal.minimum == -180 && signal.maximum == 180)
+    value = std::remainder(value, 360);
+  if (value < signal.minimum || value > signal.maximum)
+    return tl::unexpected(
+        table.about(row, place,
+                    fmt::format("{:g} {} does not fit into signal {}, expected {:g} to {:g}", value,
+                                signal.unit, signal.name, signal.minimum, signal.maximum)));
+  return value;
+}
+
+/// The interval of each sample reaches back to the one before, in steps of its signal, so that no rounding
+/// adds up; where samples are missing it is a period, and the target sees the gap.
+std::int64_t interval_of(const std::vector<std::int64_t>& t_us, std::size_t row, std::int64_t period_us,
+                         double step_us) {
+  if (row == 0 || 2 * (t_us[row] - t_us[row - 1]) > 3 * period_us) return period_us;
+  const auto whole = [&](std::int64_t t) {
+    return std::llround(std::nearbyint(static_cast<double>(t) / step_us) * step_us);
+  };
+  return whole(t_us[row]) - whole(t_us[row - 1]);
+}
+
+class Samples final : public Node {
+ public:
+  Samples(const NodeSettings& node, const Run& run)
+      : closes_(node.table().closes),
+        samples_(node.own<RecordedSettings>()->samples),
+        latency_us_(node.latency_us()),
+        end_us_(run.flight.end_us()),
+        remainders_(samples_->signals, 0) {}
+
+  [[nodiscard]] std::int64_t due_us() const override {
+    if (next_ == samples_->valid_us.size()) return never_us;
+    const std::int64_t due_us = samples_->valid_us[next_] + latency_us_;
+    return due_us > end_us_ ? never_us : due_us;
+  }
+  void transmit(Transmission& out) override {
+    std::size_t place = 0;  // of the signal in the sample
+    each_message(closes_, [&]<class Message>() {
+      Message message{};
+      Message::visit(message, [&](const SignalInfo& signal, auto& member) {
+        assign(member, signal, place++, out.rounding());
+      });
+      out.send(message);
+    });
+    ++next_;
+  }
+
+ private:
+  template <class Member>
+  void assign(Member& member, const SignalInfo& signal, std::size_t place, Rounding rounding) {
+    const Role role = role_of(signal, false);
+    double value = samples_->values[next_ * samples_->signals + place];
+    if (role == Role::time_of_validity) {
+      // What travels in 16 bits of 10 us is scaled; in 32 bits of 1 us it is whole.
+      const std::int64_t t_us = samples_->valid_us[next_];
+      value = static_cast<double>(std::is_floating_point_v<Member> ? wrap_short_us(t_us) : wrap_us(t_us));
+    } else if (role == Role::interval) {
+      value = static_cast<double>(samples_->interval_us[next_]);
+    } else if (signal.carries_remainder) {
+      value = round_increment(value, rounding == Rounding::none ? 0 : wire::lsb(signal), signal,
+                              remainders_[place]);
+    }
+    if constexpr (std::is_floating_point_v<Member>) {
+      member = static_cast<Member>(value);
+    } else {
+      member = static_cast<Member>(std::llround(value));
+    }
+  }
+
+  const MessageInfo& closes_;
+  std::shared_ptr<const RecordedSamples> samples_;
+  std::int64_t latency_us_;
+  std::int64_t end_us_;
+  std::vector<double> remainders_;  // of each signal of a sample
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> columns_of(const NodeTable& table) {
+  std::vector<std::string> names{"t_s"};
+  for (const GroupSignal& signal : signals_of(table.closes)) {
+    if (signal.role != Role::validity && signal.role != Role::value) continue;
+    names.emplace_back(signal.info.name);
+    if (const auto* increment = increment_of(table, signal.info)) names.emplace_back(increment->rate);
+  }
+  return names;
+}
+
+Result<RecordedSamples> read_samples(const NodeTable& table, const Table& rows, std::int64_t from_us,
+                                     std::int64_t gap_us, std::int64_t period_us, std::int64_t end_us) {
+  const auto sources = sources_of(table, rows);
+  if (!sources) return tl::unexpected(sources.error());
+  const auto t_us = scenario::times_of(rows, time_column, from_us);
+  if (!t_us) return tl::unexpected(t_us.error());
+  const auto part = within_run(rows, *t_us, gap_us, end_us);
+  if (!part) return tl::unexpected(part.error());
+  const auto interval = std::ranges::find(*sources, Role::interval, &Source::role);
+  const double step_us = interval == sources->end() ? 1 : wire::lsb(interval->signal);
+  RecordedSamples samples{.signals = sources->size()};
+  for (std::size_t row = part->first; row < part->last; ++row) {
+    samples.valid_us.push_back((*t_us)[row]);
+    samples.interval_us.push_back(interval_of(*t_us, row, period_us, step_us));
+    const auto interval_us = static_cast<double>(samples.interval_us.back());
+    if (interval != sources->end() && interval_us > interval->signal.maximum)
+      return tl::unexpected(rows.about(
+          row, time_column,
+          fmt::format("{:g} us since the row before do not fit into signal {}, expected at most {:g}",
+                      interval_us, interval->signal.name, interval->signal.maximum)));
+    for (const Source& source : *sources) {
+      const auto value = value_of(source, rows, row, 1e-6 * interval_us);
+      if (!value) return tl::unexpected(value.error());
+      samples.values.push_back(*value);
+    }
+  }
+  return samples;
+}
+
+std::unique_ptr<Node> make_samples(const NodeSettings& node, const Run& run) {
+  return std::make_unique<Samples>(node, run);
+}
+
+}  // namespace canhil::nodes

@@ -1,0 +1,22 @@
+// Files that a section names.
+#include "bench/scenario/section.hpp"
+#include "bench/world/hash.hpp"
+#include "dbc/files/text_file.hpp"
+
+namespace canhil::scenario {
+
+std::optional<std::string> Section::read_beside(std::string_view key, std::string_view kind,
+                                                std::size_t most_bytes) {
+  const std::string named = text(key);
+  if (named.empty()) return std::nullopt;
+  auto content = read_text_file(beside(named), kind, most_bytes);
+  if (!content) {
+    reject(key, content.error());
+    return std::nullopt;
+  }
+  std::uint64_t& hash = files_hash();
+  hash = world::fnv1a_64(*content, hash == 0 ? world::fnv1a_64("") : hash);
+  return std::move(*content);
+}
+
+}  // namespace canhil::scenario
