@@ -150,7 +150,12 @@ std::string bears_the_wrap_of_time(Subject& subject) {
   if (!flown) return flown.error().message;
   constexpr std::int64_t wrap_us = std::int64_t{1} << 32;
   subject.talk.shift_time(wrap_us - flight_us / 2);
-  std::string wrong = made_to_run(subject);
+  std::string wrong = subject.talk.reset();
+  if (wrong.empty()) {
+    subject.talk.tell_time();
+    subject.talk.tell_state();
+    wrong = subject.talk.waits_for(TargetState::ready) ? subject.talk.start() : "no heartbeat says ready";
+  }
   if (wrong.empty()) subject.talk.fly(flight_us);
   subject.talk.shift_time(0);
   if (!wrong.empty()) return wrong;

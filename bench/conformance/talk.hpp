@@ -49,6 +49,8 @@ class Talk {
   void tell_damaged(int frames);
   /// From now on every time that is sent, of the time base or of validity, is so much later.
   void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
+  /// The time base as it is before a flight: a time of validity of 32 bits is taken as the one next to it.
+  void tell_time();
 
   /// Waits for a message after what was told last that a condition holds of; none: it did not come.
   template <class Message, class Condition>
