@@ -17,7 +17,7 @@ using Spoil = void (*)(const Frame& frame, std::size_t k, std::size_t n, std::ve
 struct Seen {
   int answers = 0;  ///< to the sample that was spoiled
   std::size_t messages = 0;
-  TargetCounters counted;
+  TargetCounters counted;  ///< by the fault
   TargetHeartbeat beat;
 };
 
@@ -36,10 +36,19 @@ Result<Seen> flown_with(Subject& subject, Spoil spoil) {
     if (begun != other.place + 1) return instead.push_back(frame);
     spoil(frame, static_cast<std::size_t>(place - ids.begin()), ids.size(), instead);
   });
-  const auto counted = subject.talk.last_heard<TargetCounters>();
+  const auto before = subject.talk.first_heard<TargetCounters>();
+  const auto after = subject.talk.last_heard<TargetCounters>();
   const auto beat = subject.talk.last_heard<TargetHeartbeat>();
-  if (!counted || !beat) return failure("no counters or no heartbeat in flight");
-  Seen seen{.messages = ids.size(), .counted = *counted, .beat = *beat};
+  if (!before || !after || !beat) return failure("no counters or no heartbeat in flight");
+  const auto more = [](std::uint16_t now, std::uint16_t then) {
+    return static_cast<std::uint16_t>(now - then);
+  };
+  Seen seen{.messages = ids.size(),
+            .counted = {.frames_lost = more(after->frames_lost, before->frames_lost),
+                        .bad_crc = more(after->bad_crc, before->bad_crc),
+                        .bad_group = more(after->bad_group, before->bad_group),
+                        .late = more(after->late, before->late)},
+            .beat = *beat};
   for (const Group& answer : groups_in(subject.talk.heard())) {
     if (answers(answer.name, other.sample) && answer.value("cause_time_us") == other.time_us) ++seen.answers;
   }

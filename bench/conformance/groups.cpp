@@ -56,7 +56,8 @@ std::vector<Group> groups_in(std::span<const Frame> frames) {
     if (info == nullptr || info->sample_group.empty()) continue;
     const auto ids = ids_of(info->sample_group);
     auto group = std::ranges::find(open, info->sample_group, &Group::name);
-    if (group != open.end() && frame.id == ids.front()) {
+    if (group != open.end() &&
+        std::ranges::find(group->frames, frame.id, &Frame::id) != group->frames.end()) {
       ended.push_back(std::move(*group));
       open.erase(group);
       group = open.end();

@@ -26,7 +26,7 @@ struct Group {
 std::vector<std::uint32_t> ids_of(std::string_view group);
 
 /// The groups of a stretch of frames in the order in which they end: each with its message of the highest id,
-/// or, if that is missing, when the next one of its name begins. Frames of no group are left out.
+/// or, if that is missing, when one of its messages comes again. Frames of no group are left out.
 std::vector<Group> groups_in(std::span<const Frame> frames);
 
 /// Whether a group is one of answers.

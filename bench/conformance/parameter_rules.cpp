@@ -12,6 +12,7 @@ namespace {
 
 using namespace messages;
 
+constexpr double far_out = 3e38;                                      // near the largest float
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // in no range
 
 messages::Parameter named(const Parameter& parameter) {
@@ -36,10 +37,11 @@ std::string read_back(Talk& talk, messages::Parameter parameter) {
   if (refused->status != ParameterStatus::out_of_range || std::isnan(before))
     return fmt::format("{} = NaN: {}, {:g} is read back; expected out_of_range and the value in force",
                        name_of(parameter), name_of(refused->status), before);
-  for (const double value : {before, beside(before)}) {
+  double expected = before;
+  for (const double value : {before, beside(before), far_out}) {
     const auto ack = talk.set(parameter, value);
     if (!ack) return fmt::format("{}: no ParamAck", name_of(parameter));
-    const double expected = ack->status == ParameterStatus::accepted ? value : before;
+    if (ack->status == ParameterStatus::accepted) expected = value;
     if (std::abs(static_cast<double>(ack->value) - expected) > 2e-6 * std::abs(expected))
       return fmt::format("{} = {:g}: {}, {:g} is read back; expected {:g}", name_of(parameter), value,
                          name_of(ack->status), static_cast<double>(ack->value), expected);

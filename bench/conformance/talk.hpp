@@ -104,7 +104,14 @@ class Talk {
   [[nodiscard]] bool closed() const { return closed_; }
   /// The answers of the last flight on.
   [[nodiscard]] std::vector<Frame> answers() const;
-  /// The last one that came while it flew on.
+  /// The first and the last one that came while it flew on.
+  template <class Message>
+  std::optional<Message> first_heard() const {
+    for (const Received& received : ear_.frames) {
+      if (const auto message = observe::heard<Message>(received)) return message;
+    }
+    return std::nullopt;
+  }
   template <class Message>
   std::optional<Message> last_heard() const {
     std::optional<Message> last;

@@ -14,11 +14,10 @@ class Sound(canhil_target.Target):
 
 class SlowBeat(Sound):
     """A heartbeat every second while no bench is at work."""
-    beats = 0
+    beats = itertools.count()
 
     def send_heartbeat(self):
-        SlowBeat.beats += 1
-        if self.lockstep or self.received or SlowBeat.beats % 10 == 1:
+        if sys._getframe(1).f_code.co_name != "look_at_clock" or next(self.beats) % 10 == 0:
             super().send_heartbeat()
 
 
@@ -110,7 +109,11 @@ class NoStop(Sound):
 
 class Once(Sound):
     """Cannot be started a second time after a stop."""
-    stops = 0
+    stops = False
+
+    def start(self):
+        self.received_syncs = 0
+        super().start()
 
     def on_command(self, command):
         if command["command"] == "stop" and self.state == "running":
@@ -211,12 +214,11 @@ class Disorder(Sound):
 
 
 class OwnCause(Sound):
-    """cause_counter is a counter of its own."""
-    own = itertools.count()
+    """cause_counter is that of the next sample."""
 
     def send_group(self, group, values):
         if group == "LosRate":
-            values = {**values, "cause_counter": next(self.own) % 13}
+            values = {**values, "cause_counter": (values["cause_counter"] + 1) % 15}
         super().send_group(group, values)
 
 
