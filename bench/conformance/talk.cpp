@@ -178,6 +178,7 @@ int Talk::fly(std::int64_t duration_us, const Tamper& tamper) {
 std::vector<Frame> Talk::heard() const {
   std::vector<Frame> all;
   for (const Received& received : ear_.frames) all.push_back(received.frame);
+  while (!all.empty() && all.back().id != StepDone::info.id) all.pop_back();
   return all;
 }
 

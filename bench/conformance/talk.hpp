@@ -97,8 +97,8 @@ class Talk {
   /// Flies on for so long, in lockstep; how many answers to samples came. A step that the target does not
   /// close ends the flight.
   int fly(std::int64_t duration_us, const Tamper& tamper = {});
-  /// What was flown last: the frames as the nodes made them, what the target sent, whether each step was
-  /// closed.
+  /// What was flown last: the frames as the nodes made them; what the target sent up to the last StepDone, as
+  /// nobody waits for more; whether each step was closed.
   [[nodiscard]] const std::vector<Frame>& flown() const { return flown_; }
   [[nodiscard]] std::vector<Frame> heard() const;
   [[nodiscard]] bool closed() const { return closed_; }

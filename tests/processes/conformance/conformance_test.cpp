@@ -60,6 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Conformance, EstimatorOfHilTarget,
 struct Defect {
   const char* name;                // a class of defective_target.py
   std::set<std::string> expected;  // the rules that name it, and no other
+  friend void PrintTo(const Defect& defect, std::ostream* out) { *out << defect.name; }
 };
 
 class Defective : public testing::TestWithParam<Defect> {};

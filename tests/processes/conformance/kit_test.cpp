@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <array>
+#include <regex>
+
+#include "dbc/wire/e2e.hpp"
+#include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"
 
 namespace canhil::test {
@@ -75,6 +81,46 @@ TEST(Kit, ArgumentsReachTheTarget) {
   const Ended other = hil_bench(fmt::format("golden check {} --target '{}'", folder, in_python));
   EXPECT_EQ(other.code, 1);
   EXPECT_THAT(other.out, HasSubstr("LosRate"));
+}
+
+const std::string own_target = read(SOURCE_DIR "/docs/own-target.md");
+
+// A host that keeps the bench waiting makes it repeat a command: such a recording is made again.
+TEST(Documentation, HandshakeIsThatOfARun) {
+  const std::string log = scratch("handshake.log");
+  Ended annotated;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    hil_bench(
+        fmt::format("run {} --lockstep --target '{}' --log {}", scenario("los_quick"), KIT_LOS_RATE, log));
+    annotated = shell(fmt::format("/usr/bin/python3 -B {}/tests/processes/conformance/annotate.py {} {} 45",
+                                  SOURCE_DIR, kit, log));
+    if (own_target.find(annotated.out) != std::string::npos) break;
+  }
+  EXPECT_THAT(annotated.out, HasSubstr("StepDone: step 1"));
+  EXPECT_THAT(own_target, HasSubstr("```\n" + annotated.out + "```\n"));
+}
+
+TEST(Documentation, CrcVectorsAreThoseOfTheCode) {
+  const std::regex row(R"(\| (\w+) \| `([0-9A-F]{4})` \| `([0-9A-F]{14})` \| `([0-9A-F]{2})` \|)");
+  int rows = 0;
+  for (std::sregex_iterator at(own_target.begin(), own_target.end(), row), end; at != end; ++at, ++rows) {
+    const auto number = [&](std::size_t field) { return std::stoull((*at)[field].str(), nullptr, 16); };
+    const auto info = std::ranges::find(messages::all_messages, (*at)[1].str(), &MessageInfo::name);
+    ASSERT_NE(info, messages::all_messages.end()) << at->str();
+    EXPECT_EQ(info->e2e_data_id, number(2)) << at->str();
+    std::array<std::uint8_t, 8> data{};
+    for (std::size_t i = 1; i < data.size(); ++i)
+      data[i] = static_cast<std::uint8_t>(number(3) >> (8 * (data.size() - 1 - i)));
+    EXPECT_EQ(e2e::crc(data, info->e2e_data_id), number(4)) << at->str();
+  }
+  EXPECT_GE(rows, 5);
+}
+
+TEST(Documentation, ConformanceIsAsTheProgramPrintsIt) {
+  const auto report = json_of(hil_bench(fmt::format("conformance --target {} --json -", KIT_LOS_RATE)).out);
+  for (const auto& rule : report["rules"])
+    EXPECT_THAT(own_target, HasSubstr(fmt::format("  PASS  {:<13}  {}\n", rule["id"].get<std::string>(),
+                                                  rule["text"].get<std::string>())));
 }
 
 }  // namespace
