@@ -176,7 +176,7 @@ constexpr Rule all[] = {
      a_reset_brings_them_back},
     {"P-RANGE", "parameters",
      "Each parameter takes its whole range and reads it back; beyond it, and a fraction where a whole number "
-     "is due, is refused, and the value in force is told.",
+     "is due, is refused, and the value in force is reported.",
      parameters_have_ranges, Needs::parameters},
     {"P-UNKNOWN", "parameters", "A parameter of another estimator is unknown.", other_parameters_are_unknown,
      Needs::parameters},

@@ -23,10 +23,14 @@ Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, con
   if (!started) return tl::unexpected(started.error());
   auto talk = std::make_unique<Talk>(scenario, std::move(*truth), std::move(*flight), std::move(*buses),
                                      std::move(*started));
-  for (int second = 0; second < 5; ++second) {  // it may still be starting
+  constexpr int attempts = 3;  // it may still be starting
+  for (int i = 0; i < attempts; ++i) {
     if (talk->hear<TargetHeartbeat>([](const auto&) { return true; })) return talk;
+    if (const auto why = talk->target_.ended())
+      return failure(fmt::format("target '{}': {} before its first heartbeat", target, *why));
   }
-  return failure(fmt::format("{}: no heartbeat within 5 s, expected a target", target));
+  return failure(fmt::format("target '{}': no heartbeat within {} s, expected a target", target,
+                             attempts * answer_ns / 1'000'000'000));
 }
 
 Talk::Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
