@@ -52,7 +52,7 @@ class Talk {
   /// The time base as it is before a flight: a time of validity of 32 bits is taken as the one next to it.
   void tell_time();
 
-  /// Waits for a message after what was told last that a condition holds of; none: it did not come.
+  /// Waits for a message that a condition holds of, after what was sent last; none: it did not come.
   template <class Message, class Condition>
   std::optional<Message> hear(Condition condition) {
     const std::int64_t deadline_ns = link_.now_ns() + answer_ns;

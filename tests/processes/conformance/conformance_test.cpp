@@ -95,7 +95,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Conformance, BadInputIsOneLine) {
   expect_one_line(hil_bench("conformance --target /no/such/program"), "'/no/such/program': is no program");
-  expect_one_line(hil_bench("conformance --target /usr/bin/true"), "exited with 0 before its first heartbeat");
+  expect_one_line(hil_bench("conformance --target /usr/bin/true"),
+                  "exited with 0 before its first heartbeat");
   expect_one_line(hil_bench("conformance --estimator none_such"),
                   "--estimator 'none_such': has no flight, expected one of: ");
   expect_one_line(hil_bench("conformance --scenario none.toml"), "none.toml: cannot be read");
