@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/conformance/rules.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/wire/result.hpp"
 
@@ -52,13 +53,7 @@ struct Flight {
   bool faults = false;  ///< the target is to say that it cannot go on
 };
 
-/// A parameter as it is told over the bus, before the start.
-struct Parameter {
-  std::string name;
-  double least = 0, most = 0;
-  bool whole = false;
-  bool in_flight = false;  ///< may be set while the estimator runs
-};
+using conformance::Parameter;
 
 struct Suite {
   std::filesystem::path folder;

@@ -22,6 +22,9 @@ void add_diverge(command_line::Command app, int& code);
 /// later one that is another. Exit code 1 if there is one.
 void add_golden(command_line::Command app, int& code);
 
+/// `hil-bench conformance`: whether a target keeps the protocol, rule by rule. Exit code 1 if it does not.
+void add_conformance(command_line::Command app, int& code);
+
 /// `hil-bench doctor --bus BUS`: what this machine and its interface can do, with remedies. Exit code 1 if
 /// something is bad.
 void add_doctor(command_line::Command app, int& code);

@@ -110,8 +110,7 @@ std::string refused(const Options& options) {
     return fmt::format("--namespace: '{}' is no name of a namespace in C++", options.name_space);
   const int asked = options.quantisation + options.load + options.json + options.fd + options.fd_header +
                     options.c + options.python;
-  if (asked > 1)
-    return "expected one of --quantisation, --load, --json, --fd, --fd-header, --c and --python";
+  if (asked > 1) return "expected one of --quantisation, --load, --json, --fd, --fd-header, --c and --python";
   return {};
 }
 

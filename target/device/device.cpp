@@ -147,6 +147,8 @@ void Device::on_command(const TargetCommand& command) {
       return stop();
     case Command::none:
       break;
+    default:  // the DBC does not name it
+      raise(&Errors::command);
   }
   send_heartbeats();
 }

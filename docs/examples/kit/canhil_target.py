@@ -371,7 +371,7 @@ class Process:
         self.timing = []
 
     def send(self, identifier, data):
-        """A frame for which there is no room in 50 ms is lost; the bench sees that by the counters."""
+        """A frame for which there is no room in 20 ms is lost; the bench sees that by the counters."""
         try:
             self.bus.send(identifier, data)
         except (TimeoutError, OSError):

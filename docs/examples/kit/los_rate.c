@@ -1,5 +1,5 @@
 /* The line-of-sight rate of a seeker by an alpha-beta-gamma filter, as an example of the kit:
- *   cc -std=c99 -O2 -ffp-contract=off -o los_rate los_rate.c canhil_target.c linux_bus.c -lm
+ *   cc -std=c99 -O2 -ffp-contract=off -o los_rate los_rate.c canhil_target.c linux_bus.c can_bus.c -lm
  *   hil-bench run bench/flights/los_quick.toml --target ./los_rate
  * los_rate.py is the same filter in Python: its answers have the same bits. */
 #include <math.h>

@@ -101,10 +101,12 @@ TEST_F(Accept, ATargetThatMeetsEveryRequirementPasses) {
   EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("PASS          S-2"));
   EXPECT_THAT(ended.out, HasSubstr("PASS          P-STOP"));
-  EXPECT_THAT(ended.out, HasSubstr("transfer_alignment: pass: 12 of 12 requirements met"));
   const auto report = read_json(json);
   EXPECT_EQ(report["outcome"], "pass");
-  EXPECT_EQ(report["suites"][0]["requirements"].size(), 12U);
+  const std::size_t asked = report["suites"][0]["requirements"].size();
+  EXPECT_GT(asked, 20U);  // its own, and those of the protocol
+  EXPECT_THAT(ended.out,
+              HasSubstr(fmt::format("transfer_alignment: pass: {0} of {0} requirements met", asked)));
   EXPECT_EQ(shell("xmllint --noout " + junit).code, 0);
   EXPECT_THAT(read(page), HasSubstr("Silence is a fault."));
 }

@@ -19,7 +19,7 @@ const std::string folder = SOURCE_DIR "/docs/examples/own_ecu";
 const std::string own_ecu = folder + "/own_ecu.toml";
 
 std::string in_python(const std::string& defect) {
-  return fmt::format("--target 'python3 {}/tests/processes/mapping/defective_ecu.py {}'", SOURCE_DIR, defect);
+  return fmt::format("--target '/usr/bin/python3 {}/tests/processes/mapping/defective_ecu.py {}'", SOURCE_DIR, defect);
 }
 
 Ended run(const std::string& target, const std::string& report, const std::string& more = "") {
@@ -55,7 +55,7 @@ TEST_P(Ecu, PassesInVirtualTime) {
   EXPECT_EQ(figure(read_json(report), "own_ecu", "answers", "ECU_Attitude"), 1200);
 }
 
-const std::string python = "--target 'python3 " SOURCE_DIR "/docs/examples/own_ecu/own_ecu.py'";
+const std::string python = "--target '/usr/bin/python3 " SOURCE_DIR "/docs/examples/own_ecu/own_ecu.py'";
 INSTANTIATE_TEST_SUITE_P(InPython, Ecu, testing::Values(python.c_str()));
 INSTANTIATE_TEST_SUITE_P(InC, Ecu, testing::Values("--target " OWN_ECU_C));
 

@@ -187,9 +187,9 @@ TEST(Provenance, SaysWhatWasTested) {
                              R"("file_date":"1970-01-02T00:00:00Z"})");
   EXPECT_THAT(page_of(run), HasSubstr("target: file_hash"));
   run.options.target = "python3 mine.py";
-  run.target_files.push_back({"mine.py", {.hash = 0xCD, .bytes = 5, .modified_s = 0}});
+  run.target_files.push_back({"mine.py", {.hash = 0xCD, .bytes = 5, .modified_s = 86'400}});
   EXPECT_EQ(target().at("arguments").dump(), R"([{"file":"mine.py","file_hash":"00000000000000cd",)"
-                                             R"("file_bytes":5,"file_date":"1970-01-01T00:00:00Z"}])");
+                                             R"("file_bytes":5,"file_date":"1970-01-02T00:00:00Z"}])");
   EXPECT_THAT(page_of(run), HasSubstr("mine.py"));
   run.in_process = true;
   EXPECT_EQ(target().dump(), R"({"program":"in hil-bench itself"})");

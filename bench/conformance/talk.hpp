@@ -1,9 +1,10 @@
-// A target of its own, on a bus of its own, to which commands are told one by one.
+// A target of its own, on a bus of its own, to which commands are sent one by one.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,12 +18,13 @@
 #include "bench/observe/heard.hpp"
 #include "bench/observe/heartbeat_errors.hpp"
 
-namespace canhil::accept {
+namespace canhil::conformance {
 
 class Talk {
  public:
   /// Starts the target and waits for its first heartbeat. `scenario`: whose estimator it is to be, and what
-  /// it then hears; must outlive the talk. Error: it does not start, or the scenario cannot be flown.
+  /// it then hears; must outlive the talk. `target`: a command. Error: it does not start, or the scenario
+  /// cannot be flown.
   static Result<std::unique_ptr<Talk>> open(const scenario::Scenario& scenario, const std::string& target);
 
   /// For the scenario's estimator and algorithm.
@@ -42,12 +44,16 @@ class Talk {
     const Frame frame = to_frame(message, last_counter_);
     static_cast<void>(link_.send(frame, patience_ns));
   }
-  /// The scenario's initial state.
-  void tell_state();
-  /// Frames of the time base with a wrong CRC.
+  /// The scenario's initial state; of its frames those for which `sent` holds.
+  void tell_state(const std::function<bool(const Frame&)>& sent = [](const Frame&) { return true; });
+  /// Parameters with a wrong CRC.
   void tell_damaged(int frames);
+  /// From now on every time that is sent, of the time base or of validity, is so much later.
+  void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
+  /// The time base as it is before a flight: a time of validity of 32 bits is taken as the one next to it.
+  void tell_time();
 
-  /// Waits for a message after what was told last that a condition holds of; none: it did not come.
+  /// Waits for a message that a condition holds of, after what was sent last; none: it did not come.
   template <class Message, class Condition>
   std::optional<Message> hear(Condition condition) {
     const std::int64_t deadline_ns = link_.now_ns() + answer_ns;
@@ -62,34 +68,70 @@ class Talk {
     }
   }
   bool waits_for(messages::TargetState state);
+  /// Hears for so long, and gives what came of a message, with its stamp.
+  template <class Message>
+  std::vector<std::pair<std::int64_t, Message>> hear_all(std::int64_t duration_ns) {
+    ear_.frames.clear();
+    const std::int64_t deadline_ns = link_.now_ns() + duration_ns;
+    while (link_.now_ns() < deadline_ns) {
+      static_cast<void>(link_.drain());
+      link_.wait_until(deadline_ns);
+    }
+    static_cast<void>(link_.drain());
+    std::vector<std::pair<std::int64_t, Message>> all;
+    for (const Received& received : ear_.frames) {
+      if (const auto message = observe::heard<Message>(received)) all.emplace_back(received.t_ns, *message);
+    }
+    return all;
+  }
   /// Sets a parameter, and gives its acknowledgement.
-  std::optional<messages::ParamAck> set(const std::string& parameter, double value);
+  std::optional<messages::ParamAck> set(messages::Parameter parameter, double value);
 
   // Each says what was wrong; empty: nothing.
   std::string reset();
   std::string make_ready();  ///< a reset, then the initial state
   std::string start();
 
-  /// Flies on for so long, in lockstep; how many answers to samples came.
-  int fly(std::int64_t duration_us);
+  /// What is sent in place of a frame: nothing, it, something else, several.
+  using Tamper = std::function<void(const Frame& frame, std::vector<Frame>& instead)>;
+
+  /// Flies on for so long, in lockstep; how many answers to samples came. A step that the target does not
+  /// close ends the flight.
+  int fly(std::int64_t duration_us, const Tamper& tamper = {});
+  /// What was flown last: the frames as the nodes made them; what the target sent up to the last StepDone, as
+  /// nobody waits for more; whether each step was closed.
+  [[nodiscard]] const std::vector<Frame>& flown() const { return flown_; }
+  [[nodiscard]] std::vector<Frame> heard() const;
+  [[nodiscard]] bool closed() const { return closed_; }
   /// The answers of the last flight on.
   [[nodiscard]] std::vector<Frame> answers() const;
-  /// The last one that came while it flew on.
+  /// The first and the last one that came while it flew on.
   template <class Message>
-  std::optional<Message> hear_in_flight(std::int64_t duration_us) {
-    fly(duration_us);
+  std::optional<Message> first_heard() const {
+    for (const Received& received : ear_.frames) {
+      if (const auto message = observe::heard<Message>(received)) return message;
+    }
+    return std::nullopt;
+  }
+  template <class Message>
+  std::optional<Message> last_heard() const {
     std::optional<Message> last;
     for (const Received& received : ear_.frames) {
       if (const auto message = observe::heard<Message>(received)) last = message;
     }
     return last;
   }
+  template <class Message>
+  std::optional<Message> hear_in_flight(std::int64_t duration_us) {
+    fly(duration_us);
+    return last_heard<Message>();
+  }
 
   Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
        drive::OpenBuses buses, drive::TargetProcess target);
 
  private:
-  static constexpr std::int64_t answer_ns = 2'000'000'000, step_ns = 5'000'000'000,
+  static constexpr std::int64_t answer_ns = 2'000'000'000, step_ns = 3'000'000'000,
                                 patience_ns = 5'000'000'000;
 
   struct Ear final : observe::Observer {
@@ -100,7 +142,9 @@ class Talk {
   };
 
   void send();
+  void send(Frame frame);
   void begin_flight();
+  bool closes(std::uint16_t step);
 
   const scenario::Scenario& scenario_;
   world::FlightRecord truth_;
@@ -113,8 +157,10 @@ class Talk {
   Ear ear_;
   drive::Attached attached_;
   std::unique_ptr<drive::Schedule> schedule_;
-  std::int64_t flown_us_ = 0;
+  std::int64_t flown_us_ = 0, shift_us_ = 0;
+  std::vector<Frame> flown_;
+  bool closed_ = true;
   std::uint8_t last_counter_ = 0;
 };
 
-}  // namespace canhil::accept
+}  // namespace canhil::conformance

@@ -1,8 +1,10 @@
-#include "bench/accept/talk.hpp"
+#include "bench/conformance/talk.hpp"
 
 #include "bench/drive/session.hpp"
 
-namespace canhil::accept {
+#include "bench/conformance/groups.hpp"
+
+namespace canhil::conformance {
 namespace {
 
 using namespace messages;
@@ -21,10 +23,14 @@ Result<std::unique_ptr<Talk>> Talk::open(const scenario::Scenario& scenario, con
   if (!started) return tl::unexpected(started.error());
   auto talk = std::make_unique<Talk>(scenario, std::move(*truth), std::move(*flight), std::move(*buses),
                                      std::move(*started));
-  for (int second = 0; second < 5; ++second) {  // it may still be starting
+  constexpr int attempts = 3;  // it may still be starting
+  for (int i = 0; i < attempts; ++i) {
     if (talk->hear<TargetHeartbeat>([](const auto&) { return true; })) return talk;
+    if (const auto why = talk->target_.ended())
+      return failure(fmt::format("target '{}': {} before its first heartbeat", target, *why));
   }
-  return failure(fmt::format("{}: no heartbeat within 5 s, expected a target", target));
+  return failure(fmt::format("target '{}': no heartbeat within {} s, expected a target", target,
+                             attempts * answer_ns / 1'000'000'000));
 }
 
 Talk::Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
@@ -49,23 +55,39 @@ TargetCommand Talk::command(Command what) const {
 void Talk::send() {
   for (const Frame& frame : out_.frames()) {
     if (frame.id == TargetCommand::info.id) last_counter_ = e2e::counter(frame.payload());
-    static_cast<void>(link_.send(frame, patience_ns));
+    send(frame);
   }
 }
 
-void Talk::tell_state() {
+void Talk::send(Frame frame) {
+  if (shift_us_ != 0) conformance::shift_time(frame, shift_us_);
+  static_cast<void>(link_.send(frame, patience_ns));
+}
+
+void Talk::tell_state(const std::function<bool(const Frame&)>& sent) {
   ear_.frames.clear();
   out_.clear();
   drive::send(flight_.initial.front(), out_);
-  send();
+  for (const Frame& frame : out_.frames()) {
+    if (sent(frame)) send(frame);
+  }
+}
+
+void Talk::tell_time() {
+  ear_.frames.clear();
+  send(to_frame(Sync{.lockstep = 1},
+                e2e::counter_period - 1));  // the flight's first one has the next counter, 0
 }
 
 void Talk::tell_damaged(int frames) {
-  Frame frame = to_frame(Sync{}, 0);
+  Frame frame = to_frame(ParamSet{}, 0);
   frame.data[0] ^= 0xFFU;
+  constexpr int at_once = 128;  // a bus drops a node that keeps it waiting: the target is to catch up
   for (int i = 0; i < frames; ++i) {
     static_cast<void>(link_.send(frame, patience_ns));
-    if (i % 64 == 0) static_cast<void>(link_.drain());
+    if (i % at_once != at_once - 1) continue;
+    tell(command(Command::none));
+    static_cast<void>(hear<TargetHeartbeat>([](const auto&) { return true; }));
   }
 }
 
@@ -73,11 +95,9 @@ bool Talk::waits_for(TargetState state) {
   return hear<TargetHeartbeat>([&](const auto& one) { return one.state == state; }).has_value();
 }
 
-std::optional<ParamAck> Talk::set(const std::string& parameter, double value) {
-  const auto name = from_name<messages::Parameter>(parameter);
-  if (!name) return std::nullopt;
-  tell(ParamSet{.parameter = *name, .value = static_cast<float>(value)});
-  return hear<ParamAck>([&](const auto& one) { return one.parameter == *name; });
+std::optional<ParamAck> Talk::set(messages::Parameter parameter, double value) {
+  tell(ParamSet{.parameter = parameter, .value = static_cast<float>(value)});
+  return hear<ParamAck>([&](const auto& one) { return one.parameter == parameter; });
 }
 
 std::string Talk::reset() {
@@ -89,7 +109,8 @@ std::string Talk::reset() {
   });
   if (!beat) return "reset: no heartbeat says idle with the estimator and algorithm told";
   for (const scenario::Parameter& parameter : scenario_.targets.front().parameters) {
-    const auto ack = set(parameter.name, parameter.value);
+    const auto name = from_name<messages::Parameter>(parameter.name);
+    const auto ack = name ? set(*name, parameter.value) : std::nullopt;
     if (!ack || ack->status != ParameterStatus::accepted)
       return fmt::format("{} = {:g}: {}", parameter.name, parameter.value,
                          ack ? name_of(ack->status) : "no answer");
@@ -112,30 +133,54 @@ std::string Talk::start() {
 void Talk::begin_flight() {
   schedule_.reset(new drive::Schedule(drive::make_schedule(scenario_, truth_, flight_.own_truth, 0, true)));
   flown_us_ = 0;
+  closed_ = true;
 }
 
-int Talk::fly(std::int64_t duration_us) {
+// Waits until the target closes the step.
+bool Talk::closes(std::uint16_t step) {
+  const std::int64_t deadline_ns = link_.now_ns() + step_ns;
+  const auto closed = [&] {
+    for (auto one = ear_.frames.rbegin(); one != ear_.frames.rend(); ++one) {
+      if (const auto done = observe::heard<StepDone>(*one)) return done->step == step;
+    }
+    return false;
+  };
+  for (static_cast<void>(link_.drain()); !closed(); static_cast<void>(link_.drain())) {
+    if (link_.now_ns() >= deadline_ns) return false;
+    link_.wait_until(deadline_ns);
+  }
+  return true;
+}
+
+int Talk::fly(std::int64_t duration_us, const Tamper& tamper) {
   ear_.frames.clear();
+  flown_.clear();
   flown_us_ += duration_us;
-  while (schedule_->due_us() <= flown_us_) {
+  std::vector<Frame> instead;
+  while (closed_ && schedule_->due_us() <= flown_us_) {
     std::optional<std::uint16_t> step;
     for (const Frame& frame : schedule_->take()) {
+      flown_.push_back(frame);
+      if (shift_us_ != 0) conformance::shift_time(flown_.back(), shift_us_);
       if (frame.id == Sync::info.id) step = from_frame<Sync>(frame).step;
-      static_cast<void>(link_.send(frame, patience_ns));
-    }
-    if (!step) continue;
-    const std::int64_t deadline_ns = link_.now_ns() + step_ns;
-    const auto closed = [&] {
-      for (auto one = ear_.frames.rbegin(); one != ear_.frames.rend(); ++one) {
-        if (const auto done = observe::heard<StepDone>(*one)) return done->step == *step;
+      instead.clear();
+      if (tamper) {
+        tamper(frame, instead);
+      } else {
+        instead.push_back(frame);
       }
-      return false;
-    };
-    for (static_cast<void>(link_.drain()); !closed() && link_.now_ns() < deadline_ns;
-         static_cast<void>(link_.drain()))
-      link_.wait_until(deadline_ns);
+      for (const Frame& one : instead) send(one);
+    }
+    if (step) closed_ = closes(*step);
   }
   return static_cast<int>(answers().size());
+}
+
+std::vector<Frame> Talk::heard() const {
+  std::vector<Frame> all;
+  for (const Received& received : ear_.frames) all.push_back(received.frame);
+  while (!all.empty() && all.back().id != StepDone::info.id) all.pop_back();
+  return all;
 }
 
 std::vector<Frame> Talk::answers() const {
@@ -147,4 +192,4 @@ std::vector<Frame> Talk::answers() const {
   return all;
 }
 
-}  // namespace canhil::accept
+}  // namespace canhil::conformance

@@ -1,0 +1,147 @@
+#include "bench/conformance/conformance.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/interrupt.hpp"
+#include "bench/commands/program.hpp"
+#include "bench/commands/progress_line.hpp"
+#include "bench/commands/subcommands.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/target_command.hpp"
+#include "bench/report/file.hpp"
+
+namespace canhil::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As typed.
+struct Arguments {
+  std::string target = drive::quoted_word(own_folder() + "/hil-target");
+  std::string estimator;  // empty: what the target says, or takes
+  std::string scenario;   // empty: the quick flight of the estimator
+  std::string json, junit;
+};
+
+// The quick flights of the project: one an estimator.
+Result<std::vector<scenario::Scenario>> quick_flights() {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(CANHIL_FLIGHTS, error)) {
+    if (entry.path().filename().string().ends_with("_quick.toml")) files.push_back(entry.path());
+  }
+  if (files.empty())
+    return failure(fmt::format("{}: has no flights, expected --scenario FILE", CANHIL_FLIGHTS));
+  std::ranges::sort(files);
+  std::vector<scenario::Scenario> flights;
+  for (const fs::path& file : files) {
+    auto flight = scenario::read_file(file, drive::contract());
+    if (!flight) return tl::unexpected(flight.error());
+    flights.push_back(std::move(*flight));
+  }
+  return flights;
+}
+
+Result<std::vector<scenario::Scenario>> candidates(const Arguments& arguments) {
+  std::vector<scenario::Scenario> all;
+  if (arguments.scenario.empty()) {
+    auto flights = quick_flights();
+    if (!flights) return flights;
+    all = std::move(*flights);
+  } else {
+    auto own = scenario::read_file(arguments.scenario, drive::contract());
+    if (!own) return tl::unexpected(own.error());
+    all.push_back(std::move(*own));
+  }
+  std::vector<std::string> names;
+  for (const scenario::Scenario& one : all) names.push_back(one.targets.front().estimator);
+  if (arguments.estimator.empty()) return all;
+  std::erase_if(all, [&](const auto& one) { return one.targets.front().estimator != arguments.estimator; });
+  if (all.empty())
+    return failure(fmt::format("--estimator '{}': has no flight, expected one of: {}", arguments.estimator,
+                               fmt::join(names, ", ")));
+  return all;
+}
+
+Result<void> check_outputs(const Arguments& arguments) {
+  std::vector<std::string> files = drive::files_of_target(arguments.target);
+  files.insert(files.end(), {arguments.scenario, arguments.json, arguments.junit});
+  if (auto distinct = report::check_distinct(files); !distinct) return distinct;
+  for (const std::string& path : {arguments.json, arguments.junit}) {
+    if (path.empty() || path == report::to_stdout) continue;
+    if (auto writable = report::check_writable(path); !writable) return writable;
+  }
+  return {};
+}
+
+Result<void> write_reports(const Arguments& arguments, const conformance::Report& found) {
+  if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
+    if (auto shown = report::write_stdout(conformance::text(found)); !shown) return shown;
+  }
+  if (!arguments.json.empty()) {
+    if (auto written = report::write(arguments.json, conformance::json(found)); !written) return written;
+  }
+  return arguments.junit.empty() ? Result<void>{} : report::write(arguments.junit, conformance::junit(found));
+}
+
+ExitCode execute(const Arguments& arguments) {
+  if (auto fine = drive::check_target(arguments.target); !fine) return complain(fine.error());
+  if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
+  const auto flights = candidates(arguments);
+  if (!flights) return complain(flights.error());
+  catch_interrupts();
+  const auto started = std::chrono::steady_clock::now();
+  const auto chosen = conformance::subject_of(*flights, arguments.target);
+  if (!chosen) return complain(chosen.error());
+  conformance::Report found{.target = arguments.target,
+                            .estimator = chosen->targets.front().estimator,
+                            .algorithm = chosen->targets.front().algorithm,
+                            .findings = {},
+                            .started_s = std::time(nullptr)};
+  const ProgressLine line;
+  auto findings = conformance::ask(
+      conformance::rules(false, false), *chosen, arguments.target, {}, std::nullopt, interrupted,
+      [&](const conformance::Rule& rule) { line.show([&] { return std::string(rule.id); }); });
+  line.clear();
+  if (!findings) return complain(findings.error());
+  if (interrupted) {
+    fmt::print(stderr, "hil-bench: interrupted\n");
+    return ExitCode::not_measured;
+  }
+  found.findings = std::move(*findings);
+  found.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (auto written = write_reports(arguments, found); !written) return complain(written.error());
+  return exit_code(found.outcome());
+}
+
+}  // namespace
+
+void add_conformance(command_line::Command app, int& code) {
+  auto arguments = std::make_shared<Arguments>();
+  const auto command = app.add_subcommand(
+      "conformance", "whether a target keeps the protocol, rule by rule, whatever it estimates");
+  command.add_option("--target", arguments->target,
+                     "program and its arguments, as one word (default: hil-target beside hil-bench)");
+  command.add_option(
+      "--estimator", arguments->estimator,
+      "as which it is talked to (default: what its heartbeat names, else the first that it takes)");
+  command.add_option("--scenario", arguments->scenario,
+                     "what it hears in flight (default: the quick flight of the estimator)");
+  command.add_option("--json", arguments->json,
+                     "write the report as JSON to a file; -: to stdout, in place of the text");
+  command.add_option("--junit", arguments->junit,
+                     "write it as JUnit XML to a file; -: to stdout, in place of the text");
+  command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
+}
+
+}  // namespace canhil::commands

@@ -1,0 +1,76 @@
+#include "bench/conformance/conformance.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace canhil::conformance {
+namespace {
+
+using namespace messages;
+
+// The algorithm that a target takes of a scenario's estimator: the scenario's, or else any; none: it has not
+// this estimator.
+std::optional<Algorithm> algorithm_of(Talk& talk) {
+  TargetCommand reset = talk.command(Command::reset);
+  std::vector<Algorithm> candidates{reset.algorithm};
+  candidates.insert(candidates.end(), enumerators<Algorithm>.begin(), enumerators<Algorithm>.end());
+  for (const Algorithm algorithm : candidates) {
+    reset.algorithm = algorithm;
+    talk.tell(reset);
+    const auto beat = talk.hear<TargetHeartbeat>([&](const auto& one) {
+      return one.algorithm == algorithm && (one.estimator == reset.estimator || one.error_command != 0);
+    });
+    if (beat && beat->error_command == 0 && beat->estimator == reset.estimator) return algorithm;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+checks::Outcome Report::outcome() const {
+  if (findings.empty()) return checks::Outcome::not_measured;
+  const bool kept = std::ranges::all_of(findings, [](const Finding& one) { return one.wrong.empty(); });
+  return kept ? checks::Outcome::pass : checks::Outcome::fail;
+}
+
+Result<std::vector<Finding>> ask(const std::vector<Rule>& rules, const scenario::Scenario& scenario,
+                                 const std::string& target, std::span<const Parameter> parameters,
+                                 const std::optional<std::pair<std::string, double>>& apply,
+                                 const std::atomic<bool>& stop,
+                                 const std::function<void(const Rule&)>& progress) {
+  auto talk = Talk::open(scenario, target);
+  if (!talk) return tl::unexpected(talk.error());
+  Subject subject{.talk = **talk, .parameters = parameters, .apply = apply};
+  std::vector<Finding> findings;
+  for (const Rule& rule : rules) {
+    if (stop) break;
+    progress(rule);
+    findings.push_back({rule, rule.ask(subject)});
+  }
+  return findings;
+}
+
+Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,
+                                      const std::string& target) {
+  std::vector<std::string> names;
+  for (const scenario::Scenario& candidate : candidates) {
+    scenario::Scenario chosen = candidate;
+    chosen.targets.resize(1);
+    chosen.targets.front().parameters.clear();  // another target may have others
+    auto talk = Talk::open(chosen, target);
+    if (!talk) return tl::unexpected(talk.error());
+    scenario::TargetSetup& setup = chosen.targets.front();
+    const auto beat = (*talk)->hear<TargetHeartbeat>([](const auto&) { return true; });
+    names.push_back(setup.estimator);
+    if (beat && beat->estimator != Estimator::none && name_of(beat->estimator) != setup.estimator) continue;
+    const auto algorithm = algorithm_of(**talk);
+    if (!algorithm) continue;
+    setup.algorithm = std::string(name_of(*algorithm));
+    return chosen;
+  }
+  return failure(fmt::format("target '{}': takes none of the estimators {}", target, fmt::join(names, ", ")));
+}
+
+}  // namespace canhil::conformance

@@ -1,0 +1,59 @@
+"""The beginning of a recorded run as text, a line a frame, for docs/own-target.md: annotate.py KIT_FOLDER LOG FRAMES.
+
+Left out: the stamps, TargetTiming, and what came before the bench's first command, as these differ from run to run."""
+
+import re
+import sys
+
+sys.path.insert(0, sys.argv[1])
+from canhil_target import MESSAGES, decode  # noqa: E402
+from canhil_messages import FROM_TARGET  # noqa: E402
+
+NOTES = {
+    ("TargetCommand", "reset"): "the bench selects estimator and algorithm, until a heartbeat says so",
+    ("TargetHeartbeat", "idle"): "reset: everything before is forgotten, counters too",
+    "ParamSet": "parameters, one by one",
+    "ParamAck": "the value in force",
+    "TargetInitLatitude": "initial state: one group, whole with its last message",
+    ("TargetHeartbeat", "ready"): "the group was whole",
+    ("TargetCommand", "start"): "all counters of the target begin anew",
+    ("TargetHeartbeat", "running"): "from here on samples are answered",
+    "SeekerAntenna": "a sample: four messages, one counter, its time in the last",
+    "LosRateEstimate": "its answer: names counter and time of the sample",
+    "Sync": "the time base; lockstep: the step is closed ...",
+    "StepDone": "... when the target says so",
+    "TargetCounters": "what was lost, with each heartbeat of the time base",
+}
+
+
+def shown(value):
+    return value if isinstance(value, str) else f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def main():
+    told = set()
+    left = int(sys.argv[3])
+    begun = False
+    for line in open(sys.argv[2], encoding="ascii"):
+        identifier, data = re.search(r" ([0-9A-F]{3})#([0-9A-F]*)", line).groups()
+        group, _, (name, _, _, _, signals) = MESSAGES[int(identifier, 16)]
+        begun = begun or name == "TargetCommand"
+        if not begun or name == "TargetTiming":
+            continue
+        values = decode(bytes.fromhex(data), signals)
+        key = next((k for k in ((name, values.get("command")), (name, values.get("state")), name) if k in NOTES), None)
+        if key not in told and key is not None:
+            print(f"                                            -- {NOTES[key]}")
+        told.add(key)
+        if "dbc_hash" in values:
+            values["dbc_hash"] = f"{values['dbc_hash']:06x}"
+        said = ", ".join(f"{signal} {shown(value)}" for signal, value in values.items()
+                         if value or name != "TargetHeartbeat")  # of its errors those that are set
+        side = "target" if group in FROM_TARGET else "bench "
+        print(f"{side}  {identifier}#{data}  {name}: {said}")
+        left -= 1
+        if left == 0:
+            return
+
+
+main()

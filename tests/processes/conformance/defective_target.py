@@ -1,0 +1,334 @@
+"""The kit's example with one defect of the protocol: defective_target.py KIT_FOLDER DEFECT --bus BUS. DEFECT none: without."""
+
+import itertools
+import sys
+
+sys.path.insert(0, sys.argv[1])
+import canhil_target  # noqa: E402
+import los_rate  # noqa: E402
+
+
+class Sound(canhil_target.Target):
+    """What all defects are made of."""
+
+
+class SlowBeat(Sound):
+    """A heartbeat every second while no bench is at work."""
+    beats = itertools.count()
+
+    def send_heartbeat(self):
+        if sys._getframe(1).f_code.co_name != "look_at_clock" or next(self.beats) % 10 == 0:
+            super().send_heartbeat()
+
+
+class AnyContract(Sound):
+    """Obeys whatever the hash of the contract."""
+
+    def on_command(self, command):
+        super().on_command({**command, "dbc_hash": canhil_target.DBC_HASH24})
+
+
+class AnyEstimator(Sound):
+    """Says nothing of an estimator that it does not have."""
+
+    def reset(self, estimator, algorithm):
+        super().reset(self.estimator.estimator, algorithm)
+
+
+class UnknownCommand(Sound):
+    """Takes a command that it does not know for none."""
+
+    def on_command(self, command):
+        known = ("reset", "start", "stop", "add", "none")
+        super().on_command(command if command["command"] in known else {**command, "command": "none"})
+
+
+class NoStateNeeded(Sound):
+    """Starts without an initial state."""
+
+    def start(self):
+        if self.state == "idle" and self.selected != "none":
+            self.state = "ready"
+        super().start()
+
+
+class HalfState(Sound):
+    """Takes an initial state whose last message is there for a whole one."""
+
+    def completed(self, group, place, counter, values):
+        if group == "TargetInit" and place == len(canhil_target.GROUPS[group]) - 1:
+            return values
+        return super().completed(group, place, counter, values)
+
+
+class DeafToRepetition(Sound):
+    """Drops a command with the counter of the one before."""
+
+    def receive(self, identifier, data):
+        group = canhil_target.MESSAGES.get(identifier, ("",))[0]
+        if group == "TargetCommand" and self.received.get(identifier) == data[1] & 0x0F:
+            return ""
+        return super().receive(identifier, data)
+
+
+class EarlyAnswers(Sound):
+    """Answers as soon as it is ready."""
+
+    def enter(self, state):
+        super().enter(state)
+        if state == "ready":
+            self.estimator.start(self.algorithm, self.parameters, self.initial)
+
+    def dispatch(self, group, place, counter, data, signals):
+        said, self.state = self.state, "running" if self.state == "ready" and group == "Seeker" else self.state
+        answered = super().dispatch(group, place, counter, data, signals)
+        if group == "Seeker":
+            self.state = said
+        return answered
+
+
+class NoStop(Sound):
+    """Says that it has stopped, and goes on."""
+    flying = False
+
+    def start(self):
+        super().start()
+        self.flying = self.state == "running"
+
+    def dispatch(self, group, place, counter, data, signals):
+        said, self.state = self.state, "running" if self.flying and group == "Seeker" else self.state
+        answered = super().dispatch(group, place, counter, data, signals)
+        if group == "Seeker":
+            self.state = said
+        return answered
+
+    def forget(self):
+        super().forget()
+        self.flying = False
+
+
+class Once(Sound):
+    """Cannot be started a second time after a stop."""
+    stops = False
+
+    def start(self):
+        self.received_syncs = 0
+        super().start()
+
+    def on_command(self, command):
+        if command["command"] == "stop" and self.state == "running":
+            self.stops = self.received_syncs > 40
+        if command["command"] == "start" and self.stops:
+            self.stops = False
+            return self.refuse("command")
+        return super().on_command(command)
+
+    received_syncs = 0
+
+    def on_sync(self, sync):
+        super().on_sync(sync)
+        self.received_syncs = self.received_syncs + 1 if self.state == "running" else 0
+
+
+class NewStateInFlight(Sound):
+    """Takes an initial state while it runs."""
+
+    def dispatch(self, group, place, counter, data, signals):
+        if group == "TargetInit" and self.state == "running":
+            return False
+        return super().dispatch(group, place, counter, data, signals)
+
+
+class Unforgetting(Sound):
+    """A reset keeps the counts."""
+
+    def forget(self):
+        kept = getattr(self, "losses", None)
+        super().forget()
+        self.losses = kept or self.losses
+
+
+class NoCounters(Sound):
+    """Sends no TargetCounters but every second."""
+
+    def send_group(self, group, values):
+        if group != "TargetCounters" or self.now_us % 500_000 == 0:
+            super().send_group(group, values)
+
+
+class EarlyStepDone(Sound):
+    """Answers after the step is closed."""
+
+    def __init__(self, estimator, send):
+        self.late = []
+        super().__init__(estimator, send)
+
+    def send_group(self, group, values):
+        if group == "LosRate":
+            self.late.append(values)
+            return
+        super().send_group(group, values)
+        if group == "StepDone":
+            late, self.late = self.late, []
+            for one in late:
+                super().send_group("LosRate", one)
+
+
+class WrongAnswerCrc(Sound):
+    """The CRC of one message of the answer leaves the data id out."""
+
+    def __init__(self, estimator, send):
+        sigma = canhil_target.GROUPS["LosRate"][1][1]
+
+        def spoiled(identifier, data):
+            send(identifier, bytes((canhil_target.crc(data, 0),)) + data[1:] if identifier == sigma else data)
+        super().__init__(estimator, spoiled)
+
+
+class StandingCounter(Sound):
+    """The counter of one message stays where it is."""
+
+    def send_group(self, group, values):
+        if group == "TargetCounters":
+            self.next[canhil_target.GROUPS[group][0][1]] = 3
+        super().send_group(group, values)
+
+
+class Disorder(Sound):
+    """The message with the time of the cause comes first."""
+
+    def __init__(self, estimator, send):
+        ids = [message[1] for message in canhil_target.GROUPS["LosRate"]]
+        held = []
+
+        def disordered(identifier, data):
+            if identifier not in ids:
+                return send(identifier, data)
+            held.append((identifier, data))
+            if len(held) == len(ids):
+                for one in (held[1], held[0], held[2]):
+                    send(*one)
+                held.clear()
+            return None
+        super().__init__(estimator, disordered)
+
+
+class OwnCause(Sound):
+    """cause_counter is that of the next sample."""
+
+    def send_group(self, group, values):
+        if group == "LosRate":
+            values = {**values, "cause_counter": (values["cause_counter"] + 1) % 15}
+        super().send_group(group, values)
+
+
+class Chance(Sound):
+    """The answers depend on more than the frames."""
+    flights = itertools.count()
+
+    def start(self):
+        super().start()
+        self.flight = next(self.flights)
+
+    def send_group(self, group, values):
+        if group == "LosRate":
+            values = {**values, "los_rate_pitch_radps": values["los_rate_pitch_radps"] + 1e-4 * (self.flight % 7)}
+        super().send_group(group, values)
+
+
+class NoWrap(Sound):
+    """Takes a time of validity as it is."""
+
+    def unwrapped_us(self, group, value):
+        return round(value)
+
+
+class AnyCrc(Sound):
+    """Looks at no CRC."""
+
+    def receive(self, identifier, data):
+        if identifier in canhil_target.MESSAGES and len(data) == 8:
+            data = bytes((canhil_target.crc(data, canhil_target.MESSAGES[identifier][2][2]),)) + data[1:]
+        return super().receive(identifier, data)
+
+
+class AnySize(Sound):
+    """Takes a frame of any size."""
+
+    def receive(self, identifier, data):
+        if identifier in canhil_target.MESSAGES and len(data) == 7 and data[0] == canhil_target.crc(
+                data, canhil_target.MESSAGES[identifier][2][2]):
+            data = data + b"\x01"
+            data = bytes((canhil_target.crc(data, canhil_target.MESSAGES[identifier][2][2]),)) + data[1:]
+        return super().receive(identifier, data)
+
+
+class Repetitions(Sound):
+    """Does not see that a frame is repeated."""
+
+    def receive(self, identifier, data):
+        if canhil_target.MESSAGES.get(identifier, ("",))[0] == "Seeker" and self.received.get(identifier) == data[1] & 0x0F:
+            return ""
+        return super().receive(identifier, data)
+
+
+class NoLosses(Sound):
+    """Does not count what is missing."""
+
+    def send_group(self, group, values):
+        super().send_group(group, {**values, "frames_lost": 0} if group == "TargetCounters" else values)
+
+
+class HalfSamples(Sound):
+    """Takes a sample whose last message is there for a whole one."""
+
+    def completed(self, group, place, counter, values):
+        if group == "Seeker":
+            self.whole = {**getattr(self, "whole", {}), **values}
+        if group == "Seeker" and place == len(canhil_target.GROUPS[group]) - 1:
+            self.pending.pop(group, None)
+            return self.whole
+        return super().completed(group, place, counter, values)
+
+
+class EightBits(Sound):
+    """Its counts begin anew after 255."""
+
+    def send_group(self, group, values):
+        super().send_group(group, {name: n % 256 for name, n in values.items()} if group == "TargetCounters" else values)
+
+
+class Parrot(Sound):
+    """Reads back what was asked for."""
+
+    def send_group(self, group, values):
+        if group == "ParamAck" and values["status"] == "out_of_range":
+            values = {**values, "value": self.asked}
+        super().send_group(group, values)
+
+    def on_parameter(self, request):
+        self.asked = request["value"]
+        super().on_parameter(request)
+
+
+class AnyParameter(Sound):
+    """Accepts a parameter that nobody knows."""
+
+    def send_group(self, group, values):
+        if group == "ParamAck" and not isinstance(values["parameter"], str):
+            values = {**values, "status": "accepted"}
+        super().send_group(group, values)
+
+
+class KeptParameters(Sound):
+    """A reset keeps the parameters."""
+
+    def forget(self):
+        kept = getattr(self, "parameters", None)
+        super().forget()
+        self.parameters = kept or self.parameters
+
+
+if __name__ == "__main__":
+    defect = {**{one.__name__: one for one in Sound.__subclasses__()}, "none": Sound}[sys.argv[2]]
+    sys.exit(canhil_target.serve(los_rate.LosRate(4.0), sys.argv[4], defect))
