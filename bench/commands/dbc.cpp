@@ -10,6 +10,7 @@
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/subcommands.hpp"
 #include "bench/mapping/check.hpp"
+#include "bench/mapping/extract.hpp"
 #include "bench/report/file.hpp"
 #include "dbc/codegen/json.hpp"
 #include "dbc/lint/lint.hpp"
@@ -31,6 +32,10 @@ struct ShowArguments {
   std::string file;
   std::string message;
   bool json = false;
+};
+
+struct ExtractArguments {
+  std::string mapping, log, play;
 };
 
 struct CheckArguments {
@@ -155,6 +160,28 @@ void add_check(command_line::Command command, int& code) {
   own.on_given([&code, arguments] { code = static_cast<int>(check(*arguments)); });
 }
 
+ExitCode extract(const ExtractArguments& arguments) {
+  const auto mapping = mapping::read_mapping(arguments.mapping);
+  if (!mapping) return complain(mapping.error());
+  const auto extracted = mapping::extract(**mapping, arguments.play, arguments.log);
+  if (!extracted) return complain(extracted.error());
+  if (extracted->incomplete > 0)
+    fmt::print(stderr, "hil-bench: {}: {} groups of {} were not whole and are left out, {} are there\n",
+               arguments.log, extracted->incomplete, arguments.play, extracted->rows);
+  return printed(extracted->csv);
+}
+
+void add_extract(command_line::Command command, int& code) {
+  auto arguments = std::make_shared<ExtractArguments>();
+  const auto own = command.add_subcommand(
+      "extract",
+      "a candump log of somebody else's bus as the CSV of a sensor, which a scenario can send again");
+  own.add_option("MAPPING", arguments->mapping, "mapping (TOML), which names the DBC").required();
+  own.add_option("LOG", arguments->log, "candump log").required();
+  own.add_option("--play", arguments->play, "the play that was recorded: its last message").required();
+  own.on_given([&code, arguments] { code = static_cast<int>(extract(*arguments)); });
+}
+
 void add_show(command_line::Command command, int& code) {
   auto arguments = std::make_shared<ShowArguments>();
   const auto own = command.add_subcommand("show", "the messages of a DBC, or the layout of one of them");
@@ -172,6 +199,7 @@ void add_dbc(command_line::Command app, int& code) {
   add_lint(command, code);
   add_show(command, code);
   add_check(command, code);
+  add_extract(command, code);
   command.add_subcommand("rules", "what lint finds, as a table in Markdown").on_given([&code] {
     code = static_cast<int>(printed(dbc::rule_table()));
   });

@@ -35,7 +35,7 @@ class EndOfRun final : public nodes::Node {
 class MappedWatch final : public observe::TargetWatch {
  public:
   explicit MappedWatch(const mapping::Conversation& conversation)
-      : conversation_(conversation), places_(conversation.mapping.messages) {}
+      : conversation_(conversation), places_(conversation.mapping) {}
 
   void received(const Received& received) override {
     const std::size_t place = places_(received.frame);
@@ -76,7 +76,7 @@ class MappedWatch final : public observe::TargetWatch {
 
  private:
   const mapping::Conversation& conversation_;
-  MessagePlaces places_;
+  mapping::Places places_;
   bool heard_ = false;
   std::size_t awaited_play_ = 0;
   std::int64_t awaited_us_ = 0;
@@ -86,7 +86,7 @@ class MappedWatch final : public observe::TargetWatch {
 // What passes while nobody of the mapping is heard.
 class Strangers final : public observe::Observer {
  public:
-  explicit Strangers(const MessagePlaces& places) : places_(places) {}
+  explicit Strangers(const mapping::Places& places) : places_(places) {}
   void received(const Received& received) override {
     if (!received.own && !received.frame.error && places_(received.frame) == MessagePlaces::nowhere)
       ids_.insert(received.frame.id);
@@ -103,7 +103,7 @@ class Strangers final : public observe::Observer {
   }
 
  private:
-  const MessagePlaces& places_;
+  const mapping::Places& places_;
   std::set<std::uint32_t> ids_;
 };
 
@@ -121,7 +121,7 @@ class MappedDialect final : public Dialect {
       : of_(setting),
         start_(*setting.scenario.targets.front().own_start),
         conversation_(mapping),
-        places_(mapping.messages) {}
+        places_(mapping) {}
 
   [[nodiscard]] std::span<const MessageInfo> messages() const override {
     return conversation_.mapping.messages;
@@ -198,7 +198,7 @@ class MappedDialect final : public Dialect {
   Setting of_;
   scenario::OwnStart start_;
   mapping::Conversation conversation_;
-  MessagePlaces places_;
+  mapping::Places places_;
 };
 
 }  // namespace

@@ -51,6 +51,7 @@ Result<scenario::Contract> contract_of(std::string_view text, const std::string&
   for (Section& target : root.table_or_tables("target")) {
     if (!target.has("mapping")) continue;
     const std::string name = target.text("mapping");
+    if (name.empty()) target.finish();
     if (const auto error = root.error()) return tl::unexpected(*error);
     auto mapping = read_mapping((fs::path(file).parent_path() / name).string(), read);
     if (!mapping) return tl::unexpected(mapping.error());

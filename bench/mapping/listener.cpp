@@ -21,7 +21,7 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
         return seen;
       }()),
       stopwatch_(seen_.timing),
-      places_(conversation.mapping.messages),
+      places_(conversation.mapping),
       receivers_(conversation.mapping.hears.size()),
       virtual_time_(virtual_time) {
   const Mapping& mapping = conversation.mapping;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@
 #include "dbc/parser/database.hpp"
 #include "dbc/parser/plan.hpp"
 #include "dbc/protection/protection.hpp"
+#include "dbc/wire/message_places.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::mapping {
@@ -44,10 +46,11 @@ struct Mapped {
 /// What a signal of the bench carries.
 struct Source {
   const dbc::Signal* signal = nullptr;
-  const Stimulus* stimulus = nullptr;  ///< null: a constant, or the time
-  bool time = false;                   ///< of validity, from the start of the run
-  double value = 0;                    ///< a constant, in the signal's unit
-  double factor = 1;                   ///< from SI to the signal's unit
+  const Stimulus* stimulus = nullptr;      ///< null: a constant, or the time
+  bool time = false;                       ///< of validity, from the start of the run
+  double value = 0;                        ///< a constant, in the signal's unit
+  double factor = 1;                       ///< from SI to the signal's unit
+  std::optional<std::uint64_t> invalid{};  ///< raw value in place of what the node calls invalid
 };
 
 struct PlayedMessage {
@@ -93,6 +96,8 @@ struct Mapping final : scenario::Foreign {
   std::vector<Play> plays;
   std::vector<Hear> hears;
   std::string name;  ///< of the target, in place of an estimator's
+  /// By J1939 parameter group: places of messages that are heard from any source, at any priority.
+  std::map<std::uint32_t, std::size_t> by_group;
 
   // What Foreign::messages and Foreign::estimator are made of.
   std::deque<std::string_view> groups;
@@ -106,6 +111,31 @@ struct Mapping final : scenario::Foreign {
 using ReadText = std::function<Result<std::string>(const std::string& file)>;
 /// From the disk.
 Result<std::string> read_from_disk(const std::string& file);
+
+/// The parameter group of a J1939 id (SAE J1939-21, 5.2): without priority and source, and of a message to
+/// one destination (PDU format below 240) without that.
+constexpr std::uint32_t j1939_group(std::uint32_t id) {
+  constexpr std::uint32_t first_broadcast = 240;
+  const std::uint32_t group = (id >> 8U) & 0x3FFFFU;
+  return ((group >> 8U) & 0xFFU) < first_broadcast ? group & 0x3FF00U : group;
+}
+
+/// From a frame to the place of its message in Mapping::messages.
+class Places {
+ public:
+  explicit Places(const Mapping& mapping) : by_id_(mapping.messages), by_group_(mapping.by_group) {}
+  /// MessagePlaces::nowhere: none of the mapping.
+  [[nodiscard]] std::size_t operator()(const Frame& frame) const {
+    const std::size_t place = by_id_(frame);
+    if (place != MessagePlaces::nowhere || !frame.extended || frame.error) return place;
+    const auto found = by_group_.find(j1939_group(frame.id));
+    return found == by_group_.end() ? MessagePlaces::nowhere : found->second;
+  }
+
+ private:
+  MessagePlaces by_id_;
+  const std::map<std::uint32_t, std::size_t>& by_group_;
+};
 
 /// Reads a mapping and the DBC that it names, relative to itself. Error: one line.
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,

@@ -7,6 +7,8 @@
 
 #include "bench/nodes/registry.hpp"
 #include "bench/observe/values.hpp"
+#include "dbc/parser/codec.hpp"
+#include "messages/canhil.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -50,8 +52,8 @@ Player::Player(Conversation& conversation, const nodes::Run& run)
     if (node == nullptr ||
         std::ranges::none_of(all, [&](const Play& play) { return plays(play, kind->table.key); }))
       continue;
-    nodes_.push_back({.node = kind->make(*node, run),
-                      .key = kind->table.key,
+    nodes_.push_back({.node = nodes::make(*kind, *node, run),
+                      .table = &kind->table,
                       .period_us = node->period_us(),
                       .latency_us = node->latency_us()});
   }
@@ -92,24 +94,34 @@ void Player::sample(Played& played) {
   played.node->transmit(own);
   played.valid_us = due_us - played.latency_us;
   played.lost = own.frames().empty();
-  for (const Frame& frame : own.frames()) take(played, frame);
+  bool closed = played.lost;  // of a log the frames of a group come one by one
+  for (const Frame& frame : own.frames()) {
+    take(played, frame);
+    closed = closed || frame.id == played.table->closes.id;
+  }
+  if (!closed) return;
   for (std::size_t i = 0; i < values_.size(); ++i) {
     const Play& play = conversation_.mapping.plays[i];
-    if (play.node != played.key || played.valid_us < next_us_[i]) continue;
+    if (play.node != played.table->key || played.valid_us < next_us_[i]) continue;
     next_us_[i] += play.period_us;
+    if (due_us + play.latency_us > end_us_) continue;  // nobody would hear of the answer
     Sent sent = put_together(i, played, due_us + play.latency_us);
-    if (sent.due_us > end_us_) continue;  // nobody would hear of the answer
     const auto after = std::ranges::upper_bound(due_, sent.due_us, {}, &Due::due_us);
     due_.insert(after, {.due_us = sent.due_us, .play = i, .sent = std::move(sent), .lost = played.lost});
   }
 }
 
 void Player::take(const Played& played, const Frame& frame) {
-  for (const observe::Value& value : observe::values_of(frame)) {
+  const std::vector<observe::Value> values = observe::values_of(frame);
+  const bool valid = std::ranges::none_of(values, [](const observe::Value& value) {
+    return value.enumerator == name_of(messages::Validity::invalid);
+  });
+  for (const observe::Value& value : values) {
     for (auto& of_play : values_) {
       for (auto& [stimulus, kept] : of_play) {
         if (stimulus->message->id != frame.id || stimulus->signal != value.signal->name) continue;
         kept.newest = value.value * stimulus->factor;
+        kept.valid = valid;
         kept.sum += kept.newest;
         kept.over_us += played.period_us;
       }
@@ -149,6 +161,10 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
                 .fd = message.fd,
                 .brs = message.fd};
     static_cast<void>(one.of.plan.encode(values, {frame.data.data(), frame.size}));  // of the message's size
+    for (const Source& source : one.sources) {
+      if (source.invalid && !values_[place][source.stimulus].valid)
+        dbc::put_raw_bits(*source.signal, *source.invalid, {frame.data.data(), frame.size});
+    }
     if (one.of.protection) {
       const auto& counter = one.of.protection->settings().counter;
       const bool shared = counter && !counter->shared_as.empty();

@@ -28,7 +28,7 @@ class Player final : public nodes::Node {
   // A node's samples as they come.
   struct Played {
     std::unique_ptr<nodes::Node> node;
-    std::string_view key;
+    const scenario::NodeTable* table = nullptr;
     std::int64_t period_us = 0, latency_us = 0;
     std::int64_t valid_us = 0;  // of the newest
     bool lost = false;          // the newest did not go out
@@ -36,6 +36,7 @@ class Player final : public nodes::Node {
   // A quantity as the plays want it.
   struct Value {
     double newest = 0, sum = 0;  // the sum since the play that takes it was sent
+    bool valid = true;           // as the newest message that has it says
     std::int64_t over_us = 0;
   };
   struct Due {

@@ -41,6 +41,7 @@ class Reader {
 
   Result<std::shared_ptr<const Mapping>> read() {
     const std::string named = root_.text("dbc");
+    if (named.empty()) root_.finish();  // says that it is missing
     if (root_.error()) return tl::unexpected(*root_.error());
     const std::string file = (fs::path(mapping_->file).parent_path() / named).string();
     const auto text = read_text_(file);
@@ -175,9 +176,14 @@ class Reader {
       play.period_us = last.cycle_time_us;
     }
     play.latency_us = section.time_us("latency_ms", Limits::between(0, 10'000), 0);
+    std::optional<Section> invalid = section.optional_table("invalid");
     Section signals = section.table("signals");
-    for (const std::string& key : signals.keys()) read_source(signals, key, play);
+    for (const std::string& key : signals.keys()) {
+      read_source(signals, key, play);
+      if (invalid && invalid->has(key)) read_invalid(*invalid, key, play);
+    }
     signals.finish();
+    if (invalid) invalid->finish();
     if (play.node.empty() && !section.error())
       section.reject("signals", "play no quantity", "at least one signal that is a quantity of a node");
     section.finish();
@@ -222,10 +228,27 @@ class Reader {
                             .factor = sign / factor(section, key, *of, *one, stimulus->si, stimulus->name)});
   }
 
+  static void read_invalid(Section& section, const std::string& key, Play& play) {
+    const auto raw = static_cast<std::uint64_t>(section.integer(key, 0));
+    for (PlayedMessage& message : play.messages) {
+      for (Source& source : message.sources) {
+        if (message.of.message->name + "." + source.signal->name != key) continue;
+        if (source.stimulus == nullptr) section.reject(key, "is never invalid", "a signal with a quantity");
+        source.invalid = raw;
+      }
+    }
+  }
+
   void read_hear(Section& section) {
     const dbc::Message* of = message(section, "message", section.text("message"));
     if (of == nullptr) return;
     Hear hear{.of = mapped(section, "message", *of, true), .tellings = {}};
+    if (section.flag("any_source")) {
+      if (!of->extended)
+        section.reject("any_source", "is of J1939, whose ids have 29 bits",
+                       fmt::format("another message than {}", of->name));
+      mapping_->by_group[j1939_group(of->id)] = hear.of.place;
+    }
     if (section.has("answers")) {
       const std::string name = section.one_of("answers", names_of(mapping_->plays, &Play::name));
       const auto play = std::ranges::find(mapping_->plays, name, &Play::name);

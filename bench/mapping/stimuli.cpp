@@ -34,12 +34,15 @@ std::vector<Stimulus> all_stimuli() {
                           .node = table.key,
                           .message = &message,
                           .signal = signal->name,
+                          .column = signal->name,
                           .factor = unit->factor};
-        const auto rate = std::ranges::find(kind->rates, signal->name, &nodes::Rate::of_increment);
-        if (rate != kind->rates.end()) {
+        const auto increment =
+            std::ranges::find(table.increments, signal->name, &scenario::Increment::signal);
+        if (increment != table.increments.end()) {
           stimulus.over = Over::sum;
           all.push_back(stimulus);
-          stimulus.name = rate->name;
+          stimulus.name = increment->quantity;
+          stimulus.column = increment->rate;
           stimulus.si = stimulus.si == "rad" ? "rad/s" : "m/s^2";
           stimulus.over = Over::rate;
         }

@@ -26,6 +26,7 @@ struct Stimulus {
   std::string_view node;  ///< whose table the scenario must have: "slave_imu"
   const MessageInfo* message = nullptr;
   std::string_view signal;  ///< of the message
+  std::string_view column;  ///< of a recording (docs/recorded-data.md): the signal, or the rate in SI
   double factor = 1;        ///< from the signal's unit to SI
   Over over = Over::newest;
 };

@@ -2,9 +2,6 @@
 // the registry, or the nodes of a scenario.
 #pragma once
 
-#include <span>
-#include <string_view>
-
 #include "bench/nodes/node.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/scenario/section.hpp"
@@ -39,12 +36,6 @@ std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {
   return std::make_unique<Made>(node, run);
 }
 
-/// What a mapping calls an increment of the node's messages, by the time that it took.
-struct Rate {
-  std::string_view name;          ///< "imu.rate.x"
-  std::string_view of_increment;  ///< a signal
-};
-
 struct Kind {
   NodeTable table;
   std::unique_ptr<Node> (*make)(const NodeSettings& node, const Run& run) = nullptr;
@@ -53,7 +44,6 @@ struct Kind {
   Result<void> (*fits)(const NodeSettings& node, const scenario::Scenario& scenario,
                        const world::FlightRecord& flight) = nullptr;
   bool at_every_epoch = false;  ///< its period is that of the flight record too
-  std::span<const Rate> rates{};  ///< of its increments; they add up over more than one sample
 };
 
 }  // namespace canhil::nodes

@@ -38,6 +38,12 @@ std::vector<const scenario::NodeTable*> tables() {
   return all;
 }
 
+std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run& run) {
+  const auto* recorded = node.own<RecordedSettings>();
+  if (recorded == nullptr) return kind.make(node, run);
+  return recorded->samples ? make_samples(node, run) : make_frames({recorded->frames.get()}, run);
+}
+
 // By the truth that they sample, then as on the bus: the lower id first. So the deflection of an instant is
 // there when its navigation is whole.
 std::vector<std::unique_ptr<Node>> make(const Run& run) {
@@ -50,13 +56,10 @@ std::vector<std::unique_ptr<Node>> make(const Run& run) {
     const auto* node = run.scenario.node(kind->table.key);
     if (node == nullptr) continue;
     const auto* recorded = node->own<RecordedSettings>();
-    if (recorded == nullptr) {
-      nodes.push_back(kind->make(*node, run));
-    } else if (recorded->samples) {
-      nodes.push_back(make_samples(*node, run));
-    } else {
+    if (recorded != nullptr && recorded->frames)  // those of one log keep their order
       logs[recorded->recorded_from].push_back(recorded->frames.get());
-    }
+    else
+      nodes.push_back(make(*kind, *node, run));
   }
   for (const auto& [log, frames] : logs) nodes.push_back(make_frames(frames, run));
   return nodes;

@@ -15,6 +15,9 @@ std::span<const Kind* const> all();
 /// Their tables, for scenario::Contract.
 std::vector<const scenario::NodeTable*> tables();
 
+/// One of them, emulated or recorded, by itself.
+std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run& run);
+
 /// The nodes of a run in the order of precedence.
 std::vector<std::unique_ptr<Node>> make(const Run& run);
 

@@ -21,9 +21,9 @@ namespace {
 using namespace messages;
 
 constexpr std::array<scenario::Increment, 3> increments{
-    {{"antenna_increment_roll_rad", "antenna_rate_roll_radps"},
-     {"antenna_increment_pitch_rad", "antenna_rate_pitch_radps"},
-     {"antenna_increment_yaw_rad", "antenna_rate_yaw_radps"}}};
+    {{"antenna_increment_roll_rad", "antenna_rate_roll_radps", "seeker.antenna_rate.roll"},
+     {"antenna_increment_pitch_rad", "antenna_rate_pitch_radps", "seeker.antenna_rate.pitch"},
+     {"antenna_increment_yaw_rad", "antenna_rate_yaw_radps", "seeker.antenna_rate.yaw"}}};
 
 constexpr Validity validity(bool valid) { return valid ? Validity::valid : Validity::invalid; }
 
@@ -226,17 +226,12 @@ void Seeker::steer() {
 
 }  // namespace
 
-constexpr std::array rates{Rate{"seeker.antenna_rate.roll", "antenna_increment_roll_rad"},
-                           Rate{"seeker.antenna_rate.pitch", "antenna_increment_pitch_rad"},
-                           Rate{"seeker.antenna_rate.yaw", "antenna_increment_yaw_rad"}};
-
 constinit const Kind seeker{.table = {.key = "seeker",
                                       .closes = messages::SeekerRange::info,
                                       .samples = scenario::TruthOf::engagement,
                                       .read = read,
                                       .increments = increments},
                             .make = make<Seeker>,
-                            .fits = fits,
-                            .rates = rates};
+                            .fits = fits};
 
 }  // namespace canhil::nodes

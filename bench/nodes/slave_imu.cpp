@@ -22,12 +22,13 @@ using messages::Validity;
 
 constexpr std::int8_t temperature_degc = 25;  // the error model knows no temperature
 constexpr std::array<scenario::Assumed, 1> assumed{{{"temperature_degc", temperature_degc}}};
-constexpr std::array<scenario::Increment, 6> increments{{{"delta_theta_x_rad", "rate_x_radps"},
-                                                         {"delta_theta_y_rad", "rate_y_radps"},
-                                                         {"delta_theta_z_rad", "rate_z_radps"},
-                                                         {"delta_v_x_mps", "specific_force_x_mps2"},
-                                                         {"delta_v_y_mps", "specific_force_y_mps2"},
-                                                         {"delta_v_z_mps", "specific_force_z_mps2"}}};
+constexpr std::array<scenario::Increment, 6> increments{
+    {{"delta_theta_x_rad", "rate_x_radps", "imu.rate.x"},
+     {"delta_theta_y_rad", "rate_y_radps", "imu.rate.y"},
+     {"delta_theta_z_rad", "rate_z_radps", "imu.rate.z"},
+     {"delta_v_x_mps", "specific_force_x_mps2", "imu.specific_force.x"},
+     {"delta_v_y_mps", "specific_force_y_mps2", "imu.specific_force.y"},
+     {"delta_v_z_mps", "specific_force_z_mps2", "imu.specific_force.z"}}};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
@@ -154,13 +155,6 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
 
 }  // namespace
 
-constexpr std::array rates{Rate{"imu.rate.x", "delta_theta_x_rad"},
-                           Rate{"imu.rate.y", "delta_theta_y_rad"},
-                           Rate{"imu.rate.z", "delta_theta_z_rad"},
-                           Rate{"imu.specific_force.x", "delta_v_x_mps"},
-                           Rate{"imu.specific_force.y", "delta_v_y_mps"},
-                           Rate{"imu.specific_force.z", "delta_v_z_mps"}};
-
 constinit const Kind slave_imu{.table = {.key = "slave_imu",
                                          .closes = messages::SlaveImuStatus::info,
                                          .samples = scenario::TruthOf::navigation,
@@ -169,7 +163,6 @@ constinit const Kind slave_imu{.table = {.key = "slave_imu",
                                          .increments = increments},
                                .make = make<SlaveImu>,
                                .fits = fits,
-                               .at_every_epoch = true,
-                               .rates = rates};
+                               .at_every_epoch = true};
 
 }  // namespace canhil::nodes

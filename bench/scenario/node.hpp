@@ -35,10 +35,12 @@ struct Assumed {
   double value = 0;
 };
 
-/// An increment that a recording may have as its rate: "delta_theta_x_rad" as "rate_x_radps".
+/// An increment, which adds up over more than one sample: "delta_theta_x_rad". A recording may have it as its
+/// rate, "rate_x_radps", and a mapping play it so, "imu.rate.x".
 struct Increment {
   std::string_view signal;
   std::string_view rate;
+  std::string_view quantity;
 };
 
 /// What a scenario has to know of a kind of node.

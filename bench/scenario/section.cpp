@@ -262,12 +262,6 @@ bool Section::flag(std::string_view key) {
   return node->value_or(false);
 }
 
-std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limits limits) {
-  if (has(key)) return time_us(key, limits);
-  state_->ask(key);
-  return std::nullopt;
-}
-
 std::string Section::text(std::string_view key, const std::optional<std::string>& fallback) {
   constexpr std::string_view expected = "text on one line";
   const std::string* value = state_->text(key, expected, fallback.has_value());
@@ -358,12 +352,6 @@ Section Section::table(std::string_view key) {
   return state_->inside(key, state_->ask(key, "a table"), state_->path_of(key));
 }
 
-std::optional<Section> Section::optional_table(std::string_view key) {
-  if (has(key)) return table(key);
-  state_->ask(key);
-  return std::nullopt;
-}
-
 std::vector<Section> Section::tables(std::string_view key) {
   const std::string expected = fmt::format("at least one [[{}]]", key);
   std::vector<Section> sections;
@@ -385,11 +373,6 @@ void Section::reject(std::string_view key, std::string_view what, std::string_vi
 
 void Section::reject(std::string_view key, const Error& error) {
   state_->file->fail(state_->line_of_key(key), fmt::format("key '{}': {}", path(key), error.message));
-}
-
-void Section::refuse(std::string_view key, std::string_view what, std::string_view expected) {
-  if (has(key)) reject(key, what, expected);
-  optional(key);
 }
 
 void Section::finish(std::string_view unasked) {

@@ -1,4 +1,4 @@
-// Times in a section: whole in microseconds.
+// Times in a section, whole in microseconds; and what of a section needs no look into the file.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -30,6 +30,23 @@ std::optional<std::pair<std::int64_t, std::int64_t>> Section::optional_interval_
   if (!has(key)) return std::nullopt;
   const auto [from, to] = interval(key, limits);
   return std::pair{std::llround(from * 1e6), std::llround(to * 1e6)};
+}
+
+std::optional<std::int64_t> Section::optional_time_us(std::string_view key, Limits limits) {
+  if (has(key)) return time_us(key, limits);
+  optional(key);
+  return std::nullopt;
+}
+
+std::optional<Section> Section::optional_table(std::string_view key) {
+  if (has(key)) return table(key);
+  optional(key);
+  return std::nullopt;
+}
+
+void Section::refuse(std::string_view key, std::string_view what, std::string_view expected) {
+  if (has(key)) reject(key, what, expected);
+  optional(key);
 }
 
 }  // namespace canhil::scenario

@@ -19,7 +19,8 @@ const std::string folder = SOURCE_DIR "/docs/examples/own_ecu";
 const std::string own_ecu = folder + "/own_ecu.toml";
 
 std::string in_python(const std::string& defect) {
-  return fmt::format("--target '/usr/bin/python3 {}/tests/processes/mapping/defective_ecu.py {}'", SOURCE_DIR, defect);
+  return fmt::format("--target '/usr/bin/python3 {}/tests/processes/mapping/defective_ecu.py {}'", SOURCE_DIR,
+                     defect);
 }
 
 Ended run(const std::string& target, const std::string& report, const std::string& more = "") {
@@ -111,6 +112,41 @@ TEST(OwnEcu, IsFlownByACampaign) {
   const Ended in_process = hil_bench(fmt::format("campaign {} --out {}2", campaign, results));
   EXPECT_EQ(in_process.code, 2);
   EXPECT_THAT(in_process.err, HasSubstr("expected a bus and --target")) << in_process.err;
+}
+
+// A drive is recorded from the bus, taken out of the log by the mapping, and driven again.
+TEST(OwnEcu, ARecordedDriveIsDrivenAgain) {
+  const std::string log = scratch("drive.log"), csv = scratch("imu.csv"), again = scratch("again.toml");
+  ASSERT_NE(run(in_python("none"), scratch("drive.json"), "--log " + log).code, 2);
+  const std::string extract = fmt::format("dbc extract {}/own_ecu.mapping.toml {}", folder, log);
+  const Ended taken = hil_bench(extract + " --play IMU_TX3");
+  ASSERT_EQ(taken.code, 0) << taken.err;
+  EXPECT_TRUE(
+      taken.out.starts_with("t_s,rate_z_radps,specific_force_y_mps2,rate_x_radps,specific_force_x_mps2,rate_"
+                            "y_radps,specific_force_z_mps2\n"))
+      << taken.out.substr(0, 200);
+  EXPECT_EQ(std::count(taken.out.begin(), taken.out.end(), '\n'), 1201);
+  std::ofstream(csv) << taken.out;
+  const double first_s = std::stod(taken.out.substr(taken.out.find('\n') + 1));
+  std::string text = read(own_ecu);
+  const auto imu = text.find("[slave_imu]"), checks_at = text.find("[[check]]");
+  text =
+      text.substr(0, imu) +
+      fmt::format("[slave_imu]\nperiod_ms = 10\nrecorded = \"imu.csv\"\nfrom_s = {:.6f}\n", first_s - 0.01) +
+      text.substr(checks_at);
+  std::ofstream(again) << text;
+  for (const char* file : {"own_ecu.mapping.toml", "own_ecu.dbc"})
+    fs::copy_file(folder + "/" + file, fs::path(again).parent_path() / file,
+                  fs::copy_options::overwrite_existing);
+  const Ended ended =
+      hil_bench(fmt::format("run {} {} --lockstep --json {}", again, python, scratch("again.json")));
+  ASSERT_EQ(ended.code, 3) << ended.err << ended.out;
+  EXPECT_THAT(checks(read_json(scratch("again.json")), "fail"), testing::IsEmpty()) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("PASS          error attitude.roll"));
+  expect_one_line(hil_bench(extract + " --play IMU_TX1"), "has no play 'IMU_TX1', expected one of: IMU_TX3");
+  expect_one_line(
+      hil_bench(fmt::format("dbc extract {}/own_ecu.mapping.toml /dev/null --play IMU_TX3", folder)),
+      "has no whole group of IMU_TX3");
 }
 
 // What it repeats is what was played, over 24 bytes of a frame of CAN FD with float signals.

@@ -27,6 +27,8 @@ BO_ 2147484000 Turned: 8 IMU
 BO_ 101 Answer: 8 ECU
  SG_ Roll : 0|16@1- (0.01,0) [0|0] "" IMU
  SG_ Repeated : 16|4@1+ (1,0) [0|0] "" IMU
+BO_ 2566844672 Speed: 8 ECU
+ SG_ Roll : 0|16@1- (0.01,0) [0|0] "deg" IMU
 SIG_VALTYPE_ 100 RateZ : 1;
 SIG_VALTYPE_ 2147484000 AngleZ : 1;
 )";
@@ -87,6 +89,13 @@ Result<scenario::Scenario> read(const std::string& imu = "", std::string mapping
       [&](const std::string& file) -> Result<std::string> { return files.at(file); });
 }
 
+std::string mapping_with(const std::string& text, const std::string& instead) {
+  std::string mapping = mapping_text;
+  const auto at = mapping.find(text);
+  EXPECT_NE(at, std::string::npos) << text;
+  return mapping.replace(at, text.size(), instead);
+}
+
 // What a run plays, until it is over.
 struct Flown {
   explicit Flown(const scenario::Scenario& scenario)
@@ -138,9 +147,7 @@ TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
 }
 
 TEST(Player, SaysWhatASignalCouldNotHold) {
-  std::string mapping = mapping_text;
-  const auto at = mapping.find("Rates.Mode\" = 7");
-  const auto scenario = read("", mapping.replace(at, 16, "Rates.Mode\" = 200"));
+  const auto scenario = read("", mapping_with("\"Rates.Mode\" = 7", "\"Rates.Mode\" = 200"));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const Flown flown(*scenario);
   ASSERT_EQ(flown.conversation.clipped.size(), 1U);
@@ -156,6 +163,27 @@ TEST(Player, ALostSampleUsesItsCounterUp) {
   EXPECT_GT(flown.due.size(), 20U);
   for (std::size_t k = 0; k < flown.due.size(); ++k)
     EXPECT_EQ(flown.value(2 * k + 1, "Count"), static_cast<double>((flown.due[k] - 3'000) / 20'000 - 1));
+}
+
+TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {
+  EXPECT_EQ(j1939_group(0x18FEF100), 0xFEF1U) << "a broadcast";
+  EXPECT_EQ(j1939_group(0x0CFEF1FF), 0xFEF1U);
+  EXPECT_EQ(j1939_group(0x18EA2100), 0xEA00U) << "to the destination 0x21";
+  EXPECT_EQ(j1939_group(0x19FEF100), 0x1FEF1U) << "of data page 1";
+  const auto scenario = read(
+      "",
+      mapping_with(
+          "message = \"Answer\"\nanswers = \"Rates\"\necho = { signal = \"Repeated\", of = \"Rates.Count\" }",
+          "message = \"Speed\"\nany_source = true"));
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  const auto& mapping = dynamic_cast<const Mapping&>(*scenario->foreign);
+  const Places places(mapping);
+  const std::size_t speed = mapping.hears.front().of.place;
+  EXPECT_EQ(places(Frame{.id = 0x18FEF100, .size = 8, .extended = true}), speed);
+  EXPECT_EQ(places(Frame{.id = 0x0CFEF122, .size = 8, .extended = true}), speed)
+      << "from another, more urgent";
+  EXPECT_EQ(places(Frame{.id = 0x18FEF200, .size = 8, .extended = true}), MessagePlaces::nowhere);
+  EXPECT_EQ(places(Frame{.id = 0x100, .size = 8}), MessagePlaces::nowhere);
 }
 
 TEST(Conversation, FindsTheCauseByWhatIsRepeated) {

@@ -1,0 +1,101 @@
+#include "bench/mapping/extract.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dbc/ports/candump_log.hpp"
+
+namespace canhil::mapping {
+namespace {
+
+// The messages of a play as they come; the last closes a row.
+class Group {
+ public:
+  explicit Group(const Play& play)
+      : play_(play),
+        receivers_(play.messages.size()),
+        values_(play.messages.size()),
+        here_(play.messages.size()) {}
+
+  void take(const LogEntry& entry, Extracted& to) {
+    for (std::size_t i = 0; i < play_.messages.size(); ++i) {
+      const Mapped& of = play_.messages[i].of;
+      const Frame& frame = entry.frame;
+      if (frame.error || frame.id != of.message->id || frame.extended != of.message->extended) continue;
+      here_[i] = is_right(of, receivers_[i], frame);
+      if (here_[i]) {
+        values_[i].resize(of.plan.signals());
+        static_cast<void>(of.plan.decode(frame.payload(), values_[i]));
+      }
+      if (i + 1 == play_.messages.size()) close(entry.t_ns, to);
+      return;
+    }
+  }
+
+ private:
+  static bool is_right(const Mapped& of, protection::Receiver& receiver, const Frame& frame) {
+    if (frame.size != of.message->size) return false;
+    if (!of.protection) return true;
+    const auto check = receiver.check(*of.protection, frame.payload());
+    return check == protection::Check::ok || check == protection::Check::some_lost;
+  }
+
+  void close(std::int64_t t_ns, Extracted& to) {
+    const bool whole = std::ranges::find(here_, false) == here_.end();
+    std::fill(here_.begin(), here_.end(), false);
+    if (!whole) {
+      ++to.incomplete;
+      return;
+    }
+    ++to.rows;
+    to.csv += fmt::format("{}.{:06}", t_ns / 1'000'000'000, t_ns / 1000 % 1'000'000);
+    for (std::size_t i = 0; i < play_.messages.size(); ++i) {
+      for (const Source& source : play_.messages[i].sources) {
+        if (source.stimulus == nullptr) continue;
+        const double si = values_[i][play_.messages[i].of.number(*source.signal)] / source.factor;
+        const bool rate = source.stimulus->over == Over::rate;
+        to.csv += fmt::format(",{:.12g}", rate ? si : si / source.stimulus->factor);
+      }
+    }
+    to.csv += '\n';
+  }
+
+  const Play& play_;
+  std::vector<protection::Receiver> receivers_;
+  std::vector<std::vector<double>> values_;  // by message
+  std::vector<bool> here_;                   // by message, since the last row
+};
+
+}  // namespace
+
+Result<Extracted> extract(const Mapping& mapping, std::string_view name, const std::string& log) {
+  const auto play = std::ranges::find(mapping.plays, name, &Play::name);
+  if (play == mapping.plays.end()) {
+    std::string names;
+    for (const Play& one : mapping.plays) names += (names.empty() ? "" : ", ") + one.name;
+    return failure(fmt::format("{}: has no play '{}', expected one of: {}", mapping.file, name, names));
+  }
+  Extracted extracted{.csv = "t_s"};
+  for (const PlayedMessage& message : play->messages) {
+    for (const Source& source : message.sources) {
+      if (source.stimulus != nullptr) extracted.csv += fmt::format(",{}", source.stimulus->column);
+    }
+  }
+  extracted.csv += '\n';
+  auto reader = LogReader::open(log);
+  if (!reader) return tl::unexpected(reader.error());
+  Group group(*play);
+  for (;;) {
+    const auto entry = reader->next();
+    if (!entry) return tl::unexpected(entry.error());
+    if (!*entry) break;
+    group.take(**entry, extracted);
+  }
+  if (extracted.rows == 0)
+    return failure(fmt::format("{}: has no whole group of {}, expected a recording of {}", log, name,
+                               mapping.database.messages.empty() ? "it" : mapping.file));
+  return extracted;
+}
+
+}  // namespace canhil::mapping
