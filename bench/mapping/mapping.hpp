@@ -91,7 +91,6 @@ struct Hear {
 };
 
 struct Mapping final : scenario::Foreign {
-  std::string file;  ///< as it was named
   dbc::Database database;
   std::vector<Play> plays;
   std::vector<Hear> hears;

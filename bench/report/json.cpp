@@ -12,6 +12,7 @@
 #include "bench/report/provenance.hpp"
 #include "bench/report/series.hpp"
 #include "bench/report/summary.hpp"
+#include "bench/scenario/foreign.hpp"
 #include "dbc/realtime/host.hpp"
 
 namespace canhil::report {
@@ -163,10 +164,11 @@ Json target(const drive::Run& run) {
 }
 
 Json provenance(const scenario::Scenario& scenario, const drive::Run& run) {
+  const scenario::Foreign* foreign = scenario.foreign.get();
   Json json{{"scenario", scenario.file},
             {"scenario_hash", fmt::format("{:016x}", scenario.hash)},
-            {"contract", name_of(run.options.format)},
-            {"dbc_hash", fmt::format("{:016x}", messages::dbc_hash)},
+            {"contract", foreign == nullptr ? std::string(name_of(run.options.format)) : foreign->file},
+            {"dbc_hash", fmt::format("{:016x}", foreign == nullptr ? messages::dbc_hash : foreign->dbc_hash)},
             {"seed", scenario.seed},
             {"run", run.options.run_index},
             {"bus", run.options.bus.text},

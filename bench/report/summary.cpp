@@ -7,6 +7,7 @@
 #include "bench/checks/timing.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/nodes/registry.hpp"
+#include "bench/scenario/foreign.hpp"
 
 namespace canhil::report {
 std::vector<std::string_view> closing_answers(const scenario::Scenario& scenario) {
@@ -83,6 +84,7 @@ std::vector<wire::BitRates> load_rates(const drive::Run& run) {
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
+  if (scenario.foreign != nullptr) return lines;     // its own DBC says how often its messages come
   for (const bool at_every_epoch : {true, false}) {  // first the period that is the truth's interval too
     for (const nodes::Kind* kind : nodes::all()) {
       const MessageInfo& closes = kind->table.closes;

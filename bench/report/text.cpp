@@ -10,6 +10,7 @@
 #include "bench/checks/wire_bounds.hpp"
 #include "bench/report/split.hpp"
 #include "bench/report/summary.hpp"
+#include "bench/scenario/foreign.hpp"
 
 namespace canhil::report {
 
@@ -161,6 +162,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
                                                                : "",
                   clock_name(run), static_cast<double>(scenario.duration_us) * 1e-6, run.wall_s);
 
+  if (scenario.foreign != nullptr) page += fmt::format("  by {}\n", scenario.foreign->file);
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
   if (run.host) {
     page +=

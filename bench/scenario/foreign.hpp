@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "dbc/wire/message_info.hpp"
@@ -21,7 +22,9 @@ struct Foreign {
 
   /// What bench and target send; the target's have the sender of the contract's TargetHeartbeat.
   std::vector<MessageInfo> messages;
-  std::uint64_t hash = 0;  ///< of the texts that it was read from
+  std::string file;            ///< that describes it, as it was named
+  std::uint64_t hash = 0;      ///< of the texts that it was read from
+  std::uint64_t dbc_hash = 0;  ///< of its DBC
   /// Its answers say what they answer, so that virtual time can wait for them.
   bool answers_by_name = false;
   /// What it tells, as that of an estimator.
