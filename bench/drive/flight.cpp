@@ -8,6 +8,7 @@
 
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
+#include "bench/scenario/foreign.hpp"
 #include "bench/scenario/table.hpp"
 
 namespace canhil::drive {
@@ -99,7 +100,11 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
-  if (const auto faults = FrameFaults::make(scenario.faults); !faults) return tl::unexpected(faults.error());
+  if (const auto faults = scenario.foreign == nullptr
+                              ? FrameFaults::make(scenario.faults)
+                              : FrameFaults::make(scenario.faults, scenario.foreign->messages);
+      !faults)
+    return tl::unexpected(faults.error());
   // What every run tells its target; its draws are checked run by run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");

@@ -41,6 +41,11 @@ Result<FrameFaults> FrameFaults::make(std::span<const scenario::Fault> faults,
           message->sender == canhil::messages::TargetHeartbeat::info.sender)
         return failure(
             fmt::format("key '{}': {} is no sample of a node of the bench, expected one", fault.where, name));
+      const bool own = messages.data() == canhil::messages::all_messages.data();
+      if (fault.kind == FaultKind::changed && !own)
+        return failure(
+            fmt::format("key '{}': 'changed' is of canhil's own messages, expected another kind for {}",
+                        fault.where, name));
       const SignalInfo* signal = nullptr;
       if (fault.kind == FaultKind::changed &&
           (signal = observe::signal_of(*message, fault.signal)) == nullptr)

@@ -35,7 +35,7 @@ class EndOfRun final : public nodes::Node {
 class MappedWatch final : public observe::TargetWatch {
  public:
   explicit MappedWatch(const mapping::Conversation& conversation)
-      : conversation_(conversation), places_(conversation.mapping) {}
+      : conversation_(conversation), places_(conversation.mapping), passing_(conversation) {}
 
   void received(const Received& received) override {
     const std::size_t place = places_(received.frame);
@@ -53,30 +53,28 @@ class MappedWatch final : public observe::TargetWatch {
   [[nodiscard]] std::optional<std::string> fault() const override { return std::nullopt; }
 
   bool closes_step(const Frame& frame) override {
-    const auto& mapping = conversation_.mapping;
-    for (std::size_t i = 0; i < mapping.plays.size(); ++i) {
-      const auto& sent = conversation_.sent[i];
-      if (sent.empty() || !(sent.back().frames.back() == frame)) continue;
-      waits_for_.clear();
-      for (const mapping::Hear& hear : mapping.hears) {
-        if (hear.echo && *hear.answers == i) waits_for_.insert(hear.of.place);
-      }
-      awaited_play_ = i;
-      awaited_us_ = sent.back().valid_us;
-      return !waits_for_.empty();
+    const auto whole = passing_.take(frame);
+    if (!whole) return false;
+    waits_for_.clear();
+    for (const mapping::Hear& hear : conversation_.mapping.hears) {
+      if (hear.echo && *hear.answers == whole->play) waits_for_.insert(hear.of.place);
     }
-    return false;
+    awaited_play_ = whole->play;
+    awaited_us_ = whole->sent->valid_us;
+    return !waits_for_.empty();
   }
   [[nodiscard]] bool step_done() const override { return waits_for_.empty(); }
   [[nodiscard]] std::string step() const override {
     const auto& mapping = conversation_.mapping;
-    return fmt::format("{} by {}", mapping.plays[awaited_play_].name,
+    return fmt::format("{} by {} (in virtual time each sample needs an answer with its echo)",
+                       mapping.plays[awaited_play_].name,
                        waits_for_.empty() ? "" : mapping.messages[*waits_for_.begin()].name);
   }
 
  private:
   const mapping::Conversation& conversation_;
   mapping::Places places_;
+  mapping::Passing passing_;
   bool heard_ = false;
   std::size_t awaited_play_ = 0;
   std::int64_t awaited_us_ = 0;
@@ -152,7 +150,8 @@ class MappedDialect final : public Dialect {
 
   Result<void> configure(Link& link, nodes::Transmission& /*out*/,
                          const std::function<std::optional<std::string>()>& gone) override {
-    if (auto powered = run_command("before", start_.before); !powered) return powered;
+    if (auto powered = run_command("before", start_.before); !powered)
+      return failure(fmt::format("{}: {}", of_.scenario.file, powered.error().message));
     MappedWatch watch(conversation_);
     Strangers strangers(places_);
     const Attached watched(link, watch), others(link, strangers);
@@ -206,7 +205,7 @@ class MappedDialect final : public Dialect {
 Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting) {
   const auto& mapping = dynamic_cast<const mapping::Mapping&>(*setting.scenario.foreign);
   if (auto fits = mapping::Player::check(mapping, setting.scenario); !fits)
-    return tl::unexpected(fits.error());
+    return failure(fmt::format("{}: {}", setting.scenario.file, fits.error().message));
   if (setting.in_process)
     return failure(
         "the device in this process speaks the project's contract, expected a bus and --target for a "

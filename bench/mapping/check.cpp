@@ -53,7 +53,8 @@ class Remarks {
     for (const PlayedMessage& one : play.messages) {
       for (const dbc::Signal& signal : one.of.message->signals) {
         const bool played = std::ranges::find(one.sources, &signal, &Source::signal) != one.sources.end();
-        if (!played && !is_protection(one.of, signal))
+        // Of a multiplexed message one page is played.
+        if (!played && signal.multiplexed_by.empty() && !is_protection(one.of, signal))
           add(Grade::warning, "unmapped", name(one.of, signal),
               "nothing is put into it: it is encoded from 0");
       }

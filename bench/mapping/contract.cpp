@@ -40,7 +40,7 @@ const quantities::Layout* find_layout(std::string_view columns) {
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   Own& kept = known.emplace(columns, std::move(own)).first->second;
-  kept.layout = {.kept = kept.told, .answers_untold = true};
+  kept.layout = {.kept = kept.told};
   return &kept.layout;
 }
 

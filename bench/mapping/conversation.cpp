@@ -6,6 +6,21 @@
 
 namespace canhil::mapping {
 
+std::optional<Passing::Whole> Passing::take(const Frame& frame) {
+  for (std::size_t play = 0; play < passed_.size(); ++play) {
+    if (conversation_.sent[play].empty()) continue;
+    const Sent& sent = conversation_.sent[play].back();
+    const auto found = std::ranges::find(sent.frames, frame);
+    if (found == sent.frames.end()) continue;
+    Passed& passed = passed_[play];
+    if (passed.valid_us != sent.valid_us) passed = {.valid_us = sent.valid_us, .frames = {}};
+    const bool another = passed.frames.insert(static_cast<std::size_t>(found - sent.frames.begin())).second;
+    if (another && passed.frames.size() == sent.frames.size()) return Whole{.play = play, .sent = &sent};
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame) {
   const std::deque<Sent>& sent = conversation.sent[*hear.answers];
   if (sent.empty()) return nullptr;

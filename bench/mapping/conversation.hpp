@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,29 @@ struct Conversation {
   const Mapping& mapping;
   std::vector<std::deque<Sent>> sent;            ///< by play, the newest last
   std::map<std::string, std::uint64_t> clipped;  ///< by MESSAGE.SIGNAL: how often it could not hold its value
+};
+
+/// Frames of the bench as they pass: a fault may keep some of a play from passing as they are, and then the
+/// target has nothing to answer.
+class Passing {
+ public:
+  explicit Passing(const Conversation& conversation)
+      : conversation_(conversation), passed_(conversation.sent.size()) {}
+
+  struct Whole {
+    std::size_t play = 0;
+    const Sent* sent = nullptr;
+  };
+  /// The play of which the last missing frame has passed with this one; none: it makes none whole.
+  std::optional<Whole> take(const Frame& frame);
+
+ private:
+  struct Passed {
+    std::int64_t valid_us = -1;
+    std::set<std::size_t> frames;
+  };
+  const Conversation& conversation_;
+  std::vector<Passed> passed_;  // of the newest, by play
 };
 
 /// What a frame of the target answers, by what it repeats, or by being the latest; null: nothing that is

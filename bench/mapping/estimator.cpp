@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "bench/checks/delay.hpp"
@@ -61,32 +60,41 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
   }
 }
 
-// A sample is a time at which something was told.
+// A sample is a time at which something was told, with what was last told of all: a target may tell its
+// quantities in turn.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();
   if (answers.mapping == nullptr) return {};
   const Mapping& mapping = *answers.mapping;
-  std::map<std::int64_t, std::vector<double>> by_time;
+  std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
   for (std::size_t i = 0; i < mapping.told.size(); ++i) {
     const auto told = answers.told.find(mapping.told[i]);
     if (told == answers.told.end()) continue;
-    for (const Told& one : errors_of(truthed(*mapping.told[i]), told->second, truth)) {
-      auto& values = by_time[one.t_us];
-      values.resize(mapping.told.size(), std::numeric_limits<double>::quiet_NaN());
-      values[i] = one.value;
-    }
+    for (const Told& one : errors_of(truthed(*mapping.told[i]), told->second, truth))
+      by_time[one.t_us][i] = one.value;
   }
   quantities::Samples samples(*mapping.layout);
-  for (const auto& [t_us, values] : by_time) samples.add(t_us, values);
+  std::vector<std::optional<double>> last(mapping.told.size());
+  for (const auto& [t_us, values] : by_time) {
+    for (const auto& [place, value] : values) last[place] = value;
+    if (std::ranges::any_of(last, [](const auto& value) { return !value; })) continue;
+    std::vector<double> all;
+    for (const auto& value : last) all.push_back(*value);
+    samples.add(t_us, all);
+  }
   return samples;
 }
 
-// All answers, then those of each message.
+// All answers, then those of each message. What neither answers nor tells a quantity is none.
 std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
   const Answers& answers = seen.of<Answers>();
   estimators::Mark all{.name = "answers"};
   std::vector<estimators::Mark> marks;
   for (const auto& [message, times] : answers.messages) {
+    const Hear& hear =
+        *std::ranges::find(answers.mapping->hears, message,
+                           [](const Hear& one) -> std::string_view { return one.of.message->name; });
+    if (!hear.answers && hear.tellings.empty()) continue;
     all.t_us.insert(all.t_us.end(), times.begin(), times.end());
     marks.push_back({.name = message, .t_us = times});
   }

@@ -22,6 +22,7 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
       }()),
       stopwatch_(seen_.timing),
       places_(conversation.mapping),
+      passing_(conversation),
       receivers_(conversation.mapping.hears.size()),
       virtual_time_(virtual_time) {
   const Mapping& mapping = conversation.mapping;
@@ -42,15 +43,14 @@ void Listener::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t l
   if (!std::exchange(sent_any_, true)) seen_.first_ns = t_ns;
   seen_.last_ns = t_ns;
   stopwatch_.sent(frame, t_ns, late_ns);
-  const auto play = play_closed_by_.find(places_(frame));
-  if (play == play_closed_by_.end()) return;
-  const Sent* sent = closed_by(play->second, frame);
-  if (sent == nullptr) return;
-  due_us_ = sent->due_us;
+  const auto whole = passing_.take(frame);
+  if (!whole) return;
+  due_us_ = whole->sent->due_us;
   due_ns_ = t_ns - late_ns;
-  const std::string_view group = conversation_.mapping.groups[play->second];
-  seen_.stimuli[group].add(sent->valid_us);
-  stopwatch_.stimulus(group, {.valid_us = sent->valid_us, .t_ns = t_ns, .due_ns = due_ns_});
+  const std::string_view group = conversation_.mapping.groups[whole->play];
+  const std::int64_t valid_us = whole->sent->valid_us;
+  seen_.stimuli[group].add(valid_us);
+  stopwatch_.stimulus(group, {.valid_us = valid_us, .t_ns = t_ns, .due_ns = due_ns_});
 }
 
 void Listener::received(const Received& received) {
@@ -114,12 +114,11 @@ void Listener::hear(const Hear& hear, const Received& received) {
   values_.resize(hear.of.plan.signals());
   static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // of the message's size
   const auto value_of = [&](const Telling& telling) -> std::optional<double> {
-    const double value = values_[hear.of.number(*telling.signal)];
+    const std::size_t number = hear.of.number(*telling.signal);
     const bool invalid =
         telling.invalid && dbc::raw_bits(*telling.signal, frame.payload()) == *telling.invalid;
-    if (invalid || std::isnan(value))
-      return std::nullopt;  // the latter: of another multiplexor, or a float's own
-    return value * telling.factor;
+    if (invalid || !hear.of.plan.is_present(number, frame.payload())) return std::nullopt;
+    return values_[number] * telling.factor;  // what is no number is told, and fails
   };
   for (const Telling& telling : hear.tellings) {
     const auto value = value_of(telling);

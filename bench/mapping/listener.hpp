@@ -32,6 +32,7 @@ class Listener final : public observe::Watcher {
   checks::Observations seen_;
   observe::Stopwatch stopwatch_;
   Places places_;
+  Passing passing_;
   std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // by place of a message
   std::vector<double> values_;                                   // of a message's signals
   std::vector<protection::Receiver> receivers_;                  // by hear

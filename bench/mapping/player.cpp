@@ -162,7 +162,10 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
                 .brs = message.fd};
     static_cast<void>(one.of.plan.encode(values, {frame.data.data(), frame.size}));  // of the message's size
     for (const Source& source : one.sources) {
-      if (source.invalid && !values_[place][source.stimulus].valid)
+      const auto says_invalid = [](const auto& kept) { return !kept.second.valid; };
+      const bool invalid = source.stimulus != nullptr ? !values_[place][source.stimulus].valid
+                                                      : std::ranges::any_of(values_[place], says_invalid);
+      if (source.invalid && invalid)
         dbc::put_raw_bits(*source.signal, *source.invalid, {frame.data.data(), frame.size});
     }
     if (one.of.protection) {

@@ -41,7 +41,7 @@ class Reader {
 
   Result<std::shared_ptr<const Mapping>> read() {
     const std::string named = root_.text("dbc");
-    if (named.empty()) root_.finish();  // says that it is missing
+    if (named.empty()) root_.reject("dbc", "is missing", "the file of the DBC");
     if (root_.error()) return tl::unexpected(*root_.error());
     const std::string file = (fs::path(mapping_->file).parent_path() / named).string();
     const auto text = read_text_(file);
@@ -204,6 +204,9 @@ class Reader {
                         ", ")));
     if (!section.holds_text(key)) {
       const double value = section.plain_number(key, {});
+      if (one != nullptr && !dbc::holds(*one, value))
+        section.reject(key, fmt::format("{:g} does not fit into the signal", value),
+                       "a value that it can hold");
       if (one != nullptr && own != play.messages.end())
         own->sources.push_back({.signal = one, .value = value});
       return;
@@ -229,12 +232,19 @@ class Reader {
                             .factor = sign / factor(section, key, *of, *one, stimulus->si, stimulus->name)});
   }
 
+  static void expect_bits(Section& section, const std::string& key, const dbc::Signal& signal,
+                          std::uint64_t raw) {
+    if (signal.length < 64 && raw >> signal.length != 0)
+      section.reject(key, fmt::format("{} does not fit into its {} bits", raw, signal.length),
+                     "the bits as a whole number without a sign");
+  }
+
   static void read_invalid(Section& section, const std::string& key, Play& play) {
     const auto raw = static_cast<std::uint64_t>(section.integer(key, 0));
     for (PlayedMessage& message : play.messages) {
       for (Source& source : message.sources) {
         if (message.of.message->name + "." + source.signal->name != key) continue;
-        if (source.stimulus == nullptr) section.reject(key, "is never invalid", "a signal with a quantity");
+        expect_bits(section, key, *source.signal, raw);
         source.invalid = raw;
       }
     }
@@ -308,7 +318,10 @@ class Reader {
       return;
     }
     telling.factor = sign * factor(section, key, *hear.of.message, *one, telling.quantity->si, word);
-    if (invalid && invalid->has(key)) telling.invalid = static_cast<std::uint64_t>(invalid->integer(key, 0));
+    if (invalid && invalid->has(key)) {
+      telling.invalid = static_cast<std::uint64_t>(invalid->integer(key, 0));
+      expect_bits(*invalid, key, *one, *telling.invalid);
+    }
     hear.tellings.push_back(telling);
   }
 
@@ -335,6 +348,12 @@ class Reader {
       if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
       if (hear.answers) mapping.closing.push_back(hear.of.message->name);
       for (const Telling& telling : hear.tellings) {
+        const auto same = [&](const Telling& other) {
+          return !other.sigma && other.quantity == telling.quantity;
+        };
+        if (telling.sigma && std::ranges::none_of(hear.tellings, same))
+          return wrong(fmt::format("{} tells the sigma of {} without it, expected both in one message",
+                                   hear.of.message->name, telling.quantity->quantity->name));
         if (!telling.sigma &&
             std::ranges::find(mapping.told, telling.quantity->quantity) != mapping.told.end())
           return wrong(fmt::format("{} is told twice, expected once", telling.quantity->quantity->name));

@@ -64,6 +64,8 @@ TargetSetup read_own_start(Section& section, const Contract& contract) {
 
 TargetSetup read_target(Section& section, const Contract& contract) {
   if (contract.foreign != nullptr) return read_own_start(section, contract);
+  for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
+    section.refuse(key, "is of a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
   target.algorithm = section.one_of("algorithm", contract.algorithms);

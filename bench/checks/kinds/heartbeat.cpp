@@ -11,8 +11,11 @@ namespace canhil::checks {
 
 Heartbeat Heartbeat::read(scenario::Section& section, const scenario::CheckContext& context) {
   Heartbeat rule;
-  if (context.contract.foreign != nullptr)
-    rule.message = section.one_of("message", context.contract.messages);
+  if (context.contract.foreign != nullptr) {
+    std::vector<std::string> own;
+    for (const auto& [message, sender] : context.contract.sent_by) own.push_back(message);
+    rule.message = section.one_of("message", own);
+  }
   rule.silent_at_most_us = section.time_us("silent_at_most_s", scenario::Limits::above(0));
   return rule;
 }

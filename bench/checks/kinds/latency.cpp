@@ -19,7 +19,8 @@ std::string read_answer(scenario::Section& section, const scenario::CheckContext
   std::string message = section.one_of("message", context.contract.messages);
   if (std::ranges::find(answers, message) == answers.end()) {
     section.reject("message", fmt::format("'{}' answers nothing", message),
-                   fmt::format("one of: {}", fmt::join(answers, ", ")));
+                   answers.empty() ? std::string("one with 'answers' in the mapping, which has none")
+                                   : fmt::format("one of: {}", fmt::join(answers, ", ")));
   }
   expect_sent(section, context, message);
   return message;

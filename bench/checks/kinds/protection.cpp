@@ -1,5 +1,7 @@
 #include "bench/checks/kinds/protection.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "bench/checks/evidence.hpp"
@@ -40,6 +42,12 @@ Finding Protection::judge(const Evidence& evidence) const {
     all.lost += one.lost;
   }
   const bool any = all.right + all.wrong_crc + all.wrong_counter + all.wrong_size > 0;
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    const bool wanted = message ? messages[i].name == *message : !messages[i].answers.empty();
+    const Sighting& one = evidence.seen.from_target[i];
+    if (wanted && one.right + one.wrong_crc + one.wrong_counter + one.wrong_size == 0)
+      return {Outcome::not_measured, fmt::format("{} never came", messages[i].name), "messages to look at"};
+  }
   if (!any) return {Outcome::fail, "no messages of the target", "some"};
   return within_limits(
       std::array<CountLimit, 4>{{{"wrong checksums", wrong_checksums_at_most, all.wrong_crc},

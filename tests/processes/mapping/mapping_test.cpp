@@ -243,6 +243,21 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
                  "'false' ended with 1, expected 0");
 }
 
+TEST_F(Altered, FaultsBefallWhatIsPlayed) {
+  for (const char* message : {"IMU_TX1", "IMU_TX3"}) {
+    const Ended ended = run_with(
+        "own_ecu.toml", "[[check]]",
+        fmt::format("[[fault]]\nkind = \"damaged\"\nmessages = [\"{}\"]\nevery = 10\n[[check]]", message));
+    EXPECT_EQ(ended.code, 1) << ended.err << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("answers 1080  (expected answers >= 1190"))
+        << "the ECU drops what is damaged";
+  }
+  expect_refused(
+      "own_ecu.toml", "[[check]]",
+      "[[fault]]\nkind = \"changed\"\nsignal = \"x\"\nvalue = 1\nmessages = [\"IMU_TX1\"]\n[[check]]",
+      "'changed' is of canhil's own messages");
+}
+
 TEST_F(Altered, WhatAMappingLeavesOutIsListed) {
   const Ended fine = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", folder));
   EXPECT_EQ(fine.code, 0) << fine.err;

@@ -21,9 +21,10 @@ BO_ 100 Rates: 8 IMU
  SG_ RateZ : 0|32@1- (1,0) [0|0] "rad/s" ECU
  SG_ Count : 32|8@1+ (1,0) [0|0] "" ECU
  SG_ Time : 40|16@1+ (1,0) [0|0] "ms" ECU
- SG_ Mode : 56|8@1+ (1,0) [0|100] "" ECU
+ SG_ Mode : 56|8@1+ (1,0) [0|0] "" ECU
 BO_ 2147484000 Turned: 8 IMU
  SG_ AngleZ : 7|32@0- (1,0) [0|0] "deg" ECU
+ SG_ Millis : 39|8@0+ (1,0) [0|0] "ms" ECU
 BO_ 101 Answer: 8 ECU
  SG_ Roll : 0|16@1- (0.01,0) [0|0] "" IMU
  SG_ Repeated : 16|4@1+ (1,0) [0|0] "" IMU
@@ -147,12 +148,13 @@ TEST(Player, AddsIncrementsUpAndTakesTheMeanOfRates) {
 }
 
 TEST(Player, SaysWhatASignalCouldNotHold) {
-  const auto scenario = read("", mapping_with("\"Rates.Mode\" = 7", "\"Rates.Mode\" = 200"));
+  const auto scenario =
+      read("", mapping_with("\"Turned.AngleZ\"", "\"Turned.Millis\" = \"time\"\n\"Turned.AngleZ\""));
   ASSERT_TRUE(scenario) << scenario.error().message;
   const Flown flown(*scenario);
   ASSERT_EQ(flown.conversation.clipped.size(), 1U);
-  EXPECT_EQ(flown.conversation.clipped.at("Rates.Mode"), 49U);
-  EXPECT_EQ(flown.value(1, "Mode"), 100) << "its limit in the DBC";
+  EXPECT_EQ(flown.conversation.clipped.at("Turned.Millis"), 37U) << "of 49: from 260 ms on";
+  EXPECT_EQ(flown.value(2 * 48, "Millis"), 255);
 }
 
 TEST(Player, ALostSampleUsesItsCounterUp) {
