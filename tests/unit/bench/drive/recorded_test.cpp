@@ -11,6 +11,7 @@
 #include "bench/estimators/navigation.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/world/units.hpp"
+#include "tests/unit/own_folder.hpp"
 
 namespace canhil::drive {
 namespace {
@@ -88,11 +89,7 @@ Flown fly(const std::string& text, const std::string& folder) {
   return {estimators::navigation_errors(answers.navigation, *truth), answers.filter};
 }
 
-std::string folder() {
-  const std::string path = (std::filesystem::path(testing::TempDir()) / "canhil_recorded").string();
-  std::filesystem::create_directories(path);
-  return path;
-}
+std::string folder() { return test::own_folder(); }
 
 void write(const std::string& name, const std::string& text) { std::ofstream(folder() + "/" + name) << text; }
 

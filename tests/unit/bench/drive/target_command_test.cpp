@@ -1,4 +1,5 @@
 #include "bench/drive/target_command.hpp"
+#include "tests/unit/own_folder.hpp"
 
 #include <gmock/gmock.h>
 
@@ -46,7 +47,7 @@ TEST(TargetCommand, ProgramIsFoundAsAShellFindsIt) {
 
 // Which version of a script was flown is not told by the interpreter's file.
 TEST(TargetCommand, FilesAmongTheArgumentsAreLookedAtToo) {
-  const std::string script = testing::TempDir() + "target_command_test.py";
+  const std::string script = test::own_folder() + "/target_command_test.py";
   std::ofstream(script) << "1\n";
   const std::string command = "sh " + script + " --gain 3 " + script;
   EXPECT_THAT(files_of_target(command), ElementsAre(program_path("sh"), script));

@@ -14,6 +14,7 @@
 #include "dbc/ports/candump_log.hpp"
 #include "messages/canhil.hpp"
 #include "tests/unit/bench/nodes/made.hpp"
+#include "tests/unit/own_folder.hpp"
 
 namespace canhil::nodes {
 namespace {
@@ -164,7 +165,7 @@ class Log {
         SlaveImuStatus{.time_of_validity_us = static_cast<std::uint32_t>(t_us), .interval_us = 10'000}, 5));
   }
   Result<LoggedGroup> read(std::int64_t end_us) const {
-    const std::string path = (std::filesystem::path(testing::TempDir()) / "recorded_nodes.log").string();
+    const std::string path = test::own_folder() + "/recorded_nodes.log";
     std::ofstream(path) << text_;
     return read_frames(slave_imu.table, path, end_us).map_error([&](const Error& error) {
       return Error{error.message.substr(error.message.find("recorded_nodes"))};

@@ -9,6 +9,7 @@
 #include "bench/scenario/table.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
+#include "tests/unit/own_folder.hpp"
 
 namespace canhil::scenario {
 namespace {
@@ -45,11 +46,7 @@ std::string text_of(const std::vector<Row>& all) {
   return text;
 }
 
-std::string folder() {
-  const std::string path = (std::filesystem::path(testing::TempDir()) / "canhil_recorded_flight").string();
-  std::filesystem::create_directories(path);
-  return path;
-}
+std::string folder() { return test::own_folder(); }
 
 Result<Scenario> read(const std::string& csv, const std::string& keys = "from_s = 5") {
   std::ofstream(folder() + "/f.csv") << csv;
