@@ -30,9 +30,9 @@ struct Parameter {
 
 /// Of a target that is told nothing at the start (Contract::foreign).
 struct OwnStart {
-  std::int64_t settle_us = 0;    ///< from its start, or the bench's, to the first sample
-  std::int64_t silence_us = 0;   ///< after which it counts as gone
-  std::string before, after;     ///< commands of a shell, around the run: power, relays; empty: none
+  std::int64_t settle_us = 0;   ///< from its start, or the bench's, to the first sample
+  std::int64_t silence_us = 0;  ///< after which it counts as gone
+  std::string before, after;    ///< commands of a shell, around the run: power, relays; empty: none
 };
 
 struct TargetSetup {
