@@ -106,6 +106,7 @@ ExitCode execute(const Arguments& arguments) {
     options.progress = progress;
     auto one = accept::accept(suite, options, interrupted);
     if (!one) return complain(one.error());
+    if (one->findings.empty()) continue;  // has none of the families that are asked for
     all.suites.push_back(std::move(*one));
     if (interrupted || (arguments.first && all.outcome() == checks::Outcome::fail)) break;
   }
