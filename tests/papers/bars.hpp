@@ -9,6 +9,7 @@
 
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/execute.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::papers {
 
@@ -21,9 +22,8 @@ inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, st
     return {};
   }
   const std::filesystem::path results =
-      std::filesystem::path(testing::TempDir()) /
+      std::filesystem::path(test::own_folder()) /
       (std::filesystem::path(file).parent_path().filename().string() + ".sqlite");
-  std::filesystem::remove(results);
   const std::atomic<bool> stop = false;
   campaign::Options options;
   options.file = results;

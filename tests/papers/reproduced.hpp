@@ -10,6 +10,7 @@
 #include <string>
 
 #include "bench/papers/paper.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::papers {
 
@@ -18,7 +19,7 @@ inline const std::atomic<bool> go_on = false;
 inline Request request(const char* paper, const char* folder) {
   Request request;
   request.paper = paper;
-  request.folder = std::filesystem::path(testing::TempDir()) / folder;
+  request.folder = std::filesystem::path(test::own_folder()) / folder;
   request.runs = 2;
   request.progress = [](std::string_view, std::size_t, std::size_t) {};
   return request;

@@ -16,6 +16,7 @@
 #include "bench/campaign/store.hpp"
 #include "bench/estimators/registry.hpp"
 #include "bench/papers/told.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::papers {
 
@@ -82,7 +83,7 @@ inline std::vector<campaign::Answer> answers_at(const campaign::Campaign& campai
 class MadeUp {
  public:
   explicit MadeUp(const Paper& paper) : paper_(paper) {
-    options_.folder = std::filesystem::path(testing::TempDir()) / ("verdicts_" + paper.name);
+    options_.folder = std::filesystem::path(test::own_folder()) / paper.name;
     std::filesystem::remove_all(options_.folder);
     std::filesystem::create_directories(options_.folder);
     for (const report::EmbeddedFile& file : paper.campaigns) {

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -21,29 +20,11 @@
 
 #include "dbc/ports/candump_log.hpp"
 #include "messages/canhil.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::test {
 
 namespace {
-
-/// The folder of this program. It stays where a test failed: somebody will want to look.
-class Folder {
- public:
-  Folder() { std::filesystem::create_directories(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() {
-    if (getpid() != made_by_ || !testing::UnitTest::GetInstance()->Passed()) return;
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / fmt::format("canhil-{}", getpid());
-
- private:
-  const pid_t made_by_ = getpid();  // not a child of it
-};
 
 /// The bar of a check of timing, as its report words it; none: it is one of outputs.
 std::optional<double> timing_bar_s(const nlohmann::json& check) {
@@ -69,10 +50,7 @@ double largest_lateness_s(const nlohmann::json& report) {
 
 }  // namespace
 
-std::string scratch(const std::string& name) {
-  static const Folder folder;
-  return folder.path / name;
-}
+std::string scratch(const std::string& name) { return own_folder() + "/" + name; }
 
 std::string read(const std::string& path) {
   std::ifstream file(path);

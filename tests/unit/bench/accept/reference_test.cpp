@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "dbc/wire/transmit.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::accept {
 namespace {
@@ -115,17 +116,16 @@ TEST(Reference, AnglesGoTheShorterWayRound) {
 }
 
 TEST(Reference, IsTheSameAfterItWasWrittenAndRead) {
-  const fs::path file = fs::temp_directory_path() / "canhil_reference.txt";
+  const fs::path file = fs::path(test::own_folder()) / "reference.txt";
   ASSERT_TRUE(write(of(0.01), file, "a flight\nof a test"));
   const auto read = read_reference(file);
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_THAT(departure_of(*read, 0), IsEmpty());
   EXPECT_EQ(read->front().rows.size(), 5U);
-  fs::remove(file);
 }
 
 TEST(Reference, DamagedIsOneLine) {
-  const fs::path file = fs::temp_directory_path() / "canhil_reference_bad.txt";
+  const fs::path file = fs::path(test::own_folder()) / "bad.txt";
   const auto refused = [&](const std::string& text) {
     std::ofstream(file) << text;
     const auto read = read_reference(file);
@@ -138,7 +138,6 @@ TEST(Reference, DamagedIsOneLine) {
   EXPECT_THAT(refused("message A 3\nsignals a\n7 0.1 2\n"),
               HasSubstr(":3: '7 0.1 2', expected the place of one of 3 answers"));
   EXPECT_THAT(refused("message A 3\nsignals a\nmean 1\n"), HasSubstr("A lacks a line"));
-  fs::remove(file);
 }
 
 TEST(Difference, IsOfTwoFlightsThatAreToAgree) {

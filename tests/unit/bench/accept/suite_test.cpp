@@ -10,6 +10,7 @@
 
 #include "bench/campaign/campaign.hpp"
 #include "target/device/device.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::accept {
 namespace {
@@ -95,7 +96,7 @@ requirement = "R"
 )";
 
 std::string refused(const std::string& more, std::string_view was = "", std::string_view is = "") {
-  const fs::path folder = fs::temp_directory_path() / "canhil_suite";
+  const fs::path folder = test::own_folder();
   fs::create_directories(folder);
   fs::copy_file(SOURCE_DIR "/bench/flights/wind_quick.toml", folder / "wind.toml",
                 fs::copy_options::overwrite_existing);

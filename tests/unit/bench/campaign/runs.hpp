@@ -2,7 +2,6 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -22,6 +21,7 @@
 #include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "bench/estimators/wind/wind.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::campaign {
 
@@ -78,8 +78,7 @@ inline std::string content(const std::filesystem::path& path) {
 
 /// A new name in a folder of this process.
 inline std::filesystem::path scratch(const std::string& name) {
-  static const auto folder = std::filesystem::temp_directory_path() / fmt::format("campaign-{}", getpid());
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = test::own_folder();
   std::filesystem::remove(folder / name);
   return folder / name;
 }

@@ -10,7 +10,7 @@
 #include "bench/estimators/navigation.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/world/units.hpp"
-#include "tests/unit/own_folder.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::drive {
 namespace {

@@ -1,5 +1,5 @@
 #include "bench/drive/target_command.hpp"
-#include "tests/unit/own_folder.hpp"
+#include "tests/own_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -12,8 +12,8 @@
 #include "bench/world/motion/rest.hpp"
 #include "dbc/ports/candump_log.hpp"
 #include "messages/canhil.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/unit/bench/nodes/made.hpp"
-#include "tests/unit/own_folder.hpp"
 
 namespace canhil::nodes {
 namespace {

@@ -15,6 +15,7 @@
 #include "bench/report/plot.hpp"
 #include "bench/report/provenance.hpp"
 #include "bench/report/run_reports.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/unit/bench/report/finished_run.hpp"
 
 namespace canhil::report {
@@ -65,7 +66,7 @@ TEST(Page, EveryPictureIsWellFormedAndFinite) {
 }
 
 TEST(Page, IsTheSameFromTheFileAsFromTheRun) {
-  const std::string path = testing::TempDir() + "canhil_page_test.json";
+  const std::string path = test::own_folder() + "/canhil_page_test.json";
   const drive::Run run = run_of();
   std::ofstream(path) << json(scenario_of(), run);
   const auto read = read_document(path);
@@ -82,7 +83,7 @@ TEST(Page, OfVirtualTimeHasNoLatency) {
 }
 
 TEST(Page, FilesThatAreNoReportsAreRefusedInOneLine) {
-  const std::string path = testing::TempDir() + "canhil_no_report.json";
+  const std::string path = test::own_folder() + "/canhil_no_report.json";
   EXPECT_THAT(read_document("/no/such").error().message, HasSubstr("/no/such: cannot be read"));
   std::ofstream(path) << "{";
   EXPECT_THAT(read_document(path).error().message, HasSubstr("is no JSON"));
@@ -108,7 +109,7 @@ TEST(Page, ASeriesShorterThanItsTimesIsRefused) {
 }
 
 TEST(Page, ValuesTooDeepWithinOneAnotherAreRefused) {
-  const std::string path = testing::TempDir() + "canhil_deep_report.json";
+  const std::string path = test::own_folder() + "/canhil_deep_report.json";
   std::string text = json(scenario_of(), run_of());
   const std::size_t at = text.find("\"timing\": {") + 11;
   std::string deep, end;

@@ -21,6 +21,7 @@
 #include "bench/report/file.hpp"
 #include "bench/report/run_reports.hpp"
 #include "bench/world/motion/rest.hpp"
+#include "tests/own_folder.hpp"
 
 namespace canhil::report {
 namespace {
@@ -247,8 +248,7 @@ TEST(Reports, NameTheControllersStamps) {
 }
 
 TEST(File, IsWholeOrNotThere) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("canhil-report-" + std::to_string(getpid()));
+  const std::filesystem::path folder = std::filesystem::path(test::own_folder()) / "whole";
   std::filesystem::create_directories(folder);
   const std::string path = folder / "report.json";
   ASSERT_TRUE(write_file(path, "first"));
@@ -269,9 +269,7 @@ TEST(File, IsWholeOrNotThere) {
 }
 
 TEST(File, ThatAnotherProcessIsWritingIsLeftAlone) {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("canhil-two-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = test::own_folder();
   const std::string path = folder / "report.json";
   const pid_t other = fork();
   if (other == 0) _exit(write_file(path, std::string(1 << 20, 'b')) ? 0 : 1);
@@ -284,7 +282,6 @@ TEST(File, ThatAnotherProcessIsWritingIsLeftAlone) {
   int status = -1;
   waitpid(other, &status, 0);
   EXPECT_EQ(status, 0);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/page.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/unit/bench/report/finished_run.hpp"
 
 namespace canhil::report {
@@ -75,7 +76,7 @@ TEST(WholeReport, ADistributionThatCannotBe) {
 }
 
 TEST(WholeReport, IsAskedForWhereAFileIsRead) {
-  const std::string path = testing::TempDir() + "canhil_not_whole.json";
+  const std::string path = test::own_folder() + "/canhil_not_whole.json";
   const auto said = [&](const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
     const auto read = read_document(path);

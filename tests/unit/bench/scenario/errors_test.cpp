@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "tests/own_folder.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
 
 namespace canhil::scenario {
@@ -218,14 +219,14 @@ TEST(ScenarioFile, ThatCannotBeRead) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().message,
             "/nonexistent/s.toml: cannot be read (No such file or directory), expected a scenario file");
-  const auto folder = read_file(testing::TempDir(), contract);
+  const auto folder = read_file(test::own_folder(), contract);
   ASSERT_FALSE(folder);
   EXPECT_EQ(folder.error().message,
-            testing::TempDir() + ": cannot be read (Is a directory), expected a scenario file");
+            test::own_folder() + ": cannot be read (Is a directory), expected a scenario file");
 }
 
 TEST(ScenarioFile, IsReadAsItsText) {
-  const std::string path = testing::TempDir() + "scenario_file_is_read.toml";
+  const std::string path = test::own_folder() + "/scenario_file_is_read.toml";
   std::ofstream(path, std::ios::binary) << valid;
   const auto scenario = read_file(path, contract);
   ASSERT_TRUE(scenario) << scenario.error().message;

@@ -7,8 +7,8 @@
 
 #include "bench/scenario/table.hpp"
 #include "bench/world/units.hpp"
+#include "tests/own_folder.hpp"
 #include "tests/unit/bench/scenario/texts.hpp"
-#include "tests/unit/own_folder.hpp"
 
 namespace canhil::scenario {
 namespace {

@@ -7,11 +7,13 @@
 #include <fstream>
 #include <thread>
 
+#include "tests/own_folder.hpp"
+
 namespace canhil {
 namespace {
 
 std::string file_of(std::size_t bytes) {
-  const std::string path = testing::TempDir() + "/text_file_test_" + std::to_string(bytes);
+  const std::string path = test::own_folder() + "/text_file_test_" + std::to_string(bytes);
   std::ofstream(path) << std::string(bytes, 'x');
   return path;
 }
@@ -34,8 +36,7 @@ TEST(TextFile, ADeviceWithoutEndIsRefused) {
 }
 
 TEST(TextFile, MayBeAPipe) {
-  const std::string path = testing::TempDir() + "/text_file_test_pipe";
-  std::filesystem::remove(path);
+  const std::string path = test::own_folder() + "/text_file_test_pipe";
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   std::jthread writer([&path] { std::ofstream(path) << "through a pipe"; });
   EXPECT_EQ(read_text_file(path, "a list", 100).value(), "through a pipe");

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "tests/own_folder.hpp"
 #include "tests/unit/dbc/ports/frames.hpp"
 
 namespace canhil {
@@ -30,8 +30,7 @@ class Log : public ::testing::Test {
     return port ? "opened" : port.error().message;
   }
 
-  const std::string path_ =
-      (std::filesystem::temp_directory_path() / fmt::format("canhil-{}.log", ::getpid())).string();
+  const std::string path_ = test::own_folder() + "/a.log";
 };
 
 Frame parsed(const std::string& what) {
@@ -183,7 +182,7 @@ TEST_F(Log, IsCheckedOnOpening) {
 }
 
 TEST(LogReading, ALineWithoutEndIsRefused) {
-  const std::string path = testing::TempDir() + "canhil_endless.log";
+  const std::string path = test::own_folder() + "/canhil_endless.log";
   std::ofstream(path) << "(0.000000) vcan0 123#00 R\n(0.000000) " << std::string(1'000'000, 'x');
   auto reader = LogReader::open(path);
   ASSERT_TRUE(reader);
@@ -193,7 +192,7 @@ TEST(LogReading, ALineWithoutEndIsRefused) {
 }
 
 TEST(LogReading, LinesUpToTheLimitAreRead) {
-  const std::string path = testing::TempDir() + "canhil_long_lines.log";
+  const std::string path = test::own_folder() + "/canhil_long_lines.log";
   const std::string head = "(0.000000) ", tail = " 123#00 R";
   for (const std::size_t length : {4096U, 4097U}) {
     std::ofstream(path) << head + std::string(length - head.size() - tail.size(), 'x') + tail + "\n";

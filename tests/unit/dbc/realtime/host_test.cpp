@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <limits>
+
+#include "tests/own_folder.hpp"
 
 namespace canhil::realtime {
 namespace {
@@ -39,8 +40,7 @@ class Governors : public testing::Test {
     std::filesystem::create_directories(folder);
     std::ofstream(folder + "/scaling_governor") << governor << '\n';
   }
-  const std::string folder_ =
-      (std::filesystem::temp_directory_path() / fmt::format("canhil-cpus-{}", getpid())).string();
+  const std::string folder_ = test::own_folder() + "/cpus";
 };
 
 TEST_F(Governors, AreThoseOfTheCpusAskedForEachOnce) {

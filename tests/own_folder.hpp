@@ -1,0 +1,39 @@
+// A folder of this test program alone: CTest runs each case as a process of its own, several at a time.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+namespace canhil::test {
+
+/// Gone with the process that made it, a child of that one left aside; kept where a test failed: somebody
+/// will want to look.
+class OwnFolder {
+ public:
+  OwnFolder() { std::filesystem::create_directories(path); }
+  ~OwnFolder() {
+    if (getpid() != made_by_ || !testing::UnitTest::GetInstance()->Passed()) return;
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  OwnFolder(const OwnFolder&) = delete;
+  OwnFolder& operator=(const OwnFolder&) = delete;
+
+ private:
+  const pid_t made_by_ = getpid();
+
+ public:
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("canhil-" + std::to_string(made_by_));
+};
+
+/// Until the program ends.
+inline std::string own_folder() {
+  static const OwnFolder own;
+  return own.path.string();
+}
+
+}  // namespace canhil::test
