@@ -24,7 +24,8 @@ constexpr double deg = std::numbers::pi / 180;
 constexpr double degph = deg / 3600;
 constexpr double ug = 1e-6 * 9.80665;
 
-constexpr std::size_t history_length = 512;          // 2.5 s at 5 ms
+constexpr std::int64_t history_us = 2'500'000;
+constexpr std::size_t history_length = 2560;         // of increments, which come each millisecond at the most
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
 constexpr std::size_t pending_limit = 4;             // fixes ahead of the INS that are kept
 
@@ -285,7 +286,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   SampleGroup<SsblRelativeNE, SsblShipLatitude, SsblShipLongitude, SsblRelativeD> ssbl_group_;
   SampleGroup<GpsLatitude, GpsLongitude, GpsTime> gps_group_;
   ia::State state_;
-  ia::History<history_length> history_{0};
+  ia::History<history_length> history_{0, history_us};
   FixQueue<Fix, pending_limit> pending_;  // fixes ahead of the INS
   std::int64_t start_us_ = 0;
   std::uint32_t gated_ = 0, refused_ = 0;  // fixes, since the start

@@ -44,7 +44,7 @@ class ParameterTable {
     if (!index) return messages::ParameterStatus::unknown;
     const Row& row = rows_[*index];
     if (running && !row.while_running) return messages::ParameterStatus::wrong_state;
-    if (!(value >= row.minimum && value <= row.maximum))
+    if (!(value >= on_the_wire(row.minimum) && value <= on_the_wire(row.maximum)))
       return messages::ParameterStatus::out_of_range;  // NaN too
     if (row.whole && value != std::round(value)) return messages::ParameterStatus::out_of_range;
     take(tuning, *index, value);
@@ -65,6 +65,9 @@ class ParameterTable {
 
  private:
   static constexpr std::size_t capacity = 64;
+
+  // A value comes as a float, which for 1e-9 is less than 1e-9.
+  static double on_the_wire(double limit) { return static_cast<double>(static_cast<float>(limit)); }
 
   [[nodiscard]] std::optional<std::size_t> find(messages::Parameter parameter) const {
     const auto found = std::ranges::find(rows_, parameter, &Row::parameter);

@@ -24,7 +24,8 @@ constexpr double degph = deg / 3600;
 constexpr double degprth = deg / 60;
 constexpr double ug = 1e-6 * 9.80665;
 
-constexpr std::size_t history_length = 64;           // 320 ms at 5 ms
+constexpr std::int64_t history_us = 500'000;
+constexpr std::size_t history_length = 512;          // of increments, which come each millisecond at the most
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
 constexpr std::size_t pending_limit = 8;             // fixes ahead of the INS that are kept
 
@@ -226,7 +227,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
   MasterGroup master_group_;
   ta::State state_;
   ta::Ins corrected_;
-  ta::History<history_length> history_{0};
+  ta::History<history_length> history_{0, history_us};
   FixQueue<Eigen::Vector3d, pending_limit> pending_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace canhil::filtering {
 
-/// Keeps the last `Capacity` increments. Epochs are the ends of increments, in integer microseconds of the
+/// Keeps the increments of the last `longest_us`, `Capacity` of them at the most. Epochs are the ends of increments, in integer microseconds of the
 /// measurements' time base. Every step and update of a State goes through its History. The Model says how:
 ///   types State (with a member `ins`: what an increment changes), Increment, Measurement, Settings,
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
@@ -32,7 +32,10 @@ class History {
   using UpdateResult = typename Model::UpdateResult;
   using Outcome = typename Model::Outcome;
 
-  explicit History(std::int64_t start_us) { restart(start_us); }
+  explicit History(std::int64_t start_us, std::int64_t longest_us = std::numeric_limits<std::int64_t>::max())
+      : longest_us_(longest_us) {
+    restart(start_us);
+  }
 
   /// Empty, with the state's epoch at start_us.
   void restart(std::int64_t start_us) {
@@ -43,12 +46,11 @@ class History {
 
   /// A step over an increment that ends at t_us, remembered.
   void propagate(State& state, const Increment& increment, std::int64_t t_us, const Settings& settings) {
-    if (count_ == Capacity) {
+    while (count_ == Capacity || (count_ > 0 && now_us_ - at(0).before_us > longest_us_)) {
       first_ = (first_ + 1) % Capacity;
-    } else {
-      ++count_;
+      --count_;
     }
-    at(count_ - 1) = {state.ins, increment, now_us_};
+    at(count_++) = {state.ins, increment, now_us_};
     now_us_ = t_us;
     step(state, increment, t_us, settings);
   }
@@ -140,6 +142,7 @@ class History {
 
   std::array<Entry, Capacity> entries_;
   std::array<Prediction, Predictions> predictions_;
+  std::int64_t longest_us_;
   std::size_t first_ = 0, count_ = 0, prediction_count_ = 0;
   std::int64_t now_us_ = 0, last_update_us_ = 0;
   std::int64_t forgotten_us_ = 0;  // before this epoch the filter's state is not known any more

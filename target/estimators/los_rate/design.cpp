@@ -8,8 +8,6 @@ namespace {
 
 constexpr double table_range_min = 20;  // [m]; the blind range is not below it
 
-Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
-
 double psd(double sigma, double Ts) { return sigma * sigma * Ts; }
 
 PBarTable make_p_bar_table(const Settings& settings, const Noise& noise) {

@@ -2,6 +2,7 @@
 // Settings and what is made of them at start-up: the tables of the closed gains, so that a step solves no
 // equation. One set where the planes' noises are equal, two where they are not.
 #include <array>
+#include <cmath>
 
 #include "target/estimators/los_rate/closed_form.hpp"
 #include "target/estimators/los_rate/settings.hpp"
@@ -14,6 +15,8 @@ struct Sigma {
   double rate = 0;          // [rad/s]
   double acceleration = 0;  // of the target [m/s^2]
 };
+
+inline Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
 
 /// A closed gain (discrete, for x) and the 1-sigmas that belong to it.
 struct ClosedGain {

@@ -17,8 +17,6 @@ bool finite(const State& state) {
          (!state.covariance || (finite(state.P.pitch) && finite(state.P.yaw)));
 }
 
-Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
-
 // function(plane) of pitch, and of yaw only where its noise differs; `plane` picks a member of a pair.
 template <class Function>
 auto of_planes(const Design& design, Function function) {

@@ -103,7 +103,8 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
     result.outcome = Outcome::non_finite;
     return result;
   }
-  if (!(correction.P.diagonal().minCoeff() > 0)) return result;
+  // Zero is that of a bias which was known exactly.
+  if (!(correction.P.diagonal().minCoeff() >= 0)) return result;
 
   result.outcome = Outcome::ok;
   state.P = correction.P;

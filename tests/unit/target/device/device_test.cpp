@@ -89,6 +89,8 @@ TEST(Device, TakesWhatIsInTheRangeThatItTells) {
       }
       const double inside = range->whole ? range->maximum : (range->minimum + range->maximum) / 2;
       EXPECT_EQ(status(inside), ParameterStatus::accepted) << name_of(parameter);
+      EXPECT_EQ(status(range->minimum), ParameterStatus::accepted) << name_of(parameter);
+      EXPECT_EQ(status(range->maximum), ParameterStatus::accepted) << name_of(parameter);
       EXPECT_EQ(status(range->maximum * 1.001 + 1e-3), ParameterStatus::out_of_range) << name_of(parameter);
       EXPECT_EQ(status(range->minimum - 1e-3), ParameterStatus::out_of_range) << name_of(parameter);
     }
@@ -161,6 +163,19 @@ TEST(Device, AppliesALateFixAtItsTimeOfValidity) {
                       bench.last<AlignAttitude>()->pitch_deg, bench.last<TargetHeartbeat>()->state);
   };
   EXPECT_EQ(last_answer(0), last_answer(6));
+}
+
+TEST(Device, UsesALateFixOfAnyImu) {
+  for (const std::int64_t interval_us : {1'000, 2'500, 10'000}) {
+    BenchSide bench;
+    bench.start();
+    for (std::int64_t t_us = interval_us; t_us <= 1'000'000; t_us += interval_us)
+      bench.imu(t_us, static_cast<double>(interval_us));
+    bench.master(400'000);
+    EXPECT_FALSE(bench.last<AlignUpdate>()) << interval_us;
+    bench.master(600'000);
+    EXPECT_TRUE(bench.last<AlignUpdate>()) << interval_us;
+  }
 }
 
 TEST(Device, KeepsAFixThatIsAheadOfTheImu) {

@@ -63,6 +63,19 @@ TEST(TransferAlignment, H2CasesOneAndFourAreTheSameFilter) {
   EXPECT_LT(norm(Dense(a.ins.nav.C_bn) - b.ins.nav.C_bn), 1e-12);
 }
 
+TEST(TransferAlignment, BiasesThatAreKnownExactlyStayAsTheyAre) {
+  for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::robust_h2}) {
+    Settings settings;
+    settings.algorithm = algorithm;
+    settings.accel_bias_sigma_0.setZero();
+    settings.gyro_bias_sigma_0.setZero();
+    const State state =
+        run(settings, [](const State&, const UpdateResult& result) { ASSERT_EQ(result.outcome, Outcome::ok); });
+    EXPECT_EQ(state.ins.accel_bias, Vector3d::Zero());
+    EXPECT_EQ(state.ins.gyro_bias, Vector3d::Zero());
+  }
+}
+
 TEST(TransferAlignment, CovarianceIsSymmetricAndPositiveDefiniteThroughout) {
   for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::robust_h2}) {
     Settings settings;
