@@ -9,8 +9,9 @@
 
 namespace canhil::filtering {
 
-/// Keeps the increments of the last `longest_us`, `Capacity` of them at the most. Epochs are the ends of increments, in integer microseconds of the
-/// measurements' time base. Every step and update of a State goes through its History. The Model says how:
+/// Keeps the increments of the last `longest_us`, `Capacity` of them at the most. Epochs are the ends of
+/// increments, in integer microseconds of the measurements' time base. Every step and update of a State goes
+/// through its History. The Model says how:
 ///   types State (with a member `ins`: what an increment changes), Increment, Measurement, Settings,
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
 ///     older_than_history, ...)

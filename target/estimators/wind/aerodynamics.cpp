@@ -15,6 +15,16 @@ double held(double value, const Range& range, bool& outside) {
   return std::clamp(value, range.least, range.most);
 }
 
+// v v', evaluated by itself: a factor put into one of the two would cost the symmetry its last bit.
+Matrix3d dyad(const Vector3d& v) { return v * v.transpose(); }
+
+double squared(double value) { return value * value; }
+
+double drag_of(const Deflection& fins, const Drag& drag) {
+  return drag.deflection_squared *
+         (fins.elevator * fins.elevator + fins.aileron * fins.aileron + fins.rudder * fins.rudder);
+}
+
 // A coefficient's derivatives by V, alpha and beta, and by the three reduced rates.
 struct Slope {
   Vector3d flow = Vector3d::Zero(), rates = Vector3d::Zero();
@@ -64,9 +74,7 @@ Coefficients coefficients(const Flow& f, const Deflection& fins, const Airframe&
   Coefficients c;
   c.lift = longitudinal(airframe.lift);
   c.drag = drag.constant + drag.lift_squared * c.lift * c.lift + drag.sideslip_squared * f.beta * f.beta +
-           drag.deflection_squared *
-               (fins.elevator * fins.elevator + fins.aileron * fins.aileron + fins.rudder * fins.rudder) +
-           drag.wave * (1 + std::tanh((f.mach - drag.wave_mach) / drag.wave_width));
+           drag_of(fins, drag) + drag.wave * (1 + std::tanh((f.mach - drag.wave_mach) / drag.wave_width));
   c.side = lateral(airframe.side);
   c.roll = lateral(airframe.roll);
   c.pitch = longitudinal(airframe.pitch);
@@ -80,6 +88,32 @@ Loads loads(const Flow& f, const Coefficients& c, const Air& air, const Airframe
   return {(force / airframe.mass) * Vector3d(c.lift * f.sin_alpha - c.drag * f.cos_alpha, c.side,
                                              -c.lift * f.cos_alpha - c.drag * f.sin_alpha),
           force * Vector3d(airframe.span * c.roll, airframe.chord * c.pitch, airframe.span * c.yaw)};
+}
+
+LoadsCovariance loads_covariance(const Flow& f, const Deflection& fins, const Air& air,
+                                 const Airframe& airframe) {
+  const double k = f.compressibility;
+  const auto longitudinal = [&](const Longitudinal& t) {
+    return squared(k * (t.constant + t.alpha * f.alpha)) + squared(t.pitch_rate * f.rates.y()) +
+           squared(k * t.elevator * fins.elevator);
+  };
+  const auto lateral = [&](const Lateral& t) {
+    return squared(k * t.sideslip * f.beta) + squared(t.roll_rate * f.rates.x() + t.yaw_rate * f.rates.z()) +
+           squared(k * (t.aileron * fins.aileron + t.rudder * fins.rudder));
+  };
+  const double drag_of_fins = drag_of(fins, airframe.drag);
+  const double drag = coefficients(f, fins, airframe).drag - drag_of_fins;
+  const Vector3d along_lift(f.sin_alpha, 0, -f.cos_alpha), along_drag(-f.cos_alpha, 0, -f.sin_alpha);
+  const double force = 0.5 * air.density * f.speed * f.speed * airframe.area;
+  LoadsCovariance c;
+  c.specific_force = longitudinal(airframe.lift) * dyad(along_lift) +
+                     (squared(drag) + squared(drag_of_fins)) * dyad(along_drag);
+  c.specific_force(1, 1) = lateral(airframe.side);
+  c.specific_force *= squared(force / airframe.mass);
+  c.moment = Vector3d(squared(force * airframe.span) * lateral(airframe.roll),
+                      squared(force * airframe.chord) * longitudinal(airframe.pitch),
+                      squared(force * airframe.span) * lateral(airframe.yaw));
+  return c;
 }
 
 LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3d& v_a, const Air& air,

@@ -34,6 +34,13 @@ struct Loads {
   Eigen::Vector3d specific_force, moment;
 };
 
+/// Covariances of the loads where each part of each coefficient (static, rate, control) errs by a share of
+/// variance 1 of its own, as (m/s^2)^2 and (N m)^2, body axes.
+struct LoadsCovariance {
+  Eigen::Matrix3d specific_force = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d moment;  // the three are independent
+};
+
 /// Derivatives by air velocity [m/s] and rates [rad/s]; zero along what is held at the end of its range.
 struct LoadsJacobian {
   Eigen::Matrix3d force_v_a, force_omega, moment_v_a, moment_omega;
@@ -44,6 +51,9 @@ Flow flow(const Eigen::Vector3d& v_a, const Eigen::Vector3d& omega, const Air& a
 Coefficients coefficients(const Flow& flow, const Deflection& fins, const Airframe& airframe);
 
 Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airframe& airframe);
+
+LoadsCovariance loads_covariance(const Flow& flow, const Deflection& fins, const Air& air,
+                                 const Airframe& airframe);
 
 /// v_a is the velocity `flow` was made of.
 LoadsJacobian loads_jacobian(const Flow& flow, const Coefficients& c, const Eigen::Vector3d& v_a,

@@ -43,7 +43,7 @@ void forget(State& state) {
   state.started = false;
   state.coasted_s = 0;
   state.jumps = 0;
-  state.rate_noise_factor = 1;
+  state.noise_factor = 1;
 }
 
 // Navigation taken over, the wind known: v_a = C_nb (v_eb_n - v_w), its error C_nb (dv - dv_w - D dPhi).
@@ -91,7 +91,8 @@ void advance(State& state, double dt, const ActingFins& acting, const Design& de
   outside.altitude = !(state.altitude >= range.least && state.altitude <= range.most);
   const Inputs inputs{acting.mean, standard_atmosphere(std::clamp(state.altitude, range.least, range.most))};
   Densities density = design.settings.density;
-  density.rate *= std::sqrt(state.rate_noise_factor);
+  const bool of_coefficients = design.settings.process_noise == ProcessNoise::aerodynamic;
+  (of_coefficients ? density.coefficient : density.rate) *= std::sqrt(state.noise_factor);
   if (flags.fins_missing) density = raised(density, design.settings.degraded);
   predict(state.x, state.P, dt, inputs, density, design, outside);
   flags.outside |= outside;
@@ -118,13 +119,12 @@ void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fin
   state.sample_used = false;
 }
 
-// Grows or shrinks the noise of the rates until the innovation statistic is what it should be: within a few
+// Grows or shrinks the noise that follows until the innovation statistic is what it should be: within a few
 // samples where it is grossly off, as at release, slowly where it only scatters.
 void adapt(State& state, double nis, double gap, const Settings& settings) {
   const double excess = std::clamp(nis / 9 - 1, -1.0, 50.0);
-  state.rate_noise_factor =
-      std::clamp(state.rate_noise_factor * std::exp(excess * gap / settings.adaptation_time), 1.0,
-                 settings.adaptation_limit);
+  state.noise_factor = std::clamp(state.noise_factor * std::exp(excess * gap / settings.adaptation_time), 1.0,
+                                  settings.adaptation_limit);
 }
 
 bool is_sound(const State& state) {  // the sum of what is not finite is not finite

@@ -30,7 +30,7 @@ struct State {
   bool sample_used = false;                // of t_us
   double altitude = 0;                     // at t_us [m]
   double coasted_s = 0;                    // since the last update
-  double rate_noise_factor = 1;            // of Algorithm::adaptive_q, on the variance
+  double noise_factor = 1;                 // of Algorithm::adaptive_q, on the variance
   int jumps = 0;                           // in a row
   double unchanged_s = 0;                  // navigation has not changed for
   Observation last = Observation::Zero();  // navigation, as it came

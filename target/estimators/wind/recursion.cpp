@@ -20,6 +20,17 @@ Observation noise_variance(const Settings& s) {
   return R;
 }
 
+// What coefficients that are wrong by shares of variance q do to the air velocity and to the rates.
+void add_noise_of_coefficients(Covariance& P, double q, const StateVector& x, const Inputs& inputs,
+                               const Design& design) {
+  const Flow at = flow(x.segment<3>(air_velocity_at), x.segment<3>(rate_at), inputs.air, design.airframe);
+  const LoadsCovariance loads = loads_covariance(at, inputs.fins, inputs.air, design.airframe);
+  P.block<3, 3>(air_velocity_at, air_velocity_at) += q * loads.specific_force;
+  const Matrix3d root = design.inertia_inverse * loads.moment.cwiseSqrt().asDiagonal();
+  const Matrix3d of_rates = root.lazyProduct(root.transpose());  // symmetric to the last bit
+  P.block<3, 3>(rate_at, rate_at) += q * of_rates;
+}
+
 }  // namespace
 
 Densities raised(Densities density, const Densities& least) {
@@ -27,6 +38,7 @@ Densities raised(Densities density, const Densities& least) {
   density.rate = std::max(density.rate, least.rate);
   density.attitude = std::max(density.attitude, least.attitude);
   density.wind = std::max(density.wind, least.wind);
+  density.coefficient = std::max(density.coefficient, least.coefficient);
   return density;
 }
 
@@ -39,7 +51,7 @@ void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, con
   Q << Vector3d::Constant(squared(noise.air_velocity) * dt), Vector3d::Constant(squared(noise.rate) * dt),
       Vector3d::Constant(squared(noise.attitude) * dt), Vector3d::Constant(q_wind);
   P = predicted(P, at.A, dt);
-  if (design.settings.process_noise == ProcessNoise::correlated) {
+  if (design.settings.process_noise != ProcessNoise::block_diagonal) {
     // v_a' has -C_nb v_w': Q_aa += C_nb q C_bn = q I, Q_aw = -C_nb q
     const Matrix3d C_nb = C_bn(x.segment<3>(attitude_at)).transpose();
     Q.segment<3>(air_velocity_at).array() += q_wind;
@@ -47,6 +59,8 @@ void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, con
     P.block<3, 3>(wind_at, air_velocity_at) -= q_wind * C_nb.transpose();
   }
   P.diagonal() += Q;
+  if (design.settings.process_noise == ProcessNoise::aerodynamic)
+    add_noise_of_coefficients(P, squared(noise.coefficient) * dt, x, inputs, design);
   x = predicted(x, at.f, dt, inputs, design, outside);
 }
 

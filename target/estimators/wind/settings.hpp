@@ -11,12 +11,13 @@ inline constexpr double rad_per_deg = std::numbers::pi / 180;
 enum class Algorithm : std::uint8_t {
   ekf,
   h_infinity,  // the paper's
-  adaptive_q,  // EKF whose noise of the rates follows the innovation statistic
+  adaptive_q,  // EKF whose noise of the rates, or of the coefficients, follows the innovation statistic
 };
 
 enum class ProcessNoise : std::uint8_t {
   block_diagonal,  // the paper's, presumably: the wind's noise does not reach the air velocity
   correlated,      // v_a' = ... - C v_w': it does
+  aerodynamic,     // correlated, and the noise that wrong coefficients make of the loads of the moment
 };
 
 /// Process noise, densities per sqrt(s).
@@ -25,6 +26,7 @@ struct Densities {
   double rate = 0.5 * rad_per_deg;       // [rad/s]
   double attitude = 0.01 * rad_per_deg;  // [rad]
   double wind = 0.3;                     // covers shear times sink rate [m/s]
+  double coefficient = 0.0022;  // of each part of each coefficient, as a share of it: 1 % held for 50 ms
 };
 
 struct Settings {
@@ -41,8 +43,8 @@ struct Settings {
   double theta_cap_per_s = 2;  // bound of theta lambda_max over the same interval [1/s]
   double rate_weight = 1;      // of the rates in S, beside 1 of the air velocity [(m/s)^2/(rad/s)^2]
 
-  double adaptation_time = 0.3;   // of the rate noise, the statistic being 1 too large [s]
-  double adaptation_limit = 1e4;  // of the factor on the variance of the rate noise
+  double adaptation_time = 0.3;   // of the noise that follows, the statistic being 1 too large [s]
+  double adaptation_limit = 1e4;  // of the factor on the variance of that noise
 
   double air_velocity_sigma_0 = 1;              // known at the start [m/s]
   double velocity_sigma_0 = 0.1;                // ground velocity at the start [m/s]
@@ -50,9 +52,9 @@ struct Settings {
   double attitude_sigma_0 = 0.1 * rad_per_deg;  // [rad]
   double wind_sigma_0 = 20;                     // of each component, when nothing is known [m/s]
 
-  Densities degraded{1, 10 * rad_per_deg, 0.01 * rad_per_deg, 0.3};  // at the least, where the model is not
-                                                                     // to be trusted
-  double longest_prediction = 0.025;                                 // a longer step is taken in parts [s]
+  Densities degraded{1, 10 * rad_per_deg, 0.01 * rad_per_deg, 0.3, 0};  // at the least, where the model is
+                                                                        // not to be trusted
+  double longest_prediction = 0.025;                                    // a longer step is taken in parts [s]
   double coast_limit = 2;           // without navigation; then the filter starts again [s]
   double stale_limit = 0.1;         // navigation that does not change for longer is stale [s]
   double fins_late = 0.03;          // an older deflection is flagged [s],

@@ -96,6 +96,7 @@ TEST(Wind, EveryParameterOfTheFilterActs) {
   using P = Parameter;
   for (const auto& [parameter, initial, other] :
        std::initializer_list<std::tuple<P, float, float>>{{P::process_noise, 0, 1},
+                                                          {P::process_noise, 1, 2},
                                                           {P::air_velocity_noise_mpsprts, 0.02F, 1},
                                                           {P::body_rate_noise_degpsprts, 0.5F, 1},
                                                           {P::attitude_noise_degprts, 0.01F, 1},

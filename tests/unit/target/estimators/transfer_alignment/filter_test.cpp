@@ -69,8 +69,8 @@ TEST(TransferAlignment, BiasesThatAreKnownExactlyStayAsTheyAre) {
     settings.algorithm = algorithm;
     settings.accel_bias_sigma_0.setZero();
     settings.gyro_bias_sigma_0.setZero();
-    const State state =
-        run(settings, [](const State&, const UpdateResult& result) { ASSERT_EQ(result.outcome, Outcome::ok); });
+    const State state = run(
+        settings, [](const State&, const UpdateResult& result) { ASSERT_EQ(result.outcome, Outcome::ok); });
     EXPECT_EQ(state.ins.accel_bias, Vector3d::Zero());
     EXPECT_EQ(state.ins.gyro_bias, Vector3d::Zero());
   }

@@ -77,7 +77,8 @@ TEST(WindFilter, DefaultsFollowTheWind) {
 TEST(WindFilter, EveryChoiceStaysPositiveDefinite) {
   const RecordedRun run;
   for (const Algorithm algorithm : {Algorithm::ekf, Algorithm::h_infinity, Algorithm::adaptive_q}) {
-    for (const ProcessNoise noise : {ProcessNoise::block_diagonal, ProcessNoise::correlated}) {
+    for (const ProcessNoise noise :
+         {ProcessNoise::block_diagonal, ProcessNoise::correlated, ProcessNoise::aerodynamic}) {
       Settings settings = run.settings;
       settings.algorithm = algorithm;
       settings.process_noise = noise;
@@ -101,8 +102,8 @@ TEST(WindFilter, AdaptiveNoiseMakesTheStatisticConsistent) {
   EXPECT_GT(mean_nis(tight), 2 * 9);
   EXPECT_NEAR(mean_nis(adaptive), 9.6, 0.4);  // three sigma of 1001 updates: 3 sqrt(2 * 9 / 1001)
   EXPECT_LT(adaptive.mean_error(500, 1001), tight.mean_error(500, 1001));
-  EXPECT_GT(adaptive.states.back().rate_noise_factor, 3);
-  for (const State& state : tight.states) EXPECT_EQ(state.rate_noise_factor, 1);
+  EXPECT_GT(adaptive.states.back().noise_factor, 3);
+  for (const State& state : tight.states) EXPECT_EQ(state.noise_factor, 1);
 }
 
 // A gap is predicted over in parts, each with its own fins: nearly what an update less would have given.

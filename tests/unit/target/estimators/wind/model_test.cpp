@@ -245,6 +245,70 @@ TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
   EXPECT_NEAR(added(ProcessNoise::block_diagonal)(0, 0), 0.09 * 0.02, 1e-15);
 }
 
+// Each part of each coefficient is made 1 larger by itself, in the airframe: what that adds to the loads is
+// what the part carries, and their squares are the covariance. The drag polar keeps the nominal lift.
+TEST(WindModel, CovarianceOfTheLoadsIsTheSumOverTheParts) {
+  const Deflection fins{0.05, -0.03, 0.02};
+  const Air air = standard_atmosphere(9000);
+  const Flow at = flow(banked.segment<3>(air_velocity_at), banked.segment<3>(rate_at), air, airframe_table);
+  const Coefficients nominal = coefficients(at, fins, airframe_table);
+  const Loads before = loads(at, nominal, air, airframe_table);
+  Eigen::Matrix3d force = Eigen::Matrix3d::Zero(), moment = Eigen::Matrix3d::Zero();
+  const auto add = [&](double Coefficients::*coefficient, auto enlarge) {
+    Airframe more = airframe_table;
+    enlarge(more);
+    Coefficients c = nominal;
+    c.*coefficient = coefficients(at, fins, more).*coefficient;
+    const Loads after = loads(at, c, air, airframe_table);
+    const Vector3d f = after.specific_force - before.specific_force, M = after.moment - before.moment;
+    force += f * f.transpose();
+    moment += M * M.transpose();
+  };
+  const auto longitudinal = [&](double Coefficients::*coefficient, Longitudinal Airframe::*part) {
+    add(coefficient, [&](Airframe& a) { (a.*part).constant *= 2, (a.*part).alpha *= 2; });
+    add(coefficient, [&](Airframe& a) { (a.*part).pitch_rate *= 2; });
+    add(coefficient, [&](Airframe& a) { (a.*part).elevator *= 2; });
+  };
+  const auto lateral = [&](double Coefficients::*coefficient, Lateral Airframe::*part) {
+    add(coefficient, [&](Airframe& a) { (a.*part).sideslip *= 2; });
+    add(coefficient, [&](Airframe& a) { (a.*part).roll_rate *= 2, (a.*part).yaw_rate *= 2; });
+    add(coefficient, [&](Airframe& a) { (a.*part).aileron *= 2, (a.*part).rudder *= 2; });
+  };
+  longitudinal(&Coefficients::lift, &Airframe::lift);
+  longitudinal(&Coefficients::pitch, &Airframe::pitch);
+  lateral(&Coefficients::side, &Airframe::side);
+  lateral(&Coefficients::roll, &Airframe::roll);
+  lateral(&Coefficients::yaw, &Airframe::yaw);
+  add(&Coefficients::drag, [](Airframe& a) {
+    a.drag.constant *= 2, a.drag.lift_squared *= 2, a.drag.sideslip_squared *= 2, a.drag.wave *= 2;
+  });
+  add(&Coefficients::drag, [](Airframe& a) { a.drag.deflection_squared *= 2; });
+
+  const LoadsCovariance found = loads_covariance(at, fins, air, airframe_table);
+  EXPECT_LT((found.specific_force - force).norm(), 1e-12 * force.norm());
+  EXPECT_LT((Eigen::Matrix3d(found.moment.asDiagonal()) - moment).norm(), 1e-12 * moment.norm());
+}
+
+TEST(WindModel, NoiseOfTheCoefficientsIsThatOfTheLoads) {
+  Settings settings;
+  settings.density = {0, 0, 0, 0, 0.01};
+  settings.process_noise = ProcessNoise::aerodynamic;
+  StateVector x = banked;
+  Covariance P = Covariance::Zero();
+  RangeFlags outside;
+  const Inputs inputs = at_altitude(9000);
+  predict(x, P, 0.02, inputs, settings.density, make_design(settings), outside);
+  const LoadsCovariance loads = loads_covariance(
+      flow(banked.segment<3>(air_velocity_at), banked.segment<3>(rate_at), inputs.air, airframe_table),
+      inputs.fins, inputs.air, airframe_table);
+  const Eigen::Matrix3d by_moment = design().inertia_inverse;
+  Covariance expected = Covariance::Zero();
+  expected.block<3, 3>(air_velocity_at, air_velocity_at) = 1e-4 * 0.02 * loads.specific_force;
+  expected.block<3, 3>(rate_at, rate_at) =
+      1e-4 * 0.02 * by_moment * loads.moment.asDiagonal() * by_moment.transpose();
+  EXPECT_LT((P - expected).norm(), 1e-12 * expected.norm());
+}
+
 // F = I + A dt + (A dt)^2/2 in full, by dense products.
 TEST(WindModel, CovariancePredictionIsThatOfTheDenseTransition) {
   RangeFlags outside;
