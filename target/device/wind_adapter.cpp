@@ -11,7 +11,7 @@
 #include "target/device/group_intake.hpp"
 #include "target/device/tuned_adapter.hpp"
 #include "target/device/wind_parameters.hpp"
-#include "target/estimators/wind/filter.hpp"
+#include "target/estimators/wind/bank.hpp"
 
 namespace canhil::target {
 namespace {
@@ -67,13 +67,13 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     tuning_.filter.ground_speed_most = ground_speed_most;
     tuning_.filter.rate_most = rate_most;
     reset_parameters();
-    design_ = wind::make_design(tuning_.filter);
+    design_ = wind::make_bank(tuning_.filter);
     return true;
   }
 
   ParameterStatus set(Parameter parameter, double value, bool running) override {
     const ParameterStatus status = TunedAdapter::set(parameter, value, running);
-    design_ = wind::make_design(tuning_.filter);
+    design_ = wind::make_bank(tuning_.filter);
     return status;
   }
   // Where the air velocity at release is not known, the wind is not: the first usable sample starts the
@@ -82,15 +82,15 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     wind::Settings& filter = tuning_.filter;
     filter.velocity_sigma_0 = std::max(initial.velocity_sigma, 1e-3);
     filter.attitude_sigma_0 = std::max({initial.tilt_sigma, initial.heading_sigma, 1e-3 * deg});
-    design_ = wind::make_design(filter);
-    state_ = initial.air ? wind::initial({.t_us = initial.t_us,
-                                          .air_velocity = vector(initial.air->velocity),
-                                          .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
-                                          .omega = vector(initial.air->rate),
-                                          .attitude = {initial.roll, initial.pitch, initial.heading},
-                                          .altitude = initial.height},
-                                         design_)
-                         : wind::initial(design_);
+    design_ = wind::make_bank(filter);
+    bank_ = initial.air ? wind::initial({.t_us = initial.t_us,
+                                         .air_velocity = vector(initial.air->velocity),
+                                         .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
+                                         .omega = vector(initial.air->rate),
+                                         .attitude = {initial.roll, initial.pitch, initial.heading},
+                                         .altitude = initial.height},
+                                        design_)
+                        : wind::initial(design_);
     fins_ = {};
     group_.discard();
     start_us_ = newest_us_ = answered_us_ = initial.t_us;
@@ -139,7 +139,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
   void on_fins(const FinDeflections& fins, Context& context) {
     const std::int64_t t_us = unwrap_short_us(std::llround(fins.time_of_validity_us), latest_us(context));
     const wind::Deflection deflection{fins.elevator_deg * deg, fins.aileron_deg * deg, fins.rudder_deg * deg};
-    switch (fins_.push(t_us, deflection, design_.airframe.deflection_most)) {
+    switch (fins_.push(t_us, deflection, design_.of[0].airframe.deflection_most)) {
       case wind::FinOutcome::kept:
         break;
       case wind::FinOutcome::out_of_order:
@@ -163,7 +163,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
       return answer(t_us, WindOutcome::future, {}, context.answers);
     }
     const wind::UpdateResult result = wind::step(
-        state_,
+        bank_,
         {.t_us = t_us,
          .v_eb_n = {horizontal.velocity_north_mps, horizontal.velocity_east_mps, vertical.velocity_down_mps},
          .omega = Eigen::Vector3d(rates.rate_x_degps, rates.rate_y_degps, rates.rate_z_degps) * deg,
@@ -200,16 +200,16 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
   void answer(std::int64_t t_us, WindOutcome outcome, const wind::UpdateResult& result, Answers& answers) {
     constexpr int n = wind::wind_at, e = n + 1, d = n + 2;
     const auto bit = [](bool set) { return static_cast<std::uint8_t>(set); };
-    const wind::Estimate best = wind::estimate(state_);
-    const wind::Uncertainty sigma = wind::uncertainty(state_);
+    const wind::Estimate best = wind::estimate(bank_.x);
+    const wind::Uncertainty sigma = wind::uncertainty(bank_.x, bank_.P);
     const wind::RangeFlags& outside = result.flags.outside;
     const auto correlation = [&](int i, int j) {
-      return state_.P(i, j) / std::max(sigma.state(i) * sigma.state(j), 1e-12);
+      return bank_.P(i, j) / std::max(sigma.state(i) * sigma.state(j), 1e-12);
     };
     answers.send(WindVector{.wind_north_mps = best.wind.x(),
                             .wind_east_mps = best.wind.y(),
                             .wind_down_mps = best.wind.z(),
-                            .started = bit(state_.started)});
+                            .started = bit(bank_.started)});
     answers.send(WindSpeed{.wind_speed_mps = best.wind_speed,
                            .wind_from_deg = best.wind_from / deg,
                            .outcome = outcome,
@@ -247,8 +247,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
         WindUpdate{.cause_time_us = wrap_us(t_us), .cause_counter = group_.counter(), .nis = result.nis});
   }
 
-  wind::Design design_ = wind::make_design({});
-  wind::State state_;
+  wind::BankDesign design_ = wind::make_bank({});
+  wind::Bank bank_;
   wind::FinHistory fins_;
   SampleGroup<GliderNavVelocityNE, GliderNavAttitude, GliderNavRates, GliderNavVelocityD> group_;
   std::int64_t start_us_ = 0;

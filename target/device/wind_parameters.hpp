@@ -25,7 +25,7 @@ inline constexpr std::array wind_parameters = [] {
   return std::array{
       Row{P::output_interval_ms, 20, 1, 1000, real, any_time,
           [](WindTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
-      Row{P::process_noise, 0, 0, 2, whole, any_time,
+      Row{P::process_noise, 0, 0, 3, whole, any_time,
           [](WindTuning& t, double v) {
             t.filter.process_noise = static_cast<wind::ProcessNoise>(std::lround(v));
           }},

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "target/estimators/wind/squared.hpp"
+
 namespace canhil::wind {
 namespace {
 
@@ -17,8 +19,6 @@ double held(double value, const Range& range, bool& outside) {
 
 // v v', evaluated by itself: a factor put into one of the two would cost the symmetry its last bit.
 Matrix3d dyad(const Vector3d& v) { return v * v.transpose(); }
-
-double squared(double value) { return value * value; }
 
 double drag_of(const Deflection& fins, const Drag& drag) {
   return drag.deflection_squared *

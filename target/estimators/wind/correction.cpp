@@ -18,6 +18,7 @@ void absorb(Correction& c, const StateVector& Ph, double S, double residual) {
   c.P.noalias() -= q.lazyProduct(q.transpose());
   c.dx += normalised * q;
   c.nis += normalised * normalised;
+  c.determinant *= S;
 }
 
 }  // namespace

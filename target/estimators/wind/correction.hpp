@@ -8,7 +8,8 @@ namespace canhil::wind {
 struct Correction {
   StateVector dx = StateVector::Zero();
   Covariance P;
-  double nis = 0;  // innovation' S^-1 innovation: chi-square of 9 if consistent
+  double nis = 0;          // innovation' S^-1 innovation: chi-square of 9 if consistent
+  double determinant = 1;  // of S, in the units of the innovation
 };
 
 /// The Kalman update of P by an observation of the given innovation, noise variances diagonal.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "target/estimators/wind/squared.hpp"
+
 namespace canhil::wind {
 namespace {
 
@@ -11,8 +13,6 @@ using Eigen::Vector3d;
 
 constexpr double us = 1e-6;
 constexpr double theta_interval_most = 0.1;  // a longer gap counts as this [s]
-
-double squared(double value) { return value * value; }
 
 Observation observation(const Navigation& n) {
   Observation y;
@@ -91,7 +91,7 @@ void advance(State& state, double dt, const ActingFins& acting, const Design& de
   outside.altitude = !(state.altitude >= range.least && state.altitude <= range.most);
   const Inputs inputs{acting.mean, standard_atmosphere(std::clamp(state.altitude, range.least, range.most))};
   Densities density = design.settings.density;
-  const bool of_coefficients = design.settings.process_noise == ProcessNoise::aerodynamic;
+  const bool of_coefficients = design.settings.process_noise >= ProcessNoise::aerodynamic;
   (of_coefficients ? density.coefficient : density.rate) *= std::sqrt(state.noise_factor);
   if (flags.fins_missing) density = raised(density, design.settings.degraded);
   predict(state.x, state.P, dt, inputs, density, design, outside);
@@ -160,6 +160,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
       gap > 0 ? std::min(gap, theta_interval_most) : settings.sample_period;  // the first sample: at release
   const Answer answer = update(state.x, state.P, result.innovation, at, interval, design);
   result.nis = answer.nis;
+  result.surprise = answer.surprise;
   result.theta = answer.theta;
   result.flags.theta_capped = answer.theta_capped;
   result.outcome = Outcome::updated;

@@ -71,6 +71,7 @@ struct UpdateResult {
   Flags flags;
   Observation innovation = Observation::Zero();  // ground velocity, rates, Euler angles
   double nis = 0;                                // chi-square of 9 if consistent; 0 without an update
+  double surprise = 0;                           // that and ln det S; 0 without an update
   double theta = 0;                              // H-infinity, as used
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "target/estimators/wind/squared.hpp"
+
 namespace canhil::wind {
 namespace {
 
@@ -10,8 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double theta_lambda_most = 0.9;  // P~ exists below 1
-
-double squared(double value) { return value * value; }
 
 Observation noise_variance(const Settings& s) {
   Observation R;
@@ -59,7 +59,7 @@ void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, con
     P.block<3, 3>(wind_at, air_velocity_at) -= q_wind * C_nb.transpose();
   }
   P.diagonal() += Q;
-  if (design.settings.process_noise == ProcessNoise::aerodynamic)
+  if (design.settings.process_noise >= ProcessNoise::aerodynamic)
     add_noise_of_coefficients(P, squared(noise.coefficient) * dt, x, inputs, design);
   x = predicted(x, at.f, dt, inputs, design, outside);
 }
@@ -78,6 +78,7 @@ Answer update(StateVector& x, Covariance& P, const Observation& innovation, cons
   Answer answer{.innovation = innovation};
   Correction c = corrected(P, innovation, at, noise_variance(settings));
   answer.nis = c.nis;
+  answer.surprise = c.nis + std::log(c.determinant);
   if (settings.algorithm == Algorithm::h_infinity) {
     const double theta = settings.theta_per_s * interval;
     const double cap = std::min(settings.theta_cap_per_s * interval, theta_lambda_most);

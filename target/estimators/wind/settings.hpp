@@ -18,6 +18,7 @@ enum class ProcessNoise : std::uint8_t {
   block_diagonal,  // the paper's, presumably: the wind's noise does not reach the air velocity
   correlated,      // v_a' = ... - C v_w': it does
   aerodynamic,     // correlated, and the noise that wrong coefficients make of the loads of the moment
+  likeliest,       // several filters, each with another noise, weighted by what was measured (bank.hpp)
 };
 
 /// Process noise, densities per sqrt(s).
@@ -45,6 +46,10 @@ struct Settings {
 
   double adaptation_time = 0.3;   // of the noise that follows, the statistic being 1 too large [s]
   double adaptation_limit = 1e4;  // of the factor on the variance of that noise
+
+  double gust_noise = 4;  // of the wind, for the filter of the bank that believes in gusts [m/s/sqrt(s)]
+  double memory = 1;      // of the likelihoods of the bank [s]
+  double odds_of_gusts = 1e-3;  // against the other filter, before anything is measured
 
   double air_velocity_sigma_0 = 1;              // known at the start [m/s]
   double velocity_sigma_0 = 0.1;                // ground velocity at the start [m/s]

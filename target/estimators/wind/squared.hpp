@@ -1,0 +1,7 @@
+#pragma once
+
+namespace canhil::wind {
+
+inline double squared(double value) { return value * value; }
+
+}  // namespace canhil::wind
