@@ -7,11 +7,9 @@
 namespace canhil::wind {
 namespace {
 
-using Weights = std::array<double, bank_most>;
-
 // Of filters that have not started none counts, unless none has.
-Weights weights(const Bank& bank, const BankDesign& design) {
-  Weights exponent, w{};
+void weigh(Bank& bank, const BankDesign& design) {
+  std::array<double, bank_most> exponent;
   double largest = -std::numeric_limits<double>::infinity();
   const bool any =
       std::any_of(bank.states.begin(), bank.states.begin() + static_cast<std::ptrdiff_t>(design.count),
@@ -22,13 +20,13 @@ Weights weights(const Bank& bank, const BankDesign& design) {
     largest = std::max(largest, exponent[i]);
   }
   double sum = 0;
-  for (std::size_t i = 0; i < design.count; ++i) sum += w[i] = std::exp(exponent[i] - largest);
-  for (std::size_t i = 0; i < design.count; ++i) w[i] /= sum;
-  return w;
+  for (std::size_t i = 0; i < design.count; ++i) sum += bank.weight[i] = std::exp(exponent[i] - largest);
+  for (std::size_t i = 0; i < design.count; ++i) bank.weight[i] /= sum;
 }
 
-std::size_t likeliest(const Weights& w) {
-  return static_cast<std::size_t>(std::max_element(w.begin(), w.end()) - w.begin());
+std::size_t likeliest(const Bank& bank) {
+  return static_cast<std::size_t>(std::max_element(bank.weight.begin(), bank.weight.end()) -
+                                  bank.weight.begin());
 }
 
 // x less y, roll and heading within +-pi.
@@ -38,18 +36,19 @@ StateVector difference(const StateVector& x, const StateVector& y) {
   return d;
 }
 
-void mix(Bank& bank, const BankDesign& design, const Weights& w) {
-  const State& most = bank.states[likeliest(w)];
+void mix(Bank& bank, const BankDesign& design) {
+  const State& most = bank.states[likeliest(bank)];
   bank.started = most.started;
   bank.x = most.x;
   bank.P = most.P;
   if (design.count == 1) return;
   StateVector mean = StateVector::Zero();
-  for (std::size_t i = 0; i < design.count; ++i) mean += w[i] * difference(bank.states[i].x, most.x);
+  for (std::size_t i = 0; i < design.count; ++i)
+    mean += bank.weight[i] * difference(bank.states[i].x, most.x);
   bank.P.setZero();
   for (std::size_t i = 0; i < design.count; ++i) {
     const StateVector d = difference(bank.states[i].x, most.x) - mean;
-    bank.P += w[i] * (bank.states[i].P + d * d.transpose());
+    bank.P += bank.weight[i] * (bank.states[i].P + d * d.transpose());
   }
   bank.x += mean;
   for (const int i : {attitude_at, attitude_at + 2}) bank.x(i) = wrapped(bank.x(i));
@@ -59,7 +58,8 @@ Bank of(const BankDesign& design, const auto& state_of) {
   Bank bank;
   bank.count = design.count;
   for (std::size_t i = 0; i < design.count; ++i) bank.states[i] = state_of(design.of[i]);
-  mix(bank, design, weights(bank, design));
+  weigh(bank, design);
+  mix(bank, design);
   return bank;
 }
 
@@ -100,9 +100,10 @@ UpdateResult step(Bank& bank, const Navigation& navigation, const FinHistory& fi
     const double dt = before_us ? 1e-6 * static_cast<double>(navigation.t_us - *before_us) : 0;
     bank.surprise[i] = bank.surprise[i] * std::exp(-dt / design.of[i].settings.memory) + results[i].surprise;
   }
-  const Weights w = weights(bank, design);
-  mix(bank, design, w);
-  return results[likeliest(w)];
+  for (std::size_t i = design.count; i < bank_most; ++i) bank.weight[i] = 0;
+  weigh(bank, design);
+  mix(bank, design);
+  return results[likeliest(bank)];
 }
 
 }  // namespace canhil::wind

@@ -28,6 +28,7 @@ struct BankDesign {
 struct Bank {
   std::array<State, bank_most> states;
   std::array<double, bank_most> surprise{};  // J
+  std::array<double, bank_most> weight{};    // w, of the last sample
   std::size_t count = 0;                     // of filters that run
   StateVector x = StateVector::Zero();  // the mixture; of a filter that has not started only the wind counts
   Covariance P = Covariance::Identity();

@@ -13,7 +13,7 @@
 #include "target/estimators/inflight_alignment/history.hpp"
 #include "target/estimators/los_rate/filter.hpp"
 #include "target/estimators/transfer_alignment/history.hpp"
-#include "target/estimators/wind/filter.hpp"
+#include "target/estimators/wind/bank.hpp"
 #include "tests/unit/target/estimators/flight.hpp"
 #include "tests/unit/target/estimators/los_rate/engagement.hpp"
 
@@ -191,14 +191,15 @@ TEST(Allocation, WindAllocatesNothing) {
     Settings settings;
     settings.algorithm = algorithm;
     settings.theta_per_s = 10;  // capped at times
-    const Design design = make_design(settings);
+    settings.process_noise = ProcessNoise::likeliest;
+    const BankDesign design = make_bank(settings);
     Start start;
     start.air_velocity << 250, 0, 2;
     start.v_eb_n << 255, 60, 2;
     start.omega.setZero();
     start.attitude.setZero();
     start.altitude = 10'000;
-    State state = initial(start, design);
+    Bank bank = initial(start, design);
     FinHistory fins;
     int outcomes[7] = {};
     const std::size_t before = allocations;
@@ -210,10 +211,11 @@ TEST(Allocation, WindAllocatesNothing) {
                               .attitude = start.attitude,
                               .altitude = start.altitude,
                               .valid = k % 20 < 18 && k % 300 < 180};
-      ++outcomes[static_cast<int>(step(state, sample, fins, design).outcome)];
-      if (k == 450) state.x(0) = std::nan("");
-      const Uncertainty sigma = uncertainty(state);
-      if (sigma.along_track < 0 || estimate(state).wind_speed < 0) std::abort();
+      ++outcomes[static_cast<int>(step(bank, sample, fins, design).outcome)];
+      if (k == 450)
+        for (State& state : bank.states) state.x(0) = std::nan("");
+      const Uncertainty sigma = uncertainty(bank.x, bank.P);
+      if (sigma.along_track < 0 || estimate(bank.x).wind_speed < 0) std::abort();
     }
     const std::size_t made = allocations - before;
     EXPECT_EQ(made, 0U);
