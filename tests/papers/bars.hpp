@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "bench/campaign/evaluate.hpp"
@@ -13,10 +15,12 @@
 
 namespace canhil::papers {
 
-/// Flies a campaign file of tests/papers and expects every bar to be met, and that there are `bars` of them.
-/// Gives the answers.
-inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, std::size_t bars) {
-  const auto campaign = campaign::read_campaign(SOURCE_DIR "/tests/papers/" + file);
+/// Flies a campaign file, from the root of the project, and expects every bar to be met, and that there are
+/// `bars` of them; with as many runs as the file has, or `runs`. Gives the answers.
+inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, std::size_t bars,
+                                                     std::optional<std::uint64_t> runs = {}) {
+  auto campaign = campaign::read_campaign(SOURCE_DIR "/" + file);
+  if (campaign && runs) campaign->runs = *runs;
   if (!campaign) {
     ADD_FAILURE() << campaign.error().message;
     return {};
@@ -42,12 +46,14 @@ inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, st
     ADD_FAILURE() << evaluation.error().message;
     return {};
   }
-  EXPECT_EQ(evaluation->answers.size(), bars);
+  std::size_t judged = 0;
   for (const campaign::Answer& answer : evaluation->answers) {
-    EXPECT_TRUE(answer.passed.value_or(false))
-        << answer.requirement << ": " << answer.metric << " (" << answer.variant << "): " << answer.measured
-        << ", expected " << answer.expected;
+    if (!answer.passed) continue;
+    ++judged;
+    EXPECT_TRUE(*answer.passed) << answer.requirement << ": " << answer.metric << " (" << answer.variant
+                                << "): " << answer.measured << ", expected " << answer.expected;
   }
+  EXPECT_EQ(judged, bars);
   return evaluation->answers;
 }
 

@@ -7,7 +7,7 @@ namespace canhil::papers {
 namespace {
 
 TEST(InflightAlignmentPaperOverTheBus, MeetsTheBarsWith40Runs) {
-  const auto answers = expect_bars_met("inflight_alignment_bus/bars.toml", 8);
+  const auto answers = expect_bars_met("tests/papers/inflight_alignment_bus/bars.toml", 8);
   const auto rms_deg = [&](const char* variant) {
     const auto found = std::ranges::find_if(answers, [&](const campaign::Answer& answer) {
       return answer.variant == variant && answer.quantity == &quantities::attitude_heading;

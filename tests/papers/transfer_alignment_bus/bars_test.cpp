@@ -6,7 +6,7 @@ namespace canhil::papers {
 namespace {
 
 TEST(TransferAlignmentPaperOverTheBus, MeetsTheBarsWith40Runs) {
-  expect_bars_met("transfer_alignment_bus/bars.toml", 9);
+  expect_bars_met("tests/papers/transfer_alignment_bus/bars.toml", 9);
 }
 
 }  // namespace
