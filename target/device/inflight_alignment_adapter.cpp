@@ -24,8 +24,8 @@ constexpr double deg = std::numbers::pi / 180;
 constexpr double degph = deg / 3600;
 constexpr double ug = 1e-6 * 9.80665;
 
-constexpr std::int64_t history_us = 2'500'000;
-constexpr std::size_t history_length = 2560;         // of increments, which come each millisecond at the most
+constexpr std::int64_t history_us = 5'000'000;
+constexpr std::size_t history_length = 5120;         // of increments, which come each millisecond at the most
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
 constexpr std::size_t pending_limit = 4;             // fixes ahead of the INS that are kept
 
