@@ -7,10 +7,10 @@
 #include <functional>
 #include <limits>
 
+#include "bench/campaign/seconds.hpp"
+
 namespace canhil::campaign {
 namespace {
-
-double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 std::string with_unit(double value, const quantities::Unit& unit) {
   return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);

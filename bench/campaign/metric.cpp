@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "bench/campaign/seconds.hpp"
 #include "bench/checks/read_quantity.hpp"
 #include "bench/mapping/mapping.hpp"
 #include "bench/scenario/rule.hpp"
@@ -20,8 +21,6 @@ struct Context {
   const std::vector<std::string>& variants;
   std::int64_t duration_us;
 };
-
-double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 /// Whether campaigns keep a quantity: some of single runs they do not.
 bool is_sampled(const Quantity& quantity) {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "bench/campaign/seconds.hpp"
 #include "bench/campaign/updates.hpp"
 #include "bench/checks/probability.hpp"
 #include "bench/checks/silence.hpp"
@@ -17,8 +18,6 @@ namespace canhil::campaign {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 // At least one value.
 double median(std::vector<double> values) {

@@ -5,14 +5,13 @@
 #include <iterator>
 #include <limits>
 
+#include "bench/campaign/seconds.hpp"
 #include "bench/checks/silence.hpp"
 
 namespace canhil::campaign {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double seconds(std::int64_t t_us) { return static_cast<double>(t_us) / 1e6; }
 
 // When a run can have answered last.
 std::int64_t end_of(const RunSeries& run) {

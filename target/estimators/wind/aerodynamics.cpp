@@ -90,30 +90,30 @@ Loads loads(const Flow& f, const Coefficients& c, const Air& air, const Airframe
           force * Vector3d(airframe.span * c.roll, airframe.chord * c.pitch, airframe.span * c.yaw)};
 }
 
-LoadsCovariance loads_covariance(const Flow& f, const Deflection& fins, const Air& air,
+LoadsCovariance loads_covariance(const Flow& f, const Deflection& fins, const Coefficients& c, const Air& air,
                                  const Airframe& airframe) {
-  const double k = f.compressibility;
-  const auto longitudinal = [&](const Longitudinal& t) {
-    return squared(k * (t.constant + t.alpha * f.alpha)) + squared(t.pitch_rate * f.rates.y()) +
-           squared(k * t.elevator * fins.elevator);
+  // The parts of a coefficient are what it loses without the rates, and then without the fins.
+  Flow steady = f;
+  steady.rates.setZero();
+  const Coefficients with_fins = coefficients(steady, fins, airframe);
+  const Coefficients of_flow = coefficients(steady, {}, airframe);
+  const auto variance = [&](double Coefficients::*which) {
+    return squared(of_flow.*which) + squared(with_fins.*which - of_flow.*which) +
+           squared(c.*which - with_fins.*which);
   };
-  const auto lateral = [&](const Lateral& t) {
-    return squared(k * t.sideslip * f.beta) + squared(t.roll_rate * f.rates.x() + t.yaw_rate * f.rates.z()) +
-           squared(k * (t.aileron * fins.aileron + t.rudder * fins.rudder));
-  };
+  // The drag polar is a table of the flow: its induced part goes with the whole lift.
   const double drag_of_fins = drag_of(fins, airframe.drag);
-  const double drag = coefficients(f, fins, airframe).drag - drag_of_fins;
   const Vector3d along_lift(f.sin_alpha, 0, -f.cos_alpha), along_drag(-f.cos_alpha, 0, -f.sin_alpha);
   const double force = 0.5 * air.density * f.speed * f.speed * airframe.area;
-  LoadsCovariance c;
-  c.specific_force = longitudinal(airframe.lift) * dyad(along_lift) +
-                     (squared(drag) + squared(drag_of_fins)) * dyad(along_drag);
-  c.specific_force(1, 1) = lateral(airframe.side);
-  c.specific_force *= squared(force / airframe.mass);
-  c.moment = Vector3d(squared(force * airframe.span) * lateral(airframe.roll),
-                      squared(force * airframe.chord) * longitudinal(airframe.pitch),
-                      squared(force * airframe.span) * lateral(airframe.yaw));
-  return c;
+  LoadsCovariance covariance;
+  covariance.specific_force = variance(&Coefficients::lift) * dyad(along_lift) +
+                              (squared(c.drag - drag_of_fins) + squared(drag_of_fins)) * dyad(along_drag);
+  covariance.specific_force(1, 1) = variance(&Coefficients::side);
+  covariance.specific_force *= squared(force / airframe.mass);
+  covariance.moment = Vector3d(squared(force * airframe.span) * variance(&Coefficients::roll),
+                               squared(force * airframe.chord) * variance(&Coefficients::pitch),
+                               squared(force * airframe.span) * variance(&Coefficients::yaw));
+  return covariance;
 }
 
 LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3d& v_a, const Air& air,

@@ -52,8 +52,8 @@ Coefficients coefficients(const Flow& flow, const Deflection& fins, const Airfra
 
 Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airframe& airframe);
 
-LoadsCovariance loads_covariance(const Flow& flow, const Deflection& fins, const Air& air,
-                                 const Airframe& airframe);
+LoadsCovariance loads_covariance(const Flow& flow, const Deflection& fins, const Coefficients& c,
+                                 const Air& air, const Airframe& airframe);
 
 /// v_a is the velocity `flow` was made of.
 LoadsJacobian loads_jacobian(const Flow& flow, const Coefficients& c, const Eigen::Vector3d& v_a,

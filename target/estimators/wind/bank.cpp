@@ -9,6 +9,7 @@ namespace {
 
 // Of filters that have not started none counts, unless none has.
 void weigh(Bank& bank, const BankDesign& design) {
+  bank.weight = {};
   std::array<double, bank_most> exponent;
   double largest = -std::numeric_limits<double>::infinity();
   const bool any =
@@ -100,7 +101,6 @@ UpdateResult step(Bank& bank, const Navigation& navigation, const FinHistory& fi
     const double dt = before_us ? 1e-6 * static_cast<double>(navigation.t_us - *before_us) : 0;
     bank.surprise[i] = bank.surprise[i] * std::exp(-dt / design.of[i].settings.memory) + results[i].surprise;
   }
-  for (std::size_t i = design.count; i < bank_most; ++i) bank.weight[i] = 0;
   weigh(bank, design);
   mix(bank, design);
   return results[likeliest(bank)];

@@ -91,8 +91,8 @@ void advance(State& state, double dt, const ActingFins& acting, const Design& de
   outside.altitude = !(state.altitude >= range.least && state.altitude <= range.most);
   const Inputs inputs{acting.mean, standard_atmosphere(std::clamp(state.altitude, range.least, range.most))};
   Densities density = design.settings.density;
-  const bool of_coefficients = design.settings.process_noise >= ProcessNoise::aerodynamic;
-  (of_coefficients ? density.coefficient : density.rate) *= std::sqrt(state.noise_factor);
+  (follows_loads(design.settings.process_noise) ? density.coefficient : density.rate) *=
+      std::sqrt(state.noise_factor);
   if (flags.fins_missing) density = raised(density, design.settings.degraded);
   predict(state.x, state.P, dt, inputs, density, design, outside);
   flags.outside |= outside;

@@ -101,7 +101,10 @@ StateVector derivative(const StateVector& x, const Inputs& inputs, const Design&
 Linearisation linearise(const StateVector& x, const Inputs& inputs, const Design& design,
                         RangeFlags& outside) {
   const Evaluation e = evaluate(x, inputs, design, outside);
-  return {derivative(e, inputs, design), jacobian(e, inputs, design)};
+  Linearisation at{derivative(e, inputs, design), jacobian(e, inputs, design), std::nullopt};
+  if (follows_loads(design.settings.process_noise))
+    at.loads = loads_covariance(e.flow, inputs.fins, e.c, inputs.air, design.airframe);
+  return at;
 }
 
 StateVector predicted(const StateVector& x, const StateVector& f, double dt, const Inputs& inputs,

@@ -6,6 +6,7 @@
 //   v_w'   = noise                                         wind, NED [m/s]
 //   y      = [C_bn v_a + v_w, omega, Phi]                  ground velocity, NED [m/s], rates, Euler angles
 #include <Eigen/Core>
+#include <optional>
 
 #include "target/estimators/filtering/kalman.hpp"
 #include "target/estimators/wind/aerodynamics.hpp"
@@ -38,6 +39,7 @@ struct Jacobian {
 struct Linearisation {
   StateVector f;
   Jacobian A;
+  std::optional<LoadsCovariance> loads;  // where the process noise follows them
 };
 
 /// x' and its analytic Jacobian at x.

@@ -21,10 +21,7 @@ Observation noise_variance(const Settings& s) {
 }
 
 // What coefficients that are wrong by shares of variance q do to the air velocity and to the rates.
-void add_noise_of_coefficients(Covariance& P, double q, const StateVector& x, const Inputs& inputs,
-                               const Design& design) {
-  const Flow at = flow(x.segment<3>(air_velocity_at), x.segment<3>(rate_at), inputs.air, design.airframe);
-  const LoadsCovariance loads = loads_covariance(at, inputs.fins, inputs.air, design.airframe);
+void add_noise_of_coefficients(Covariance& P, double q, const LoadsCovariance& loads, const Design& design) {
   P.block<3, 3>(air_velocity_at, air_velocity_at) += q * loads.specific_force;
   const Matrix3d root = design.inertia_inverse * loads.moment.cwiseSqrt().asDiagonal();
   const Matrix3d of_rates = root.lazyProduct(root.transpose());  // symmetric to the last bit
@@ -59,8 +56,7 @@ void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, con
     P.block<3, 3>(wind_at, air_velocity_at) -= q_wind * C_nb.transpose();
   }
   P.diagonal() += Q;
-  if (design.settings.process_noise >= ProcessNoise::aerodynamic)
-    add_noise_of_coefficients(P, squared(noise.coefficient) * dt, x, inputs, design);
+  if (at.loads) add_noise_of_coefficients(P, squared(noise.coefficient) * dt, *at.loads, design);
   x = predicted(x, at.f, dt, inputs, design, outside);
 }
 

@@ -21,6 +21,10 @@ enum class ProcessNoise : std::uint8_t {
   likeliest,       // several filters, each with another noise, weighted by what was measured (bank.hpp)
 };
 
+constexpr bool follows_loads(ProcessNoise noise) {
+  return noise == ProcessNoise::aerodynamic || noise == ProcessNoise::likeliest;
+}
+
 /// Process noise, densities per sqrt(s).
 struct Densities {
   double air_velocity = 0.02;            // [m/s]

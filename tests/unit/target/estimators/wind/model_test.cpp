@@ -284,7 +284,7 @@ TEST(WindModel, CovarianceOfTheLoadsIsTheSumOverTheParts) {
   });
   add(&Coefficients::drag, [](Airframe& a) { a.drag.deflection_squared *= 2; });
 
-  const LoadsCovariance found = loads_covariance(at, fins, air, airframe_table);
+  const LoadsCovariance found = loads_covariance(at, fins, nominal, air, airframe_table);
   EXPECT_LT((found.specific_force - force).norm(), 1e-12 * force.norm());
   EXPECT_LT((Eigen::Matrix3d(found.moment.asDiagonal()) - moment).norm(), 1e-12 * moment.norm());
 }
@@ -298,9 +298,10 @@ TEST(WindModel, NoiseOfTheCoefficientsIsThatOfTheLoads) {
   RangeFlags outside;
   const Inputs inputs = at_altitude(9000);
   predict(x, P, 0.02, inputs, settings.density, make_design(settings), outside);
+  const Flow at =
+      flow(banked.segment<3>(air_velocity_at), banked.segment<3>(rate_at), inputs.air, airframe_table);
   const LoadsCovariance loads = loads_covariance(
-      flow(banked.segment<3>(air_velocity_at), banked.segment<3>(rate_at), inputs.air, airframe_table),
-      inputs.fins, inputs.air, airframe_table);
+      at, inputs.fins, coefficients(at, inputs.fins, airframe_table), inputs.air, airframe_table);
   const Eigen::Matrix3d by_moment = design().inertia_inverse;
   Covariance expected = Covariance::Zero();
   expected.block<3, 3>(air_velocity_at, air_velocity_at) = 1e-4 * 0.02 * loads.specific_force;
