@@ -256,9 +256,13 @@ void answer(const Consistency& rule, const Runs& runs, const Runs& /*other*/, An
 }
 
 void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answer& out) {
-  const Divergence found = divergence(runs, *rule.quantity, rule.beyond);
+  const Divergence found = divergence(runs, *rule.quantity, rule.beyond, rule.from_us);
   const std::size_t astray = found.faulted + found.beyond;
   out.measured = fmt::format("{} of {} runs ({} ended early)", astray, found.runs, found.faulted);
+  if (rule.from_us) {
+    const quantities::Unit& unit = rule.quantity->unit;
+    out.measured += fmt::format(", largest {:.4g} {}", found.largest / unit.factor, unit.name);
+  }
   out.figures = {{"diverged", static_cast<double>(astray)}, {"faulted", static_cast<double>(found.faulted)}};
   Bars bars(out, true);
   const auto count = static_cast<std::int64_t>(astray);

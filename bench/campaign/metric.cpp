@@ -176,6 +176,7 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
 Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.quantity = read_error(section);
   rule.beyond = section.number(checks::key_of("beyond", rule.quantity->unit), Limits::above(0));
+  rule.from_us = section.optional_time_us("from_s", Limits{});  // of samples by the time to go minus it
   rule.at_most = section.optional_integer("at_most", 0);
   rule.at_least = section.optional_integer("at_least", 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
@@ -256,7 +257,10 @@ template <class Windowed>
 std::string subject(const Windowed& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
 }
-std::string subject(const Diverged& rule) { return " beyond " + in_unit(rule.beyond, *rule.quantity); }
+std::string subject(const Diverged& rule) {
+  const std::string beyond = " beyond " + in_unit(rule.beyond, *rule.quantity);
+  return rule.from_us ? fmt::format("{} from {:g} s on", beyond, seconds(*rule.from_us)) : beyond;
+}
 std::string subject(const ToGo& rule) {
   const std::string window = fmt::format(" {:g} to {:g} s to go", rule.most, rule.least);
   return rule.other.empty() ? window : fmt::format("{} against {}", window, rule.other);

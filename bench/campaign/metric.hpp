@@ -120,11 +120,12 @@ struct Consistency {
   std::optional<double> inside_at_least;  ///< fraction of the updates whose mean lies within the bounds
 };
 
-/// Runs that went astray.
+/// Runs that went astray: at their end, or at any time from one on.
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
   const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
+  std::optional<std::int64_t> from_us;            ///< none: at the end
   std::optional<std::int64_t> at_most, at_least;  ///< runs
 };
 

@@ -265,15 +265,36 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
   return statistics;
 }
 
-Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound) {
+namespace {
+
+// The largest |quantity| of the samples from a time on; NaN: one is no number, or there is none.
+double largest_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t from_us) {
+  const auto times = run.samples.times();
+  const auto from = static_cast<std::size_t>(std::ranges::lower_bound(times, from_us) - times.begin());
+  double largest = from == times.size() ? nan : 0;
+  for (std::size_t i = from; i < times.size(); ++i) {
+    const double magnitude = std::abs(run.samples.value(i, quantity));
+    if (!(magnitude <= largest)) largest = magnitude;
+    if (std::isnan(largest)) break;
+  }
+  return largest;
+}
+
+}  // namespace
+
+Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound,
+                      std::optional<std::int64_t> from_us) {
   constexpr std::int64_t at_the_end = std::numeric_limits<std::int64_t>::max();
   Divergence result{.runs = runs.size()};
   for (const RunSeries& run : runs) {
     if (run.ending.kind != drive::Ending::Kind::completed) {
       ++result.faulted;
-    } else if (!(last_magnitude(run, quantity, at_the_end) <= bound)) {
-      ++result.beyond;
+      continue;
     }
+    const double magnitude =
+        from_us ? largest_magnitude(run, quantity, *from_us) : last_magnitude(run, quantity, at_the_end);
+    if (!(magnitude <= bound)) ++result.beyond;
+    if (!(magnitude <= result.largest)) result.largest = magnitude;
   }
   return result;
 }

@@ -110,7 +110,10 @@ struct Divergence {
   std::size_t faulted = 0;
   std::size_t beyond = 0;  ///< of those that came to their end
   std::size_t runs = 0;
+  double largest = 0;  ///< |quantity| of the runs that came to their end, where it was judged
 };
-Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound);
+/// `from_us`: at any sample from then on; none: at the end.
+Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound,
+                      std::optional<std::int64_t> from_us = std::nullopt);
 
 }  // namespace canhil::campaign

@@ -72,4 +72,11 @@ inline constexpr Quantity innovation_nis{
 inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 
+/// What a target that errs and says that it is sure is judged by.
+inline constexpr Quantity trusted_over_sigma{.name = "trusted.over_sigma",
+                                             .meaning =
+                                                 "largest error over its sigma of all that an answer tells; "
+                                                 "0 where the answer says that it is not to be trusted",
+                                             .unit = plain};
+
 }  // namespace canhil::quantities

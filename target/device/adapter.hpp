@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "dbc/wire/transmit.hpp"
+#include "target/device/consistency.hpp"
 #include "target/device/parameter_table.hpp"
 
 namespace canhil::target {
@@ -65,6 +66,7 @@ struct Context {
   Answers& answers;
   Losses& losses;
   Errors& errors;
+  ConsistencyMonitor& consistency;  ///< to be told of every innovation; answers carry what it says
 };
 
 /// Outcome of a step that can end a run.

@@ -112,7 +112,7 @@ template <class Step>
 void Device::for_running(Step&& step) {
   for (Estimation& estimation : selected_) {
     if (estimation.state != TargetState::running) continue;
-    const Context context{now_us_, answers_, losses_, estimation.errors};
+    const Context context{now_us_, answers_, losses_, estimation.errors, estimation.consistency};
     if (step(estimation, context) == Health::fault) enter(estimation, TargetState::fault);
   }
 }
@@ -209,6 +209,7 @@ void Device::start() {
     for (Estimation& estimation : selected_) {
       estimation.untouched = true;
       estimation.initial.air = estimation.initial_air;
+      estimation.consistency.reset();
       estimation.adapter->start(estimation.initial);
       enter(estimation, TargetState::running);
     }
@@ -337,7 +338,8 @@ void Device::send_heartbeat(const Estimation& estimation) {
       .error_input_lost = bit(errors.input_lost),
       .error_input_silent = bit(errors.input_silent),
       .error_numeric = bit(errors.numeric),
-      .error_command = bit(errors.command)});
+      .error_command = bit(errors.command),
+      .degraded = bit(estimation.consistency.degraded())});
 }
 
 void Device::send_counters() {

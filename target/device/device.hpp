@@ -49,6 +49,7 @@ class Device {
     messages::Algorithm algorithm{};
     messages::TargetState state{};
     Errors errors{};
+    ConsistencyMonitor consistency{};
     InitialState initial{};
     std::optional<InitialAir> initial_air{};
     bool untouched = false;  // nothing has happened since start

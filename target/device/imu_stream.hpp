@@ -21,6 +21,14 @@ inline Health numeric_fault(Context& context) {
   return Health::fault;
 }
 
+/// Three innovations with their covariance, to the monitor.
+template <class UpdateResult>
+void observe(const UpdateResult& result, ConsistencyMonitor& monitor) {
+  const Eigen::Vector3d sigma = result.innovation_covariance.diagonal().cwiseSqrt();
+  const Eigen::Vector3d normalised = result.innovation.cwiseQuotient(sigma);
+  monitor.observe(result.nis, {normalised.data(), 3});
+}
+
 /// Where an INS starts that was told this.
 inline strapdown::NavState nav_of(const InitialState& initial) {
   return {.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),

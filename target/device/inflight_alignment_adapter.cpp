@@ -201,12 +201,13 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     const ia::UpdateResult result = history_.update(state_, fix.value.position, fix.t_us, tuning_.filter);
     switch (result.outcome) {
       case ia::Outcome::ok:
-        answer(fix, result.gate_opened ? FixOutcome::recovered : FixOutcome::accepted, result,
-               context.answers);
+        observe(result, context.consistency);
+        answer(fix, result.gate_opened ? FixOutcome::recovered : FixOutcome::accepted, result, context);
         return Health::good;
       case ia::Outcome::gated:
         ++gated_;
-        answer(fix, FixOutcome::gated, result, context.answers);
+        observe(result, context.consistency);
+        answer(fix, FixOutcome::gated, result, context);
         return Health::good;
       case ia::Outcome::non_finite:
       case ia::Outcome::not_positive_definite:
@@ -229,11 +230,12 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     const strapdown::NavState now = ia::estimate(state_).nav;
     ia::UpdateResult nothing;
     nothing.position = {now.latitude, now.longitude, now.height};
-    answer(fix, why, nothing, context.answers);
+    answer(fix, why, nothing, context);
     return Health::good;
   }
 
-  void answer(const At<Fix>& fix, FixOutcome outcome, const ia::UpdateResult& result, Answers& answers) {
+  void answer(const At<Fix>& fix, FixOutcome outcome, const ia::UpdateResult& result, Context& context) {
+    Answers& answers = context.answers;
     const ia::Estimate best = ia::estimate(state_);
     const ia::Uncertainty sigma = ia::uncertainty(state_);
     const Eigen::Vector3d attitude = sigma.attitude.diagonal().cwiseMax(0).cwiseSqrt() / deg;
@@ -275,6 +277,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     answers.send(FixStatus{.outcome = outcome,
                            .source = fix.value.source,
                            .handed_over = static_cast<std::uint8_t>(state_.handed_over),
+                           .degraded = static_cast<std::uint8_t>(context.consistency.degraded()),
                            .repairs = static_cast<std::uint16_t>(std::min(state_.repairs, 65535U)),
                            .gated = static_cast<std::uint16_t>(std::min(gated_, 16383U)),
                            .refused = static_cast<std::uint16_t>(std::min(refused_, 16383U))});

@@ -198,7 +198,9 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     tracking_ = true;
     now_us_ = t_us;
     last_ = result;
-    answer(t_us, result, context.answers);
+    if (result.outcome == los::Outcome::updated || result.outcome == los::Outcome::start_up)
+      observe(result, context.consistency);
+    answer(t_us, result, context);
     return Health::good;
   }
 
@@ -227,17 +229,23 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
             .acceleration_valid = valid(motion.acceleration_validity)};
   }
 
+  static void observe(const los::UpdateResult& result, ConsistencyMonitor& monitor) {
+    const los::Planes<double>&nu = result.innovation, &S = result.innovation_variance;
+    monitor.observe(result.nis, std::array{nu.pitch / std::sqrt(S.pitch), nu.yaw / std::sqrt(S.yaw)});
+  }
+
   // Answers a group that does nothing with what is known.
   Health refuse(std::int64_t t_us, Context& context, los::Outcome why = los::Outcome::bad_step) {
     los::UpdateResult nothing;
     nothing.outcome = why;
     nothing.blind = last_.blind;
     nothing.sigma = last_.sigma;
-    answer(t_us, nothing, context.answers);
+    answer(t_us, nothing, context);
     return Health::good;
   }
 
-  void answer(std::int64_t t_us, const los::UpdateResult& result, Answers& answers) const {
+  void answer(std::int64_t t_us, const los::UpdateResult& result, Context& context) const {
+    Answers& answers = context.answers;
     const los::Estimate best = los::estimate(state_);
     answers.send(LosRateEstimate{.los_rate_pitch_radps = best.rate.pitch,
                                  .los_rate_yaw_radps = best.rate.yaw,
@@ -249,7 +257,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
                               .los_rate_sigma_yaw_radps = result.sigma.yaw.rate,
                               .target_acceleration_sigma_y_mps2 = result.sigma.yaw.acceleration,
                               .target_acceleration_sigma_z_mps2 = result.sigma.pitch.acceleration,
-                              .nis = result.nis});
+                              .nis = result.nis,
+                              .degraded = static_cast<std::uint8_t>(context.consistency.degraded())});
     answers.send(LosRateTarget{.target_acceleration_y_mps2 = best.acceleration.yaw,
                                .target_acceleration_z_mps2 = best.acceleration.pitch,
                                .cause_time_us = wrap_us(t_us)});

@@ -166,7 +166,8 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     const ta::UpdateResult result = history_.update(state_, fix.value, fix.t_us, tuning_.filter);
     switch (result.outcome) {
       case ta::Outcome::ok:
-        answer_filter(fix, result, context.answers);
+        observe(result, context.consistency);
+        answer_filter(fix, result, context);
         return Health::good;
       case ta::Outcome::non_finite:
       case ta::Outcome::not_positive_definite:
@@ -188,7 +189,8 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     return corrected_;
   }
 
-  void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Answers& answers) {
+  void answer_filter(const At<Eigen::Vector3d>& fix, const ta::UpdateResult& result, Context& context) {
+    Answers& answers = context.answers;
     const ta::StateVector sigma = state_.P.diagonal().cwiseMax(0).cwiseSqrt();
     const auto correlation = [&](int i, int j) {
       const double product = sigma(ta::attitude_state + i) * sigma(ta::attitude_state + j);
@@ -206,7 +208,8 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
                                           .attitude_correlation_ed = correlation(1, 2)});
     answers.send(AlignVelocitySigma{.velocity_sigma_north_mps = sigma(ta::velocity_state),
                                     .velocity_sigma_east_mps = sigma(ta::velocity_state + 1),
-                                    .velocity_sigma_down_mps = sigma(ta::velocity_state + 2)});
+                                    .velocity_sigma_down_mps = sigma(ta::velocity_state + 2),
+                                    .degraded = static_cast<std::uint8_t>(context.consistency.degraded())});
     answers.send(AlignGyroBias{.gyro_bias_x_degph = ins.gyro_bias.x() / degph,
                                .gyro_bias_y_degph = ins.gyro_bias.y() / degph,
                                .gyro_bias_z_degph = ins.gyro_bias.z() / degph});

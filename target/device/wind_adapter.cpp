@@ -160,7 +160,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     const std::int64_t t_us = unwrap_us(vertical.time_of_validity_us, context.now_us);
     if (t_us > latest_us(context)) {
       drop_group(context);
-      return answer(t_us, WindOutcome::future, {}, context.answers);
+      return answer(t_us, WindOutcome::future, {}, context);
     }
     const wind::UpdateResult result = wind::step(
         bank_,
@@ -172,13 +172,15 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
          .valid = attitude.navigation_validity == Validity::valid},
         fins_, design_);
     count(result, context);
+    if (result.outcome == wind::Outcome::updated)
+      context.consistency.observe(result.nis, {result.normalised.data(), 9});
     const std::int64_t interval_us = t_us - newest_us_;
     const bool is_due = t_us - answered_us_ >= tuning_.output_interval_us - interval_us / 2;
     newest_us_ = std::max(newest_us_, t_us);
     const bool reserved = result.outcome != wind::Outcome::updated || result.flags.outside.any() ||
                           result.flags.fins_late || result.flags.fins_not_physical;
     if (is_due) answered_us_ = t_us;
-    if (is_due || reserved) answer(t_us, static_cast<WindOutcome>(result.outcome), result, context.answers);
+    if (is_due || reserved) answer(t_us, static_cast<WindOutcome>(result.outcome), result, context);
   }
 
   static void count(const wind::UpdateResult& result, Context& context) {
@@ -197,7 +199,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     }
   }
 
-  void answer(std::int64_t t_us, WindOutcome outcome, const wind::UpdateResult& result, Answers& answers) {
+  void answer(std::int64_t t_us, WindOutcome outcome, const wind::UpdateResult& result, Context& context) {
+    Answers& answers = context.answers;
     constexpr int n = wind::wind_at, e = n + 1, d = n + 2;
     const auto bit = [](bool set) { return static_cast<std::uint8_t>(set); };
     const wind::Estimate best = wind::estimate(bank_.x);
@@ -223,7 +226,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
                            .fins_late = bit(result.flags.fins_late),
                            .fins_missing = bit(result.flags.fins_missing),
                            .fins_not_physical = bit(result.flags.fins_not_physical),
-                           .theta_capped = bit(result.flags.theta_capped)});
+                           .theta_capped = bit(result.flags.theta_capped),
+                           .degraded = bit(context.consistency.degraded())});
     answers.send(WindSigma{.wind_sigma_north_mps = sigma.state(n),
                            .wind_sigma_east_mps = sigma.state(e),
                            .wind_sigma_down_mps = sigma.state(d)});

@@ -64,6 +64,7 @@ struct FixGroup : AnswerGroup<FixInnovation, FixPositionLatitude, FixPositionLon
          .fix_bias = {bias.fix_bias_north_m, bias.fix_bias_east_m, bias.fix_bias_down_m},
          .fix_bias_sigma = {bias_sigma.fix_bias_sigma_north_m, bias_sigma.fix_bias_sigma_east_m,
                             bias_sigma.fix_bias_sigma_down_m},
+         .degraded = status.degraded != 0,
          .handed_over = status.handed_over != 0,
          .repairs = status.repairs,
          .gated = status.gated,

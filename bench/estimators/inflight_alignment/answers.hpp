@@ -25,6 +25,7 @@ struct FixAnswer {
   world::Vector3 accel_bias = world::Vector3::Zero();      ///< body
   world::Vector3 fix_bias = world::Vector3::Zero();        ///< NED [m]
   world::Vector3 fix_bias_sigma = world::Vector3::Zero();  ///< NED [m]
+  bool degraded = false;                                   ///< it says that its sigmas do not hold
   bool handed_over = false;                                ///< the heading is resolved and fed back
   std::uint32_t repairs = 0;                               ///< of the covariance, since start
   std::uint32_t gated = 0;                                 ///< fixes rejected by the gate, since start

@@ -17,6 +17,7 @@
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/inflight_alignment/quantities.hpp"
 #include "bench/estimators/names.hpp"
+#include "bench/estimators/trust.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -25,10 +26,11 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 15> kept{
-    &misalignment_north, &misalignment_east, &misalignment_down, &attitude_roll, &attitude_pitch,
-    &attitude_heading,   &velocity_north,    &velocity_east,     &velocity_down, &innovation_nis,
-    &position_north,     &position_east,     &position_down,     &heading_sigma, &covariance_repairs};
+constexpr std::array<const Quantity*, 16> kept{
+    &misalignment_north, &misalignment_east, &misalignment_down,  &attitude_roll,
+    &attitude_pitch,     &attitude_heading,  &velocity_north,     &velocity_east,
+    &velocity_down,      &innovation_nis,    &position_north,     &position_east,
+    &position_down,      &heading_sigma,     &covariance_repairs, &trusted_over_sigma};
 
 constexpr auto of_runs = and_alignment_told(
     std::array<const Quantity*, 10>{&position_north, &position_east, &position_down, &position_horizontal,
@@ -48,6 +50,11 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     const auto& [t_us, angles, v, phi] = *after;
     const world::Vector3 p = position_error(update, truth.flight);
     const double nis = used(update.outcome) ? told(update.nis) : std::numeric_limits<double>::quiet_NaN();
+    const double trusted =
+        update.degraded
+            ? 0
+            : std::max({over_sigma(phi, update.attitude_sigma), over_sigma(v, update.velocity_sigma),
+                        over_sigma(p, update.position_sigma)});
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -62,7 +69,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  p.y(),
                                                  p.z(),
                                                  update.attitude_sigma.z(),
-                                                 static_cast<double>(update.repairs)};
+                                                 static_cast<double>(update.repairs),
+                                                 told(trusted)};
     samples.add(update.cause_us, values);
   }
   return samples;
@@ -151,6 +159,7 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
   marks.push_back({.name = "repaired", .t_us = times_of(answers.fixes, [&](const FixAnswer& fix) {
                                          return std::exchange(repairs, fix.repairs) != fix.repairs;
                                        })});
+  marks.push_back({.name = "degraded", .t_us = times_of(answers.fixes, &FixAnswer::degraded)});
   marks.push_back({.name = "handed_over", .t_us = times_of(answers.fixes, &FixAnswer::handed_over)});
   return marks;
 }

@@ -20,7 +20,8 @@ struct LosGroup : AnswerGroup<LosRateEstimate, LosRateSigma, LosRateTarget> {
          .target = {.pitch = target.target_acceleration_z_mps2, .yaw = target.target_acceleration_y_mps2},
          .target_sigma = {.pitch = sigma.target_acceleration_sigma_z_mps2,
                           .yaw = sigma.target_acceleration_sigma_y_mps2},
-         .nis = sigma.nis});
+         .nis = sigma.nis,
+         .degraded = sigma.degraded != 0});
   }
 };
 

@@ -20,7 +20,8 @@ struct LosAnswer {
   world::Planes<double> rate_sigma{};
   world::Planes<double> target{};  ///< its acceleration along z (pitch) and y (yaw)
   world::Planes<double> target_sigma{};
-  double nis = 0;  ///< of 2 degrees of freedom; 0 without an update
+  double nis = 0;         ///< of 2 degrees of freedom; 0 without an update
+  bool degraded = false;  ///< it says that its sigmas do not hold
 };
 
 using LosAnswers = std::vector<LosAnswer>;

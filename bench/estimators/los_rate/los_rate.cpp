@@ -17,6 +17,7 @@
 #include "bench/estimators/marks.hpp"
 #include "bench/estimators/names.hpp"
 #include "bench/estimators/tracks.hpp"
+#include "bench/estimators/trust.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -25,8 +26,8 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 5> kept{&los_rate_pitch, &los_rate_yaw, &los_mean_nis, &miss_pitch,
-                                              &miss_yaw};
+constexpr std::array<const Quantity*, 6> kept{&los_rate_pitch, &los_rate_yaw, &los_mean_nis,
+                                              &miss_pitch,     &miss_yaw,     &trusted_over_sigma};
 
 double both_planes(const Samples& samples, std::size_t place) {
   const double pitch = samples.value(place, los_rate_pitch), yaw = samples.value(place, los_rate_yaw);
@@ -46,7 +47,7 @@ constexpr Layout layout{
 
 /// What falls into one stretch.
 struct Stretch {
-  double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
+  double pitch_squares = 0, yaw_squares = 0, nis_sum = 0, trusted = 0;
   int rates = 0, updates = 0;
 };
 
@@ -65,6 +66,11 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     stretch.pitch_squares += error.rate.pitch * error.rate.pitch;
     stretch.yaw_squares += error.rate.yaw * error.rate.yaw;
     ++stretch.rates;
+    const LosAnswer& answer = answer_to(seen.of<LosAnswers>(), error.t_us);
+    if (!answer.degraded && !answer.blind)
+      stretch.trusted =
+          std::max(stretch.trusted, told(over_sigma({error.rate.pitch, error.rate.yaw, 0},
+                                                    {answer.rate_sigma.pitch, answer.rate_sigma.yaw, 1})));
   }
   for (const Told& update : nis_of(seen.of<LosAnswers>())) {
     const world::EngagementTruth* epoch = engagement.at(update.t_us);
@@ -77,8 +83,12 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   for (const auto& [place, stretch] : stretches) {
     if (stretch.rates == 0) continue;
     const std::array<double, kept.size()> values{
-        std::sqrt(stretch.pitch_squares / stretch.rates), std::sqrt(stretch.yaw_squares / stretch.rates),
-        stretch.updates > 0 ? told(stretch.nis_sum / stretch.updates) : nan, miss_n.z(), miss_n.y()};
+        std::sqrt(stretch.pitch_squares / stretch.rates),
+        std::sqrt(stretch.yaw_squares / stretch.rates),
+        stretch.updates > 0 ? told(stretch.nis_sum / stretch.updates) : nan,
+        miss_n.z(),
+        miss_n.y(),
+        stretch.trusted};
     samples.add((place - 1) * stretch_us, values);
   }
   return samples;
@@ -123,6 +133,7 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
   const LosAnswers& answers = seen.of<LosAnswers>();
   std::vector<Mark> marks{{.name = "answers", .t_us = times_of(answers, every_answer)}};
   add_marks(marks, answers, &LosAnswer::outcome, messages::enumerators<messages::LosRateOutcome>);
+  marks.push_back({.name = "degraded", .t_us = times_of(answers, &LosAnswer::degraded)});
   marks.push_back({.name = "blind", .t_us = times_of(answers, &LosAnswer::blind)});
   return marks;
 }

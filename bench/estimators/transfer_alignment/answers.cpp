@@ -31,7 +31,8 @@ struct FilterGroup
          .velocity_sigma = {velocity.velocity_sigma_north_mps, velocity.velocity_sigma_east_mps,
                             velocity.velocity_sigma_down_mps},
          .gyro_bias = Vector3(gyro.gyro_bias_x_degph, gyro.gyro_bias_y_degph, gyro.gyro_bias_z_degph) * degph,
-         .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug});
+         .accel_bias = Vector3(accel.accel_bias_x_ug, accel.accel_bias_y_ug, accel.accel_bias_z_ug) * ug,
+         .degraded = velocity.degraded != 0});
   }
 };
 using Navigation = NavigationGroup<AlignAttitude, AlignVelocityNE, AlignVelocityD>;

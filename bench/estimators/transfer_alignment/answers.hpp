@@ -19,6 +19,7 @@ struct FilterAnswer {
   world::Vector3 velocity_sigma = world::Vector3::Zero();
   world::Vector3 gyro_bias = world::Vector3::Zero();   ///< body
   world::Vector3 accel_bias = world::Vector3::Zero();  ///< body
+  bool degraded = false;                               ///< it says that its sigmas do not hold
 };
 
 struct TransferAnswers {

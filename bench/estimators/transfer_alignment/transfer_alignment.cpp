@@ -1,5 +1,6 @@
 #include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "bench/estimators/names.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 #include "bench/estimators/transfer_alignment/quantities.hpp"
+#include "bench/estimators/trust.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -16,10 +18,10 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 12> kept{&misalignment_north, &misalignment_east, &misalignment_down,
-                                               &attitude_roll,      &attitude_pitch,    &attitude_heading,
-                                               &velocity_north,     &velocity_east,     &velocity_down,
-                                               &attitude_nees,      &innovation_nis,    &heading_sigma};
+constexpr std::array<const Quantity*, 13> kept{
+    &misalignment_north, &misalignment_east, &misalignment_down, &attitude_roll, &attitude_pitch,
+    &attitude_heading,   &velocity_north,    &velocity_east,     &velocity_down, &attitude_nees,
+    &innovation_nis,     &heading_sigma,     &trusted_over_sigma};
 
 constexpr auto of_runs = and_alignment_told(std::array<const Quantity*, 6>{
     &velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down, &innovation_nis,
@@ -38,9 +40,13 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
+    const double trusted = update.degraded ? 0
+                                           : std::max(over_sigma(phi, update.attitude_sigma),
+                                                      over_sigma(v, update.velocity_sigma));
     const std::array<double, kept.size()> values{
-        phi.x(), phi.y(), phi.z(), angles.roll,         angles.pitch,     angles.heading,
-        v.x(),   v.y(),   v.z(),   told(nees[i].value), told(update.nis), update.attitude_sigma.z()};
+        phi.x(),      phi.y(), phi.z(), angles.roll,         angles.pitch,     angles.heading,
+        v.x(),        v.y(),   v.z(),   told(nees[i].value), told(update.nis), update.attitude_sigma.z(),
+        told(trusted)};
     samples.add(update.cause_us, values);
   }
   return samples;
@@ -74,7 +80,8 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
   const TransferAnswers& answers = seen.of<TransferAnswers>();
   return {{.name = "answers", .t_us = times_of(answers.navigation, every_answer)},
           {.name = "coasting", .t_us = times_of(answers.navigation, &NavigationAnswer::coasting)},
-          {.name = "updates", .t_us = times_of(answers.filter, every_answer)}};
+          {.name = "updates", .t_us = times_of(answers.filter, every_answer)},
+          {.name = "degraded", .t_us = times_of(answers.filter, &FilterAnswer::degraded)}};
 }
 
 std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth& truth,

@@ -25,6 +25,7 @@ struct WindGroup : AnswerGroup<WindVector, WindSpeed, WindSigma, WindCorrelation
          .fins_missing = status.fins_missing != 0,
          .fins_not_physical = status.fins_not_physical != 0,
          .theta_capped = status.theta_capped != 0,
+         .degraded = status.degraded != 0,
          .wind_n = {wind.wind_north_mps, wind.wind_east_mps, wind.wind_down_mps},
          .sigma = {sigma.wind_sigma_north_mps, sigma.wind_sigma_east_mps, sigma.wind_sigma_down_mps},
          .correlation = {correlation.wind_correlation_ne, correlation.wind_correlation_nd,

@@ -19,6 +19,7 @@ struct WindAnswer {
   bool fins_missing = false;
   bool fins_not_physical = false;
   bool theta_capped = false;
+  bool degraded = false;  ///< it says that its sigmas do not hold
   world::Vector3 wind_n = world::Vector3::Zero();
   world::Vector3 sigma = world::Vector3::Zero();
   world::Vector3 correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down

@@ -14,6 +14,7 @@
 #include "bench/estimators/names.hpp"
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/tracks.hpp"
+#include "bench/estimators/trust.hpp"
 #include "bench/estimators/wind/answers.hpp"
 #include "bench/estimators/wind/quantities.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -24,8 +25,8 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 6> kept{&wind_along, &wind_cross, &wind_down,
-                                              &wind_nis,   &wind_nees,  &wind_along_sigma};
+constexpr std::array<const Quantity*, 7> kept{&wind_along, &wind_cross,       &wind_down,         &wind_nis,
+                                              &wind_nees,  &wind_along_sigma, &trusted_over_sigma};
 
 double of_all_three(const Samples& samples, std::size_t place) {
   return std::hypot(samples.value(place, wind_along), samples.value(place, wind_cross),
@@ -47,10 +48,15 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     while (!answer->started || answer->cause_us != errors[i].t_us) ++answer;
     const bool updated = answer->outcome == messages::WindOutcome::updated;
+    const double trusted = answer->degraded ? 0 : over_sigma(errors[i].error_n, answer->sigma);
     const std::array<double, kept.size()> values{
-        errors[i].along_track,     errors[i].cross_track,
-        errors[i].error_n.z(),     updated ? told(answer->nis) : std::numeric_limits<double>::quiet_NaN(),
-        told(normalised[i].value), answer->along_track_sigma};
+        errors[i].along_track,
+        errors[i].cross_track,
+        errors[i].error_n.z(),
+        updated ? told(answer->nis) : std::numeric_limits<double>::quiet_NaN(),
+        told(normalised[i].value),
+        answer->along_track_sigma,
+        told(trusted)};
     samples.add(errors[i].t_us, values);
     ++answer;
   }
@@ -102,7 +108,7 @@ std::vector<Mark> marks_of(const checks::Observations& seen) {
        {std::pair{"outside", &WindAnswer::outside}, std::pair{"fins_late", &WindAnswer::fins_late},
         std::pair{"fins_missing", &WindAnswer::fins_missing},
         std::pair{"fins_not_physical", &WindAnswer::fins_not_physical},
-        std::pair{"theta_capped", &WindAnswer::theta_capped}})
+        std::pair{"theta_capped", &WindAnswer::theta_capped}, std::pair{"degraded", &WindAnswer::degraded}})
     marks.push_back({.name = name, .t_us = times_of(answers, flag)});
   return marks;
 }

@@ -2,7 +2,7 @@
 #ifndef CANHIL_MESSAGES_H
 #define CANHIL_MESSAGES_H
 
-#define CANHIL_DBC_HASH24 0x82E36DUL
+#define CANHIL_DBC_HASH24 0x8B0EB5UL
 
 enum { /* TargetState */
   CANHIL_TARGET_STATE_IDLE = 0,
@@ -234,6 +234,7 @@ enum {
   CANHIL_LOS_RATE_TARGET_ACCELERATION_SIGMA_Y_MPS2, /* [m/s2] */
   CANHIL_LOS_RATE_TARGET_ACCELERATION_SIGMA_Z_MPS2, /* [m/s2] */
   CANHIL_LOS_RATE_NIS,
+  CANHIL_LOS_RATE_DEGRADED,
   CANHIL_LOS_RATE_TARGET_ACCELERATION_Y_MPS2, /* [m/s2] */
   CANHIL_LOS_RATE_TARGET_ACCELERATION_Z_MPS2, /* [m/s2] */
   CANHIL_LOS_RATE_CAUSE_TIME_US, /* [us] */
@@ -324,6 +325,7 @@ enum {
   CANHIL_WIND_FINS_MISSING,
   CANHIL_WIND_FINS_NOT_PHYSICAL,
   CANHIL_WIND_THETA_CAPPED,
+  CANHIL_WIND_DEGRADED,
   CANHIL_WIND_WIND_SIGMA_NORTH_MPS, /* [m/s] */
   CANHIL_WIND_WIND_SIGMA_EAST_MPS, /* [m/s] */
   CANHIL_WIND_WIND_SIGMA_DOWN_MPS, /* [m/s] */
@@ -375,6 +377,7 @@ enum {
   CANHIL_ALIGN_FILTER_VELOCITY_SIGMA_NORTH_MPS, /* [m/s] */
   CANHIL_ALIGN_FILTER_VELOCITY_SIGMA_EAST_MPS, /* [m/s] */
   CANHIL_ALIGN_FILTER_VELOCITY_SIGMA_DOWN_MPS, /* [m/s] */
+  CANHIL_ALIGN_FILTER_DEGRADED,
   CANHIL_ALIGN_FILTER_GYRO_BIAS_X_DEGPH, /* [deg/h] */
   CANHIL_ALIGN_FILTER_GYRO_BIAS_Y_DEGPH, /* [deg/h] */
   CANHIL_ALIGN_FILTER_GYRO_BIAS_Z_DEGPH, /* [deg/h] */
@@ -405,6 +408,7 @@ enum {
   CANHIL_TARGET_HEARTBEAT_ERROR_INPUT_SILENT,
   CANHIL_TARGET_HEARTBEAT_ERROR_NUMERIC,
   CANHIL_TARGET_HEARTBEAT_ERROR_COMMAND,
+  CANHIL_TARGET_HEARTBEAT_DEGRADED,
   CANHIL_TARGET_HEARTBEAT_VALUES
 };
 enum {
@@ -481,6 +485,7 @@ enum {
   CANHIL_FIX_FILTER_OUTCOME,
   CANHIL_FIX_FILTER_SOURCE,
   CANHIL_FIX_FILTER_HANDED_OVER,
+  CANHIL_FIX_FILTER_DEGRADED,
   CANHIL_FIX_FILTER_REPAIRS,
   CANHIL_FIX_FILTER_GATED,
   CANHIL_FIX_FILTER_REFUSED,
@@ -538,7 +543,7 @@ enum {
   CANHIL_TARGET_INIT_VALUES
 };
 
-enum { CANHIL_MESSAGES = 81, CANHIL_MOST_VALUES = 42 };
+enum { CANHIL_MESSAGES = 81, CANHIL_MOST_VALUES = 43 };
 #define CANHIL_HEARTBEAT_MS 100
 
 #ifdef CANHIL_TABLES
@@ -573,7 +578,8 @@ static const canhil_signal canhil_signals[] = {
   {26, 14, CANHIL_UNSIGNED, 2e-05, 0.0, 0.0, 16350.0}, /* LosRateSigma.los_rate_sigma_yaw_radps */
   {40, 6, CANHIL_UNSIGNED, 2.5, 0.0, 0.0, 63.0}, /* LosRateSigma.target_acceleration_sigma_y_mps2 */
   {46, 6, CANHIL_UNSIGNED, 2.5, 0.0, 0.0, 63.0}, /* LosRateSigma.target_acceleration_sigma_z_mps2 */
-  {52, 12, CANHIL_UNSIGNED, 0.05, 0.0, 0.0, 4095.0}, /* LosRateSigma.nis */
+  {52, 11, CANHIL_UNSIGNED, 0.1, 0.0, 0.0, 2047.0}, /* LosRateSigma.nis */
+  {63, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* LosRateSigma.degraded */
   {12, 10, CANHIL_SIGNED, 0.5, 0.0, -510.0, 510.0}, /* LosRateTarget.target_acceleration_y_mps2 */
   {22, 10, CANHIL_SIGNED, 0.5, 0.0, -510.0, 510.0}, /* LosRateTarget.target_acceleration_z_mps2 */
   {32, 32, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 4294967295.0}, /* LosRateTarget.cause_time_us */
@@ -643,6 +649,7 @@ static const canhil_signal canhil_signals[] = {
   {57, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* WindSpeed.fins_missing */
   {58, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* WindSpeed.fins_not_physical */
   {59, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* WindSpeed.theta_capped */
+  {60, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* WindSpeed.degraded */
   {12, 17, CANHIL_UNSIGNED, 0.001, 0.0, 0.0, 131000.0}, /* WindSigma.wind_sigma_north_mps */
   {29, 17, CANHIL_UNSIGNED, 0.001, 0.0, 0.0, 131000.0}, /* WindSigma.wind_sigma_east_mps */
   {46, 17, CANHIL_UNSIGNED, 0.001, 0.0, 0.0, 131000.0}, /* WindSigma.wind_sigma_down_mps */
@@ -688,6 +695,7 @@ static const canhil_signal canhil_signals[] = {
   {12, 17, CANHIL_UNSIGNED, 0.0001, 0.0, 0.0, 131000.0}, /* AlignVelocitySigma.velocity_sigma_north_mps */
   {29, 17, CANHIL_UNSIGNED, 0.0001, 0.0, 0.0, 131000.0}, /* AlignVelocitySigma.velocity_sigma_east_mps */
   {46, 17, CANHIL_UNSIGNED, 0.0001, 0.0, 0.0, 131000.0}, /* AlignVelocitySigma.velocity_sigma_down_mps */
+  {63, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* AlignVelocitySigma.degraded */
   {12, 17, CANHIL_SIGNED, 0.002, 0.0, -65500.0, 65500.0}, /* AlignGyroBias.gyro_bias_x_degph */
   {29, 17, CANHIL_SIGNED, 0.002, 0.0, -65500.0, 65500.0}, /* AlignGyroBias.gyro_bias_y_degph */
   {46, 17, CANHIL_SIGNED, 0.002, 0.0, -65500.0, 65500.0}, /* AlignGyroBias.gyro_bias_z_degph */
@@ -715,6 +723,7 @@ static const canhil_signal canhil_signals[] = {
   {58, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* TargetHeartbeat.error_input_silent */
   {59, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* TargetHeartbeat.error_numeric */
   {60, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* TargetHeartbeat.error_command */
+  {61, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* TargetHeartbeat.degraded */
   {12, 13, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 8191.0}, /* TargetTiming.queue_max_us */
   {25, 13, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 8191.0}, /* TargetTiming.queue_mean_us */
   {38, 13, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 8191.0}, /* TargetTiming.compute_max_us */
@@ -776,6 +785,7 @@ static const canhil_signal canhil_signals[] = {
   {12, 4, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 15.0}, /* FixStatus.outcome */
   {16, 2, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 3.0}, /* FixStatus.source */
   {18, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* FixStatus.handed_over */
+  {19, 1, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 1.0}, /* FixStatus.degraded */
   {20, 16, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 65535.0}, /* FixStatus.repairs */
   {36, 14, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 16383.0}, /* FixStatus.gated */
   {50, 14, CANHIL_UNSIGNED, 1.0, 0.0, 0.0, 16383.0}, /* FixStatus.refused */
@@ -822,104 +832,104 @@ static const canhil_message canhil_messages[] = {
   {0x72, 0x4072, 8, CANHIL_GROUP_SEEKER, 8, 5, 8}, /* SeekerMotion */
   {0x73, 0x4073, 8, CANHIL_GROUP_SEEKER, 13, 3, 13}, /* SeekerRange */
   {0x78, 0x4078, 8, CANHIL_GROUP_LOS_RATE, 16, 6, 0}, /* LosRateEstimate */
-  {0x79, 0x4079, 8, CANHIL_GROUP_LOS_RATE, 22, 5, 6}, /* LosRateSigma */
-  {0x7A, 0x407A, 8, CANHIL_GROUP_LOS_RATE, 27, 3, 11}, /* LosRateTarget */
-  {0x80, 0x4080, 8, CANHIL_GROUP_SLAVE_IMU, 30, 4, 0}, /* SlaveImuDeltaTheta */
-  {0x81, 0x4081, 8, CANHIL_GROUP_SLAVE_IMU, 34, 4, 4}, /* SlaveImuDeltaV */
-  {0x82, 0x4082, 8, CANHIL_GROUP_SLAVE_IMU, 38, 3, 8}, /* SlaveImuStatus */
-  {0xA0, 0x40A0, 8, CANHIL_GROUP_SYNC, 41, 3, 0}, /* Sync */
-  {0xC0, 0x40C0, 8, CANHIL_GROUP_ALIGN_NAV, 44, 4, 0}, /* AlignAttitude */
-  {0xC1, 0x40C1, 8, CANHIL_GROUP_ALIGN_NAV, 48, 3, 4}, /* AlignVelocityNE */
-  {0xC2, 0x40C2, 8, CANHIL_GROUP_ALIGN_NAV, 51, 2, 7}, /* AlignVelocityD */
-  {0xC4, 0x40C4, 8, CANHIL_GROUP_FIX_NAV, 53, 4, 0}, /* FixAttitude */
-  {0xC5, 0x40C5, 8, CANHIL_GROUP_FIX_NAV, 57, 3, 4}, /* FixVelocityNE */
-  {0xC6, 0x40C6, 8, CANHIL_GROUP_FIX_NAV, 60, 2, 7}, /* FixVelocityD */
-  {0xE0, 0x40E0, 8, CANHIL_GROUP_FINS, 62, 4, 0}, /* FinDeflections */
-  {0x100, 0x4100, 8, CANHIL_GROUP_GLIDER_NAV, 66, 3, 0}, /* GliderNavVelocityNE */
-  {0x101, 0x4101, 8, CANHIL_GROUP_GLIDER_NAV, 69, 4, 3}, /* GliderNavAttitude */
-  {0x102, 0x4102, 8, CANHIL_GROUP_GLIDER_NAV, 73, 3, 7}, /* GliderNavRates */
-  {0x103, 0x4103, 8, CANHIL_GROUP_GLIDER_NAV, 76, 2, 10}, /* GliderNavVelocityD */
-  {0x110, 0x4110, 8, CANHIL_GROUP_WIND, 78, 4, 0}, /* WindVector */
-  {0x111, 0x4111, 8, CANHIL_GROUP_WIND, 82, 14, 4}, /* WindSpeed */
-  {0x112, 0x4112, 8, CANHIL_GROUP_WIND, 96, 3, 18}, /* WindSigma */
-  {0x113, 0x4113, 8, CANHIL_GROUP_WIND, 99, 3, 21}, /* WindCorrelation */
-  {0x114, 0x4114, 8, CANHIL_GROUP_WIND, 102, 4, 24}, /* WindTrackSigma */
-  {0x115, 0x4115, 8, CANHIL_GROUP_WIND, 106, 3, 28}, /* WindAirVelocity */
-  {0x116, 0x4116, 8, CANHIL_GROUP_WIND, 109, 3, 31}, /* WindAttitude */
-  {0x117, 0x4117, 8, CANHIL_GROUP_WIND, 112, 3, 34}, /* WindInnovation */
-  {0x118, 0x4118, 8, CANHIL_GROUP_WIND, 115, 3, 37}, /* WindUpdate */
-  {0x180, 0x4180, 8, CANHIL_GROUP_MASTER_INS, 118, 3, 0}, /* MasterInsVelocityNE */
-  {0x181, 0x4181, 8, CANHIL_GROUP_MASTER_INS, 121, 3, 3}, /* MasterInsAttitude */
-  {0x182, 0x4182, 8, CANHIL_GROUP_MASTER_INS, 124, 2, 6}, /* MasterInsLatitude */
-  {0x183, 0x4183, 8, CANHIL_GROUP_MASTER_INS, 126, 1, 8}, /* MasterInsLongitude */
-  {0x184, 0x4184, 8, CANHIL_GROUP_MASTER_INS, 127, 2, 9}, /* MasterInsVelocityD */
-  {0x200, 0x4200, 8, CANHIL_GROUP_ALIGN_FILTER, 129, 3, 0}, /* AlignInnovation */
-  {0x201, 0x4201, 8, CANHIL_GROUP_ALIGN_FILTER, 132, 3, 3}, /* AlignAttitudeSigma */
-  {0x202, 0x4202, 8, CANHIL_GROUP_ALIGN_FILTER, 135, 3, 6}, /* AlignAttitudeCorrelation */
-  {0x203, 0x4203, 8, CANHIL_GROUP_ALIGN_FILTER, 138, 3, 9}, /* AlignVelocitySigma */
-  {0x204, 0x4204, 8, CANHIL_GROUP_ALIGN_FILTER, 141, 3, 12}, /* AlignGyroBias */
-  {0x205, 0x4205, 8, CANHIL_GROUP_ALIGN_FILTER, 144, 3, 15}, /* AlignGyroBiasSigma */
-  {0x206, 0x4206, 8, CANHIL_GROUP_ALIGN_FILTER, 147, 3, 18}, /* AlignAccelBias */
-  {0x207, 0x4207, 8, CANHIL_GROUP_ALIGN_FILTER, 150, 3, 21}, /* AlignAccelBiasSigma */
-  {0x208, 0x4208, 8, CANHIL_GROUP_ALIGN_FILTER, 153, 3, 24}, /* AlignUpdate */
-  {0x300, 0x4300, 8, CANHIL_GROUP_TARGET_HEARTBEAT, 156, 12, 0}, /* TargetHeartbeat */
-  {0x301, 0x4301, 8, CANHIL_GROUP_TARGET_TIMING, 168, 4, 0}, /* TargetTiming */
-  {0x302, 0x4302, 8, CANHIL_GROUP_TARGET_COUNTERS, 172, 4, 0}, /* TargetCounters */
-  {0x380, 0x4380, 8, CANHIL_GROUP_SSBL, 176, 3, 0}, /* SsblRelativeNE */
-  {0x381, 0x4381, 8, CANHIL_GROUP_SSBL, 179, 2, 3}, /* SsblShipLatitude */
-  {0x382, 0x4382, 8, CANHIL_GROUP_SSBL, 181, 2, 5}, /* SsblShipLongitude */
-  {0x383, 0x4383, 8, CANHIL_GROUP_SSBL, 183, 2, 7}, /* SsblRelativeD */
-  {0x390, 0x4390, 8, CANHIL_GROUP_GPS, 185, 2, 0}, /* GpsLatitude */
-  {0x391, 0x4391, 8, CANHIL_GROUP_GPS, 187, 3, 2}, /* GpsLongitude */
-  {0x392, 0x4392, 8, CANHIL_GROUP_GPS, 190, 3, 5}, /* GpsTime */
-  {0x3C0, 0x43C0, 8, CANHIL_GROUP_FIX_FILTER, 193, 3, 0}, /* FixInnovation */
-  {0x3C1, 0x43C1, 8, CANHIL_GROUP_FIX_FILTER, 196, 2, 3}, /* FixPositionLatitude */
-  {0x3C2, 0x43C2, 8, CANHIL_GROUP_FIX_FILTER, 198, 1, 5}, /* FixPositionLongitude */
-  {0x3C3, 0x43C3, 8, CANHIL_GROUP_FIX_FILTER, 199, 3, 6}, /* FixAttitudeSigma */
-  {0x3C4, 0x43C4, 8, CANHIL_GROUP_FIX_FILTER, 202, 3, 9}, /* FixVelocitySigma */
-  {0x3C5, 0x43C5, 8, CANHIL_GROUP_FIX_FILTER, 205, 3, 12}, /* FixPositionSigma */
-  {0x3C6, 0x43C6, 8, CANHIL_GROUP_FIX_FILTER, 208, 3, 15}, /* FixGyroBias */
-  {0x3C7, 0x43C7, 8, CANHIL_GROUP_FIX_FILTER, 211, 3, 18}, /* FixGyroBiasSigma */
-  {0x3C8, 0x43C8, 8, CANHIL_GROUP_FIX_FILTER, 214, 3, 21}, /* FixAccelBias */
-  {0x3C9, 0x43C9, 8, CANHIL_GROUP_FIX_FILTER, 217, 3, 24}, /* FixAccelBiasSigma */
-  {0x3CA, 0x43CA, 8, CANHIL_GROUP_FIX_FILTER, 220, 3, 27}, /* FixBias */
-  {0x3CB, 0x43CB, 8, CANHIL_GROUP_FIX_FILTER, 223, 3, 30}, /* FixBiasSigma */
-  {0x3CC, 0x43CC, 8, CANHIL_GROUP_FIX_FILTER, 226, 6, 33}, /* FixStatus */
-  {0x3CD, 0x43CD, 8, CANHIL_GROUP_FIX_FILTER, 232, 3, 39}, /* FixUpdate */
-  {0x600, 0x4600, 8, CANHIL_GROUP_TARGET_COMMAND, 235, 4, 0}, /* TargetCommand */
-  {0x601, 0x4601, 8, CANHIL_GROUP_PARAM_SET, 239, 2, 0}, /* ParamSet */
-  {0x602, 0x4602, 8, CANHIL_GROUP_PARAM_ACK, 241, 3, 0}, /* ParamAck */
-  {0x603, 0x4603, 8, CANHIL_GROUP_STEP_DONE, 244, 1, 0}, /* StepDone */
-  {0x608, 0x4608, 8, CANHIL_GROUP_TARGET_INIT_AIR, 245, 3, 0}, /* TargetInitRate */
-  {0x609, 0x4609, 8, CANHIL_GROUP_TARGET_INIT_AIR, 248, 3, 3}, /* TargetInitAirVelocity */
-  {0x610, 0x4610, 8, CANHIL_GROUP_TARGET_INIT, 251, 2, 0}, /* TargetInitLatitude */
-  {0x611, 0x4611, 8, CANHIL_GROUP_TARGET_INIT, 253, 2, 2}, /* TargetInitLongitude */
-  {0x612, 0x4612, 8, CANHIL_GROUP_TARGET_INIT, 255, 2, 4}, /* TargetInitVelocityNE */
-  {0x613, 0x4613, 8, CANHIL_GROUP_TARGET_INIT, 257, 3, 6}, /* TargetInitAttitude */
-  {0x614, 0x4614, 8, CANHIL_GROUP_TARGET_INIT, 260, 3, 9}, /* TargetInitSigma */
-  {0x615, 0x4615, 8, CANHIL_GROUP_TARGET_INIT, 263, 2, 12}, /* TargetInitVelocityD */
+  {0x79, 0x4079, 8, CANHIL_GROUP_LOS_RATE, 22, 6, 6}, /* LosRateSigma */
+  {0x7A, 0x407A, 8, CANHIL_GROUP_LOS_RATE, 28, 3, 12}, /* LosRateTarget */
+  {0x80, 0x4080, 8, CANHIL_GROUP_SLAVE_IMU, 31, 4, 0}, /* SlaveImuDeltaTheta */
+  {0x81, 0x4081, 8, CANHIL_GROUP_SLAVE_IMU, 35, 4, 4}, /* SlaveImuDeltaV */
+  {0x82, 0x4082, 8, CANHIL_GROUP_SLAVE_IMU, 39, 3, 8}, /* SlaveImuStatus */
+  {0xA0, 0x40A0, 8, CANHIL_GROUP_SYNC, 42, 3, 0}, /* Sync */
+  {0xC0, 0x40C0, 8, CANHIL_GROUP_ALIGN_NAV, 45, 4, 0}, /* AlignAttitude */
+  {0xC1, 0x40C1, 8, CANHIL_GROUP_ALIGN_NAV, 49, 3, 4}, /* AlignVelocityNE */
+  {0xC2, 0x40C2, 8, CANHIL_GROUP_ALIGN_NAV, 52, 2, 7}, /* AlignVelocityD */
+  {0xC4, 0x40C4, 8, CANHIL_GROUP_FIX_NAV, 54, 4, 0}, /* FixAttitude */
+  {0xC5, 0x40C5, 8, CANHIL_GROUP_FIX_NAV, 58, 3, 4}, /* FixVelocityNE */
+  {0xC6, 0x40C6, 8, CANHIL_GROUP_FIX_NAV, 61, 2, 7}, /* FixVelocityD */
+  {0xE0, 0x40E0, 8, CANHIL_GROUP_FINS, 63, 4, 0}, /* FinDeflections */
+  {0x100, 0x4100, 8, CANHIL_GROUP_GLIDER_NAV, 67, 3, 0}, /* GliderNavVelocityNE */
+  {0x101, 0x4101, 8, CANHIL_GROUP_GLIDER_NAV, 70, 4, 3}, /* GliderNavAttitude */
+  {0x102, 0x4102, 8, CANHIL_GROUP_GLIDER_NAV, 74, 3, 7}, /* GliderNavRates */
+  {0x103, 0x4103, 8, CANHIL_GROUP_GLIDER_NAV, 77, 2, 10}, /* GliderNavVelocityD */
+  {0x110, 0x4110, 8, CANHIL_GROUP_WIND, 79, 4, 0}, /* WindVector */
+  {0x111, 0x4111, 8, CANHIL_GROUP_WIND, 83, 15, 4}, /* WindSpeed */
+  {0x112, 0x4112, 8, CANHIL_GROUP_WIND, 98, 3, 19}, /* WindSigma */
+  {0x113, 0x4113, 8, CANHIL_GROUP_WIND, 101, 3, 22}, /* WindCorrelation */
+  {0x114, 0x4114, 8, CANHIL_GROUP_WIND, 104, 4, 25}, /* WindTrackSigma */
+  {0x115, 0x4115, 8, CANHIL_GROUP_WIND, 108, 3, 29}, /* WindAirVelocity */
+  {0x116, 0x4116, 8, CANHIL_GROUP_WIND, 111, 3, 32}, /* WindAttitude */
+  {0x117, 0x4117, 8, CANHIL_GROUP_WIND, 114, 3, 35}, /* WindInnovation */
+  {0x118, 0x4118, 8, CANHIL_GROUP_WIND, 117, 3, 38}, /* WindUpdate */
+  {0x180, 0x4180, 8, CANHIL_GROUP_MASTER_INS, 120, 3, 0}, /* MasterInsVelocityNE */
+  {0x181, 0x4181, 8, CANHIL_GROUP_MASTER_INS, 123, 3, 3}, /* MasterInsAttitude */
+  {0x182, 0x4182, 8, CANHIL_GROUP_MASTER_INS, 126, 2, 6}, /* MasterInsLatitude */
+  {0x183, 0x4183, 8, CANHIL_GROUP_MASTER_INS, 128, 1, 8}, /* MasterInsLongitude */
+  {0x184, 0x4184, 8, CANHIL_GROUP_MASTER_INS, 129, 2, 9}, /* MasterInsVelocityD */
+  {0x200, 0x4200, 8, CANHIL_GROUP_ALIGN_FILTER, 131, 3, 0}, /* AlignInnovation */
+  {0x201, 0x4201, 8, CANHIL_GROUP_ALIGN_FILTER, 134, 3, 3}, /* AlignAttitudeSigma */
+  {0x202, 0x4202, 8, CANHIL_GROUP_ALIGN_FILTER, 137, 3, 6}, /* AlignAttitudeCorrelation */
+  {0x203, 0x4203, 8, CANHIL_GROUP_ALIGN_FILTER, 140, 4, 9}, /* AlignVelocitySigma */
+  {0x204, 0x4204, 8, CANHIL_GROUP_ALIGN_FILTER, 144, 3, 13}, /* AlignGyroBias */
+  {0x205, 0x4205, 8, CANHIL_GROUP_ALIGN_FILTER, 147, 3, 16}, /* AlignGyroBiasSigma */
+  {0x206, 0x4206, 8, CANHIL_GROUP_ALIGN_FILTER, 150, 3, 19}, /* AlignAccelBias */
+  {0x207, 0x4207, 8, CANHIL_GROUP_ALIGN_FILTER, 153, 3, 22}, /* AlignAccelBiasSigma */
+  {0x208, 0x4208, 8, CANHIL_GROUP_ALIGN_FILTER, 156, 3, 25}, /* AlignUpdate */
+  {0x300, 0x4300, 8, CANHIL_GROUP_TARGET_HEARTBEAT, 159, 13, 0}, /* TargetHeartbeat */
+  {0x301, 0x4301, 8, CANHIL_GROUP_TARGET_TIMING, 172, 4, 0}, /* TargetTiming */
+  {0x302, 0x4302, 8, CANHIL_GROUP_TARGET_COUNTERS, 176, 4, 0}, /* TargetCounters */
+  {0x380, 0x4380, 8, CANHIL_GROUP_SSBL, 180, 3, 0}, /* SsblRelativeNE */
+  {0x381, 0x4381, 8, CANHIL_GROUP_SSBL, 183, 2, 3}, /* SsblShipLatitude */
+  {0x382, 0x4382, 8, CANHIL_GROUP_SSBL, 185, 2, 5}, /* SsblShipLongitude */
+  {0x383, 0x4383, 8, CANHIL_GROUP_SSBL, 187, 2, 7}, /* SsblRelativeD */
+  {0x390, 0x4390, 8, CANHIL_GROUP_GPS, 189, 2, 0}, /* GpsLatitude */
+  {0x391, 0x4391, 8, CANHIL_GROUP_GPS, 191, 3, 2}, /* GpsLongitude */
+  {0x392, 0x4392, 8, CANHIL_GROUP_GPS, 194, 3, 5}, /* GpsTime */
+  {0x3C0, 0x43C0, 8, CANHIL_GROUP_FIX_FILTER, 197, 3, 0}, /* FixInnovation */
+  {0x3C1, 0x43C1, 8, CANHIL_GROUP_FIX_FILTER, 200, 2, 3}, /* FixPositionLatitude */
+  {0x3C2, 0x43C2, 8, CANHIL_GROUP_FIX_FILTER, 202, 1, 5}, /* FixPositionLongitude */
+  {0x3C3, 0x43C3, 8, CANHIL_GROUP_FIX_FILTER, 203, 3, 6}, /* FixAttitudeSigma */
+  {0x3C4, 0x43C4, 8, CANHIL_GROUP_FIX_FILTER, 206, 3, 9}, /* FixVelocitySigma */
+  {0x3C5, 0x43C5, 8, CANHIL_GROUP_FIX_FILTER, 209, 3, 12}, /* FixPositionSigma */
+  {0x3C6, 0x43C6, 8, CANHIL_GROUP_FIX_FILTER, 212, 3, 15}, /* FixGyroBias */
+  {0x3C7, 0x43C7, 8, CANHIL_GROUP_FIX_FILTER, 215, 3, 18}, /* FixGyroBiasSigma */
+  {0x3C8, 0x43C8, 8, CANHIL_GROUP_FIX_FILTER, 218, 3, 21}, /* FixAccelBias */
+  {0x3C9, 0x43C9, 8, CANHIL_GROUP_FIX_FILTER, 221, 3, 24}, /* FixAccelBiasSigma */
+  {0x3CA, 0x43CA, 8, CANHIL_GROUP_FIX_FILTER, 224, 3, 27}, /* FixBias */
+  {0x3CB, 0x43CB, 8, CANHIL_GROUP_FIX_FILTER, 227, 3, 30}, /* FixBiasSigma */
+  {0x3CC, 0x43CC, 8, CANHIL_GROUP_FIX_FILTER, 230, 7, 33}, /* FixStatus */
+  {0x3CD, 0x43CD, 8, CANHIL_GROUP_FIX_FILTER, 237, 3, 40}, /* FixUpdate */
+  {0x600, 0x4600, 8, CANHIL_GROUP_TARGET_COMMAND, 240, 4, 0}, /* TargetCommand */
+  {0x601, 0x4601, 8, CANHIL_GROUP_PARAM_SET, 244, 2, 0}, /* ParamSet */
+  {0x602, 0x4602, 8, CANHIL_GROUP_PARAM_ACK, 246, 3, 0}, /* ParamAck */
+  {0x603, 0x4603, 8, CANHIL_GROUP_STEP_DONE, 249, 1, 0}, /* StepDone */
+  {0x608, 0x4608, 8, CANHIL_GROUP_TARGET_INIT_AIR, 250, 3, 0}, /* TargetInitRate */
+  {0x609, 0x4609, 8, CANHIL_GROUP_TARGET_INIT_AIR, 253, 3, 3}, /* TargetInitAirVelocity */
+  {0x610, 0x4610, 8, CANHIL_GROUP_TARGET_INIT, 256, 2, 0}, /* TargetInitLatitude */
+  {0x611, 0x4611, 8, CANHIL_GROUP_TARGET_INIT, 258, 2, 2}, /* TargetInitLongitude */
+  {0x612, 0x4612, 8, CANHIL_GROUP_TARGET_INIT, 260, 2, 4}, /* TargetInitVelocityNE */
+  {0x613, 0x4613, 8, CANHIL_GROUP_TARGET_INIT, 262, 3, 6}, /* TargetInitAttitude */
+  {0x614, 0x4614, 8, CANHIL_GROUP_TARGET_INIT, 265, 3, 9}, /* TargetInitSigma */
+  {0x615, 0x4615, 8, CANHIL_GROUP_TARGET_INIT, 268, 2, 12}, /* TargetInitVelocityD */
 };
 
 /* time, cause_time, cause_counter: their place among the values; -1: the group has none. */
 typedef struct { unsigned char first_message, messages, values, from_target; signed char time, cause_time, cause_counter; } canhil_group;
 static const canhil_group canhil_groups[] = {
   {0, 4, 16, 0, 14, -1, -1}, /* Seeker */
-  {4, 3, 14, 1, -1, 13, 2}, /* LosRate */
+  {4, 3, 15, 1, -1, 14, 2}, /* LosRate */
   {7, 3, 11, 0, 8, -1, -1}, /* SlaveImu */
   {10, 1, 3, 0, -1, -1, -1}, /* Sync */
   {11, 3, 9, 1, -1, 8, 6}, /* AlignNav */
   {14, 3, 9, 1, -1, 8, 6}, /* FixNav */
   {17, 1, 4, 0, 3, -1, -1}, /* Fins */
   {18, 4, 12, 0, 11, -1, -1}, /* GliderNav */
-  {22, 9, 40, 1, -1, 37, 38}, /* Wind */
+  {22, 9, 41, 1, -1, 38, 39}, /* Wind */
   {31, 5, 11, 0, 10, -1, -1}, /* MasterIns */
-  {36, 9, 27, 1, -1, 24, 25}, /* AlignFilter */
-  {45, 1, 12, 1, -1, -1, -1}, /* TargetHeartbeat */
+  {36, 9, 28, 1, -1, 25, 26}, /* AlignFilter */
+  {45, 1, 13, 1, -1, -1, -1}, /* TargetHeartbeat */
   {46, 1, 4, 1, -1, -1, -1}, /* TargetTiming */
   {47, 1, 4, 1, -1, -1, -1}, /* TargetCounters */
   {48, 4, 9, 0, 8, -1, -1}, /* Ssbl */
   {52, 3, 8, 0, 7, -1, -1}, /* Gps */
-  {55, 14, 42, 1, -1, 39, 40}, /* FixFilter */
+  {55, 14, 43, 1, -1, 40, 41}, /* FixFilter */
   {69, 1, 4, 0, -1, -1, -1}, /* TargetCommand */
   {70, 1, 2, 0, -1, -1, -1}, /* ParamSet */
   {71, 1, 3, 1, -1, -1, -1}, /* ParamAck */

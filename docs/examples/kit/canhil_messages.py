@@ -1,6 +1,6 @@
 """Made by dbcgen --python from canhil.dbc: change that, not this."""
 
-DBC_HASH24 = 0x82E36D
+DBC_HASH24 = 0x8B0EB5
 
 # name: {value: name}
 VALUE_TABLES = {
@@ -62,7 +62,8 @@ GROUPS = {
             ("los_rate_sigma_yaw_radps", 26, 14, "unsigned", 2e-05, 0.0, 0.0, 16350.0, None),
             ("target_acceleration_sigma_y_mps2", 40, 6, "unsigned", 2.5, 0.0, 0.0, 63.0, None),
             ("target_acceleration_sigma_z_mps2", 46, 6, "unsigned", 2.5, 0.0, 0.0, 63.0, None),
-            ("nis", 52, 12, "unsigned", 0.05, 0.0, 0.0, 4095.0, None),
+            ("nis", 52, 11, "unsigned", 0.1, 0.0, 0.0, 2047.0, None),
+            ("degraded", 63, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
         )),
         ("LosRateTarget", 0x7A, 0x407A, 8, (
             ("target_acceleration_y_mps2", 12, 10, "signed", 0.5, 0.0, -510.0, 510.0, None),
@@ -182,6 +183,7 @@ GROUPS = {
             ("fins_missing", 57, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
             ("fins_not_physical", 58, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
             ("theta_capped", 59, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
+            ("degraded", 60, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
         )),
         ("WindSigma", 0x112, 0x4112, 8, (
             ("wind_sigma_north_mps", 12, 17, "unsigned", 0.001, 0.0, 0.0, 131000.0, None),
@@ -263,6 +265,7 @@ GROUPS = {
             ("velocity_sigma_north_mps", 12, 17, "unsigned", 0.0001, 0.0, 0.0, 131000.0, None),
             ("velocity_sigma_east_mps", 29, 17, "unsigned", 0.0001, 0.0, 0.0, 131000.0, None),
             ("velocity_sigma_down_mps", 46, 17, "unsigned", 0.0001, 0.0, 0.0, 131000.0, None),
+            ("degraded", 63, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
         )),
         ("AlignGyroBias", 0x204, 0x4204, 8, (
             ("gyro_bias_x_degph", 12, 17, "signed", 0.002, 0.0, -65500.0, 65500.0, None),
@@ -304,6 +307,7 @@ GROUPS = {
             ("error_input_silent", 58, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
             ("error_numeric", 59, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
             ("error_command", 60, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
+            ("degraded", 61, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
         )),
     ),
     "TargetTiming": (
@@ -419,6 +423,7 @@ GROUPS = {
             ("outcome", 12, 4, "unsigned", 1.0, 0.0, 0.0, 15.0, "FixOutcome"),
             ("source", 16, 2, "unsigned", 1.0, 0.0, 0.0, 3.0, "FixSource"),
             ("handed_over", 18, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
+            ("degraded", 19, 1, "unsigned", 1.0, 0.0, 0.0, 1.0, None),
             ("repairs", 20, 16, "unsigned", 1.0, 0.0, 0.0, 65535.0, None),
             ("gated", 36, 14, "unsigned", 1.0, 0.0, 0.0, 16383.0, None),
             ("refused", 50, 14, "unsigned", 1.0, 0.0, 0.0, 16383.0, None),

@@ -96,7 +96,8 @@ void update_kalman(State& state, Plane innovation, const Design& design, UpdateR
   const Planes<double> R = of_planes(
       design, [&](auto plane) { return sample_variance(plane(design.settings.noise), result.used.range); });
   const Planes<Gain> K = of_planes(design, [&](auto plane) { return kalman_gain(plane(state.P), plane(R)); });
-  result.nis = normalised(innovation, {state.P.pitch.ee + R.pitch, state.P.yaw.ee + R.yaw});
+  result.innovation_variance = {state.P.pitch.ee + R.pitch, state.P.yaw.ee + R.yaw};
+  result.nis = normalised(innovation, result.innovation_variance);
   correct(state, innovation, K);
   state.P = of_planes(design, [&](auto plane) { return updated(plane(state.P), plane(K)); });
 }
@@ -118,7 +119,8 @@ void update_closed(State& state, Plane innovation, const Design& design, UpdateR
                                 : closed_gain(plane(design.combined), result.used);
     return {gain, R / (1 - gain.K.e)};  // K1 = P_ee/(P_ee + R)
   });
-  result.nis = normalised(innovation, {closed.pitch.S, closed.yaw.S});
+  result.innovation_variance = {closed.pitch.S, closed.yaw.S};
+  result.nis = normalised(innovation, result.innovation_variance);
   correct(state, innovation, {closed.pitch.gain.K, closed.yaw.gain.K});
   state.covariance = false;
   result.sigma = {closed.pitch.gain.sigma, closed.yaw.gain.sigma};

@@ -51,9 +51,10 @@ struct UpdateResult {
   Fault fault = Fault::none;  // the first that was found, whether or not it made the estimate coast
   bool blind = false;         // below the least range: range is clamped, guidance is to hold its command
   Planes<double> innovation;  // [rad]
-  double nis = 0;             // of both planes: chi-square of 2 if consistent; 0 without an update
-  Planes<Sigma> sigma;        // after the step
-  Geometry used;              // range (clamped) and closing speed that gain and transition saw
+  Planes<double> innovation_variance{1, 1};  // [rad^2]
+  double nis = 0;       // of both planes: chi-square of 2 if consistent; 0 without an update
+  Planes<Sigma> sigma;  // after the step
+  Geometry used;        // range (clamped) and closing speed that gain and transition saw
 };
 
 /// LOS error angle [rad], LOS rate [rad/s] about y and z, target acceleration [m/s^2] along z and y.

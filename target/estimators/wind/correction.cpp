@@ -10,13 +10,14 @@ namespace {
 
 using Matrix6 = filtering::Matrix<6, 6>;
 
-// One scalar measurement h x: Ph = P h', S = h P h' + R, residual = its innovation less h dx.
-void absorb(Correction& c, const StateVector& Ph, double S, double residual) {
+// One scalar measurement h x, in its place: Ph = P h', S = h P h' + R, residual = its innovation less h dx.
+void absorb(Correction& c, int place, const StateVector& Ph, double S, double residual) {
   const double scale = 1 / std::sqrt(S);
   const StateVector q = scale * Ph;  // of both factors, so that P stays symmetric to the last bit
   const double normalised = scale * residual;
   c.P.noalias() -= q.lazyProduct(q.transpose());
   c.dx += normalised * q;
+  c.normalised(place) = normalised;
   c.nis += normalised * normalised;
   c.determinant *= S;
 }
@@ -29,7 +30,7 @@ Correction corrected(const Covariance& P, const Observation& innovation, const G
   c.P = P;
   for (int i = 3; i < 9; ++i) {  // rates and Euler angles are states themselves
     const StateVector Ph = c.P.col(i);
-    absorb(c, Ph, Ph(i) + noise_variance(i), innovation(i) - c.dx(i));
+    absorb(c, i, Ph, Ph(i) + noise_variance(i), innovation(i) - c.dx(i));
   }
   for (int i = 0; i < 3; ++i) {  // ground velocity: row i of [C_bn 0 d(C_bn v_a)/dPhi I]
     const auto by_v_a = at.C_bn.row(i).transpose();
@@ -41,7 +42,7 @@ Correction corrected(const Covariance& P, const Observation& innovation, const G
     StateVector Ph = c.P.col(wind_at + i);
     Ph.noalias() += c.P.middleCols<3>(air_velocity_at).lazyProduct(by_v_a);
     Ph.noalias() += c.P.middleCols<3>(attitude_at).lazyProduct(by_attitude);
-    absorb(c, Ph, times_h(Ph) + noise_variance(i), innovation(i) - times_h(c.dx));
+    absorb(c, i, Ph, times_h(Ph) + noise_variance(i), innovation(i) - times_h(c.dx));
   }
   return c;
 }

@@ -8,7 +8,9 @@ namespace canhil::wind {
 struct Correction {
   StateVector dx = StateVector::Zero();
   Covariance P;
-  double nis = 0;          // innovation' S^-1 innovation: chi-square of 9 if consistent
+  Observation normalised;  // whitened: each less what those before it tell of it, over its own sigma; rates,
+                           // angles and velocity in their places, the velocity last in order
+  double nis = 0;  // innovation' S^-1 innovation, the sum of their squares: chi-square of 9 if consistent
   double determinant = 1;  // of S, in the units of the innovation
 };
 

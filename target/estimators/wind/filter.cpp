@@ -159,6 +159,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
   const double interval =
       gap > 0 ? std::min(gap, theta_interval_most) : settings.sample_period;  // the first sample: at release
   const Answer answer = update(state.x, state.P, result.innovation, at, interval, design);
+  result.normalised = answer.normalised;
   result.nis = answer.nis;
   result.surprise = answer.surprise;
   result.theta = answer.theta;

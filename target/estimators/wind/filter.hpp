@@ -70,6 +70,7 @@ struct UpdateResult {
   Fault fault = Fault::none;
   Flags flags;
   Observation innovation = Observation::Zero();  // ground velocity, rates, Euler angles
+  Observation normalised = Observation::Zero();  // the same whitened (correction.hpp)
   double nis = 0;                                // chi-square of 9 if consistent; 0 without an update
   double surprise = 0;                           // that and ln det S; 0 without an update
   double theta = 0;                              // H-infinity, as used

@@ -71,8 +71,9 @@ Observation innovation_of(const Observation& y, const StateVector& x, const Grou
 Answer update(StateVector& x, Covariance& P, const Observation& innovation, const GroundVelocity& at,
               double interval, const Design& design) {
   const Settings& settings = design.settings;
-  Answer answer{.innovation = innovation};
+  Answer answer{.innovation = innovation, .normalised = {}};
   Correction c = corrected(P, innovation, at, noise_variance(settings));
+  answer.normalised = c.normalised;
   answer.nis = c.nis;
   answer.surprise = c.nis + std::log(c.determinant);
   if (settings.algorithm == Algorithm::h_infinity) {

@@ -17,9 +17,10 @@ Observation innovation_of(const Observation& y, const StateVector& x, const Grou
 
 struct Answer {
   Observation innovation;
-  double nis = 0;       // innovation' S^-1 innovation
-  double surprise = 0;  // nis + ln det S: -2 ln of the innovation's likelihood, less a constant
-  double theta = 0;     // H-infinity, as used
+  Observation normalised;  // whitened (correction.hpp)
+  double nis = 0;          // innovation' S^-1 innovation
+  double surprise = 0;     // nis + ln det S: -2 ln of the innovation's likelihood, less a constant
+  double theta = 0;        // H-infinity, as used
   bool theta_capped = false;
 };
 

@@ -154,7 +154,8 @@ TEST(SensorLoss, AGapBeforeAVeryShortSampleIsBridgedInFewSteps) {
   Answers answers;
   Losses losses;
   Errors errors;
-  Context context{200'000, answers, losses, errors};
+  ConsistencyMonitor consistency;
+  Context context{200'000, answers, losses, errors, consistency};
   int steps = 0;
   double seconds = 0;
   const auto receive = [&](const auto& message) {

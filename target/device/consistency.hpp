@@ -1,0 +1,66 @@
+// Whether an estimator is as good as it says: its innovations against the covariance that it claims for them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace canhil::target {
+
+/// Two control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
+/// Moving Averages', 1959), each S <- keep S + z with z of mean 0 and variance 1 if the filter is consistent,
+/// so that S has the variance 1/(1 - keep^2):
+///   size   z = (NIS - m)/sqrt(2 m), NIS chi-squared of m: errors larger than the covariance says;
+///   bias   z = each innovation over its sigma: innovations that are not white, because what is wrong stays
+///          (a model's coefficient, a sensor's scale), even where noise that was raised makes NIS right again
+///          (Mehra, 'On the Identification of Variances and Adaptive Kalman Filtering', 1970).
+/// Too small a NIS is no reason to distrust: such a filter errs less than it says.
+class ConsistencyMonitor {
+ public:
+  void reset() { *this = {}; }
+
+  /// An innovation that was held against its covariance, whether it was then used or gated: NIS, and each
+  /// component over its own sigma (at most nine, always as many). What is no number counts as the largest.
+  void observe(double nis, std::span<const double> normalised) {
+    const auto m = static_cast<double>(normalised.size());
+    double worst = size_.after((nis - m) / std::sqrt(2 * m));
+    for (std::size_t i = 0; i < normalised.size(); ++i)
+      worst = std::max(worst, std::abs(bias_[i].after(normalised[i])));
+    if (worst > leaves) inconsistent_ = true;
+    if (worst < returns) inconsistent_ = false;
+  }
+
+  /// What the estimator knows by itself: its sigmas do not hold now.
+  void distrust(bool distrusted) { distrusted_ = distrusted; }
+
+  [[nodiscard]] bool degraded() const { return inconsistent_ || distrusted_; }
+
+ private:
+  // In standard deviations of a consistent filter. Back later than away, so that it does not flicker. Of
+  // draws that are consistent about one in a million updates raises a false alarm (5e6 draws each of m = 1,
+  // 2, 3, 9).
+  static constexpr double leaves = 6, returns = 2;
+
+  // `updates` are remembered; a single one counts at most as `largest` sigma of its own.
+  template <int updates, int largest>
+  class Chart {
+   public:
+    double after(double z) {
+      sum_ = keep * sum_ + (z > -largest ? std::min<double>(z, largest) : z <= -largest ? -largest : largest);
+      return sum_ * std::sqrt(1 - keep * keep);
+    }
+
+   private:
+    static constexpr double keep = 1 - 1.0 / updates;
+    double sum_ = 0;
+  };
+
+  Chart<20, 6>
+      size_;  // three outliers in a row do not do it, four do: 6 sigma is a mean NIS of 2.1 m for m = 3
+  std::array<Chart<500, 4>, 9> bias_{};  // 6 sigma is a mean of 0.19 sigma
+  bool inconsistent_ = false, distrusted_ = false;
+};
+
+}  // namespace canhil::target

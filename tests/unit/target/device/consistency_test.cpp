@@ -1,0 +1,74 @@
+#include "target/device/consistency.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace canhil::target {
+namespace {
+
+using Innovation = std::vector<double>;
+
+// Updates until the monitor is as asked; `most` of them: never.
+template <class Draw>
+int updates_until(ConsistencyMonitor& monitor, bool degraded, int most, Draw draw) {
+  for (int i = 0; i < most; ++i) {
+    const Innovation z = draw();
+    monitor.observe(std::inner_product(z.begin(), z.end(), z.begin(), 0.0), z);
+    if (monitor.degraded() == degraded) return i + 1;
+  }
+  return most;
+}
+
+TEST(ConsistencyMonitor, TrustsWhatIsConsistentAndTellsWhatIsNot) {
+  for (const std::size_t m : {1U, 2U, 3U, 9U}) {
+    SCOPED_TRACE(m);
+    std::mt19937_64 random(20261123U + m);
+    std::normal_distribution<double> white;
+    const auto draws = [&](double sigma, double bias) {
+      return [&, sigma, bias] {
+        Innovation z(m);
+        std::ranges::generate(z, [&] { return sigma * white(random); });
+        z.back() += bias;
+        return z;
+      };
+    };
+    ConsistencyMonitor monitor;
+    EXPECT_EQ(updates_until(monitor, true, 100'000, draws(1, 0)), 100'000) << "false alarm";
+    EXPECT_LT(updates_until(monitor, true, 100'000, draws(3, 0)), 40) << "three times the sigma";
+    EXPECT_EQ(updates_until(monitor, false, 1'000, draws(3, 0)), 1'000) << "it stays so";
+    EXPECT_LT(updates_until(monitor, false, 100'000, draws(1, 0)), 2'000);
+    // A bias of 0.4 sigma makes NIS larger by 0.16.
+    EXPECT_LT(updates_until(monitor, true, 100'000, draws(1, 0.4)), 1'000) << "what is wrong stays";
+    EXPECT_LT(updates_until(monitor, false, 100'000, draws(1, 0)), 2'000);
+    // A filter that errs less than it says is no liar.
+    EXPECT_EQ(updates_until(monitor, true, 10'000, draws(0.3, 0)), 10'000);
+  }
+}
+
+TEST(ConsistencyMonitor, FourOutliersInARowDoItThreeDoNot) {
+  for (const double outlier :
+       {1e3, -1e9, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    ConsistencyMonitor monitor;
+    EXPECT_EQ(updates_until(monitor, true, 10, [=] { return Innovation(3, outlier); }), 4);
+  }
+}
+
+TEST(ConsistencyMonitor, TheEstimatorsOwnDoubtCountsByItself) {
+  ConsistencyMonitor monitor;
+  monitor.distrust(true);
+  monitor.observe(3, Innovation{1, 1, 1});
+  EXPECT_TRUE(monitor.degraded());
+  monitor.distrust(false);
+  EXPECT_FALSE(monitor.degraded());
+  monitor.distrust(true);
+  monitor.reset();
+  EXPECT_FALSE(monitor.degraded());
+}
+
+}  // namespace
+}  // namespace canhil::target
