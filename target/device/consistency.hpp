@@ -25,11 +25,9 @@ class ConsistencyMonitor {
   /// component over its own sigma (at most nine, always as many). What is no number counts as the largest.
   void observe(double nis, std::span<const double> normalised) {
     const auto m = static_cast<double>(normalised.size());
-    double worst = size_.after((nis - m) / std::sqrt(2 * m));
+    inconsistent_ = size_.alarmed((nis - m) / std::sqrt(2 * m));
     for (std::size_t i = 0; i < normalised.size(); ++i)
-      worst = std::max(worst, std::abs(bias_[i].after(normalised[i])));
-    if (worst > leaves) inconsistent_ = true;
-    if (worst < returns) inconsistent_ = false;
+      inconsistent_ = bias_[i].alarmed(normalised[i]) || inconsistent_;
   }
 
   /// What the estimator knows by itself: its sigmas do not hold now.
@@ -38,28 +36,33 @@ class ConsistencyMonitor {
   [[nodiscard]] bool degraded() const { return inconsistent_ || distrusted_; }
 
  private:
-  // In standard deviations of a consistent filter. Back later than away, so that it does not flicker. Of
-  // draws that are consistent about one in a million updates raises a false alarm (5e6 draws each of m = 1,
-  // 2, 3, 9).
-  static constexpr double leaves = 6, returns = 2;
-
-  // `updates` are remembered; a single one counts at most as `largest` sigma of its own.
-  template <int updates, int largest>
+  // `updates` are remembered; a single one counts at most as `largest` sigma of its own. The alarm begins
+  // where S is beyond 6 of its standard deviations, on either side or above, and ends when it has been within
+  // 2 for as long as is remembered.
+  template <int updates, int largest, bool either_side>
   class Chart {
    public:
-    double after(double z) {
+    bool alarmed(double z) {
       sum_ = keep * sum_ + (z > -largest ? std::min<double>(z, largest) : z <= -largest ? -largest : largest);
-      return sum_ * std::sqrt(1 - keep * keep);
+      const double level = (either_side ? std::abs(sum_) : sum_) * std::sqrt(1 - keep * keep);
+      quiet_ = level < 2 ? quiet_ + 1 : 0;
+      if (level > 6) alarm_ = true;
+      if (quiet_ >= updates) alarm_ = false;
+      return alarm_;
     }
 
    private:
     static constexpr double keep = 1 - 1.0 / updates;
     double sum_ = 0;
+    int quiet_ = 0;
+    bool alarm_ = false;
   };
 
-  Chart<20, 6>
-      size_;  // three outliers in a row do not do it, four do: 6 sigma is a mean NIS of 2.1 m for m = 3
-  std::array<Chart<500, 4>, 9> bias_{};  // 6 sigma is a mean of 0.19 sigma
+  // Three outliers in a row do not do it, four do; 6 standard deviations are a mean NIS of 2.1 m for m = 3,
+  // and a mean innovation of 0.19 sigma. Of consistent draws one or two in a million updates raise an alarm
+  // (5e6 each of m = 1, 2, 3 and 9).
+  Chart<20, 6, false> size_;
+  std::array<Chart<500, 4, true>, 9> bias_{};
   bool inconsistent_ = false, distrusted_ = false;
 };
 

@@ -9,6 +9,7 @@ namespace canhil::wind {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
 // `value` held within the range; `outside` says whether it had to be.
@@ -16,9 +17,6 @@ double held(double value, const Range& range, bool& outside) {
   outside = !(value >= range.least && value <= range.most);
   return std::clamp(value, range.least, range.most);
 }
-
-// v v', evaluated by itself: a factor put into one of the two would cost the symmetry its last bit.
-Matrix3d dyad(const Vector3d& v) { return v * v.transpose(); }
 
 double drag_of(const Deflection& fins, const Drag& drag) {
   return drag.deflection_squared *
@@ -90,30 +88,29 @@ Loads loads(const Flow& f, const Coefficients& c, const Air& air, const Airframe
           force * Vector3d(airframe.span * c.roll, airframe.chord * c.pitch, airframe.span * c.yaw)};
 }
 
-LoadsCovariance loads_covariance(const Flow& f, const Deflection& fins, const Coefficients& c, const Air& air,
-                                 const Airframe& airframe) {
+LoadsByPart loads_by_part(const Flow& f, const Deflection& fins, const Coefficients& c, const Air& air,
+                          const Airframe& airframe) {
   // The parts of a coefficient are what it loses without the rates, and then without the fins.
   Flow steady = f;
   steady.rates.setZero();
   const Coefficients with_fins = coefficients(steady, fins, airframe);
   const Coefficients of_flow = coefficients(steady, {}, airframe);
-  const auto variance = [&](double Coefficients::*which) {
-    return squared(of_flow.*which) + squared(with_fins.*which - of_flow.*which) +
-           squared(c.*which - with_fins.*which);
+  const auto parts = [&](double Coefficients::*which) {
+    return RowVector3d(of_flow.*which, with_fins.*which - of_flow.*which, c.*which - with_fins.*which);
   };
-  // The drag polar is a table of the flow: its induced part goes with the whole lift.
   const double drag_of_fins = drag_of(fins, airframe.drag);
-  const Vector3d along_lift(f.sin_alpha, 0, -f.cos_alpha), along_drag(-f.cos_alpha, 0, -f.sin_alpha);
   const double force = 0.5 * air.density * f.speed * f.speed * airframe.area;
-  LoadsCovariance covariance;
-  covariance.specific_force = variance(&Coefficients::lift) * dyad(along_lift) +
-                              (squared(c.drag - drag_of_fins) + squared(drag_of_fins)) * dyad(along_drag);
-  covariance.specific_force(1, 1) = variance(&Coefficients::side);
-  covariance.specific_force *= squared(force / airframe.mass);
-  covariance.moment = Vector3d(squared(force * airframe.span) * variance(&Coefficients::roll),
-                               squared(force * airframe.chord) * variance(&Coefficients::pitch),
-                               squared(force * airframe.span) * variance(&Coefficients::yaw));
-  return covariance;
+  const Vector3d along_lift(f.sin_alpha, 0, -f.cos_alpha), along_drag(-f.cos_alpha, 0, -f.sin_alpha);
+  LoadsByPart by;
+  by.specific_force << along_lift * parts(&Coefficients::lift),
+      along_drag * RowVector3d(c.drag - drag_of_fins, drag_of_fins, 0),
+      Vector3d::UnitY() * parts(&Coefficients::side);
+  by.specific_force *= force / airframe.mass;
+  by.moment << Vector3d::UnitX() * (airframe.span * parts(&Coefficients::roll)),
+      Vector3d::UnitY() * (airframe.chord * parts(&Coefficients::pitch)),
+      Vector3d::UnitZ() * (airframe.span * parts(&Coefficients::yaw));
+  by.moment *= force;
+  return by;
 }
 
 LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3d& v_a, const Air& air,

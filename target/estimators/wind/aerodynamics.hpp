@@ -34,11 +34,15 @@ struct Loads {
   Eigen::Vector3d specific_force, moment;
 };
 
-/// Covariances of the loads where each part of each coefficient (static, rate, control) errs by a share of
-/// variance 1 of its own, as (m/s^2)^2 and (N m)^2, body axes.
-struct LoadsCovariance {
-  Eigen::Matrix3d specific_force = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d moment;  // the three are independent
+/// Each coefficient (lift, drag, side; roll, pitch, yaw) has three parts: of the flow, of the fins, of the
+/// rates.
+inline constexpr int force_part_count = 9, part_count = 18;
+
+/// What each part brings to the specific force [m/s^2] and to the moment [N m], body axes, lift's first;
+/// their sums are loads(). The drag polar is a table of the flow: its induced part goes with the whole lift.
+struct LoadsByPart {
+  Eigen::Matrix<double, 3, force_part_count> specific_force;
+  Eigen::Matrix<double, 3, part_count - force_part_count> moment;
 };
 
 /// Derivatives by air velocity [m/s] and rates [rad/s]; zero along what is held at the end of its range.
@@ -52,8 +56,8 @@ Coefficients coefficients(const Flow& flow, const Deflection& fins, const Airfra
 
 Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airframe& airframe);
 
-LoadsCovariance loads_covariance(const Flow& flow, const Deflection& fins, const Coefficients& c,
-                                 const Air& air, const Airframe& airframe);
+LoadsByPart loads_by_part(const Flow& flow, const Deflection& fins, const Coefficients& c, const Air& air,
+                          const Airframe& airframe);
 
 /// v_a is the velocity `flow` was made of.
 LoadsJacobian loads_jacobian(const Flow& flow, const Coefficients& c, const Eigen::Vector3d& v_a,

@@ -38,10 +38,11 @@ StateVector difference(const StateVector& x, const StateVector& y) {
 }
 
 void mix(Bank& bank, const BankDesign& design) {
-  const State& most = bank.states[likeliest(bank)];
+  const std::size_t most_at = likeliest(bank);
+  const State& most = bank.states[most_at];
   bank.started = most.started;
   bank.x = most.x;
-  bank.P = most.P;
+  bank.P = told_covariance(most, design.of[most_at].settings);
   if (design.count == 1) return;
   StateVector mean = StateVector::Zero();
   for (std::size_t i = 0; i < design.count; ++i)
@@ -49,7 +50,7 @@ void mix(Bank& bank, const BankDesign& design) {
   bank.P.setZero();
   for (std::size_t i = 0; i < design.count; ++i) {
     const StateVector d = difference(bank.states[i].x, most.x) - mean;
-    bank.P += bank.weight[i] * (bank.states[i].P + d * d.transpose());
+    bank.P += bank.weight[i] * (told_covariance(bank.states[i], design.of[i].settings) + d * d.transpose());
   }
   bank.x += mean;
   for (const int i : {attitude_at, attitude_at + 2}) bank.x(i) = wrapped(bank.x(i));

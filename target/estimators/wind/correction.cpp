@@ -9,6 +9,7 @@ namespace canhil::wind {
 namespace {
 
 using Matrix6 = filtering::Matrix<6, 6>;
+using ByShare = Eigen::Matrix<double, 1, part_count>;
 
 // One scalar measurement h x, in its place: Ph = P h', S = h P h' + R, residual = its innovation less h dx.
 void absorb(Correction& c, int place, const StateVector& Ph, double S, double residual) {
@@ -25,12 +26,17 @@ void absorb(Correction& c, int place, const StateVector& Ph, double S, double re
 }  // namespace
 
 Correction corrected(const Covariance& P, const Observation& innovation, const GroundVelocity& at,
-                     const Observation& noise_variance) {
+                     const Observation& noise_variance, Sensitivity* sensitivity) {
   Correction c;
   c.P = P;
+  const auto absorb_sensitivity = [&](const StateVector& Ph, double S, const auto& by_share) {
+    sensitivity->noalias() -= ((1 / S) * Ph).lazyProduct(by_share);
+  };
   for (int i = 3; i < 9; ++i) {  // rates and Euler angles are states themselves
     const StateVector Ph = c.P.col(i);
-    absorb(c, i, Ph, Ph(i) + noise_variance(i), innovation(i) - c.dx(i));
+    const double S = Ph(i) + noise_variance(i);
+    absorb(c, i, Ph, S, innovation(i) - c.dx(i));
+    if (sensitivity != nullptr) absorb_sensitivity(Ph, S, ByShare(sensitivity->row(i)));
   }
   for (int i = 0; i < 3; ++i) {  // ground velocity: row i of [C_bn 0 d(C_bn v_a)/dPhi I]
     const auto by_v_a = at.C_bn.row(i).transpose();
@@ -42,7 +48,13 @@ Correction corrected(const Covariance& P, const Observation& innovation, const G
     StateVector Ph = c.P.col(wind_at + i);
     Ph.noalias() += c.P.middleCols<3>(air_velocity_at).lazyProduct(by_v_a);
     Ph.noalias() += c.P.middleCols<3>(attitude_at).lazyProduct(by_attitude);
-    absorb(c, i, Ph, times_h(Ph) + noise_variance(i), innovation(i) - times_h(c.dx));
+    const double S = times_h(Ph) + noise_variance(i);
+    absorb(c, i, Ph, S, innovation(i) - times_h(c.dx));
+    if (sensitivity == nullptr) continue;
+    ByShare by_share = sensitivity->row(wind_at + i);
+    by_share += by_v_a.transpose().lazyProduct(sensitivity->middleRows<3>(air_velocity_at));
+    by_share += by_attitude.transpose().lazyProduct(sensitivity->middleRows<3>(attitude_at));
+    absorb_sensitivity(Ph, S, by_share);
   }
   return c;
 }

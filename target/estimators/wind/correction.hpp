@@ -14,9 +14,10 @@ struct Correction {
   double determinant = 1;  // of S, in the units of the innovation
 };
 
-/// The Kalman update of P by an observation of the given innovation, noise variances diagonal.
+/// The Kalman update of P by an observation of the given innovation, noise variances diagonal; of the
+/// sensitivity S+ = (I - K H) S, if there is one.
 Correction corrected(const Covariance& P, const Observation& innovation, const GroundVelocity& at,
-                     const Observation& noise_variance);
+                     const Observation& noise_variance, Sensitivity* sensitivity = nullptr);
 
 /// The largest theta, at most the one given, with theta lambda_max(S^1/2 L P L' S^1/2) <= cap; L picks the
 /// air velocity and the rates, S = diag(1, 1, 1, w, w, w).

@@ -38,6 +38,11 @@ bool is_stale(State& state, const Observation& y, double gap, const Settings& se
   return state.unchanged_s > settings.stale_limit;
 }
 
+// None: nothing is considered.
+Sensitivity* sensitivity_of(State& state, const Settings& settings) {
+  return considers_coefficients(settings) ? &state.sensitivity : nullptr;
+}
+
 // The filter starts again: of the past only the wind is kept.
 void forget(State& state) {
   state.started = false;
@@ -64,6 +69,7 @@ void start(State& state, const Navigation& n, const Settings& settings) {
   P.block<3, 3>(wind_at, air_velocity_at) = -P_wind * C_nb.transpose();
   P.block<3, 3>(attitude_at, air_velocity_at) = -R_attitude * D.transpose() * C_nb.transpose();
   filtering::mirror_lower<12>(P);
+  state.sensitivity.topRows<9>().setZero();
   state.started = true;
   state.sample_used = true;
   state.coasted_s = 0;
@@ -94,7 +100,7 @@ void advance(State& state, double dt, const ActingFins& acting, const Design& de
   (follows_loads(design.settings.process_noise) ? density.coefficient : density.rate) *=
       std::sqrt(state.noise_factor);
   if (flags.fins_missing) density = raised(density, design.settings.degraded);
-  predict(state.x, state.P, dt, inputs, density, design, outside);
+  predict(state.x, state.P, dt, inputs, density, design, outside, sensitivity_of(state, design.settings));
   flags.outside |= outside;
 }
 
@@ -128,7 +134,8 @@ void adapt(State& state, double nis, double gap, const Settings& settings) {
 }
 
 bool is_sound(const State& state) {  // the sum of what is not finite is not finite
-  return std::isfinite(state.x.sum() + state.P.sum()) && state.P.diagonal().minCoeff() > 0;
+  return std::isfinite(state.x.sum() + state.P.sum() + state.sensitivity.sum()) &&
+         state.P.diagonal().minCoeff() > 0;
 }
 
 bool jumped(const Observation& innovation, const Settings& settings) {
@@ -158,7 +165,8 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
   state.jumps = 0;
   const double interval =
       gap > 0 ? std::min(gap, theta_interval_most) : settings.sample_period;  // the first sample: at release
-  const Answer answer = update(state.x, state.P, result.innovation, at, interval, design);
+  const Answer answer =
+      update(state.x, state.P, result.innovation, at, interval, design, sensitivity_of(state, settings));
   result.normalised = answer.normalised;
   result.nis = answer.nis;
   result.surprise = answer.surprise;
@@ -229,6 +237,14 @@ State initial(const Start& s, const Design& design) {
   state.t_us = s.t_us;
   state.altitude = s.altitude;
   return state;
+}
+
+Covariance told_covariance(const State& state, const Settings& settings) {
+  if (!considers_coefficients(settings)) return state.P;
+  const Sensitivity by_sigma = settings.coefficient_sigma * state.sensitivity;
+  Covariance P = state.P + by_sigma.lazyProduct(by_sigma.transpose());
+  filtering::mirror_lower<12>(P);
+  return P;
 }
 
 UpdateResult step(State& state, const Navigation& navigation, const FinHistory& fins, const Design& design) {

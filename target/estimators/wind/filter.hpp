@@ -25,7 +25,8 @@ struct Navigation {
 struct State {
   StateVector x = StateVector::Zero();
   Covariance P = Covariance::Identity();
-  bool started = false;  // false: of x and P only the wind counts
+  Sensitivity sensitivity = Sensitivity::Zero();  // where considers_coefficients()
+  bool started = false;                           // false: of x and P only the wind counts
   std::optional<std::int64_t> t_us;
   bool sample_used = false;                // of t_us
   double altitude = 0;                     // at t_us [m]
@@ -75,6 +76,10 @@ struct UpdateResult {
   double surprise = 0;                           // that and ln det S; 0 without an update
   double theta = 0;                              // H-infinity, as used
 };
+
+/// P, and what coefficients that may be wrong for good add to it: P + sigma^2 S S' (Schmidt's considered
+/// parameters with the gain as it is: Jazwinski 1970, sect. 8.4).
+Covariance told_covariance(const State& state, const Settings& settings);
 
 /// What is known at release: where the air velocity is (from the carrier), the wind follows.
 struct Start {

@@ -103,7 +103,7 @@ Linearisation linearise(const StateVector& x, const Inputs& inputs, const Design
   const Evaluation e = evaluate(x, inputs, design, outside);
   Linearisation at{derivative(e, inputs, design), jacobian(e, inputs, design), std::nullopt};
   if (follows_loads(design.settings.process_noise))
-    at.loads = loads_covariance(e.flow, inputs.fins, e.c, inputs.air, design.airframe);
+    at.loads = loads_by_part(e.flow, inputs.fins, e.c, inputs.air, design.airframe);
   return at;
 }
 
@@ -115,8 +115,7 @@ StateVector predicted(const StateVector& x, const StateVector& f, double dt, con
   return x + (dt / 6) * (f + 2 * (k2 + k3) + k4);
 }
 
-Covariance predicted(const Covariance& P, const Jacobian& A, double dt) {
-  // Nothing depends on heading and wind, and the wind does not move: G is 9 x 8.
+Growth growth(const Jacobian& A, double dt) {
   const double half = dt * dt / 2;
   filtering::Matrix<9, 9> G;
   const auto block = [&](int row, int column) { return G.block<3, 3>(3 * row, 3 * column); };
@@ -129,9 +128,24 @@ Covariance predicted(const Covariance& P, const Jacobian& A, double dt) {
   block(2, 0) = half * A.po.lazyProduct(A.oa);
   block(2, 1) = dt * A.po + half * (A.po.lazyProduct(A.oo) + A.pp.lazyProduct(A.po));
   block(2, 2) = dt * A.pp + half * A.pp.lazyProduct(A.pp);
-  return filtering::propagate_covariance_moving<9>(P, [&G](const auto& M) {
-    return M.template leftCols<8>().lazyProduct(G.template leftCols<8>().transpose());
-  });
+  return G.leftCols<8>();
+}
+
+Covariance predicted(const Covariance& P, const Growth& G) {
+  return filtering::propagate_covariance_moving<9>(
+      P, [&G](const auto& M) { return M.template leftCols<8>().lazyProduct(G.transpose()); });
+}
+
+void predict(Sensitivity& S, const Growth& G, const LoadsByPart& loads, double dt, const Design& design) {
+  const auto add_half = [&] {
+    S.block<3, force_part_count>(air_velocity_at, 0) += (dt / 2) * loads.specific_force;
+    S.block<3, part_count - force_part_count>(rate_at, force_part_count) +=
+        ((dt / 2) * design.inertia_inverse).lazyProduct(loads.moment);
+  };
+  add_half();
+  const filtering::Matrix<9, part_count> grown = G.lazyProduct(S.topRows<8>());
+  S.topRows<9>() += grown;
+  add_half();
 }
 
 Matrix3d C_bn(const Vector3d& attitude) {

@@ -39,7 +39,7 @@ struct Jacobian {
 struct Linearisation {
   StateVector f;
   Jacobian A;
-  std::optional<LoadsCovariance> loads;  // where the process noise follows them
+  std::optional<LoadsByPart> loads;  // where the process noise follows them
 };
 
 /// x' and its analytic Jacobian at x.
@@ -50,8 +50,20 @@ Linearisation linearise(const StateVector& x, const Inputs& inputs, const Design
 StateVector predicted(const StateVector& x, const StateVector& f, double dt, const Inputs& inputs,
                       const Design& design, RangeFlags& outside);
 
-/// (I + G) P (I + G)', G = A dt + (A dt)^2/2; Q is the caller's.
-Covariance predicted(const Covariance& P, const Jacobian& A, double dt);
+/// G = A dt + (A dt)^2/2 of the states that move: Phi = I + G. Nothing depends on heading and wind, and the
+/// wind does not move: 9 x 8.
+using Growth = filtering::Matrix<9, 8>;
+Growth growth(const Jacobian& A, double dt);
+
+/// Phi P Phi'; Q is the caller's.
+Covariance predicted(const Covariance& P, const Growth& G);
+
+/// What errors of the states owe to coefficients that are wrong for good: dx over the share by which each
+/// part of each coefficient is wrong (LoadsByPart).
+using Sensitivity = filtering::Matrix<12, part_count>;
+
+/// S+ = Phi S + (I + Phi)/2 (dx'/dshare) dt.
+void predict(Sensitivity& S, const Growth& G, const LoadsByPart& loads, double dt, const Design& design);
 
 /// C_bn v_a, C_bn and d(C_bn v_a)/dPhi.
 struct GroundVelocity {

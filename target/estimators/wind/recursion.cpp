@@ -21,11 +21,15 @@ Observation noise_variance(const Settings& s) {
 }
 
 // What coefficients that are wrong by shares of variance q do to the air velocity and to the rates.
-void add_noise_of_coefficients(Covariance& P, double q, const LoadsCovariance& loads, const Design& design) {
-  P.block<3, 3>(air_velocity_at, air_velocity_at) += q * loads.specific_force;
-  const Matrix3d root = design.inertia_inverse * loads.moment.cwiseSqrt().asDiagonal();
-  const Matrix3d of_rates = root.lazyProduct(root.transpose());  // symmetric to the last bit
-  P.block<3, 3>(rate_at, rate_at) += q * of_rates;
+void add_noise_of_coefficients(Covariance& P, double q, const LoadsByPart& loads, const Design& design) {
+  const Eigen::Matrix<double, 3, part_count - force_part_count> turn =
+      design.inertia_inverse.lazyProduct(loads.moment);
+  filtering::Matrix<3, 3> of_force = loads.specific_force.lazyProduct(loads.specific_force.transpose());
+  filtering::Matrix<3, 3> of_moment = turn.lazyProduct(turn.transpose());
+  filtering::mirror_lower<3>(of_force);
+  filtering::mirror_lower<3>(of_moment);
+  P.block<3, 3>(air_velocity_at, air_velocity_at) += q * of_force;
+  P.block<3, 3>(rate_at, rate_at) += q * of_moment;
 }
 
 }  // namespace
@@ -40,14 +44,15 @@ Densities raised(Densities density, const Densities& least) {
 }
 
 void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, const Densities& density,
-             const Design& design, RangeFlags& outside) {
+             const Design& design, RangeFlags& outside, Sensitivity* sensitivity) {
   const Linearisation at = linearise(x, inputs, design, outside);
   const Densities noise = outside.any() ? raised(density, design.settings.degraded) : density;
   const double q_wind = squared(noise.wind) * dt;
   StateVector Q;
   Q << Vector3d::Constant(squared(noise.air_velocity) * dt), Vector3d::Constant(squared(noise.rate) * dt),
       Vector3d::Constant(squared(noise.attitude) * dt), Vector3d::Constant(q_wind);
-  P = predicted(P, at.A, dt);
+  const Growth G = growth(at.A, dt);
+  P = predicted(P, G);
   if (design.settings.process_noise != ProcessNoise::block_diagonal) {
     // v_a' has -C_nb v_w': Q_aa += C_nb q C_bn = q I, Q_aw = -C_nb q
     const Matrix3d C_nb = C_bn(x.segment<3>(attitude_at)).transpose();
@@ -57,6 +62,7 @@ void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, con
   }
   P.diagonal() += Q;
   if (at.loads) add_noise_of_coefficients(P, squared(noise.coefficient) * dt, *at.loads, design);
+  if (at.loads && sensitivity != nullptr) predict(*sensitivity, G, *at.loads, dt, design);
   x = predicted(x, at.f, dt, inputs, design, outside);
 }
 
@@ -69,10 +75,10 @@ Observation innovation_of(const Observation& y, const StateVector& x, const Grou
 }
 
 Answer update(StateVector& x, Covariance& P, const Observation& innovation, const GroundVelocity& at,
-              double interval, const Design& design) {
+              double interval, const Design& design, Sensitivity* sensitivity) {
   const Settings& settings = design.settings;
   Answer answer{.innovation = innovation, .normalised = {}};
-  Correction c = corrected(P, innovation, at, noise_variance(settings));
+  Correction c = corrected(P, innovation, at, noise_variance(settings), sensitivity);
   answer.normalised = c.normalised;
   answer.nis = c.nis;
   answer.surprise = c.nis + std::log(c.determinant);

@@ -10,7 +10,7 @@ Densities raised(Densities density, const Densities& least);
 /// x and P after dt [s] with the inputs held; `density` is the process noise, raised to settings.degraded
 /// where something is `outside` the model's range, before the call or by x.
 void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, const Densities& density,
-             const Design& design, RangeFlags& outside);
+             const Design& design, RangeFlags& outside, Sensitivity* sensitivity = nullptr);
 
 /// y - h(x), angles within +-pi; `at` is ground_velocity(x).
 Observation innovation_of(const Observation& y, const StateVector& x, const GroundVelocity& at);
@@ -28,8 +28,8 @@ struct Answer {
 /// Algorithm::h_infinity.
 Answer update(StateVector& x, Covariance& P, const Observation& y, double interval, const Design& design);
 
-/// The same for a caller who has the innovation already.
+/// The same for a caller who has the innovation already, and perhaps a sensitivity.
 Answer update(StateVector& x, Covariance& P, const Observation& innovation, const GroundVelocity& at,
-              double interval, const Design& design);
+              double interval, const Design& design, Sensitivity* sensitivity = nullptr);
 
 }  // namespace canhil::wind

@@ -39,6 +39,8 @@ struct Settings {
   ProcessNoise process_noise = ProcessNoise::block_diagonal;
   Densities density;
 
+  double coefficient_sigma = 0.05;  // by which share each part of each coefficient may be wrong for good
+
   double velocity_sigma = 0.25;                // of a navigation sample: ground velocity, NED [m/s]
   double rate_sigma = 0.125 * rad_per_deg;     // [rad/s]
   double attitude_sigma = 0.25 * rad_per_deg;  // [rad]
@@ -74,5 +76,11 @@ struct Settings {
   double ground_speed_most = 1000;  // beyond these a navigation sample is not physical [m/s]
   double rate_most = 10;            // [rad/s]
 };
+
+/// The sigmas allow for coefficients that are wrong for good; the H-infinity filter has its own way.
+constexpr bool considers_coefficients(const Settings& settings) {
+  return settings.coefficient_sigma > 0 && follows_loads(settings.process_noise) &&
+         settings.algorithm != Algorithm::h_infinity;
+}
 
 }  // namespace canhil::wind
