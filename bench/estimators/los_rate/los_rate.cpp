@@ -25,8 +25,9 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 5> kept{&los_rate_pitch, &los_rate_yaw, &los_mean_nis, &miss_pitch,
-                                              &miss_yaw};
+constexpr std::array<const Quantity*, 8> kept{&los_rate_pitch,      &los_rate_yaw,  &los_mean_nis,
+                                              &miss_pitch,          &miss_yaw,      &los_rate_sigma,
+                                              &los_rate_over_sigma, &los_rate_worst};
 
 double both_planes(const Samples& samples, std::size_t place) {
   const double pitch = samples.value(place, los_rate_pitch), yaw = samples.value(place, los_rate_yaw);
@@ -47,6 +48,7 @@ constexpr Layout layout{
 /// What falls into one stretch.
 struct Stretch {
   double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
+  double variances = 0, over_variances = 0, worst = 0;
   int rates = 0, updates = 0;
 };
 
@@ -64,6 +66,10 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     Stretch& stretch = at(error.time_to_go);
     stretch.pitch_squares += error.rate.pitch * error.rate.pitch;
     stretch.yaw_squares += error.rate.yaw * error.rate.yaw;
+    const double pitch = error.rate.pitch / error.sigma.pitch, yaw = error.rate.yaw / error.sigma.yaw;
+    stretch.variances += error.sigma.pitch * error.sigma.pitch + error.sigma.yaw * error.sigma.yaw;
+    stretch.over_variances += pitch * pitch + yaw * yaw;
+    if (!error.blind) stretch.worst = std::max({stretch.worst, std::abs(pitch), std::abs(yaw)});
     ++stretch.rates;
   }
   for (const Told& update : nis_of(seen.of<LosAnswers>())) {
@@ -74,11 +80,19 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     ++stretch.updates;
   }
   const world::Vector3 miss_n = engagement.miss_n.value_or(world::Vector3::Constant(nan));
+  double worst = 0;
   for (const auto& [place, stretch] : stretches) {
     if (stretch.rates == 0) continue;
+    worst = std::max(worst, stretch.worst);
     const std::array<double, kept.size()> values{
-        std::sqrt(stretch.pitch_squares / stretch.rates), std::sqrt(stretch.yaw_squares / stretch.rates),
-        stretch.updates > 0 ? told(stretch.nis_sum / stretch.updates) : nan, miss_n.z(), miss_n.y()};
+        std::sqrt(stretch.pitch_squares / stretch.rates),
+        std::sqrt(stretch.yaw_squares / stretch.rates),
+        stretch.updates > 0 ? told(stretch.nis_sum / stretch.updates) : nan,
+        miss_n.z(),
+        miss_n.y(),
+        std::sqrt(stretch.variances / (2 * stretch.rates)),
+        std::sqrt(stretch.over_variances / (2 * stretch.rates)),
+        worst};
     samples.add((place - 1) * stretch_us, values);
   }
   return samples;
