@@ -240,10 +240,12 @@ void Seeker::steer() {
   if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // guidance holds its command
   const Sent& sample = sent_.front();
   const std::int64_t use_us = sample.sent_us + plan.guidance_delay_us;
-  const double age =
-      plan.guidance_predicts ? 1e-6 * static_cast<double>(use_us - cause_us + period_us_ / 2) : 0;
-  const bool in_time = engagement_.command(use_us, sample.C_na * rate_at_use(sample, estimate, target, age),
-                                           sample.closing_speed);
+  const double age = 1e-6 * static_cast<double>(use_us - cause_us + period_us_ / 2);
+  const world::Vector3 omega_los_a =
+      plan.guidance_predicts && sample.range > 0
+          ? rate_at_use(sample, estimate, target, age)
+          : world::Vector3(0, estimate.los_rate_pitch_radps, estimate.los_rate_yaw_radps);
+  const bool in_time = engagement_.command(use_us, sample.C_na * omega_los_a, sample.closing_speed);
   if (!in_time) ++run_.engagement->late_commands;
 }
 

@@ -27,7 +27,8 @@ inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, st
   }
   const std::filesystem::path results =
       std::filesystem::path(test::own_folder()) /
-      (std::filesystem::path(file).parent_path().filename().string() + ".sqlite");
+      (std::filesystem::path(file).parent_path().filename().string() + "-" +
+       std::filesystem::path(file).stem().string() + ".sqlite");
   const std::atomic<bool> stop = false;
   campaign::Options options;
   options.file = results;
