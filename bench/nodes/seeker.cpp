@@ -122,12 +122,15 @@ class Seeker final : public Node {
     std::int64_t valid_us = 0;
     std::int64_t sent_us = 0;
     world::Matrix3 C_na;
-    double closing_speed = 0;  ///< as measured [m/s]
+    double range = 0, closing_speed = 0;           ///< as measured [m], [m/s]
+    world::Planes<double> missile_acceleration{};  ///< as measured [m/s^2]
   };
 
   void send(Transmission& out, const world::SeekerMeasurement& measured);
   void advance();
   void steer();
+  [[nodiscard]] static world::Vector3 rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
+                                                  const LosRateTarget& target, double dt);
 
   Run run_;
   world::Engagement engagement_;
@@ -166,7 +169,9 @@ void Seeker::transmit(Transmission& out) {
     sent_.push_back({.valid_us = valid_us_,
                      .sent_us = due_us_,
                      .C_na = now.C_na,
-                     .closing_speed = measured.closing_speed});
+                     .range = measured.range,
+                     .closing_speed = measured.closing_speed,
+                     .missile_acceleration = measured.missile_acceleration});
   }
   advance();
 }
@@ -210,17 +215,37 @@ void Seeker::hear(const Frame& frame) {
   put(std::type_identity<LosRateTarget>{});
 }
 
+// The answered rate dt after its sample by what is answered beside it, the target's acceleration, and what
+// the missile measured itself: w' = (2 vc/r) w + (a - a_m)/r, vc and accelerations constant (Na and Lee, eq.
+// (1)), of at most half of the range, as it grows without bound. In the antenna's axes of the sample.
+world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
+                                   const LosRateTarget& target, double dt) {
+  const double r0 = sample.range, r = std::max(r0 - sample.closing_speed * dt, r0 / 2);
+  const double w = r0 * r0 / (r * r), a = dt * (r0 + r) / (2 * r * r);
+  return {0,
+          w * estimate.los_rate_pitch_radps -
+              a * (target.target_acceleration_z_mps2 - sample.missile_acceleration.pitch),
+          w * estimate.los_rate_yaw_radps +
+              a * (target.target_acceleration_y_mps2 - sample.missile_acceleration.yaw)};
+}
+
 // The answer in the antenna's axes of its sample, with the closing speed of that sample.
 void Seeker::steer() {
   const auto& estimate = answer_.get<LosRateEstimate>();
-  const std::int64_t cause_us = unwrap_us(answer_.get<LosRateTarget>().cause_time_us, valid_us_);
+  const auto& target = answer_.get<LosRateTarget>();
+  const world::EngagementPlan& plan = *run_.scenario.engagement;
+  const std::int64_t cause_us = unwrap_us(target.cause_time_us, valid_us_);
   while (!sent_.empty() && sent_.front().valid_us < cause_us) sent_.pop_front();
   if (sent_.empty() || sent_.front().valid_us != cause_us) return;
   if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // guidance holds its command
   const Sent& sample = sent_.front();
-  const world::Vector3 omega_los_a(0, estimate.los_rate_pitch_radps, estimate.los_rate_yaw_radps);
-  const bool in_time = engagement_.command(sample.sent_us + run_.scenario.engagement->guidance_delay_us,
-                                           sample.C_na * omega_los_a, sample.closing_speed);
+  const std::int64_t use_us = sample.sent_us + plan.guidance_delay_us;
+  const double age = 1e-6 * static_cast<double>(use_us - cause_us + period_us_ / 2);
+  const world::Vector3 omega_los_a =
+      plan.guidance_predicts && sample.range > 0
+          ? rate_at_use(sample, estimate, target, age)
+          : world::Vector3(0, estimate.los_rate_pitch_radps, estimate.los_rate_yaw_radps);
+  const bool in_time = engagement_.command(use_us, sample.C_na * omega_los_a, sample.closing_speed);
   if (!in_time) ++run_.engagement->late_commands;
 }
 

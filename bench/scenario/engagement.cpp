@@ -59,6 +59,9 @@ world::EngagementPlan read_engagement(Section& section) {
   plan.roll_rate = section.number("roll_rate_radps", Limits::between(-20, 20), 0);
   plan.guidance = read_enum<world::Guidance>(section, "guidance", guidances);
   plan.guidance_delay_us = section.time_us("guidance_delay_ms", Limits::between(0, 1000), 10);
+  if (plan.guidance == world::Guidance::truth)
+    section.refuse("guidance_predicts", "has no effect here", "guidance = \"target\"");
+  plan.guidance_predicts = section.flag("guidance_predicts");
   section.finish();
   return plan;
 }

@@ -204,8 +204,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // A group whose interval does not begin where the last one ended leaves antenna increments out: they are
-  // not those of the step. The first one has no step before it.
+  // A group whose interval begins later than the last one ended follows lost ones; one that begins earlier
+  // has increments that are not those of the step. The first one has no step before it.
   los::Measurement measured(std::int64_t t_us) const {
     const auto& antenna = group_.get<SeekerAntenna>();
     const auto& angles = group_.get<SeekerAngles>();
@@ -214,8 +214,10 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     const auto interval_us = static_cast<std::int64_t>(angles.interval_us);
     const std::int64_t missing_us = t_us - interval_us - now_us_;
     const bool continuous = !tracking_ || std::abs(missing_us) < interval_us / 2;
+    const bool after_gap = !continuous && missing_us > 0 && interval_us > 0;
     const auto valid = [](Validity validity) { return validity == Validity::valid; };
     return {.dt = tracking_ ? static_cast<double>(t_us - now_us_) * us : design_.settings.sample_period,
+            .interval = after_gap ? static_cast<double>(interval_us) * us : 0,
             .error = {.pitch = angles.error_pitch_rad, .yaw = angles.error_yaw_rad},
             .antenna_increment = {.pitch = antenna.antenna_increment_pitch_rad,
                                   .yaw = antenna.antenna_increment_yaw_rad},
@@ -225,7 +227,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
             .range = {range.range_m, motion.closing_speed_mps, valid(range.range_validity),
                       valid(motion.closing_speed_validity)},
             .error_valid = valid(angles.error_validity),
-            .antenna_valid = valid(antenna.antenna_validity) && continuous,
+            .antenna_valid = valid(antenna.antenna_validity) && (continuous || after_gap),
             .acceleration_valid = valid(motion.acceleration_validity)};
   }
 

@@ -25,9 +25,9 @@ inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, st
     ADD_FAILURE() << campaign.error().message;
     return {};
   }
-  const std::filesystem::path results =
-      std::filesystem::path(test::own_folder()) /
-      (std::filesystem::path(file).parent_path().filename().string() + ".sqlite");
+  const std::filesystem::path results = std::filesystem::path(test::own_folder()) /
+                                        (std::filesystem::path(file).parent_path().filename().string() + "-" +
+                                         std::filesystem::path(file).stem().string() + ".sqlite");
   const std::atomic<bool> stop = false;
   campaign::Options options;
   options.file = results;

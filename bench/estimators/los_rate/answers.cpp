@@ -38,7 +38,9 @@ std::vector<LosError> los_errors(const LosAnswers& answers, const world::Engagem
     errors.push_back({.t_us = answer.cause_us,
                       .time_to_go = truth->time_to_go(),
                       .rate = {.pitch = answer.rate.pitch - truth->los_rate.pitch,
-                               .yaw = answer.rate.yaw - truth->los_rate.yaw}});
+                               .yaw = answer.rate.yaw - truth->los_rate.yaw},
+                      .sigma = answer.rate_sigma,
+                      .trusted = !answer.blind && !answer.degraded});
   }
   return errors;
 }

@@ -38,8 +38,10 @@ constexpr bool tells_rate(messages::LosRateOutcome outcome) {
 /// The error (estimated - true) of one LOS rate, at the time of validity of its sample.
 struct LosError {
   std::int64_t t_us = 0;
-  double time_to_go = 0;         ///< true range over closing speed [s]
-  world::Planes<double> rate{};  ///< [rad/s]
+  double time_to_go = 0;          ///< true range over closing speed [s]
+  world::Planes<double> rate{};   ///< [rad/s]
+  world::Planes<double> sigma{};  ///< as told [rad/s]
+  bool trusted = false;           ///< the answer says neither that it is blind nor that it is degraded
 };
 
 /// Errors of all answers that tell a rate, whose cause is an epoch of the engagement.

@@ -17,7 +17,6 @@
 #include "bench/estimators/marks.hpp"
 #include "bench/estimators/names.hpp"
 #include "bench/estimators/tracks.hpp"
-#include "bench/estimators/trust.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "messages/canhil.hpp"
 
@@ -26,8 +25,9 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 6> kept{&los_rate_pitch, &los_rate_yaw, &los_mean_nis,
-                                              &miss_pitch,     &miss_yaw,     &trusted_over_sigma};
+constexpr std::array<const Quantity*, 8> kept{&los_rate_pitch,      &los_rate_yaw,      &los_mean_nis,
+                                              &miss_pitch,          &miss_yaw,          &los_rate_sigma,
+                                              &los_rate_over_sigma, &trusted_over_sigma};
 
 double both_planes(const Samples& samples, std::size_t place) {
   const double pitch = samples.value(place, los_rate_pitch), yaw = samples.value(place, los_rate_yaw);
@@ -47,7 +47,8 @@ constexpr Layout layout{
 
 /// What falls into one stretch.
 struct Stretch {
-  double pitch_squares = 0, yaw_squares = 0, nis_sum = 0, trusted = 0;
+  double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
+  double variances = 0, over_variances = 0, trusted = 0;
   int rates = 0, updates = 0;
 };
 
@@ -65,12 +66,12 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     Stretch& stretch = at(error.time_to_go);
     stretch.pitch_squares += error.rate.pitch * error.rate.pitch;
     stretch.yaw_squares += error.rate.yaw * error.rate.yaw;
+    const double pitch = error.rate.pitch / error.sigma.pitch, yaw = error.rate.yaw / error.sigma.yaw;
+    stretch.variances += error.sigma.pitch * error.sigma.pitch + error.sigma.yaw * error.sigma.yaw;
+    stretch.over_variances += pitch * pitch + yaw * yaw;
     ++stretch.rates;
-    const LosAnswer& answer = answer_to(seen.of<LosAnswers>(), error.t_us);
-    if (!answer.degraded && !answer.blind)
-      stretch.trusted =
-          std::max(stretch.trusted, told(over_sigma({error.rate.pitch, error.rate.yaw, 0},
-                                                    {answer.rate_sigma.pitch, answer.rate_sigma.yaw, 1})));
+    if (error.trusted)
+      stretch.trusted = std::max({stretch.trusted, told(std::abs(pitch)), told(std::abs(yaw))});
   }
   for (const Told& update : nis_of(seen.of<LosAnswers>())) {
     const world::EngagementTruth* epoch = engagement.at(update.t_us);
@@ -88,6 +89,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
         stretch.updates > 0 ? told(stretch.nis_sum / stretch.updates) : nan,
         miss_n.z(),
         miss_n.y(),
+        std::sqrt(stretch.variances / (2 * stretch.rates)),
+        std::sqrt(stretch.over_variances / (2 * stretch.rates)),
         stretch.trusted};
     samples.add((place - 1) * stretch_us, values);
   }

@@ -52,7 +52,8 @@ struct EngagementPlan {
   double roll_rate = 0;                                      ///< of the antenna about its axis [rad/s]
   Guidance guidance = Guidance::truth;
   std::int64_t guidance_delay_us =
-      10'000;  ///< from a sample's transmission to the command made of its answer
+      10'000;                      ///< from a sample's transmission to the command made of its answer
+  bool guidance_predicts = false;  ///< from the sample's time to the command's
 };
 
 }  // namespace canhil::world

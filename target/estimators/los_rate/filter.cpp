@@ -14,6 +14,7 @@ bool finite(const Covariance& P) {
 }
 bool finite(const State& state) {
   return finite(state.error) && finite(state.rate) && finite(state.acceleration) &&
+         finite(state.motion.antenna_rate) &&
          (!state.covariance || (finite(state.P.pitch) && finite(state.P.yaw)));
 }
 
@@ -27,30 +28,48 @@ auto of_planes(const Design& design, Function function) {
 
 // What a sample lacks, and its inputs in the complex plane.
 struct Sample {
-  Plane error, antenna_increment, missile_acceleration;
-  bool error_ok, antenna_ok, acceleration_ok;
-  Fault fault;  // the first
+  double gap, interval;  // of lost samples, to be bridged, and its own [s]
+  Plane error, antenna_increment;
+  double roll_increment;
+  Motion motion;  // over its interval; what was not measured is what was measured last
+  bool error_ok, antenna_measured, antenna_ok, acceleration_ok;  // antenna: of its interval, of the step
+  Fault fault;                                                   // the first
 };
 
-Sample judged(const Measurement& m, const Settings& settings) {
-  Sample s{
-      .error = angle(m.error),
-      .antenna_increment = angle(m.antenna_increment),
-      .missile_acceleration = acceleration(m.missile_acceleration),
-      .error_ok = m.error_valid && finite(angle(m.error)),
-      .antenna_ok = m.antenna_valid && finite(angle(m.antenna_increment)) && std::isfinite(m.roll_increment),
-      .acceleration_ok = m.acceleration_valid && finite(acceleration(m.missile_acceleration)),
-      .fault = Fault::none};
+// A gap that cannot be bridged leaves the motion of the whole step unknown.
+Sample judged(const State& state, const Measurement& m, const Settings& settings) {
+  const bool lost = m.interval > 0 && m.interval < m.dt;
+  const bool bridged = lost && m.dt - m.interval <= settings.gap_limit && state.antenna_known;
+  const Plane missile_acceleration = acceleration(m.missile_acceleration);
+  Sample s{.gap = bridged ? m.dt - m.interval : 0,
+           .interval = bridged ? m.interval : m.dt,
+           .error = angle(m.error),
+           .antenna_increment = angle(m.antenna_increment),
+           .roll_increment = m.roll_increment,
+           .motion = state.motion,
+           .error_ok = m.error_valid && finite(angle(m.error)),
+           .antenna_measured =
+               m.antenna_valid && finite(angle(m.antenna_increment)) && std::isfinite(m.roll_increment),
+           .antenna_ok = false,
+           .acceleration_ok = m.acceleration_valid && finite(missile_acceleration),
+           .fault = Fault::none};
+  s.antenna_ok = s.antenna_measured && lost == bridged;
   if (!s.error_ok) {
     s.fault = Fault::error_angle;
   } else if (!(std::norm(s.error) <= settings.field_of_view * settings.field_of_view)) {
     s.error_ok = false;
     s.fault = Fault::field_of_view;
-  } else if (!s.antenna_ok) {
+  } else if (!s.antenna_ok || bridged) {
     s.fault = Fault::antenna;
   } else if (!s.acceleration_ok) {
     s.fault = Fault::acceleration;
   }
+  if (s.antenna_measured) {
+    const double own = lost ? m.interval : m.dt;
+    s.motion.antenna_rate = s.antenna_increment / own;
+    s.motion.roll_rate = s.roll_increment / own;
+  }
+  if (s.acceleration_ok) s.motion.missile_acceleration = missile_acceleration;
   return s;
 }
 
@@ -75,15 +94,15 @@ void start(State& state, Plane error, const Design& design, UpdateResult& result
   result.outcome = Outcome::started;
 }
 
-// P of the step; what was not measured widens it: an unknown antenna rotation e, an unknown acceleration w.
-void predict_covariance(State& state, Geometry end, double dt, const Sample& sample, const Design& design) {
-  const Settings& settings = design.settings;
-  const double turn = sample.antenna_ok ? 0 : settings.antenna_rate_sigma * dt;
-  const double pull = sample.acceleration_ok ? 0 : settings.missile_acceleration_sigma * dt / end.range;
+// P of a leg; what was not measured widens it: an angle `turn` [rad] of the antenna, `pull` [m/s] of the
+// missile.
+void predict_covariance(State& state, Geometry end, double dt, double turn, double pull,
+                        const Design& design) {
+  const double w = pull / end.range;
   state.P = of_planes(design, [&](auto plane) {
-    Covariance P = predicted(plane(state.P), end, dt, settings.jerk_density);
+    Covariance P = predicted(plane(state.P), end, dt, design.settings.jerk_density);
     P.ee += turn * turn;
-    P.ww += pull * pull;
+    P.ww += w * w;
     return P;
   });
 }
@@ -126,16 +145,16 @@ void update_closed(State& state, Plane innovation, const Design& design, UpdateR
   result.sigma = {closed.pitch.gain.sigma, closed.yaw.gain.sigma};
 }
 
-void update(State& state, Plane measured, double dt, const Design& design, UpdateResult& result) {
+void update(State& state, Plane measured, double dt, bool kalman, const Design& design,
+            UpdateResult& result) {
   const Plane innovation = measured - state.error;
   result.innovation = {.pitch = innovation.imag(), .yaw = innovation.real()};
   state.coasted_s = 0;
-  if (design.settings.algorithm == Algorithm::kalman || state.start_up_s > 0) {
-    result.outcome = state.start_up_s > 0 ? Outcome::start_up : Outcome::updated;
-    state.start_up_s -= dt;
+  result.outcome = state.start_up_s > 0 ? Outcome::start_up : Outcome::updated;
+  state.start_up_s -= dt;
+  if (kalman) {
     update_kalman(state, innovation, design, result);
   } else {
-    result.outcome = Outcome::updated;
     update_closed(state, innovation, design, result);
   }
 }
@@ -158,31 +177,51 @@ void predict_low_pass(State& state, double dt, Plane antenna_increment, double r
   state.rate *= whole;
 }
 
+// The interval of the sample itself; without the antenna's increment as if it were tracking.
+Leg own_leg(const State& state, const Sample& sample, const Settings& settings) {
+  const double dt = sample.interval;
+  return {.dt = dt,
+          .antenna_increment = sample.antenna_ok ? sample.antenna_increment : state.rate * dt,
+          .roll_increment = sample.antenna_ok ? sample.roll_increment : 0,
+          .missile_acceleration = sample.motion.missile_acceleration,
+          .turn = sample.antenna_ok ? 0 : settings.antenna_rate_sigma * dt,
+          .pull = sample.acceleration_ok ? 0 : settings.missile_acceleration_sigma * dt};
+}
+
+void predict(State& state, Geometry end, const Leg& leg, bool covariance, const Design& design) {
+  if (design.settings.algorithm == Algorithm::low_pass) {
+    predict_low_pass(state, leg.dt, leg.antenna_increment, leg.roll_increment);
+  } else {
+    predict(state, end, leg.dt, leg.antenna_increment, leg.missile_acceleration, leg.roll_increment);
+  }
+  if (covariance) predict_covariance(state, end, leg.dt, leg.turn, leg.pull, design);
+}
+
 void advance(State& state, const Measurement& m, const Sample& sample, bool range_ok, const Design& design,
              UpdateResult& result) {
   const Settings& settings = design.settings;
   const bool low_pass = settings.algorithm == Algorithm::low_pass;  // has no use for range and acceleration
   const bool measured =
       sample.error_ok && sample.antenna_ok && (low_pass || (sample.acceleration_ok && range_ok));
-  if (!state.covariance && (!measured || state.start_up_s > 0)) {
+  // A closed gain is that of one nominal step from its own steady state. After a gap or a coast P is larger.
+  const bool uneven = !low_pass && (sample.gap > 0 || state.coasted_s > 0);
+  const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0 || uneven;
+  if (!state.covariance && (!measured || kalman)) {
+    const Geometry begin{result.used.range + result.used.closing_speed * m.dt, result.used.closing_speed};
     state.P = of_planes(
-        design, [&](auto plane) { return steady_covariance(settings, plane(settings.noise), result.used); });
+        design, [&](auto plane) { return steady_covariance(settings, plane(settings.noise), begin); });
     state.covariance = true;
   }
   // Reckoned on and on at the clamped range, 2 vc/r would grow without bound.
   const Geometry end{result.used.range, result.blind && !measured ? 0 : result.used.closing_speed};
-  const double roll = sample.antenna_ok ? m.roll_increment : 0;
-  const Plane antenna = sample.antenna_ok ? sample.antenna_increment : state.rate * m.dt;  // as if tracking
-  if (sample.acceleration_ok) state.missile_acceleration = sample.missile_acceleration;
-  if (low_pass) {
-    predict_low_pass(state, m.dt, antenna, roll);
-  } else {
-    predict(state, end, m.dt, antenna, state.missile_acceleration, roll);
+  const bool covariance = !measured || kalman;
+  if (sample.gap > 0) {
+    const Geometry gap_end{end.range + end.closing_speed * sample.interval, end.closing_speed};
+    predict(state, gap_end, bridge(state.motion, sample.motion, sample.gap), covariance, design);
   }
-  const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0;
-  if (!measured || kalman) predict_covariance(state, end, m.dt, sample, design);
+  predict(state, end, own_leg(state, sample, settings), covariance, design);
   if (measured) {
-    update(state, sample.error, m.dt, design, result);
+    update(state, sample.error, m.dt, kalman, design, result);
   } else {
     coast(state, m.dt, sample, settings, result);
   }
@@ -219,7 +258,7 @@ UpdateResult step(State& state, const Measurement& m, const Design& design) {
   UpdateResult result;
   if (!(m.dt > 0 && m.dt <= settings.longest_step)) return result;
   State next = state;
-  const Sample sample = judged(m, settings);
+  const Sample sample = judged(state, m, settings);
   const Fault range_fault = follow(next.track, m.range, m.dt, settings);
   const bool range_ok = range_fault == Fault::none;
   result.fault = sample.fault == Fault::none ? range_fault : sample.fault;
@@ -231,6 +270,8 @@ UpdateResult step(State& state, const Measurement& m, const Design& design) {
   } else {
     result.outcome = Outcome::waiting;
   }
+  next.motion = sample.motion;
+  next.antenna_known = sample.antenna_measured;
   if (!finite(next) || !std::isfinite(result.nis)) {
     result.outcome = Outcome::non_finite;
     return result;

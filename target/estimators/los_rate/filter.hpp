@@ -1,21 +1,18 @@
 #pragma once
 // LOS rate of a seeker by range-only gains (Na and Lee), in two planes with roll coupling. make_design() at
 // start-up, initial(), then step() at each sample; NOTES.md for equations, signs and corrections.
-#include <complex>
 #include <cstdint>
 
 #include "target/estimators/los_rate/design.hpp"
+#include "target/estimators/los_rate/motion.hpp"
 #include "target/estimators/los_rate/range_track.hpp"
 
 namespace canhil::los_rate {
 
-/// A pair of planes as yaw + j pitch: angles and rates z + j y, accelerations y - j z (antenna axes, x
-/// forward, y right, z down). Then both planes obey the same equations and roll turns them by exp(j phi).
-using Plane = std::complex<double>;
-
-/// One sample of the seeker; increments over the `dt` that ends at it.
+/// One sample of the seeker; increments over the `interval` that ends at it.
 struct Measurement {
   double dt = 0;                       // since the last step [s]
+  double interval = 0;                 // shorter than dt: samples were lost before this one; 0: dt [s]
   Planes<double> error{};              // LOS off the antenna's axis [rad]
   Planes<double> antenna_increment{};  // antenna's inertial rotation about y, z [rad]
   double roll_increment = 0;           // about x [rad]
@@ -27,7 +24,8 @@ struct Measurement {
 
 struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
-  Plane missile_acceleration;       // the last measured, for samples that miss it
+  Motion motion;                    // the last measured of each
+  bool antenna_known = false;       // by the last sample
   Planes<Covariance> P;             // while `covariance` is set; in pitch alone where the noises are equal
   RangeTrack track;
   double start_up_s = 0;  // of Kalman filter still to come
@@ -39,7 +37,7 @@ struct State {
 enum class Outcome : std::uint8_t {
   waiting,     // no usable range and error angle yet
   started,     // the first sample: error angle taken over
-  updated,     // by the algorithm's own gain
+  updated,     // by the algorithm's own gain; after a gap or a coast by a Kalman gain
   start_up,    // by the Kalman filter before the closed gain
   coasting,    // predicted only; `fault` says why
   bad_step,    // dt not positive, not finite or too long: nothing done

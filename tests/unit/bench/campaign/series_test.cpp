@@ -94,12 +94,16 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
     answer.cause_us = t_us;
     answer.outcome = messages::LosRateOutcome::updated;
     answer.rate = {.pitch = t_us % 20'000 == 0 ? 4e-3 : -3e-3, .yaw = 1e-3};
+    answer.rate_sigma = {.pitch = 1e-3, .yaw = 2e-3};
     answer.nis = t_us % 20'000 == 0 ? 1 : 2;
     flown.seen.of<estimators::LosAnswers>().push_back(answer);
   }
   flown.seen.of<estimators::LosAnswers>()[0].outcome =
       messages::LosRateOutcome::coasting;  // told, but no update
   flown.seen.of<estimators::LosAnswers>()[1].outcome = messages::LosRateOutcome::waiting;
+  flown.seen.of<estimators::LosAnswers>()[8].rate.pitch = 1;
+  flown.seen.of<estimators::LosAnswers>()[8].blind = true;
+  flown.seen.of<estimators::LosAnswers>()[7].degraded = true;
   record.miss_n = world::Vector3(0, 0.3, -0.4);
   flown.own_truth.engagement = record;
   flown.seen.of<estimators::TransferAnswers>().navigation.emplace_back();
@@ -116,6 +120,14 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_rate_pitch), std::sqrt(12.5) * 1e-3);
   EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_rate_yaw), 1e-3);
   EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_mean_nis), 1.5);
+  EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_rate_sigma), std::sqrt(2.5) * 1e-3);
+  EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::los_rate_over_sigma), std::sqrt(25.5 / 4));
+  EXPECT_DOUBLE_EQ(series.samples.value(0, quantities::trusted_over_sigma), 3);
+  EXPECT_DOUBLE_EQ(series.samples.value(1, quantities::trusted_over_sigma), 4);
+  EXPECT_DOUBLE_EQ(series.samples.value(3, quantities::trusted_over_sigma), 3)
+      << "it says that it is degraded";
+  EXPECT_DOUBLE_EQ(series.samples.value(4, quantities::trusted_over_sigma), 0)
+      << "blind answers are not judged";
   EXPECT_DOUBLE_EQ(series.samples.value(2, quantities::miss_pitch), -0.4);
   EXPECT_DOUBLE_EQ(series.samples.value(2, quantities::miss_distance), 0.5);
 }

@@ -49,6 +49,7 @@ TEST(EngagementFields, DefaultsAreThoseOfTheWorld) {
   EXPECT_EQ(plan.manoeuvre.at_time_to_go, standard.manoeuvre.at_time_to_go);
   EXPECT_EQ(plan.guidance, world::Guidance::truth);
   EXPECT_EQ(plan.guidance_delay_us, standard.guidance_delay_us);
+  EXPECT_FALSE(plan.guidance_predicts);
   const auto seeker = node_of<nodes::SeekerSettings>(s), usual = nodes::SeekerSettings{};
   EXPECT_EQ(seeker.errors.thermal, usual.errors.thermal);
   EXPECT_EQ(seeker.errors.glint, usual.errors.glint);
@@ -65,7 +66,8 @@ TEST(EngagementFields, DefaultsAreThoseOfTheWorld) {
 TEST(EngagementFields, EveryKey) {
   const auto plan =
       parsed(with("guidance = \"truth\"",
-                  "guidance = \"target\"\nguidance_delay_ms = 20\nrange_m = 4000\nmissile_speed_mps = 700\n"
+                  "guidance = \"target\"\nguidance_delay_ms = 20\nguidance_predicts = true\nrange_m = "
+                  "4000\nmissile_speed_mps = 700\n"
                   "target_speed_mps = 200\nheading_error_deg = 2\nheading_error_sigma_deg = 1\n"
                   "pointing_error_sigma_mrad = 3\nplanes = \"yaw\"\nmanoeuvre = \"weave\"\nmanoeuvre_g = 5\n"
                   "manoeuvre_period_s = 1.5\nmanoeuvre_from_s = 0.5\nnavigation_constant = 3\n"
@@ -75,6 +77,7 @@ TEST(EngagementFields, EveryKey) {
           .engagement.value();
   EXPECT_EQ(plan.guidance, world::Guidance::target);
   EXPECT_EQ(plan.guidance_delay_us, 20'000);
+  EXPECT_TRUE(plan.guidance_predicts);
   EXPECT_EQ(plan.range, 4000);
   EXPECT_EQ(plan.missile_speed, 700);
   EXPECT_EQ(plan.target_speed, 200);

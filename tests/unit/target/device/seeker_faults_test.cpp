@@ -96,22 +96,29 @@ INSTANTIATE_TEST_SUITE_P(
                   false}),
     [](const auto& which) { return which.param.name; });
 
-TEST(SeekerLoss, ALostGroupTakesItsAntennaRotationWithIt) {
-  Missile missile;
-  missile.fly_until(2.4);
-  const double before = missile.sigma().los_rate_sigma_pitch_radps;
-  missile.fly_unheard();
-  missile.fly();
-  EXPECT_EQ(missile.estimate().outcome, LosRateOutcome::coasting);
-  EXPECT_EQ(missile.estimate().fault, LosRateFault::antenna);
-  EXPECT_GT(missile.sigma().los_rate_sigma_pitch_radps, before);
-  EXPECT_LT(missile.rate_error(), 3e-4);
-  EXPECT_EQ(missile.last<LosRateTarget>()->cause_time_us, missile.t_us());
-  missile.fly();
-  EXPECT_EQ(missile.estimate().outcome, LosRateOutcome::start_up) << "a Kalman filter until it has settled";
-  missile.fly_until(2);
-  EXPECT_LT(missile.rate_error(), 3e-4);
-  EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_lost, 1);
+TEST(SeekerLoss, ALostGroupIsBridgedAndNamed) {
+  for (const Algorithm algorithm :
+       {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman, Algorithm::low_pass}) {
+    SCOPED_TRACE(name_of(algorithm));
+    Missile missile(algorithm), whole(algorithm);
+    missile.fly_until(2.4);
+    whole.fly_until(2.4);
+    missile.fly_unheard();
+    missile.fly();
+    whole.fly();
+    whole.fly();
+    EXPECT_EQ(missile.estimate().outcome, LosRateOutcome::updated);
+    EXPECT_EQ(missile.estimate().fault, LosRateFault::antenna);
+    EXPECT_NEAR(missile.sigma().los_rate_sigma_pitch_radps / whole.sigma().los_rate_sigma_pitch_radps, 1,
+                0.1);
+    EXPECT_NEAR(missile.rate_error(), whole.rate_error(), 1e-4);
+    EXPECT_EQ(missile.last<LosRateTarget>()->cause_time_us, missile.t_us());
+    missile.fly();
+    EXPECT_EQ(missile.estimate().outcome, LosRateOutcome::updated);
+    EXPECT_EQ(missile.estimate().fault, LosRateFault::none);
+    missile.fly_until(2);
+    EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_lost, 1);
+  }
 }
 
 TEST(SeekerLoss, AGroupThatMissesAFrameIsALostGroup) {

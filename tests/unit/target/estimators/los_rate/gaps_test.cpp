@@ -1,0 +1,120 @@
+// Samples that were lost: antenna and missile are bridged, the gain is that of the longer step.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/target/estimators/los_rate/engagement.hpp"
+
+namespace canhil::los_rate {
+namespace {
+
+constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
+                                Algorithm::low_pass};
+
+// The next sample that arrives, after `lost` that do not.
+Measurement next_after(Engagement& engagement, int lost) {
+  for (int k = 0; k < lost; ++k) engagement.next();
+  Measurement m = engagement.next();
+  m.interval = m.dt;
+  m.dt *= lost + 1;
+  return m;
+}
+
+TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
+  const Motion before{.antenna_rate = {0.1, 0.2}, .roll_rate = 1, .missile_acceleration = {10, -20}};
+  const Motion after{.antenna_rate = {0.4, -0.2}, .roll_rate = 3, .missile_acceleration = {40, 20}};
+  const Leg leg = bridge(before, after, 0.02);
+  EXPECT_EQ(leg.dt, 0.02);
+  EXPECT_LT(std::abs(leg.antenna_increment - Plane(0.005, 0)), 1e-15);
+  EXPECT_DOUBLE_EQ(leg.roll_increment, 0.04);
+  EXPECT_EQ(leg.missile_acceleration, Plane(25, 0));
+  // The variance of a step of (0.3, -0.4) rad/s at any time of the gap, over both planes.
+  double variance = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const double share = (k + 0.5) / 1000;
+    const Plane increment = 0.02 * (share * before.antenna_rate + (1 - share) * after.antenna_rate);
+    variance += std::norm(increment - leg.antenna_increment) / 1000;
+  }
+  EXPECT_NEAR(2 * leg.turn * leg.turn / variance, 1, 1e-5);
+  EXPECT_NEAR(leg.pull / leg.turn, 50 / 0.5, 1e-9) << "changes of 50 m/s^2 and 0.5 rad/s";
+}
+
+// Each tenth sample lost, from 3 s to go on: a missile that turns, an antenna that follows, noise as
+// modelled.
+TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
+  for (const Algorithm algorithm : algorithms) {
+    SCOPED_TRACE(static_cast<int>(algorithm));
+    double squares[2] = {}, nis[2] = {};
+    int updates[2] = {};
+    for (const bool lossy : {false, true}) {
+      for (unsigned seed = 301; seed <= 340; ++seed) {
+        EngagementSetup setup = setup_of(algorithm);
+        setup.noisy = true;
+        setup.seed = seed;
+        setup.jerk_density = 300;
+        setup.first_rate = {20e-3, -10e-3};
+        setup.roll_rate = 0.5;
+        const Design design = make_design(setup.settings);
+        Engagement engagement(setup);
+        State state = initial();
+        for (int k = 0; !engagement.over(); ++k) {
+          const bool lost = lossy && k % 9 == 0 && k > 0;
+          const UpdateResult result = step(state, next_after(engagement, lost ? 1 : 0), design);
+          const Truth& truth = engagement.truth();
+          if (truth.time_to_go > 2.5 || truth.time_to_go < 0.2) continue;
+          ASSERT_EQ(result.outcome, Outcome::updated) << truth.time_to_go;
+          ASSERT_EQ(result.fault, lost ? Fault::antenna : Fault::none);
+          squares[lossy] += std::norm(state.rate - truth.rate) * std::pow(truth.range, 2);
+          nis[lossy] += result.nis;
+          ++updates[lossy];
+        }
+      }
+    }
+    const double cost = std::sqrt(squares[1] / updates[1] / (squares[0] / updates[0]));
+    EXPECT_LT(cost, 1.1) << "1.05 for the tenth of the information that is gone";
+    EXPECT_NEAR(nis[1] / updates[1], nis[0] / updates[0], 0.1) << "1 sigma of the mean is 0.02";
+  }
+}
+
+// What an error angle does to the LOS rate after 30 ms of nothing is what the Kalman filter makes of it.
+TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
+  const auto gain = [](Algorithm algorithm, int lost) {
+    EngagementSetup setup = setup_of(algorithm);
+    const Design design = make_design(setup.settings);
+    Engagement engagement(setup);
+    State state = initial();
+    while (engagement.truth().range == 0 || engagement.truth().time_to_go > 0.3)
+      step(state, engagement.next(), design);
+    Measurement m = next_after(engagement, lost);
+    State other = state;
+    step(state, m, design);
+    m.error.yaw += 1e-3;
+    step(other, m, design);
+    return (other.rate - state.rate).real() / 1e-3;
+  };
+  for (const Algorithm algorithm : {Algorithm::switched_table, Algorithm::combined}) {
+    const double kalman = gain(Algorithm::kalman, 6);
+    EXPECT_NEAR(gain(algorithm, 6) / kalman, 1, 0.1);
+    EXPECT_GT(kalman / gain(algorithm, 0), 1.25) << "the flight tells one from the other";
+  }
+}
+
+TEST(Gaps, LongerThanTheLimitOrAfterAnUnknownAntennaAreCoasted) {
+  EngagementSetup setup = setup_of(Algorithm::combined);
+  const Design design = make_design(setup.settings);
+  Engagement engagement(setup);
+  State state = initial();
+  while (engagement.truth().range == 0 || engagement.truth().time_to_go > 2.4)
+    step(state, engagement.next(), design);
+  EXPECT_EQ(step(state, next_after(engagement, 9), design).outcome, Outcome::updated);
+  EXPECT_EQ(step(state, next_after(engagement, 11), design).outcome, Outcome::coasting);
+  EXPECT_EQ(step(state, engagement.next(), design).outcome, Outcome::start_up);
+  Measurement unknown = engagement.next();
+  unknown.antenna_valid = false;
+  step(state, unknown, design);
+  EXPECT_EQ(step(state, next_after(engagement, 1), design).outcome, Outcome::coasting);
+  EXPECT_EQ(step(state, next_after(engagement, 1), design).outcome, Outcome::start_up);
+}
+
+}  // namespace
+}  // namespace canhil::los_rate
