@@ -32,6 +32,7 @@ constexpr std::size_t pending_limit = 4;             // fixes ahead of the INS t
 struct Fix {
   FixSource source = FixSource::ssbl;
   ia::GeodeticPosition position;
+  double horizontal_sigma = 0, vertical_sigma = 0;  // as its source states them [m]
 };
 
 std::optional<ia::Algorithm> algorithm_of(Algorithm algorithm) {
@@ -165,7 +166,9 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
                   .position = {ship_latitude +
                                    horizontal.relative_north_m / (earth.meridian_radius + latitude.height_m),
                                longitude.longitude_deg * deg + horizontal.relative_east_m / parallel_radius,
-                               latitude.height_m - vertical.relative_down_m}};
+                               latitude.height_m - vertical.relative_down_m},
+                  .horizontal_sigma = longitude.relative_sigma_m,
+                  .vertical_sigma = longitude.relative_sigma_m};
     const std::int64_t t_us = unwrap_us(vertical.time_of_validity_us, context.now_us);
     return on_fix({t_us, ssbl_group_.counter(), fix}, valid, context);
   }
@@ -175,10 +178,12 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     const auto& longitude = gps_group_.get<GpsLongitude>();
     const bool valid = longitude.position_validity == Validity::valid &&
                        on_earth(latitude.latitude_deg, longitude.longitude_deg);
-    const Fix fix{
-        .source = FixSource::gps,
-        .position = {latitude.latitude_deg * deg, longitude.longitude_deg * deg, latitude.height_m}};
-    const std::int64_t t_us = unwrap_us(gps_group_.get<GpsTime>().time_of_validity_us, context.now_us);
+    const auto& time = gps_group_.get<GpsTime>();
+    const Fix fix{.source = FixSource::gps,
+                  .position = {latitude.latitude_deg * deg, longitude.longitude_deg * deg, latitude.height_m},
+                  .horizontal_sigma = time.horizontal_sigma_m,
+                  .vertical_sigma = time.vertical_sigma_m};
+    const std::int64_t t_us = unwrap_us(time.time_of_validity_us, context.now_us);
     return on_fix({t_us, gps_group_.counter(), fix}, valid, context);
   }
 
@@ -197,8 +202,17 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::future, context);
   }
 
+  // A fix that says that it is worse than assumed is believed.
+  [[nodiscard]] ia::Settings settings_for(const Fix& fix) const {
+    ia::Settings filter = tuning_.filter;
+    filter.fix_noise_horizontal = std::max(filter.fix_noise_horizontal, fix.horizontal_sigma);
+    filter.fix_noise_vertical = std::max(filter.fix_noise_vertical, fix.vertical_sigma);
+    return filter;
+  }
+
   Health update(const At<Fix>& fix, Context& context) {
-    const ia::UpdateResult result = history_.update(state_, fix.value.position, fix.t_us, tuning_.filter);
+    const ia::UpdateResult result =
+        history_.update(state_, fix.value.position, fix.t_us, settings_for(fix.value));
     switch (result.outcome) {
       case ia::Outcome::ok:
         observe(result, context.consistency);

@@ -26,18 +26,25 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 16> kept{
-    &misalignment_north, &misalignment_east, &misalignment_down,  &attitude_roll,
-    &attitude_pitch,     &attitude_heading,  &velocity_north,     &velocity_east,
-    &velocity_down,      &innovation_nis,    &position_north,     &position_east,
-    &position_down,      &heading_sigma,     &covariance_repairs, &trusted_over_sigma};
+constexpr std::array<const Quantity*, 17> kept{
+    &misalignment_north,  &misalignment_east, &misalignment_down, &attitude_roll, &attitude_pitch,
+    &attitude_heading,    &velocity_north,    &velocity_east,     &velocity_down, &innovation_nis,
+    &position_north,      &position_east,     &position_down,     &heading_sigma, &covariance_repairs,
+    &velocity_down_sigma, &trusted_over_sigma};
 
 constexpr auto of_runs = and_alignment_told(
     std::array<const Quantity*, 10>{&position_north, &position_east, &position_down, &position_horizontal,
                                     &position_norm, &position_innovation_north, &position_innovation_east,
                                     &position_innovation_down, &innovation_nis, &heading_nees});
 
-constexpr Layout layout{.kept = kept, .derived = alignment_derived, .answers_untold = true};
+double velocity_down_over_its_sigma(const Samples& samples, std::size_t place) {
+  return samples.value(place, velocity_down) / samples.value(place, velocity_down_sigma);
+}
+
+constexpr std::array derived{
+    alignment_derived[0], Derived{.quantity = &velocity_down_over_sigma, .of = velocity_down_over_its_sigma}};
+
+constexpr Layout layout{.kept = kept, .derived = derived, .answers_untold = true};
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
@@ -70,6 +77,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  p.z(),
                                                  update.attitude_sigma.z(),
                                                  static_cast<double>(update.repairs),
+                                                 update.velocity_sigma.z(),
                                                  told(trusted)};
     samples.add(update.cause_us, values);
   }

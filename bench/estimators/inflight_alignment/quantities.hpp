@@ -18,6 +18,13 @@ inline constexpr Quantity position_down{.name = "position.down",
                                         .meaning = "error of the position down, at the time of a fix",
                                         .unit = metres,
                                         .once = "p_down"};
+inline constexpr Quantity velocity_down_sigma{.name = "velocity.down.sigma",
+                                              .meaning = "sigma of the velocity down as the target tells it",
+                                              .unit = mps};
+inline constexpr Quantity velocity_down_over_sigma{
+    .name = "velocity.down.over_sigma",
+    .meaning = "error of the velocity down over the sigma that the target tells",
+    .unit = plain};
 /// Of the covariance, since the start.
 inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",
                                              .meaning = "repairs of the covariance since the start",

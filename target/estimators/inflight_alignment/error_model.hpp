@@ -33,6 +33,7 @@ template <int N>
 struct Errors {
   Vector<N> x = Vector<N>::Zero();
   Matrix<N, N> P = Matrix<N, N>::Zero();
+  SinCosForm form = SinCosForm::levelled;  // of sin_cos
 };
 
 /// dg = this o dR [m/s^2]: free fall of an INS that is off by dR.

@@ -11,7 +11,7 @@ template <int N>
 Vector<N> errors_now(const Errors<N>& errors, const Interval& interval) {
   if (!(interval.duration > 0)) return errors.x;
   if constexpr (is_sin_cos<N>) {
-    return predicted_sin_cos<N>(errors.x, interval);
+    return predicted_sin_cos<N>(errors, interval);
   } else {
     return predicted<N>(errors.x, interval);
   }
@@ -38,8 +38,10 @@ Estimate estimate(const State& state) {
     Estimate best;
     best.nav = corrected(state.ins.nav, x.template segment<3>(At::position),
                          x.template segment<3>(At::velocity), C_pc);
-    best.accel_bias = state.accel_bias + x.template segment<3>(At::accel_bias);
-    best.gyro_bias = state.gyro_bias + x.template segment<3>(At::gyro_bias);
+    Matrix3d to_body = Matrix3d::Identity();
+    if constexpr (is_sin_cos<N>) to_body = axes_of_biases<N>(errors);
+    best.accel_bias = state.accel_bias + to_body * x.template segment<3>(At::accel_bias);
+    best.gyro_bias = state.gyro_bias + to_body * x.template segment<3>(At::gyro_bias);
     best.fix_bias = state.fix_bias;
     if constexpr (At::has_fix_bias) best.fix_bias += x.template segment<3>(At::fix_bias);
     return best;
@@ -47,10 +49,11 @@ Estimate estimate(const State& state) {
 }
 
 Uncertainty uncertainty(const State& state) {
-  return with_errors(state, []<int N>(const Errors<N>& errors) {
+  return with_errors(state, []<int N>(Errors<N> errors) {
     using At = Layout<N>;
     Matrix<3, At::attitude_count> angles;
     if constexpr (is_sin_cos<N>) {
+      turn_biases_back<N>(errors);
       angles = angles_of_states<N>(errors.x);
     } else {
       angles = rotation_axes(errors.x.template segment<3>(At::attitude));

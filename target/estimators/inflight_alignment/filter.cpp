@@ -1,7 +1,9 @@
 #include "target/estimators/inflight_alignment/filter.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "target/estimators/inflight_alignment/fix.hpp"
 #include "target/estimators/inflight_alignment/psi_angle.hpp"
@@ -17,21 +19,47 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t orthonormalisation_period = 50;  // steps
 
+// Of the tilts after levelling by the first sample, which takes the vehicle's acceleration for gravity [rad].
+double levelling_sigma(const Settings& settings) {
+  return settings.start_acceleration_sigma / standard_gravity;
+}
+
+bool is_levelled_first(const Settings& settings) {
+  return settings.algorithm == Algorithm::sin_cos && settings.sin_cos_form == SinCosForm::levelled &&
+         settings.tilt_sigma_0 > levelling_sigma(settings);
+}
+
+// The attitude turned by the smallest angle that lets a specific force point upwards.
+void level(strapdown::NavState& nav, const Vector3d& delta_v) {
+  const Vector3d force = (nav.C_bn * delta_v).normalized(), up(0, 0, -1);
+  const Vector3d axis = force.cross(up);
+  const double sine = axis.norm();
+  if (!(sine > 0)) return;
+  nav.C_bn = strapdown::exp_rotation(std::atan2(sine, force.dot(up)) / sine * axis) * nav.C_bn;
+}
+
 template <int N>
 Errors<N> initial_errors(const Settings& settings) {
   using At = Layout<N>;
   Vector<N> sigma = Vector<N>::Zero();
   sigma.template segment<3>(At::position) = settings.position_sigma_0;
   sigma.template segment<3>(At::velocity) = settings.velocity_sigma_0;
-  sigma.template segment<2>(At::attitude).setConstant(settings.tilt_sigma_0);
+  // Levelling by delta leaves phi x delta / 2 of a tilt phi as an error of the heading.
+  double tilt = settings.tilt_sigma_0, heading = settings.heading_sigma_0;
+  if (is_levelled_first(settings)) {
+    heading = std::hypot(heading, tilt * levelling_sigma(settings) / std::numbers::sqrt2);
+    tilt = levelling_sigma(settings);
+  }
+  sigma.template segment<2>(At::attitude).setConstant(tilt);
   sigma.template segment<3>(At::accel_bias).setConstant(settings.accel_bias_sigma_0);
   sigma.template segment<3>(At::gyro_bias).setConstant(settings.gyro_bias_sigma_0);
-  if constexpr (!is_sin_cos<N>) sigma(At::attitude + 2) = settings.heading_sigma_0;
+  if constexpr (!is_sin_cos<N>) sigma(At::attitude + 2) = heading;
   if constexpr (At::has_fix_bias)
     sigma.template segment<3>(At::fix_bias).setConstant(settings.fix_bias_sigma_0);
   Errors<N> errors;
   errors.P = sigma.cwiseAbs2().asDiagonal();
-  if constexpr (is_sin_cos<N>) set_heading_prior<N>(errors, settings.heading_sigma_0);
+  errors.form = settings.sin_cos_form;
+  if constexpr (is_sin_cos<N>) set_heading_prior<N>(errors, heading);
   return errors;
 }
 
@@ -55,28 +83,38 @@ Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition
           d_longitude * (earth.transverse_radius + ins.height) * earth.cos_latitude, fix.height - ins.height};
 }
 
-// Position, velocity and biases into the INS; their states zero.
+enum class SensorBiases : std::uint8_t { stay, fed_back };
+
+// Position, velocity, fix bias and, as told, sensor biases into the INS, their states zero; C_pc is the
+// attitude that was taken out of the states.
 template <int N>
-void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc) {
+void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBiases biases) {
   using At = Layout<N>;
   Vector<N>& x = errors.x;
   state.ins.nav = corrected(state.ins.nav, x.template segment<3>(At::position),
                             x.template segment<3>(At::velocity), C_pc);
+  x.template head<6>().setZero();
+  if constexpr (At::has_fix_bias) {
+    state.fix_bias += x.template segment<3>(At::fix_bias);
+    x.template segment<3>(At::fix_bias).setZero();
+  }
+  if (biases == SensorBiases::stay) return;
   state.accel_bias += x.template segment<3>(At::accel_bias);
   state.gyro_bias += x.template segment<3>(At::gyro_bias);
-  if constexpr (At::has_fix_bias) state.fix_bias += x.template segment<3>(At::fix_bias);
-  const Vector<At::attitude_count> attitude = x.template segment<At::attitude_count>(At::attitude);
-  x.setZero();
-  x.template segment<At::attitude_count>(At::attitude) = attitude;
+  x.template segment<6>(At::accel_bias).setZero();
 }
 
 template <int N>
 void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
   if constexpr (is_sin_cos<N>) {
-    const bool resolved = heading_is_resolved<N>(errors, settings);
-    feed_back<N>(state, errors, resolved ? tilt_and_heading<N>(errors.x) : Matrix3d::Identity());
-    if (resolved) take_out_attitude<N>(errors, settings.handover_tilts);
-    state.handed_over = resolved;
+    state.handed_over = heading_is_resolved<N>(errors, settings);
+    if (state.handed_over) {
+      feed_back<N>(state, errors, take_out_attitude<N>(errors), SensorBiases::fed_back);
+    } else if (errors.form == SinCosForm::levelled) {
+      feed_back<N>(state, errors, take_out_tilt<N>(errors), SensorBiases::stay);
+    } else {
+      feed_back<N>(state, errors, Matrix3d::Identity(), SensorBiases::fed_back);
+    }
   } else {
     const Vector3d psi = errors.x.template segment<3>(6);
     const bool platform = settings.attitude_error_frame == AttitudeErrorFrame::platform;
@@ -84,7 +122,7 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
     const Matrix3d C_pc = platform ? platform_to_computer(psi)
                                    : Matrix3d(strapdown::exp_rotation({psi.x(), psi.y(), 0}) *
                                               strapdown::exp_rotation({0, 0, psi.z()}));
-    feed_back<N>(state, errors, C_pc);
+    feed_back<N>(state, errors, C_pc, SensorBiases::fed_back);
     errors.x.template segment<3>(6).setZero();
     if (!platform) return;
     // The errors that remain are angles of the new platform: small rotations about the axes of the old ones.
@@ -146,6 +184,7 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Geodetic
 State initial(const strapdown::NavState& nav, const Settings& settings) {
   State state;
   state.ins.nav = nav;
+  state.to_be_levelled = is_levelled_first(settings);
   const bool ssbl = settings.aiding == Aiding::ssbl;
   if (settings.algorithm == Algorithm::sin_cos) {
     if (ssbl) {
@@ -163,6 +202,7 @@ State initial(const strapdown::NavState& nav, const Settings& settings) {
 
 void mechanise(State& state, const strapdown::ImuIncrement& imu) {
   Ins& ins = state.ins;
+  if (std::exchange(state.to_be_levelled, false)) level(ins.nav, imu.delta_v);
   const strapdown::MechanizationStep step = strapdown::mechanize_one_sample(
       ins.nav, strapdown::without_bias(imu, state.gyro_bias, state.accel_bias));
   ins.nav = step.nav;

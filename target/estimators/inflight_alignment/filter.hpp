@@ -32,8 +32,9 @@ struct State {
   std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of what the INS says; the filter
   std::uint32_t updated_at = 0;                                         // step of the last update
   std::uint32_t rejected = 0;                                           // fixes gated in a row
-  std::uint32_t repairs = 0;  // how often P lost its positive definiteness
-  bool handed_over = false;   // sin_cos: tilt and heading were fed back at the last fix
+  std::uint32_t repairs = 0;    // how often P lost its positive definiteness
+  bool to_be_levelled = false;  // sin_cos: by the first IMU sample
+  bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
 };
 
 enum class Outcome : std::uint8_t {

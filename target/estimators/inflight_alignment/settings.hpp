@@ -26,9 +26,10 @@ enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 /// about_central: about the transformed central point; positive semi-definite whatever the weights.
 enum class UkfCovariance : std::uint8_t { about_mean, about_central };
 
-/// How sin_cos carries P over when it feeds the attitude back: published leaves the tilts as they are, turned
-/// turns the tilt that was taken out with the heading error that remains (sin_cos.hpp, take_out_attitude).
-enum class HandoverTilts : std::uint8_t { published, turned };
+/// How sin_cos treats tilts and biases (sin_cos.hpp). published: of first order in the tilts, which stay in
+/// the states until the heading is fed back; biases in body axes. levelled: tilts are fed back at each fix,
+/// the vertical force is of second order in them, and biases are turned with the heading error.
+enum class SinCosForm : std::uint8_t { published, levelled };
 
 enum class LateFixes : std::uint8_t { at_arrival, at_validity };
 
@@ -39,7 +40,7 @@ struct Settings {
   AttitudeErrorFrame attitude_error_frame = AttitudeErrorFrame::platform;
   UkfRoot ukf_root = UkfRoot::lower_cholesky;
   UkfCovariance ukf_covariance = UkfCovariance::about_mean;
-  HandoverTilts handover_tilts = HandoverTilts::turned;
+  SinCosForm sin_cos_form = SinCosForm::levelled;
   LateFixes late_fixes = LateFixes::at_validity;
 
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]
@@ -56,9 +57,10 @@ struct Settings {
   Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(0.1);  // NED [m/s]
   double tilt_sigma_0 = rad_per_deg;                                  // each of two [rad]
   double heading_sigma_0 = 90 * rad_per_deg;                          // [rad]
-  double accel_bias_sigma_0 = 1000e-6 * standard_gravity;             // each axis [m/s^2]
-  double gyro_bias_sigma_0 = 1 * rad_per_deg / 3600;                  // each axis [rad/s]
-  double fix_bias_sigma_0 = 3.1622776601683795;                       // sqrt(1 + 3^2): SSBL, ship [m]
+  double start_acceleration_sigma = 1;  // levelled: of the vehicle's first sample, each axis [m/s^2]
+  double accel_bias_sigma_0 = 1000e-6 * standard_gravity;  // each axis [m/s^2]
+  double gyro_bias_sigma_0 = 1 * rad_per_deg / 3600;       // each axis [rad/s]
+  double fix_bias_sigma_0 = 3.1622776601683795;            // sqrt(1 + 3^2): SSBL, ship [m]
 };
 
 }  // namespace canhil::inflight_alignment

@@ -21,18 +21,44 @@ struct Turned {
   double s, c;
   Vector3d force;  // Rz S
   Vector3d wT;     // Rz (w_ie + w_en) T
-  Matrix3d A;      // Rz A
+  Matrix3d A;      // Rz A, of biases b; Rz A Rz' of biases Rz b
 
   template <int N>
-  Turned(const Vector<N>& x, const Interval& interval)
-      : s(std::sin(heading_error<N>(x))), c(std::cos(heading_error<N>(x))) {
+  Turned(const Errors<N>& errors, const Interval& interval)
+      : s(std::sin(heading_error<N>(errors.x))), c(std::cos(heading_error<N>(errors.x))) {
     Matrix3d Rz;
     Rz << c, -s, 0, s, c, 0, 0, 0, 1;
     force = Rz * interval.delta_v_n;
     wT = Rz * (interval.omega_ie_n + interval.omega_en_n) * interval.duration;
     A = Rz * interval.C_bn_integral;
+    if (errors.form == SinCosForm::levelled) A = (A * Rz.transpose()).eval();
   }
 };
+
+// The vertical force is (phi x Rz S)_z - phi^2 S_z / 2 beside S_z, of second order in a = (phi_x, phi_y, s,
+// k): S_y phi_x - S_x phi_y + a' H a / 2. The horizontal one, Rz S + phi x S_z, is linear in a.
+Matrix<4, 4> curvature(const Vector3d& S) {
+  Matrix<4, 4> H;
+  H << -S.z(), 0, S.x(), -S.y(),  //
+      0, -S.z(), S.y(), S.x(),    //
+      S.x(), S.y(), 0, 0,         //
+      -S.y(), S.x(), 0, 0;
+  return H;
+}
+
+template <int N>
+Matrix<4, 4> attitude_covariance(const Errors<N>& errors) {
+  return errors.P.template block<4, 4>(6, 6);
+}
+
+// P for attitude states J times the old ones.
+template <int N>
+void map_attitude(Errors<N>& errors, const Matrix<4, 4>& J) {
+  Matrix<N, N>& P = errors.P;
+  P.template middleRows<4>(6) = (J * P.template middleRows<4>(6)).eval();
+  P.template middleCols<4>(6) = (P.template middleCols<4>(6) * J.transpose()).eval();
+  filtering::average_with_transpose<N>(P);
+}
 
 }  // namespace
 
@@ -68,16 +94,23 @@ void set_heading_prior(Errors<N>& errors, double sigma) {
 }
 
 template <int N>
-Vector<N> predicted_sin_cos(const Vector<N>& x, const Interval& interval) {
+Vector<N> predicted_sin_cos(const Errors<N>& errors, const Interval& interval) {
   using At = Layout<N>;
-  const Turned turned(x, interval);
+  const Vector<N>& x = errors.x;
+  const Turned turned(errors, interval);
   const double s = x(sine), k = x(cosine);
   const Vector3d phi(x(6), x(7), 0);
   const Vector3d& S = interval.delta_v_n;
   const Vector3d wT = (interval.omega_ie_n + interval.omega_en_n) * interval.duration;
   const Vector3d drift = turned.A * x.template segment<3>(At::gyro_bias);
-  const Vector3d force = Vector3d(k * S.x() + s * S.y(), k * S.y() - s * S.x(), 0) - phi.cross(turned.force) +
-                         turned.A * x.template segment<3>(At::accel_bias);
+  Vector3d force = Vector3d(k * S.x() + s * S.y(), k * S.y() - s * S.x(), 0) - phi.cross(turned.force);
+  if (errors.form == SinCosForm::levelled) {
+    const Vector<4> a = x.template segment<4>(6);
+    const Matrix<4, 4> H = curvature(S);
+    const double mean_square = a.dot(H * a) + H.cwiseProduct(attitude_covariance<N>(errors)).sum();
+    force.z() = S.x() * a(1) - S.y() * a(0) - mean_square / 2;
+  }
+  force += turned.A * x.template segment<3>(At::accel_bias);
   const Vector3d tilted = phi.cross(turned.wT);
   const double turn = turned.wT.y() * phi.x() - turned.wT.x() * phi.y() - drift.z();
   const Vector<4> attitude(tilted.x() - k * wT.x() - s * wT.y() - drift.x(),
@@ -87,8 +120,8 @@ Vector<N> predicted_sin_cos(const Vector<N>& x, const Interval& interval) {
 }
 
 template <int N>
-Transition<4> transition_sin_cos(const Vector<N>& x, const Interval& interval) {
-  const Turned turned(x, interval);
+Transition<4> transition_sin_cos(const Errors<N>& errors, const Interval& interval) {
+  const Turned turned(errors, interval);
   const Vector3d& S = interval.delta_v_n;
   const Vector3d& f = turned.force;
   const Vector3d& t = turned.wT;
@@ -97,6 +130,10 @@ Transition<4> transition_sin_cos(const Vector<N>& x, const Interval& interval) {
   G.velocity_attitude << 0, -f.z(), S.y(), S.x(),  // columns: f x e_x, f x e_y, s, k
       f.z(), 0, -S.x(), S.y(),                     //
       -f.y(), f.x(), 0, 0;
+  if (errors.form == SinCosForm::levelled) {
+    const Vector<4> a = errors.x.template segment<4>(6);
+    G.velocity_attitude.row(2) = -(Vector<4>(S.y(), -S.x(), 0, 0) + curvature(S) * a).transpose();
+  }
   G.velocity_accel = turned.A;
   const Eigen::RowVector2d turn(t.y(), -t.x());
   G.attitude_attitude << 0, t.z(), -wT.y(), -wT.x(),  //
@@ -109,39 +146,85 @@ Transition<4> transition_sin_cos(const Vector<N>& x, const Interval& interval) {
 
 template <int N>
 void predict_sin_cos(Errors<N>& errors, const Interval& interval, const Settings& settings) {
-  const Transition<4> G = transition_sin_cos<N>(errors.x, interval);
+  const Transition<4> G = transition_sin_cos<N>(errors, interval);
   const double psi = heading_error<N>(errors.x);
   const Vector<4> heading(0, 0, std::cos(psi), std::sin(psi));
   Matrix<4, 4> shape = heading * heading.transpose();
   shape(0, 0) = shape(1, 1) = 1;
+  double second_order = 0;  // variance of a' H a / 2 about its mean
+  if (errors.form == SinCosForm::levelled) {
+    const Matrix<4, 4> HP = curvature(interval.delta_v_n) * attitude_covariance<N>(errors);
+    second_order = HP.cwiseProduct(HP.transpose()).sum() / 2;
+  }
+  errors.x = predicted_sin_cos<N>(errors, interval);
   errors.P = propagated<N, 4>(errors.P, G);
-  errors.x = predicted_sin_cos<N>(errors.x, interval);
   add_process_noise<N>(errors.P, settings, interval.duration, shape);
+  errors.P(5, 5) += second_order;
 }
 
 template <int N>
 bool heading_is_resolved(const Errors<N>& errors, const Settings& settings) {
   const Vector<4> J = angles_of_states<N>(errors.x).row(2).transpose();
-  const double variance = J.dot(errors.P.template block<4, 4>(6, 6) * J);
+  const double variance = J.dot(attitude_covariance<N>(errors) * J);
   const double off_circle = std::abs(std::hypot(errors.x(sine), 1 - errors.x(cosine)) - 1);
   return variance < settings.handover_sigma * settings.handover_sigma && off_circle < circle_tolerance;
 }
 
 template <int N>
-void take_out_attitude(Errors<N>& errors, HandoverTilts tilts) {
+Matrix3d axes_of_biases(const Errors<N>& errors) {
+  const bool turned = errors.form == SinCosForm::levelled;
+  return strapdown::exp_rotation({0, 0, turned ? -heading_error<N>(errors.x) : 0});
+}
+
+template <int N>
+void turn_biases_back(Errors<N>& errors) {
+  if (errors.form == SinCosForm::published) return;
+  using At = Layout<N>;
+  const double psi = heading_error<N>(errors.x), c = std::cos(psi), s = std::sin(psi);
+  const Matrix3d back = axes_of_biases<N>(errors);
+  Vector<N>& x = errors.x;
+  Matrix<N, N>& P = errors.P;
+  for (const int at : {At::accel_bias, At::gyro_bias}) {
+    const Vector3d turn(-x(at + 1), x(at), 0);  // e_z x b'
+    P.template middleRows<3>(at) -= turn * (c * P.row(sine) + s * P.row(cosine));
+    P.template middleRows<3>(at) = (back * P.template middleRows<3>(at)).eval();
+    P.template middleCols<3>(at) -= (c * P.col(sine) + s * P.col(cosine)) * turn.transpose();
+    P.template middleCols<3>(at) = (P.template middleCols<3>(at) * back.transpose()).eval();
+    x.template segment<3>(at) = (back * x.template segment<3>(at)).eval();
+  }
+}
+
+template <int N>
+Matrix3d take_out_tilt(Errors<N>& errors) {
+  const Matrix<4, 4> P = attitude_covariance<N>(errors);
+  Vector<N>& x = errors.x;
+  const double s = x(sine), c = 1 - x(cosine);
+  const double square = s * s + c * c + P(2, 2) + P(3, 3);
+  const double north = (c * x(6) + s * x(7) + P(1, 2) - P(0, 3)) / square;
+  const double east = (c * x(7) - s * x(6) - P(0, 2) - P(1, 3)) / square;
+  x(6) -= c * north - s * east;
+  x(7) -= c * east + s * north;
+  Matrix<4, 4> J = Matrix<4, 4>::Identity();
+  J.topRightCorner<2, 2>() << east, north, -north, east;
+  map_attitude<N>(errors, J);
+  return strapdown::exp_rotation({north, east, 0});
+}
+
+template <int N>
+Matrix3d take_out_attitude(Errors<N>& errors) {
+  const Matrix3d C_pc = tilt_and_heading<N>(errors.x);
   const double psi = heading_error<N>(errors.x);
   Matrix<4, 4> J = Matrix<4, 4>::Zero();
   J.topLeftCorner<2, 2>().setIdentity();
   J.row(2) << 0, 0, std::cos(psi), std::sin(psi);  // dpsi
-  if (tilts == HandoverTilts::turned) {
+  if (errors.form == SinCosForm::levelled) {
     J.row(0) += errors.x(7) * J.row(2);
     J.row(1) -= errors.x(6) * J.row(2);
   }
-  Matrix<N, N>& P = errors.P;
-  P.template middleRows<4>(6) = (J * P.template middleRows<4>(6)).eval();
-  P.template middleCols<4>(6) = (P.template middleCols<4>(6) * J.transpose()).eval();
-  filtering::average_with_transpose<N>(P);
+  turn_biases_back<N>(errors);
+  map_attitude<N>(errors, J);
   errors.x.template segment<4>(6).setZero();
+  return C_pc;
 }
 
 #define CANHIL_INSTANTIATE(N)                                                      \
@@ -149,11 +232,14 @@ void take_out_attitude(Errors<N>& errors, HandoverTilts tilts) {
   template Matrix3d tilt_and_heading<N>(const Vector<N>&);                         \
   template Matrix<3, 4> angles_of_states<N>(const Vector<N>&);                     \
   template void set_heading_prior<N>(Errors<N>&, double);                          \
-  template Vector<N> predicted_sin_cos<N>(const Vector<N>&, const Interval&);      \
-  template Transition<4> transition_sin_cos<N>(const Vector<N>&, const Interval&); \
+  template Vector<N> predicted_sin_cos<N>(const Errors<N>&, const Interval&);      \
+  template Transition<4> transition_sin_cos<N>(const Errors<N>&, const Interval&); \
   template void predict_sin_cos<N>(Errors<N>&, const Interval&, const Settings&);  \
   template bool heading_is_resolved<N>(const Errors<N>&, const Settings&);         \
-  template void take_out_attitude<N>(Errors<N>&, HandoverTilts);
+  template Matrix3d axes_of_biases<N>(const Errors<N>&);                           \
+  template void turn_biases_back<N>(Errors<N>&);                                   \
+  template Matrix3d take_out_tilt<N>(Errors<N>&);                                  \
+  template Matrix3d take_out_attitude<N>(Errors<N>&);
 CANHIL_INSTANTIATE(16)
 CANHIL_INSTANTIATE(19)
 #undef CANHIL_INSTANTIATE

@@ -2,6 +2,12 @@
 // The heading error as two states, s = sin psi_z and k = 1 - cos psi_z, and the tilts phi = (phi_x, phi_y, 0)
 // in the computer frame: C_pc = exp([phi x]) Rz(psi_z). The specific force then enters the velocity error
 // linearly, so that a heading error of any size is as good as a small one. Attitude states: phi_x phi_y s k.
+//
+// SinCosForm::levelled keeps it so where tilts are not small, without an estimate of the heading in it:
+//   horizontal force    Rz S + phi x S_z e_z                        linear in (phi, s, k)
+//   vertical force      S_z + (phi x Rz S)_z - phi^2 S_z / 2        of second order: mean and variance
+//   biases              b' = Rz b: Rz A b = Rz A Rz' b', which is A b' where A turns about the vertical
+//   tilt                taken out of the INS at each fix (take_out_tilt), so that phi stays small
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
 namespace canhil::inflight_alignment {
@@ -24,11 +30,11 @@ void set_heading_prior(Errors<N>& errors, double sigma);
 
 /// x after the interval; N = 16 or 19.
 template <int N>
-Vector<N> predicted_sin_cos(const Vector<N>& x, const Interval& interval);
+Vector<N> predicted_sin_cos(const Errors<N>& errors, const Interval& interval);
 
-/// The Jacobian, less I: of first order, at the present psi_z.
+/// The Jacobian at the estimate, less I; without that of the product of heading error and biases.
 template <int N>
-Transition<4> transition_sin_cos(const Vector<N>& x, const Interval& interval);
+Transition<4> transition_sin_cos(const Errors<N>& errors, const Interval& interval);
 
 /// The Kalman filter's prediction over the interval.
 template <int N>
@@ -39,11 +45,28 @@ void predict_sin_cos(Errors<N>& errors, const Interval& interval, const Settings
 template <int N>
 bool heading_is_resolved(const Errors<N>& errors, const Settings& settings);
 
-/// Tilts and heading taken out of x, and their covariance mapped: s <- c s + s k, k <- 0, for k is not
-/// independent of s any more. What remains of exp([phi x]) Rz(psi) after the estimates are taken out of it,
-///   exp([phi x]) Rz(dpsi) exp([-phi_hat x]) = exp([phi' x]) Rz(dpsi),   phi' = phi - Rz(dpsi) phi_hat,
-/// so that with HandoverTilts::turned dphi' = dphi - dpsi e_z x phi_hat: of first order, for phi_hat is.
+/// Rz', which turns biases b' into body axes; I in the published form.
 template <int N>
-void take_out_attitude(Errors<N>& errors, HandoverTilts tilts);
+Eigen::Matrix3d axes_of_biases(const Errors<N>& errors);
+
+/// Biases b' and their covariance become those in body axes, b = Rz' b', db = Rz' (db' - dpsi e_z x b') with
+/// dpsi = c ds + s dk; in the published form they are.
+template <int N>
+void turn_biases_back(Errors<N>& errors);
+
+/// The tilt as far as it is known in platform axes, phi_p = E[Rz' phi] / E[s^2 + (1 - k)^2] [rad], taken out
+/// of x whatever the heading error; returns exp([phi_p x]) for the INS. What remains of exp([phi x]) Rz
+/// exp([-phi_p x]) is phi' = phi - Rz phi_p = phi - phi_p + k phi_p - s e_z x phi_p, linear in (s, k), and so
+/// P follows.
+template <int N>
+Eigen::Matrix3d take_out_tilt(Errors<N>& errors);
+
+/// Tilts and heading taken out of x, C_pc for the INS, and their covariance mapped: s <- c s + s k, k <- 0,
+/// for k is not independent of s any more; biases as turn_biases_back(). What remains after the estimates are
+/// out,
+///   exp([phi x]) Rz(dpsi) exp([-phi_hat x]) = exp([phi' x]) Rz(dpsi),   phi' = phi - Rz(dpsi) phi_hat,
+/// so that dphi' = dphi - dpsi e_z x phi_hat: of first order, for phi_hat is. Left out in the published form.
+template <int N>
+Eigen::Matrix3d take_out_attitude(Errors<N>& errors);
 
 }  // namespace canhil::inflight_alignment

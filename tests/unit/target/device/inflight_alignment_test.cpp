@@ -37,16 +37,18 @@ class Vehicle : public BenchSide {
     }
   }
   void gps(std::int64_t t_us, double north_m = 0, Validity validity = Validity::valid,
-           double latitude = latitude_deg) {
+           double latitude = latitude_deg, double sigma_m = 0) {
     send(GpsLatitude{.latitude_deg = latitude + north_m / metres_per_degree, .height_m = height_m});
     send(GpsLongitude{.longitude_deg = longitude_deg, .satellites = 9, .position_validity = validity});
-    send(GpsTime{.time_of_validity_us = wrap_us(t_us)});
+    send(GpsTime{.horizontal_sigma_m = sigma_m,
+                 .vertical_sigma_m = 2 * sigma_m,
+                 .time_of_validity_us = wrap_us(t_us)});
   }
   // The ship lies 100 m south of the vehicle and 20 m above it.
-  void ssbl(std::int64_t t_us, double north_m = 0, Validity validity = Validity::valid) {
+  void ssbl(std::int64_t t_us, double north_m = 0, Validity validity = Validity::valid, double sigma_m = 0) {
     send(SsblRelativeNE{.relative_north_m = 100 + north_m, .position_validity = validity});
     send(SsblShipLatitude{.latitude_deg = latitude_deg - 100 / metres_per_degree, .height_m = height_m + 20});
-    send(SsblShipLongitude{.longitude_deg = longitude_deg});
+    send(SsblShipLongitude{.longitude_deg = longitude_deg, .relative_sigma_m = sigma_m});
     send(SsblRelativeD{.relative_down_m = 20, .time_of_validity_us = wrap_us(t_us)});
   }
   [[nodiscard]] FixOutcome outcome() const { return last<FixStatus>()->outcome; }
@@ -91,6 +93,27 @@ TEST(InflightAlignment, AnSsblFixIsTheShipsPositionPlusTheRelative) {
   EXPECT_NEAR(bench.last<FixInnovation>()->innovation_north_m, 0, 0.1);
   EXPECT_NEAR(bench.last<FixInnovation>()->innovation_down_m, 0, 0.1);
   EXPECT_GT(bench.last<FixBiasSigma>()->fix_bias_sigma_north_m, 2);
+}
+
+// The parameters say 2 m: a fix that states more is weighed by that, one that states less by the parameters.
+TEST(InflightAlignment, AFixThatStatesALargerSigmaWeighsLess) {
+  const auto sigmas = [](float aiding, double stated_m) {
+    Vehicle bench(aiding);
+    bench.imu_until(1'000'000);
+    if (aiding == by_gps) {
+      bench.gps(1'000'000, 0, Validity::valid, latitude_deg, stated_m);
+    } else {
+      bench.ssbl(1'000'000, 0, Validity::valid, stated_m);
+    }
+    return *bench.last<FixPositionSigma>();
+  };
+  for (const float aiding : {by_ssbl, by_gps}) {
+    const FixPositionSigma assumed = sigmas(aiding, 0), worse = sigmas(aiding, 10);
+    EXPECT_EQ(sigmas(aiding, 1).position_sigma_north_m, assumed.position_sigma_north_m);
+    EXPECT_GT(worse.position_sigma_north_m, 1.5 * assumed.position_sigma_north_m);
+    EXPECT_GT(worse.position_sigma_down_m, 1.5 * assumed.position_sigma_down_m);
+  }
+  EXPECT_GT(sigmas(by_gps, 10).position_sigma_down_m, 1.1 * sigmas(by_gps, 10).position_sigma_north_m);
 }
 
 TEST(InflightAlignment, LongitudesAreToldFromMinus180To180Degrees) {

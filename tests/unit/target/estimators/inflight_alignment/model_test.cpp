@@ -120,14 +120,56 @@ Vector<4> states(const Matrix3d& C_pc) {
   return {phi.x(), phi.y(), std::sin(psi), 1 - std::cos(psi)};
 }
 
+// In the levelled form biases are turned with the heading error.
+Errors<16> errors_at_the_start(const Flight& flight, SinCosForm form) {
+  Errors<16> errors;
+  errors.form = form;
+  errors.x << flight.start.dR, flight.start.dV, states(flight.start.C_pc), flight.accel_bias,
+      flight.gyro_bias;
+  const Matrix3d Rz = axes_of_biases<16>(errors).transpose();
+  errors.x.segment<3>(10) = (Rz * flight.accel_bias).eval();
+  errors.x.segment<3>(13) = (Rz * flight.gyro_bias).eval();
+  return errors;
+}
+
 TEST(SinCos, PredictsTheErrorsOfAnIns) {
-  const Flight flight(0.001);  // of first order in the tilts
-  Vector<16> x;
-  x << flight.start.dR, flight.start.dV, states(flight.start.C_pc), flight.accel_bias, flight.gyro_bias;
-  const Vector<16> next = predicted_sin_cos<16>(x, flight.interval);
-  EXPECT_LT((next.segment<3>(0) - flight.end.dR).norm(), 1e-4);
-  EXPECT_LT((next.segment<3>(3) - flight.end.dV).norm(), 4e-5);
-  EXPECT_LT((next.segment<4>(6) - states(flight.end.C_pc)).norm(), 1e-7);
+  for (const SinCosForm form : {SinCosForm::published, SinCosForm::levelled}) {
+    const Flight flight(0.001);  // of first order in the tilts
+    const Errors<16> errors = errors_at_the_start(flight, form);
+    const Vector<16> next = predicted_sin_cos<16>(errors, flight.interval);
+    EXPECT_LT((next.segment<3>(0) - flight.end.dR).norm(), 1e-4);
+    EXPECT_LT((next.segment<3>(3) - flight.end.dV).norm(), 4e-5);
+    EXPECT_LT((next.segment<4>(6) - states(flight.end.C_pc)).norm(), 1e-7);
+  }
+}
+
+// Tilts of 10 and 15 deg: 0.4 m/s^2 of the vertical force is of second order in them, 4e-2 m/s in the
+// interval; what is left is of third.
+TEST(SinCos, LevelledPredictsTheVerticalVelocityToTheSecondOrderOfTheTilts) {
+  const Flight flight(10 * rad_per_deg);
+  const auto off = [&](SinCosForm form) {
+    const Errors<16> errors = errors_at_the_start(flight, form);
+    return std::abs(predicted_sin_cos<16>(errors, flight.interval)(5) - flight.end.dV.z());
+  };
+  EXPECT_GT(off(SinCosForm::published), 0.02);
+  EXPECT_LT(off(SinCosForm::levelled), 0.004);
+}
+
+// A level vehicle with tilts of which only the sigma is known: mean and variance of the vertical velocity
+// error after 1 s are those of g phi^2 / 2 with two normal tilts.
+TEST(SinCos, LevelledKnowsWhatUnknownTiltsDoToTheVertical) {
+  Interval interval;
+  interval.duration = 1;
+  interval.delta_v_n << 0, 0, -standard_gravity;
+  interval.C_bn_integral.setIdentity();
+  Settings settings;
+  settings.accel_noise_density = settings.gyro_noise_density = 0;
+  constexpr double variance = 0.01;  // (5.7 deg)^2
+  Errors<16> errors;
+  errors.P(6, 6) = errors.P(7, 7) = variance;
+  predict_sin_cos<16>(errors, interval, settings);
+  EXPECT_NEAR(errors.x(5), -standard_gravity * variance, 1e-12);
+  EXPECT_NEAR(errors.P(5, 5), standard_gravity * standard_gravity * variance * variance, 1e-12);
 }
 
 template <int N>
@@ -159,14 +201,105 @@ TEST(PsiAngle, JacobianIsThatOfCentralDifferences) {
 // Of first order: exact where tilts and biases are zero, at any heading.
 TEST(SinCos, JacobianIsThatOfCentralDifferences) {
   const Flight flight(0.01);
-  Vector<19> x;
-  x << flight.start.dR, flight.start.dV, 0, 0, 0.7, 0.4, Vector<6>::Zero(), 1, -2, 3;
-  const Matrix<19, 19> expected =
-      central_differences<19>(
-          [&](const Vector<19>& at) { return predicted_sin_cos<19>(at, flight.interval); }, x) -
-      Matrix<19, 19>::Identity();
-  const Matrix<19, 19> G = dense<19>(transition_sin_cos<19>(x, flight.interval));
-  EXPECT_LT((G - expected).cwiseAbs().maxCoeff(), 1e-8);
+  for (const SinCosForm form : {SinCosForm::published, SinCosForm::levelled}) {
+    Errors<19> errors;
+    errors.form = form;
+    errors.x << flight.start.dR, flight.start.dV, 0, 0, 0.7, 0.4, Vector<6>::Zero(), 1, -2, 3;
+    const auto map = [&](const Vector<19>& at) {
+      Errors<19> moved = errors;
+      moved.x = at;
+      return predicted_sin_cos<19>(moved, flight.interval);
+    };
+    const Matrix<19, 19> expected = central_differences<19>(map, errors.x) - Matrix<19, 19>::Identity();
+    const Matrix<19, 19> G = dense<19>(transition_sin_cos<19>(errors, flight.interval));
+    EXPECT_LT((G - expected).cwiseAbs().maxCoeff(), 1e-8);
+  }
+}
+
+// The vertical row is exact at any tilt.
+TEST(SinCos, JacobianOfTheVerticalForceHoldsWithTilts) {
+  const Flight flight(0.01);
+  Errors<16> errors;
+  errors.x.segment<4>(6) << 0.1, -0.2, 0.7, 0.4;
+  const auto map = [&](const Vector<16>& at) {
+    Errors<16> moved = errors;
+    moved.x = at;
+    return predicted_sin_cos<16>(moved, flight.interval);
+  };
+  const Matrix<16, 16> expected = central_differences<16>(map, errors.x);
+  const Matrix<16, 16> G = dense<16>(transition_sin_cos<16>(errors, flight.interval));
+  EXPECT_LT((G.block<1, 4>(5, 6) - expected.block<1, 4>(5, 6)).norm(), 1e-8);
+}
+
+// Whatever the heading error, what was taken out of the states and what remains of them are the same
+// attitude. Errors of (s, k) move both alike: P of what remains is that of its differences.
+TEST(SinCos, TiltTakenOutLeavesTheSameAttitude) {
+  Errors<19> errors;
+  const Vector3d platform_tilt(0.12, -0.07, 0);
+  const double psi = 1.9;
+  const Vector3d phi = strapdown::exp_rotation({0, 0, psi}) * platform_tilt;
+  errors.x.segment<4>(6) << phi.x(), phi.y(), std::sin(psi), 1 - std::cos(psi);
+  Vector<19> truth = errors.x;
+  truth.segment<4>(6) += Vector<4>(0.01, -0.02, 0.1, 0.2);
+  const Vector<19> off = truth - errors.x;
+  errors.P = off * off.transpose();
+  const Matrix3d before = tilt_and_heading<19>(errors.x);
+  const Matrix3d out = take_out_tilt<19>(errors);
+  EXPECT_LT(strapdown::log_rotation(tilt_and_heading<19>(errors.x) * out * before.transpose()).norm(), 2e-3);
+  const Vector3d taken = strapdown::log_rotation(out);
+  const Vector3d remains =
+      truth.segment<3>(6) - Vector3d((1 - truth(9)) * taken.x() - truth(8) * taken.y(),
+                                     (1 - truth(9)) * taken.y() + truth(8) * taken.x(), 0);
+  Vector<19> left = off;
+  left.segment<2>(6) = remains.head<2>() - errors.x.segment<2>(6);
+  EXPECT_LT((errors.P - left * left.transpose()).norm(), 1e-12);
+}
+
+// Before anything is known of the heading the tilt is, in platform axes: by its correlation with (s, k)
+// alone.
+TEST(SinCos, TiltIsTakenOutBeforeTheHeadingIsKnown) {
+  Errors<16> errors;
+  errors.x(9) = 1;  // (s, 1 - k) = 0: any heading
+  const Vector3d platform_tilt(0.05, -0.03, 0);
+  errors.P(8, 8) = errors.P(9, 9) = 0.5;
+  // phi = Rz phi_p: dphi_x = -phi_px dk - phi_py ds, dphi_y = -phi_py dk + phi_px ds
+  errors.P(6, 8) = errors.P(8, 6) = -0.5 * platform_tilt.y();
+  errors.P(6, 9) = errors.P(9, 6) = -0.5 * platform_tilt.x();
+  errors.P(7, 8) = errors.P(8, 7) = 0.5 * platform_tilt.x();
+  errors.P(7, 9) = errors.P(9, 7) = -0.5 * platform_tilt.y();
+  errors.P(6, 6) = errors.P(7, 7) = 0.5 * platform_tilt.squaredNorm();
+  EXPECT_LT((strapdown::log_rotation(take_out_tilt<16>(errors)) - platform_tilt).norm(), 1e-12);
+  const Matrix<2, 2> left = errors.P.block<2, 2>(6, 6);
+  EXPECT_LT(left.norm(), 1e-12);
+}
+
+// As above for the biases: turned by the heading error, they become those of the body.
+TEST(SinCos, BiasesTurnedBackAreThoseOfTheBody) {
+  Errors<16> errors;
+  const double psi = 1.9, d_psi = 1e-5;
+  const Vector3d bias(0.01, -0.02, 0.005), d_bias(1e-7, 2e-7, -1e-7);
+  const auto turned = [](double by, const Vector3d& b) {
+    return Vector3d(strapdown::exp_rotation({0, 0, by}) * b);
+  };
+  const auto at = [&](double heading, const Vector3d& b) {
+    Vector<16> x = Vector<16>::Zero();
+    x.segment<2>(8) << std::sin(heading), 1 - std::cos(heading);
+    x.segment<3>(10) = turned(heading, b);
+    x.segment<3>(13) = turned(heading, -2 * b);
+    return x;
+  };
+  errors.x = at(psi, bias);
+  const Vector<16> off = at(psi + d_psi, bias + d_bias) - errors.x;
+  errors.P = off * off.transpose();
+  turn_biases_back<16>(errors);
+  Vector<16> expected = off;
+  expected.segment<3>(10) = d_bias;
+  expected.segment<3>(13) = -2 * d_bias;
+  EXPECT_LT((errors.x.segment<3>(10) - bias).norm(), 1e-15);
+  EXPECT_LT((errors.x.segment<3>(13) + 2 * bias).norm(), 1e-15);
+  EXPECT_LT((errors.P - expected * expected.transpose()).norm(), 1e-4 * off.squaredNorm());
+  EXPECT_LT((errors.P.block<6, 6>(10, 10) - (expected * expected.transpose()).block<6, 6>(10, 10)).norm(),
+            1e-17);
 }
 
 // An error of the estimate before its attitude is taken out, as a covariance of rank one, is afterwards that
@@ -185,7 +318,8 @@ TEST(SinCos, AttitudeTakenOutLeavesTheCovarianceOfWhatRemains) {
   off(12) = -1e-5;
   errors.P = off * off.transpose();
   const Matrix3d remains = tilt_and_heading<19>(truth) * tilt_and_heading<19>(errors.x).transpose();
-  take_out_attitude<19>(errors, HandoverTilts::turned);
+  const Matrix3d out = take_out_attitude<19>(errors);
+  EXPECT_LT((remains * out - tilt_and_heading<19>(truth)).norm(), 1e-14);
 
   // Left out: phi x dphi / 2 of the heading (1e-8) and phi^2 / 2 of d_psi (8e-9), 2e-3 of d_psi together.
   off.segment<4>(6) << states(remains).head<3>(), 0;

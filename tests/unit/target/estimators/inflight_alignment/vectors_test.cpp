@@ -24,7 +24,7 @@ TEST_P(Recorded, IsReplayed) {
   double worst_heading = 0, worst_sigma = 0, worst_C = 0, worst_v = 0, worst_position = 0, worst_x = 0;
   std::size_t rows = 0;
   Settings settings = recorded_settings(algorithm, aiding);
-  settings.handover_tilts = HandoverTilts::published;
+  settings.sin_cos_form = SinCosForm::published;
   run(inputs, settings, [&](std::size_t k, const State& state, const UpdateResult& result) {
     ASSERT_EQ(result.outcome, Outcome::ok);
     ASSERT_EQ(result.repairs, 0);
