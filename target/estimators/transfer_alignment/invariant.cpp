@@ -51,6 +51,6 @@ void turn_with_correction(Covariance& P, const Vector3d& phi) {
   filtering::mirror_lower<state_count>(P);
 }
 
-Eigen::Vector2d initial_tilt_variance(const Vector3d& told) { return told.head<2>() * (1 + 20 * told.z()); }
+Eigen::Vector2d initial_tilt_variance(const Vector3d& told) { return told.head<2>() * (1 + 40 * told.z()); }
 
 }  // namespace canhil::transfer_alignment

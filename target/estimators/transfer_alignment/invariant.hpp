@@ -23,7 +23,7 @@ void turn_with_correction(Covariance& P, const Eigen::Vector3d& phi);
 /// The variances of the tilts [rad^2] at the start for the variances of the attitude [rad^2, NED] as told,
 /// s_t^2 and s_D^2. Turned with the corrections, P tells of a heading about the true vertical that was seen
 /// at a tilt t 1/s_D^2 + t't/s_t^2, where the start told 1/s_D^2 + t't/(12 s_t^2): 11/6 /rad^2 too much in
-/// the mean. Tilts wider by 1 + 20 s_D^2 keep that below 9 % of the first.
+/// the mean. Tilts wider by 1 + 40 s_D^2 keep that below 5 % of the first.
 Eigen::Vector2d initial_tilt_variance(const Eigen::Vector3d& told);
 
 }  // namespace canhil::transfer_alignment
