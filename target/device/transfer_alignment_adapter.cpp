@@ -29,7 +29,8 @@ constexpr std::size_t history_length = 512;          // of increments, which com
 constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
 constexpr std::size_t pending_limit = 8;             // fixes ahead of the INS that are kept
 
-// Parameters in the unit of their name; defaults are the settings of the paper's reproduction.
+// Parameters in the unit of their name; defaults are the settings of the paper's reproduction, but for
+// the loop, which is the recommended one.
 struct Tuning {
   ta::Settings filter;
   std::int64_t output_interval_us = 0;
@@ -62,8 +63,8 @@ constexpr std::array rows{
         [](Tuning& t, double v) {
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
-    Row{Parameter::closed_loop, 1, 0, 1, whole, stopped_only,
-        [](Tuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
+    Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
+        [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
     Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
         [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
 };
@@ -184,7 +185,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
 
   // In a closed loop the INS itself; in an open one it is corrected for each answer.
   const ta::Ins& best_estimate() {
-    if (tuning_.filter.closed_loop) return state_.ins;
+    if (tuning_.filter.loop != ta::Loop::open) return state_.ins;
     corrected_ = ta::estimate(state_);
     return corrected_;
   }

@@ -1,6 +1,7 @@
 #include "target/estimators/transfer_alignment/error_model.hpp"
 
 #include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/transfer_alignment/invariant.hpp"
 
 namespace canhil::transfer_alignment {
 
@@ -30,7 +31,10 @@ StateVector initial_variance(const Settings& settings) {
   StateVector sigma;
   sigma << settings.velocity_sigma_0, settings.attitude_sigma_0, settings.accel_bias_sigma_0,
       settings.gyro_bias_sigma_0;
-  return sigma.cwiseAbs2();
+  StateVector variance = sigma.cwiseAbs2();
+  if (settings.loop == Loop::invariant)
+    variance.segment<2>(attitude_state) = initial_tilt_variance(variance.segment<3>(attitude_state));
+  return variance;
 }
 
 }  // namespace canhil::transfer_alignment

@@ -4,6 +4,7 @@
 
 #include "target/estimators/filtering/kalman.hpp"
 #include "target/estimators/strapdown/attitude.hpp"
+#include "target/estimators/transfer_alignment/invariant.hpp"
 #include "target/estimators/transfer_alignment/uncertainty.hpp"
 
 namespace canhil::transfer_alignment {
@@ -13,7 +14,15 @@ struct Prediction {
   Covariance P;
   StateVector x;
   double alpha = 0, beta = 0;
+  bool degraded = false;
 };
+
+// Without a manoeuvre the attitude error stays what it was at the start, but for the gyros: a covariance that
+// has grown beyond it is no bound, and what it adds to itself grows with it.
+bool beyond_the_start(const Covariance& P, const Settings& settings) {
+  return !(P.diagonal().segment<3>(attitude_state).sum() <=
+           initial_variance(settings).segment<3>(attitude_state).sum());
+}
 
 // P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt: one step an update
 // interval, since the step is part of the H2 filter's definition.
@@ -30,14 +39,20 @@ Prediction predict(const State& state, const Settings& settings) {
   if (next.beta > 0) {
     next.P = filtering::propagate_covariance_blocks<h2_blocks, state_count>(state.P, G);
     next.P.topLeftCorner<3, 3>() += Q_velocity;
-  } else {
+    if (settings.loop == Loop::invariant && beyond_the_start(next.P, settings)) {
+      next.degraded = true;
+      next.beta = 0;
+      G = transition_increment(interval);
+    }
+  }
+  if (!(next.beta > 0)) {
     next.P = filtering::propagate_covariance_blocks<kalman_blocks, state_count>(state.P, G);
     if (settings.fading_per_s > 0 && settings.algorithm == Algorithm::kalman)
       next.P *= std::exp(2 * settings.fading_per_s * interval.duration);
   }
   next.P.diagonal() += process_noise(settings, interval.duration);
   next.x = state.x;
-  if (!settings.closed_loop) next.x.noalias() += G.lazyProduct(state.x);
+  if (settings.loop == Loop::open) next.x.noalias() += G.lazyProduct(state.x);
   return next;
 }
 
@@ -87,6 +102,7 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   const Prediction prior = predict(state, settings);
   result.alpha = prior.alpha;
   result.beta = prior.beta;
+  result.degraded = prior.degraded;
   result.innovation = difference - prior.x.segment<3>(velocity_state);
   // The master's noise is a density: its variance over an interval is R/dt, so the result does not depend on
   // the rate.
@@ -98,8 +114,9 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   result.outcome = Outcome::not_positive_definite;
   if (!correction.positive_definite) return result;
   result.nis = correction.nis;
-  result.dx = correction.dx;
-  if (!correction.dx.allFinite() || !correction.P.allFinite()) {
+  result.dx = settings.loop == Loop::invariant ? invariant_correction(correction.K, result.innovation)
+                                               : correction.dx;
+  if (!result.dx.allFinite() || !correction.P.allFinite()) {
     result.outcome = Outcome::non_finite;
     return result;
   }
@@ -109,11 +126,12 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   result.outcome = Outcome::ok;
   state.P = correction.P;
   state.ins.interval = Interval{};
-  if (settings.closed_loop) {
-    state.ins = corrected(state.ins, correction.dx);
-  } else {
-    state.x = prior.x + correction.dx;
+  if (settings.loop == Loop::open) {
+    state.x = prior.x + result.dx;
+    return result;
   }
+  state.ins = corrected(state.ins, result.dx);
+  if (settings.loop == Loop::invariant) turn_with_correction(state.P, result.dx.segment<3>(attitude_state));
   return result;
 }
 

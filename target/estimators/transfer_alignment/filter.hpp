@@ -45,6 +45,7 @@ struct UpdateResult {
   StateVector dx = StateVector::Zero();                             // K innovation: the correction
   double alpha = 0;                                                 // H2 [m/s^2]
   double beta = 0;                                                  // H2; 0: terms dropped, the Kalman step
+  bool degraded = false;  // H2, Loop::invariant: its P was beyond the start's, this was the Kalman step
 };
 
 /// The state at the start of an alignment from the slave's own navigation state; P0 from the settings.

@@ -1,7 +1,7 @@
 #pragma once
 // What a user may choose of the transfer-alignment filter. Defaults: the reproduction of Yang, Shim, Park
-// 2001, where P0 of the attitude is deliberately 1 deg for true errors of 5 deg
-// (target/estimators/transfer_alignment/NOTES.md).
+// 2001 (recommended: kalman with Loop::invariant), where P0 of the attitude is deliberately 1 deg for true
+// errors of 5 deg (target/estimators/transfer_alignment/NOTES.md).
 #include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
@@ -23,6 +23,10 @@ enum class H2Case : std::uint8_t { one = 1, two, three, four };
 /// unknown dC).
 enum class AlphaRule : std::uint8_t { cov_df, constant };
 
+/// What an update does with its correction. open: it is kept beside the INS. published: the INS takes it, and
+/// P stays as it is. invariant: the INS takes that of an invariant error (invariant.hpp), and H2 is guarded.
+enum class Loop : std::uint8_t { open, published, invariant };
+
 struct Settings {
   Algorithm algorithm = Algorithm::robust_h2;
   H2Case h2_case = H2Case::two;
@@ -30,7 +34,7 @@ struct Settings {
   double alpha_constant = 0;  // [m/s^2], for AlphaRule::constant
   double fading_per_s =
       0;  // Kalman only: P grows by exp(2 fading dt), i.e. sigmas by exp(fading dt), before Q
-  bool closed_loop = true;
+  Loop loop = Loop::published;
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
 
   double velocity_noise_density = 0.01;                   // of the master, R_k = this/dt [(m/s)^2 s]

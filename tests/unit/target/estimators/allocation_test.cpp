@@ -82,10 +82,10 @@ TEST(Allocation, EigensOwnIsCounted) {
 
 TEST(Allocation, TransferAlignmentAllocatesNothing) {
   for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::robust_h2}) {
-    for (const bool closed_loop : {true, false}) {
+    for (const Loop loop : {Loop::open, Loop::published, Loop::invariant}) {
       Settings settings;
       settings.algorithm = algorithm;
-      settings.closed_loop = closed_loop;
+      settings.loop = loop;
       History<64> history(0);
       State state = initial(published_start(), settings);
       const auto imu = flight_increment(flight_start(), 0, 0.01);

@@ -132,7 +132,7 @@ TEST(TransferAlignment, TwoMechanisationsAgreeOnTheFullRun) {
 TEST(TransferAlignment, OpenLoopEstimatesWhatTheClosedLoopDoesForSmallErrors) {
   Settings closed, open;
   closed.algorithm = open.algorithm = Algorithm::kalman;
-  open.closed_loop = false;
+  open.loop = Loop::open;
   const auto start = with_errors(flight_start(), Vector3d(0.01, -0.02, 0.01), Vector3d(1e-4, -1e-4, 2e-4));
   State a = initial(start, closed), b = initial(start, open);
   strapdown::NavState truth = flight_start();

@@ -1,0 +1,12 @@
+// As wind_test.cpp, of the transfer alignment.
+#include "tests/papers/bars.hpp"
+
+namespace canhil::papers {
+namespace {
+
+TEST(Honesty, OfTheTransferAlignment) {
+  expect_bars_met("bench/monte_carlo/honesty/transfer_alignment.toml", 51, 100);
+}
+
+}  // namespace
+}  // namespace canhil::papers
