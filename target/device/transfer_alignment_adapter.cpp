@@ -168,6 +168,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     switch (result.outcome) {
       case ta::Outcome::ok:
         observe(result, context.consistency);
+        context.consistency.distrust(result.degraded);
         answer_filter(fix, result, context);
         return Health::good;
       case ta::Outcome::non_finite:

@@ -25,18 +25,20 @@ inline constexpr std::array wind_parameters = [] {
   return std::array{
       Row{P::output_interval_ms, 20, 1, 1000, real, any_time,
           [](WindTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
-      Row{P::process_noise, 0, 0, 3, whole, any_time,
+      Row{P::process_noise, 3, 0, 3, whole, any_time,
           [](WindTuning& t, double v) {
             t.filter.process_noise = static_cast<wind::ProcessNoise>(std::lround(v));
           }},
       Row{P::air_velocity_noise_mpsprts, 0.02, 0, 1e3, real, any_time,
           [](WindTuning& t, double v) { t.filter.density.air_velocity = v; }},
-      Row{P::body_rate_noise_degpsprts, 0.5, 0, 1e3, real, any_time,
+      Row{P::body_rate_noise_degpsprts, 0.2, 0, 1e3, real, any_time,
           [](WindTuning& t, double v) { t.filter.density.rate = v * deg; }},
       Row{P::attitude_noise_degprts, 0.01, 0, 1e2, real, any_time,
           [](WindTuning& t, double v) { t.filter.density.attitude = v * deg; }},
       Row{P::wind_noise_mpsprts, 0.3, 0, 1e3, real, any_time,
           [](WindTuning& t, double v) { t.filter.density.wind = v; }},
+      Row{P::coefficient_sigma_percent, 5, 0, 100, real, any_time,
+          [](WindTuning& t, double v) { t.filter.coefficient_sigma = v / 100; }},
       Row{P::glider_velocity_sigma_mps, 0.25, 1e-3, 1e3, real, any_time,
           [](WindTuning& t, double v) { t.filter.velocity_sigma = v; }},
       Row{P::glider_rate_sigma_degps, 0.125, 1e-3, 1e2, real, any_time,

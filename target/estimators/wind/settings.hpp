@@ -1,5 +1,5 @@
 #pragma once
-// What a user may choose of the wind estimator. Defaults: the EKF of NOTES.md that does best, at 50 Hz.
+// What a user may choose of the wind estimator. Defaults: the recommended filter (NOTES.md), at 50 Hz.
 #include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
@@ -28,15 +28,15 @@ constexpr bool follows_loads(ProcessNoise noise) {
 /// Process noise, densities per sqrt(s).
 struct Densities {
   double air_velocity = 0.02;            // [m/s]
-  double rate = 0.5 * rad_per_deg;       // [rad/s]
+  double rate = 0.2 * rad_per_deg;       // [rad/s]
   double attitude = 0.01 * rad_per_deg;  // [rad]
   double wind = 0.3;                     // covers shear times sink rate [m/s]
   double coefficient = 0.0022;  // of each part of each coefficient, as a share of it: 1 % held for 50 ms
 };
 
 struct Settings {
-  Algorithm algorithm = Algorithm::ekf;
-  ProcessNoise process_noise = ProcessNoise::block_diagonal;
+  Algorithm algorithm = Algorithm::adaptive_q;
+  ProcessNoise process_noise = ProcessNoise::likeliest;
   Densities density;
 
   double coefficient_sigma = 0.05;  // by which share each part of each coefficient may be wrong for good

@@ -19,7 +19,8 @@ TEST(Wind, DefaultsAreThoseOfTheFilter) {
   ASSERT_TRUE(adapter->reset(Algorithm::ekf));
   const wind::Settings s;
   using P = Parameter;
-  const std::pair<P, double> defaults[] = {{P::process_noise, 0},
+  const std::pair<P, double> defaults[] = {{P::process_noise, 3},
+                                           {P::coefficient_sigma_percent, 100 * s.coefficient_sigma},
                                            {P::air_velocity_noise_mpsprts, s.density.air_velocity},
                                            {P::body_rate_noise_degpsprts, s.density.rate / Glider::deg},
                                            {P::attitude_noise_degprts, s.density.attitude / Glider::deg},
@@ -97,8 +98,10 @@ TEST(Wind, EveryParameterOfTheFilterActs) {
   for (const auto& [parameter, initial, other] :
        std::initializer_list<std::tuple<P, float, float>>{{P::process_noise, 0, 1},
                                                           {P::process_noise, 1, 2},
+                                                          {P::process_noise, 2, 3},
+                                                          {P::coefficient_sigma_percent, 5, 20},
                                                           {P::air_velocity_noise_mpsprts, 0.02F, 1},
-                                                          {P::body_rate_noise_degpsprts, 0.5F, 1},
+                                                          {P::body_rate_noise_degpsprts, 0.2F, 1},
                                                           {P::attitude_noise_degprts, 0.01F, 1},
                                                           {P::wind_noise_mpsprts, 0.3F, 1},
                                                           {P::glider_velocity_sigma_mps, 0.25F, 1},

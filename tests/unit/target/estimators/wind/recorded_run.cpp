@@ -7,6 +7,8 @@ namespace canhil::wind {
 
 RecordedRun::RecordedRun() {
   const auto json = nlohmann::json::parse(std::ifstream(std::string(TEST_DATA_DIR) + "/wind/settings.json"));
+  settings.algorithm = Algorithm::ekf;
+  settings.process_noise = ProcessNoise::block_diagonal;
   settings.sample_period = json["dt"];
   settings.velocity_sigma = json["sig"]["vg"];
   settings.rate_sigma = json["sig"]["om"];
