@@ -115,7 +115,7 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnywhere) {
 }
 
 // Tilts of 40 deg, told as 30 deg: the first sample levels the INS, so that heading and sigma are those of a
-// level start. Not levelled the filter ends tens of degrees off.
+// level start. Not levelled by it one of them ends 3.4 sigma off.
 TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   for (const double tilt_deg : {-40.0, 8.0, 40.0}) {
     RecordedRun from = inputs(Aiding::ssbl);
