@@ -47,7 +47,7 @@ class ConsistencyMonitor {
       const double level = (either_side ? std::abs(sum_) : sum_) * std::sqrt(1 - keep * keep);
       quiet_ = level < 2 ? quiet_ + 1 : 0;
       if (level > 6) alarm_ = true;
-      if (quiet_ >= updates) alarm_ = false;
+      if (quiet_ >= 2 * updates) alarm_ = false;
       return alarm_;
     }
 

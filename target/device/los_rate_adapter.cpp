@@ -242,6 +242,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     nothing.outcome = why;
     nothing.blind = last_.blind;
     nothing.sigma = last_.sigma;
+    nothing.used = last_.used;
     answer(t_us, nothing, context);
     return Health::good;
   }
@@ -255,10 +256,11 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
                                  .outcome = on_bus(result.outcome),
                                  .fault = on_bus(result.fault),
                                  .blind = static_cast<std::uint8_t>(result.blind)});
-    answers.send(LosRateSigma{.los_rate_sigma_pitch_radps = result.sigma.pitch.rate,
-                              .los_rate_sigma_yaw_radps = result.sigma.yaw.rate,
-                              .target_acceleration_sigma_y_mps2 = result.sigma.yaw.acceleration,
-                              .target_acceleration_sigma_z_mps2 = result.sigma.pitch.acceleration,
+    const los::Planes<los::Sigma> sigma = los::told_sigma(result, design_);
+    answers.send(LosRateSigma{.los_rate_sigma_pitch_radps = sigma.pitch.rate,
+                              .los_rate_sigma_yaw_radps = sigma.yaw.rate,
+                              .target_acceleration_sigma_y_mps2 = sigma.yaw.acceleration,
+                              .target_acceleration_sigma_z_mps2 = sigma.pitch.acceleration,
                               .nis = result.nis,
                               .degraded = static_cast<std::uint8_t>(context.consistency.degraded())});
     answers.send(LosRateTarget{.target_acceleration_y_mps2 = best.acceleration.yaw,

@@ -40,9 +40,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
-    const double trusted = update.degraded ? 0
-                                           : std::max(over_sigma(phi, update.attitude_sigma),
-                                                      over_sigma(v, update.velocity_sigma));
+    // Of the attitude alone: the velocity's sigma is of the cause's time, and until the answer after it a
+    // turned heading and 1 g make more of an error than that.
+    const double trusted = update.degraded ? 0 : over_sigma(phi, update.attitude_sigma);
     const std::array<double, kept.size()> values{
         phi.x(),      phi.y(), phi.z(), angles.roll,         angles.pitch,     angles.heading,
         v.x(),        v.y(),   v.z(),   told(nees[i].value), told(update.nis), update.attitude_sigma.z(),

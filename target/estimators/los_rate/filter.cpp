@@ -286,6 +286,21 @@ UpdateResult step(State& state, const Measurement& m, const Design& design) {
   return result;
 }
 
+Planes<Sigma> told_sigma(const UpdateResult& result, const Design& design) {
+  Planes<Sigma> sigma = result.sigma;
+  const Settings& s = design.settings;
+  if (s.algorithm != Algorithm::combined || !(result.used.range > 0)) return sigma;
+  const auto allow_for_turn = [&](double& rate, const Noise& noise) {
+    const double r = result.used.range;
+    const double displacement_psd = r * r * sample_variance(noise, r) * s.sample_period;
+    const double bandwidth = std::pow(s.jerk_density / displacement_psd, 1.0 / 6);
+    rate = std::hypot(rate, 0.885 * s.acceleration_sigma_0 / (bandwidth * r) / 3);
+  };
+  allow_for_turn(sigma.pitch.rate, s.noise.pitch);
+  allow_for_turn(sigma.yaw.rate, s.noise.yaw);
+  return sigma;
+}
+
 Estimate estimate(const State& state) {
   return {{state.error.imag(), state.error.real()},
           {state.rate.imag(), state.rate.real()},

@@ -67,6 +67,11 @@ State initial();
 /// exception; never leaves a NaN in the state.
 UpdateResult step(State& state, const Measurement& measurement, const Design& design);
 
+/// Sigmas to be told of a step. `combined` allows for what no white jerk does, a turn of the target all at
+/// once: the rate lags by up to 0.885 a/(Om r) (third-order Butterworth poles of bandwidth Om, a step of the
+/// acceleration), and with a = acceleration_sigma_0 that counts as an event of 3 sigma.
+Planes<Sigma> told_sigma(const UpdateResult& result, const Design& design);
+
 /// The state in the planes' own signs.
 Estimate estimate(const State& state);
 

@@ -245,5 +245,35 @@ TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EXPECT_NEAR(wide * wide - usual * usual, pull * pull, 0.01 * pull * pull);
 }
 
+// A step of the target's acceleration behind a filter without noise: the rate lags by three times what the
+// told sigma allows for it.
+TEST(ClosedGain, ToldSigmaAllowsForATurnAllAtOnce) {
+  Settings settings;
+  settings.start_up = 0;
+  const Design design = make_design(settings);
+  const double a = settings.acceleration_sigma_0;
+  for (const double range : {400.0, 1000.0, 3000.0}) {
+    SCOPED_TRACE(range);
+    // At rest towards each other: e' = w, w' = a/r after the step, in yaw.
+    Measurement m;
+    m.dt = settings.sample_period;
+    m.error_valid = m.antenna_valid = m.acceleration_valid = true;
+    m.range = {range, 0.5, true, true};
+    State state = initial();
+    double lag = 0, allowed = 0;
+    for (int k = 0; k < 1400; ++k) {
+      const double t = std::max(0, k - 600) * settings.sample_period;
+      m.error.yaw = a / range * t * t / 2;
+      m.range.range = range - 0.5 * k * settings.sample_period;
+      const UpdateResult result = step(state, m, design);
+      if (m.error.yaw > 0.1) break;
+      lag = std::max(lag, std::abs(estimate(state).rate.yaw - a / range * t));
+      const double told = told_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
+      if (k == 600) allowed = std::sqrt(told * told - own * own);
+    }
+    EXPECT_NEAR(lag / (3 * allowed), 1, 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace canhil::los_rate
