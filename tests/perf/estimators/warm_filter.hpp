@@ -12,10 +12,12 @@ struct WarmFilter {
   Eigen::Vector3d master_velocity;
 };
 
-inline WarmFilter warm_filter(Algorithm algorithm, strapdown::Mechanization mechanization) {
+inline WarmFilter warm_filter(Algorithm algorithm, strapdown::Mechanization mechanization,
+                              Loop loop = Loop::published) {
   WarmFilter filter;
   filter.settings.algorithm = algorithm;
   filter.settings.mechanization = mechanization;
+  filter.settings.loop = loop;
   filter.state = initial(published_start(), filter.settings);
   strapdown::NavState truth = flight_start();
   for (int k = 0; k < 1200; ++k) {
