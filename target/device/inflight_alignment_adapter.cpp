@@ -213,6 +213,11 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   Health update(const At<Fix>& fix, Context& context) {
     const ia::UpdateResult result =
         history_.update(state_, fix.value.position, fix.t_us, settings_for(fix.value));
+    // Until the heading is known so well, tilts and velocity are told in axes that may be turned by any
+    // angle.
+    constexpr double known_heading_sigma = 30 * deg;
+    const double heading_variance = ia::uncertainty(state_).attitude(2, 2);
+    context.consistency.distrust(!(heading_variance <= known_heading_sigma * known_heading_sigma));
     switch (result.outcome) {
       case ia::Outcome::ok:
         observe(result, context.consistency);

@@ -160,12 +160,11 @@ constexpr std::array<scenario::FormerCheckKind, 2> former{
 constexpr auto parameters = [] {
   using enum messages::Parameter;
   return names_of(output_interval_ms, process_noise, air_velocity_noise_mpsprts, body_rate_noise_degpsprts,
-                  attitude_noise_degprts, wind_noise_mpsprts, coefficient_sigma_percent,
-                  glider_velocity_sigma_mps, glider_rate_sigma_degps, glider_attitude_sigma_deg, theta_per_s,
-                  theta_cap_per_s, theta_rate_weight, adaptation_time_s, adaptation_limit,
-                  initial_air_velocity_sigma_mps, initial_rate_sigma_degps, initial_wind_sigma_mps,
-                  fins_late_ms, fins_missing_ms, glider_nav_coast_s, glider_nav_stale_ms,
-                  glider_nav_gate_mps);
+                  attitude_noise_degprts, wind_noise_mpsprts, glider_velocity_sigma_mps,
+                  glider_rate_sigma_degps, glider_attitude_sigma_deg, theta_per_s, theta_cap_per_s,
+                  theta_rate_weight, adaptation_time_s, adaptation_limit, initial_air_velocity_sigma_mps,
+                  initial_rate_sigma_degps, initial_wind_sigma_mps, fins_late_ms, fins_missing_ms,
+                  glider_nav_coast_s, glider_nav_stale_ms, glider_nav_gate_mps, coefficient_sigma_percent);
 }();
 constexpr std::array<std::string_view, 2> nodes{"glider_nav", "fins"};
 

@@ -289,7 +289,8 @@ UpdateResult step(State& state, const Measurement& m, const Design& design) {
 Planes<Sigma> told_sigma(const UpdateResult& result, const Design& design) {
   Planes<Sigma> sigma = result.sigma;
   const Settings& s = design.settings;
-  if (s.algorithm != Algorithm::combined || !(result.used.range > 0)) return sigma;
+  const bool tracks = result.outcome != Outcome::waiting && result.outcome != Outcome::started;
+  if (!tracks || s.algorithm != Algorithm::combined || !(result.used.range > 0)) return sigma;
   const auto allow_for_turn = [&](double& rate, const Noise& noise) {
     const double r = result.used.range;
     const double displacement_psd = r * r * sample_variance(noise, r) * s.sample_period;

@@ -17,9 +17,9 @@ namespace {
 
 TEST(Series, BytesAreDoublesLittleEndian) {
   Samples samples(estimators::inflight_alignment.layout);
-  add(samples, 1'000'000, {{&quantities::covariance_repairs, -2}});
+  add(samples, 1'000'000, {{&quantities::trusted_over_sigma, -2}});
   const auto bytes = encode(samples);
-  ASSERT_EQ(bytes.size(), 16U * 8);
+  ASSERT_EQ(bytes.size(), 18U * 8);
   const std::vector<std::uint8_t> one{0, 0, 0, 0, 0, 0, 0xF0, 0x3F}, minus_two{0, 0, 0, 0, 0, 0, 0, 0xC0};
   EXPECT_EQ(std::vector(bytes.begin(), bytes.begin() + 8), one);
   EXPECT_EQ(std::vector(bytes.end() - 8, bytes.end()), minus_two);
@@ -56,7 +56,7 @@ TEST(Series, BytesThatAreNoSamplesAreRefused) {
   add(samples, 0, {});
   auto bytes = encode(samples);
   bytes.pop_back();
-  EXPECT_EQ(decode(bytes, estimators::wind.layout).error().message, "has 55 bytes of samples of 56 each");
+  EXPECT_EQ(decode(bytes, estimators::wind.layout).error().message, "has 63 bytes of samples of 64 each");
   bytes = encode(samples);
   bytes[7] = 0x7F;  // not a number, or nearly infinite
   bytes[6] = 0xF0;

@@ -257,7 +257,8 @@ INSTANTIATE_TEST_SUITE_P(
             "18: key 'check[1].gated_fixes': is unknown, expected one of: kind, requirement, estimator, "
             "from_s, "
             "to_s, answers_at_least, answers_at_most, answers_before_s, coasting_at_least, coasting_at_most, "
-            "coasting_before_s, updates_at_least, updates_at_most, updates_before_s, name"},
+            "coasting_before_s, updates_at_least, updates_at_most, updates_before_s, "
+            "degraded_at_least, degraded_at_most, degraded_before_s, name"},
         Wrong{"[[check]]",
               check("kind = 'consistency'\nquantity = 'attitude.heading.nees'\nprobability = 0.9"),
               "19: key 'check[1].probability': is for innovations (NIS) only, expected mean_between = [low, "

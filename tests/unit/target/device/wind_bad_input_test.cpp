@@ -202,8 +202,12 @@ TEST(Wind, DeflectionsThatAreNotPhysicalAreRefused) {
   }
 }
 
+// With a noise that does not follow: its raise alone is seen.
 TEST(Wind, MissingFinsAreFlaggedAndWidenTheSigmas) {
-  Glider bench;
+  Glider::Release release;
+  release.parameters = {{.parameter = Parameter::process_noise, .value = 0},
+                        {.parameter = Parameter::body_rate_noise_degpsprts, .value = 0.5F}};
+  Glider bench(release);
   bench.fly(0, rows, [](std::size_t k, Navigation&, FinFrame& fins) { fins.arrives = !is_bad(k); });
   const auto status = bench.all<WindSpeed>();
   EXPECT_EQ(status[bad_from - 1].fins_late, 0);

@@ -24,7 +24,8 @@ Misses replayed(Algorithm algorithm, const std::string& name) {
   };
   Glider::Release release;
   release.algorithm = algorithm;
-  release.parameters = {set(Parameter::air_velocity_noise_mpsprts, s.density.air_velocity),
+  release.parameters = {set(Parameter::process_noise, 0),
+                        set(Parameter::air_velocity_noise_mpsprts, s.density.air_velocity),
                         set(Parameter::body_rate_noise_degpsprts, s.density.rate / Glider::deg),
                         set(Parameter::attitude_noise_degprts, s.density.attitude / Glider::deg),
                         set(Parameter::wind_noise_mpsprts, s.density.wind),

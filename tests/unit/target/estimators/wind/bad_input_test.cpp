@@ -199,8 +199,19 @@ TEST(WindBadInput, OneMissedFinFrameIsFlaggedLate) {
   expect_recovered(flown);
 }
 
+// With a noise that does not follow: its raise alone is seen.
+Settings constant_noise() {
+  Settings settings;
+  settings.algorithm = Algorithm::ekf;
+  settings.process_noise = ProcessNoise::block_diagonal;
+  settings.density.rate = 0.5 * rad_per_deg;
+  return settings;
+}
+
 TEST(WindBadInput, MissingFinsWidenTheUncertainty) {
-  const Flown flown = fly_with([](Navigation&, FinFrame& fins) { fins.arrives = false; });
+  const Flown flown = fly(recorded(), constant_noise(), [](std::size_t k, Navigation&, FinFrame& fins) {
+    fins.arrives = k < bad_from || k >= bad_to;
+  });
   expect_sound(flown);
   EXPECT_TRUE(flown.results[bad_from + 1].flags.fins_late);
   EXPECT_FALSE(flown.results[bad_from + 1].flags.fins_missing);
@@ -261,7 +272,7 @@ TEST(WindBadInput, AirVelocityOutsideTheTable) {
 }
 
 TEST(WindBadInput, NoiseIsRaisedWhereTheModelEnds) {
-  const Design design = make_design(Settings());
+  const Design design = make_design(constant_noise());
   const auto rate_variance = [&design](double u) {
     StateVector x = StateVector::Zero();
     x(0) = u;
