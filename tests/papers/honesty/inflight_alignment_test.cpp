@@ -5,7 +5,7 @@ namespace canhil::papers {
 namespace {
 
 TEST(Honesty, OfTheInflightAlignment) {
-  expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 91, 40);
+  expect_bars_met("bench/monte_carlo/honesty/inflight_alignment.toml", 104, 40);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 namespace canhil::papers {
 namespace {
 
-TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 38, 60); }
+TEST(Honesty, OfTheLosRate) { expect_bars_met("bench/monte_carlo/honesty/los_rate.toml", 40, 60); }
 
 }  // namespace
 }  // namespace canhil::papers

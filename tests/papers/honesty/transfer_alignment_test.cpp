@@ -5,7 +5,7 @@ namespace canhil::papers {
 namespace {
 
 TEST(Honesty, OfTheTransferAlignment) {
-  expect_bars_met("bench/monte_carlo/honesty/transfer_alignment.toml", 51, 100);
+  expect_bars_met("bench/monte_carlo/honesty/transfer_alignment.toml", 61, 100);
 }
 
 }  // namespace

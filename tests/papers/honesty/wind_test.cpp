@@ -5,7 +5,7 @@
 namespace canhil::papers {
 namespace {
 
-TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 8, 24); }
+TEST(Honesty, OfTheWind) { expect_bars_met("bench/monte_carlo/honesty/wind.toml", 17, 24); }
 
 }  // namespace
 }  // namespace canhil::papers
