@@ -294,7 +294,7 @@ Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity,
     const double magnitude =
         from_us ? largest_magnitude(run, quantity, *from_us) : last_magnitude(run, quantity, at_the_end);
     if (!(magnitude <= bound)) ++result.beyond;
-    if (!(magnitude <= result.largest)) result.largest = magnitude;
+    if (!std::isnan(result.largest) && !(magnitude <= result.largest)) result.largest = magnitude;
   }
   return result;
 }

@@ -73,10 +73,12 @@ inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 
 /// What a target that errs and says that it is sure is judged by.
-inline constexpr Quantity trusted_over_sigma{.name = "trusted.over_sigma",
-                                             .meaning =
-                                                 "largest error over its sigma of all that an answer tells; "
-                                                 "0 where the answer says that it is not to be trusted",
-                                             .unit = plain};
+inline constexpr Quantity trusted_over_sigma{
+    .name = "trusted.over_sigma",
+    .meaning =
+        "largest error over its sigma (transfer alignment: attitude; "
+        "in-flight: attitude, velocity, position; "
+        "LOS: rate; wind: wind); 0 where the answer is degraded or blind",
+    .unit = plain};
 
 }  // namespace canhil::quantities

@@ -37,8 +37,8 @@ class ConsistencyMonitor {
 
  private:
   // `updates` are remembered; a single one counts at most as `largest` sigma of its own. The alarm begins
-  // where S is beyond 6 of its standard deviations, on either side or above, and ends when it has been within
-  // 2 for as long as is remembered.
+  // where S is more than 6 of its standard deviations above zero (`either_side`: or below), and ends after 2
+  // * updates in a row within 2.
   template <int updates, int largest, bool either_side>
   class Chart {
    public:

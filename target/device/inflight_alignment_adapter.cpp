@@ -125,9 +125,18 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     }
   }
 
-  Health tick(Context context) override { return imu_.tick(context); }
+  Health tick(Context context) override {
+    doubt_heading(context);
+    return imu_.tick(context);
+  }
 
  private:
+  // Until the heading is known so well, tilts and velocity are told in axes that may be turned by any angle.
+  void doubt_heading(Context& context) const {
+    constexpr double known_sigma = 30 * deg;
+    context.consistency.distrust(!(ia::uncertainty(state_).attitude(2, 2) <= known_sigma * known_sigma));
+  }
+
   template <class Message>
   Health put_ssbl(const Frame& frame, std::uint8_t counter, Context& context) {
     return completes<Message>(ssbl_group_, frame, counter, context) ? on_ssbl(context) : Health::good;
@@ -213,11 +222,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   Health update(const At<Fix>& fix, Context& context) {
     const ia::UpdateResult result =
         history_.update(state_, fix.value.position, fix.t_us, settings_for(fix.value));
-    // Until the heading is known so well, tilts and velocity are told in axes that may be turned by any
-    // angle.
-    constexpr double known_heading_sigma = 30 * deg;
-    const double heading_variance = ia::uncertainty(state_).attitude(2, 2);
-    context.consistency.distrust(!(heading_variance <= known_heading_sigma * known_heading_sigma));
+    doubt_heading(context);
     switch (result.outcome) {
       case ia::Outcome::ok:
         observe(result, context.consistency);

@@ -57,11 +57,10 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     const auto& [t_us, angles, v, phi] = *after;
     const world::Vector3 p = position_error(update, truth.flight);
     const double nis = used(update.outcome) ? told(update.nis) : std::numeric_limits<double>::quiet_NaN();
-    const double trusted =
-        update.degraded
-            ? 0
-            : std::max({over_sigma(phi, update.attitude_sigma), over_sigma(v, update.velocity_sigma),
-                        over_sigma(p, update.position_sigma)});
+    const double trusted = update.degraded ? 0
+                                           : std::max({told(over_sigma(phi, update.attitude_sigma)),
+                                                       told(over_sigma(v, update.velocity_sigma)),
+                                                       told(over_sigma(p, update.position_sigma))});
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -78,7 +77,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  update.attitude_sigma.z(),
                                                  static_cast<double>(update.repairs),
                                                  update.velocity_sigma.z(),
-                                                 told(trusted)};
+                                                 trusted};
     samples.add(update.cause_us, values);
   }
   return samples;

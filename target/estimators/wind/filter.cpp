@@ -70,6 +70,8 @@ void start(State& state, const Navigation& n, const Settings& settings) {
   P.block<3, 3>(attitude_at, air_velocity_at) = -R_attitude * D.transpose() * C_nb.transpose();
   filtering::mirror_lower<12>(P);
   state.sensitivity.topRows<9>().setZero();
+  state.sensitivity.middleRows<3>(air_velocity_at) =
+      -C_nb.lazyProduct(state.sensitivity.bottomRows<3>());  // as P: the ground velocity owes them nothing
   state.started = true;
   state.sample_used = true;
   state.coasted_s = 0;
@@ -157,6 +159,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
     }
     forget(state);
     state.x.tail<3>().setZero();  // whichever was wrong: nothing is known
+    state.sensitivity.bottomRows<3>().setZero();
     state.P.block<3, 3>(wind_at, wind_at) = squared(settings.wind_sigma_0) * Matrix3d::Identity();
     start(state, n, settings);
     result.outcome = Outcome::started;
