@@ -76,9 +76,8 @@ inline constexpr Quantity velocity_norm{
 inline constexpr Quantity trusted_over_sigma{
     .name = "trusted.over_sigma",
     .meaning =
-        "largest error over its sigma (transfer alignment: attitude; "
-        "in-flight: attitude, velocity, position; "
-        "LOS: rate; wind: wind); 0 where the answer is degraded or blind",
+        "largest error over its sigma of what an estimator is judged by (honesty.md); 0 where the answer is "
+        "degraded or blind",
     .unit = plain};
 
 }  // namespace canhil::quantities
