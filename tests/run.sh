@@ -5,6 +5,7 @@
 #   bash tests/run.sh --coverage      unit tests, process tests and the papers' pages, and the lines of dbc, target and bench they run
 #   bash tests/run.sh --tidy          with either of the first two: also clang-tidy on every source, about ten minutes
 #   bash tests/run.sh --analyse       with either of the first two: also clang's static analyser on every source, about an hour
+#   bash tests/run.sh --soak          with either of the first two: also five minutes of random flights against one target (tests/soak)
 #   bash tests/run.sh --only REGEX    with any: of its CTest cases those whose name matches, in every configuration
 # Counted: each CTest case in each configuration, each static check, and each build that fails.
 # What a mode did not run it says at its end. JUnit files and logs: build/results/.
@@ -15,7 +16,7 @@ root=$PWD
 results=$root/build/results
 
 usage() { echo "tests/run.sh: $*" >&2; exit 2; }
-mode=default tidy=no analyse=no only=
+mode=default tidy=no analyse=no soak=no only=
 while (($#)); do
   case "$1" in
     --full | --coverage)
@@ -23,6 +24,7 @@ while (($#)); do
       mode=${1#--} ;;
     --tidy) tidy=yes ;;
     --analyse) analyse=yes ;;
+    --soak) soak=yes ;;
     --only)
       only=${2:-}
       if [[ -z "$only" ]]; then usage "--only: expected a regular expression"; fi
@@ -30,11 +32,11 @@ while (($#)); do
     -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/run.sh; exit ;;
     --quick) usage "--quick is now what it does without an option: bash tests/run.sh" ;;
     --fuzz) usage "--fuzz is now a part of --full: bash tests/run.sh --full" ;;
-    *) usage "unknown option '$1': expected --full, --coverage, --tidy, --analyse or --only REGEX" ;;
+    *) usage "unknown option '$1': expected --full, --coverage, --tidy, --analyse, --soak or --only REGEX" ;;
   esac
   shift
 done
-if [[ $mode == coverage && $tidy$analyse != nono ]]; then usage "--coverage excludes --tidy and --analyse"; fi
+if [[ $mode == coverage && $tidy$analyse$soak != nonono ]]; then usage "--coverage excludes --tidy, --analyse and --soak"; fi
 
 # The same result from any shell: Debian's tools first, one locale, no settings of the caller's builds.
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
@@ -91,10 +93,13 @@ logged() { # logged WHAT LOG COMMAND...: its exit code; what it says goes to the
   return "$code"
 }
 
+# All at once, where clang-tidy does not want to see each source by itself; in a tree that is edited it would cost each time.
+together=(-DCANHIL_TOGETHER=OFF)
+if [[ $mode == full && $tidy$analyse == nono ]]; then together=(-DCANHIL_TOGETHER=ON); fi
 build() { # build PRESET [TARGET...]
   local preset=$1 log=$results/$1.build.log
   shift
-  { cmake --preset "$preset" || cmake --fresh --preset "$preset"; } >"$log" 2>&1 ||
+  { cmake --preset "$preset" "${together[@]}" || cmake --fresh --preset "$preset" "${together[@]}"; } >"$log" 2>&1 ||
     { tail -n 20 "$log"; failure "configuring $preset"; return 1; }
   # -k 0: what still builds is still tested.
   if ! logged "building $preset" "$log" ninja -C "build/$preset" -j "$jobs" -k 0 "$@"; then
@@ -207,6 +212,11 @@ if [[ $analyse == yes ]]; then
   stage "clang static analyser" one_check python3 tests/static/tidy.py --each build/default
 elif [[ $mode != coverage ]]; then
   not_run+=("clang's static analyser: $again --analyse")
+fi
+if [[ $soak == yes ]]; then
+  stage "soak" one_check python3 tests/soak/soak.py build/default --minutes 5
+elif [[ $mode != coverage ]]; then
+  not_run+=("five minutes of random flights against one target: $again --soak")
 fi
 if [[ $mode != coverage ]]; then not_run+=("the lines that the tests run, counted: bash tests/run.sh --coverage"); fi
 if [[ -n "$only" ]]; then not_run+=("clang-format, and every test whose name does not match '$only': without --only"); fi

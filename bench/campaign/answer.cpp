@@ -259,10 +259,7 @@ void answer(const Diverged& rule, const Runs& runs, const Runs& /*other*/, Answe
   const Divergence found = divergence(runs, *rule.quantity, rule.beyond, rule.from_us);
   const std::size_t astray = found.faulted + found.beyond;
   out.measured = fmt::format("{} of {} runs ({} ended early)", astray, found.runs, found.faulted);
-  if (rule.from_us) {
-    const quantities::Unit& unit = rule.quantity->unit;
-    out.measured += fmt::format(", largest {:.4g} {}", found.largest / unit.factor, unit.name);
-  }
+  if (rule.from_us) out.measured += ", largest " + with_unit(found.largest, rule.quantity->unit);
   out.figures = {{"diverged", static_cast<double>(astray)}, {"faulted", static_cast<double>(found.faulted)}};
   Bars bars(out, true);
   const auto count = static_cast<std::int64_t>(astray);

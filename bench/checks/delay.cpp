@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace canhil::checks {
 namespace {
@@ -17,7 +16,7 @@ double seconds(std::int64_t t_us) { return 1e-6 * static_cast<double>(t_us); }
 // The truth between answers: the cubic through the four about it, and its slope.
 class Curve {
  public:
-  explicit Curve(const std::vector<Told>& told) {
+  explicit Curve(const Spool<Told>& told) {
     for (const Told& one : told) {
       if (!one.truth || (!t_.empty() && seconds(one.t_us) <= t_.back())) continue;
       t_.push_back(seconds(one.t_us));
@@ -28,8 +27,9 @@ class Curve {
   struct At {
     double value = 0, slope = 0;
   };
-  [[nodiscard]] At at(double t) const {
-    const auto after = std::ranges::upper_bound(t_, t) - t_.begin();
+  /// `after`: how many are not after t, for times that are asked for in their order: at first 0.
+  [[nodiscard]] At at(double t, std::ptrdiff_t& after) const {
+    while (after < std::ssize(t_) && time(after) <= t) ++after;
     const auto first = std::clamp<std::ptrdiff_t>(after - 2, 0, std::ssize(t_) - 4);
     At at;
     for (std::ptrdiff_t i = first; i < first + 4; ++i) {  // Lagrange
@@ -48,7 +48,7 @@ class Curve {
 
  private:
   [[nodiscard]] double time(std::ptrdiff_t i) const { return t_[static_cast<std::size_t>(i)]; }
-  std::vector<double> t_, x_;
+  Spool<double> t_, x_;
 };
 
 struct Point {
@@ -63,11 +63,12 @@ struct Fit {
   double correlation = 0;  // of a residual with the next
 };
 
-Fit fit(const Curve& curve, const std::vector<Point>& points, double delay) {
-  std::vector<double> residual, rate;
+Fit fit(const Curve& curve, const Spool<Point>& points, double delay) {
+  Spool<double> residual, rate;
+  std::ptrdiff_t after = 0;
   double mean_residual = 0, mean_rate = 0;
   for (const Point& point : points) {
-    const Curve::At at = curve.at(point.t - delay);
+    const Curve::At at = curve.at(point.t - delay, after);
     residual.push_back(point.estimate - at.value);
     rate.push_back(at.slope);
     mean_residual += residual.back() / static_cast<double>(points.size());
@@ -91,7 +92,7 @@ Fit fit(const Curve& curve, const std::vector<Point>& points, double delay) {
 
 std::optional<Delay> delay_of(const quantities::Track& track, const scenario::Window& window) {
   const Curve curve(track.told);
-  std::vector<Point> points;  // whose truth is known for every delay that is looked at
+  Spool<Point> points;  // whose truth is known for every delay that is looked at
   for (const Told& one : track.told) {
     const double t = seconds(one.t_us);
     const bool inside = one.t_us >= window.from_us && one.t_us <= window.to_us;

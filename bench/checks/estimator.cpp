@@ -11,7 +11,8 @@ void give_tracks(const Estimator& of, const checks::Observations& seen, const Tr
   of.tracks(seen, truth, [&](quantities::Track track) {
     if (!track.quantity->white) {
       if (track.kind == quantities::Track::Kind::statistic) return;
-      for (quantities::Told& told : track.told) {
+      for (std::size_t place = 0; place < track.told.size(); ++place) {
+        quantities::Told& told = track.told[place];
         told.value = std::numeric_limits<double>::quiet_NaN();
         told.truth.reset();
       }

@@ -15,6 +15,7 @@
 #include "bench/quantities/track.hpp"
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/estimator_facts.hpp"
+#include "bench/spool/spool.hpp"
 #include "bench/world/engagement/engagement.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/glide/glide.hpp"
@@ -36,7 +37,7 @@ struct Truth {
 /// Answers that say the same of themselves: an outcome, a flag.
 struct Mark {
   std::string_view name;
-  std::vector<std::int64_t> t_us{};  ///< times of their causes, ascending
+  Spool<std::int64_t> t_us{};  ///< times of their causes, ascending
 };
 
 /// A track, and whose it is.
@@ -59,6 +60,8 @@ struct Estimator {
                  const quantities::TrackSink& give) = nullptr;
   /// All its marks, with no times where there are none. The first, "answers", is of all answers.
   std::vector<Mark> (*marks)(const checks::Observations& seen) = nullptr;
+  /// Of these, beside "answers", those that say nothing of trouble: updates, how the estimator sets out.
+  std::span<const std::string_view> plain_marks{};
   /// What people are told of a run. `algorithm`: that the target runs.
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;

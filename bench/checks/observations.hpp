@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/checks/bus.hpp"
+#include "bench/checks/complaints.hpp"
 #include "bench/checks/host.hpp"
 #include "bench/checks/loss_counts.hpp"
 #include "bench/checks/sighting.hpp"
@@ -67,6 +68,7 @@ struct Observations {
   bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
+  Complaints complaints;                             ///< of the target, beside its answers
   ExpectedCounts expected_counts{};                  ///< of them
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
   std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages

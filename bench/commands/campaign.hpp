@@ -12,6 +12,14 @@ inline constexpr std::string_view campaign_summary = "fly variants of scenarios 
 inline constexpr std::string_view accept_name = "accept";
 inline constexpr std::string_view accept_summary = "what a target must do, requirement by requirement";
 
+inline constexpr std::string_view faults_name = "faults";
+inline constexpr std::string_view faults_summary =
+    "what a target does when something goes wrong, fault by fault";
+
+/// `hil-bench faults` and its subcommand merge: a flight a fault, and how the target responds. Exit code 1 if
+/// it does what no fault excuses.
+void add_faults(command_line::Command app, int& code);
+
 /// `hil-bench accept`: the suites of bench/acceptance against a target. Exit code 1 if a requirement is not
 /// met.
 void add_accept(command_line::Command app, int& code);

@@ -40,6 +40,7 @@ struct Arguments {
   std::vector<std::string> bus_of;  // NODE=BUS
   std::string target;               // empty: the hil-target beside this program
   std::string dbc;                  // empty: the scenario's
+  std::string faults;               // empty: the scenario's alone
   bool lockstep = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;
@@ -149,7 +150,10 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
     const auto page = report::html(report::document(scenario, run));
     note(page ? report::write_file(arguments.html, *page) : tl::unexpected(page.error()));
   }
-  if (!arguments.csv.empty()) note(report::write_file(arguments.csv, report::csv(scenario, run)));
+  if (!arguments.csv.empty()) {
+    note(report::write_file(arguments.csv,
+                            [&](const report::Sink& give) { report::csv(scenario, run, give); }));
+  }
   if (run.log_error) note(tl::unexpected(*run.log_error));
   return all;
 }
@@ -157,8 +161,8 @@ Result<void> write_reports(const Arguments& arguments, const scenario::Scenario&
 Result<void> check_outputs(const Arguments& arguments) {
   // What is read must not be written over: --dbc and --target may name files too.
   std::vector<std::string> files = drive::files_of_target(arguments.target);
-  files.insert(files.end(), {arguments.scenario, arguments.dbc, arguments.json, arguments.junit,
-                             arguments.html, arguments.csv, arguments.log});
+  files.insert(files.end(), {arguments.scenario, arguments.faults, arguments.dbc, arguments.json,
+                             arguments.junit, arguments.html, arguments.csv, arguments.log});
   if (auto distinct = report::check_distinct(files); !distinct) return distinct;
   for (const std::string& path : {arguments.json, arguments.junit}) {
     if (path.empty() || path == report::to_stdout) continue;
@@ -260,6 +264,9 @@ ExitCode execute(const Arguments& arguments) {
   if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
   auto scenario = drive::read_scenario(arguments.scenario);
   if (!scenario) return complain(scenario.error());
+  if (!arguments.faults.empty()) {
+    if (auto added = drive::add_faults(*scenario, arguments.faults); !added) return complain(added.error());
+  }
   if (auto fine = check_nodes(arguments, *scenario); !fine) return complain(fine.error());
   const auto format = format_of(arguments, *scenario);
   if (!format) return complain(format.error());
@@ -309,6 +316,8 @@ void add_run(command_line::Command app, int& code) {
       "--dbc", arguments->dbc,
       "contract of the bus: canhil, canhil-fd (CAN FD), or the file of one of them (default: the "
       "scenario's, else canhil)");
+  command.add_option("--faults", arguments->faults,
+                     "file of [[fault]] tables, in addition to the scenario's (docs/faults.md)");
   const auto lockstep =
       command.add_flag("--lockstep", arguments->lockstep, "virtual time: as fast as the target answers");
   realtime::add_options(command, arguments->realtime).excludes(lockstep);

@@ -4,6 +4,7 @@
 
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/registry.hpp"
+#include "bench/faults/kinds.hpp"
 #include "bench/mapping/mapping.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/scenario/foreign.hpp"
@@ -33,6 +34,7 @@ scenario::Contract make_contract() {
                               .former_check_kinds = checks::former_kinds(estimators::all())};
   contract.facts = estimators::facts();
   contract.nodes = nodes::tables();
+  contract.fault_kinds = faults::kinds();
   contract.read_recorded = nodes::read_recorded;
   std::erase(contract.estimators, name_of(messages::Estimator::none));
   for (const MessageInfo& info : messages::all_messages) {
@@ -60,6 +62,18 @@ Result<scenario::Scenario> parse_scenario(std::string_view text, const std::stri
   if (scenario && by->foreign != nullptr)
     scenario->hash = world::fnv1a_64(fmt::format("{:x} {:x}", scenario->hash, by->foreign->hash));
   return scenario;
+}
+
+Result<void> add_faults(scenario::Scenario& scenario, const std::string& file) {
+  const auto text = read_text_file(file, "a file of faults", scenario::most_toml_bytes);
+  if (!text) return tl::unexpected(text.error());
+  scenario::Contract by = contract();
+  if (scenario.foreign != nullptr) {
+    by.foreign = scenario.foreign;
+    by.messages.clear();
+    for (const MessageInfo& info : scenario.foreign->messages) by.messages.emplace_back(info.name);
+  }
+  return scenario::add_faults(scenario, *text, file, by);
 }
 
 Result<scenario::Scenario> read_scenario(const std::string& file) {

@@ -24,4 +24,7 @@ Result<scenario::Scenario> parse_scenario(std::string_view text, const std::stri
                                           const mapping::ReadText& read = mapping::read_from_disk);
 Result<scenario::Scenario> read_scenario(const std::string& file);
 
+/// Adds the [[fault]] tables of a file to those of the scenario. Error: one line.
+Result<void> add_faults(scenario::Scenario& scenario, const std::string& file);
+
 }  // namespace canhil::drive

@@ -42,7 +42,8 @@ class Dialect {
 
   /// Of the bus.
   [[nodiscard]] virtual std::span<const MessageInfo> messages() const = 0;
-  virtual std::unique_ptr<Schedule> schedule() = 0;
+  /// `faults`: of the run.
+  virtual std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) = 0;
   virtual std::unique_ptr<observe::Watcher> watcher() = 0;
   /// `alone`: nobody else can be on the bus.
   virtual std::unique_ptr<observe::TargetWatch> target_watch(bool alone) = 0;

@@ -4,20 +4,18 @@
 
 #include <algorithm>
 #include <variant>
-#include "bench/estimators/registry.hpp"
 
+#include "bench/estimators/registry.hpp"
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/time_keeper.hpp"
-#include "bench/scenario/foreign.hpp"
 #include "bench/scenario/table.hpp"
 
 namespace canhil::drive {
 namespace {
 
 /// What a carrier tells a glider that it lets go: the truth with the errors that this run draws.
-InitialState state_at_release(const world::GlideRecord& glide, const scenario::Glide& config,
+InitialState state_at_release(const world::GlideTruth& truth, const scenario::Glide& config,
                               const scenario::InitialSigma& sigma, world::Stream& stream) {
-  const world::GlideTruth& truth = glide.epochs().front();
   const scenario::ReleaseError& error = config.release;
   const world::Vector3 turn = error.attitude * stream.normal3();
   world::Euler angles = world::euler_from(truth.C_bn);
@@ -100,11 +98,6 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
-  if (const auto faults = scenario.foreign == nullptr
-                              ? FrameFaults::make(scenario.faults)
-                              : FrameFaults::make(scenario.faults, scenario.foreign->messages);
-      !faults)
-    return tl::unexpected(faults.error());
   // What every run tells its target; its draws are checked run by run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");
@@ -120,28 +113,43 @@ Result<Flight> make_flight(const scenario::Scenario& scenario, const world::Flig
   auto own_truth = make_own_truth(scenario, run_index);
   if (!own_truth) return tl::unexpected(own_truth.error());
   Flight flight{.own_truth = std::move(*own_truth), .initial = {}};
-  const auto& glide = flight.own_truth.glide;
-  for (const scenario::TargetSetup& target : scenario.targets) {
-    world::Stream stream(scenario.seed, run_index, "initial_error");
-    const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
-    flight.initial.push_back(
-        glide && starts_by_own_truth(target)
-            ? state_at_release(*glide, *scenario.glide, target.initial_sigma, stream)
-            : initial_state(initial_solution(truth.epochs().front(), error, stream), target.initial_sigma));
-    if (auto fits = check_fits(flight.initial.back()); !fits) return tl::unexpected(fits.error());
+  flight.initial = initial_states(scenario, truth, flight.own_truth, run_index, 0);
+  for (const InitialState& state : flight.initial) {
+    if (auto fits = check_fits(state); !fits) return tl::unexpected(fits.error());
   }
   return flight;
 }
 
+std::vector<InitialState> initial_states(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                         const OwnTruth& own_truth, std::uint64_t run_index,
+                                         std::int64_t t_us) {
+  std::vector<InitialState> states;
+  const auto& glide = own_truth.glide;
+  for (const scenario::TargetSetup& target : scenario.targets) {
+    world::Stream stream(scenario.seed, run_index, "initial_error");
+    const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
+    states.push_back(
+        glide && starts_by_own_truth(target)
+            ? state_at_release(glide->at(t_us), *scenario.glide, target.initial_sigma, stream)
+            : initial_state(initial_solution(truth.at(std::min(t_us, truth.end_us())), error, stream),
+                            target.initial_sigma));
+  }
+  return states;
+}
+
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep, Rounding rounding) {
-  return {nodes::make({.scenario = scenario,
-                       .index = run_index,
-                       .flight = truth,
-                       .glide = own_truth.glide ? &*own_truth.glide : nullptr,
-                       .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr}),
-          std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
-          FrameFaults::make(scenario.faults).value_or(FrameFaults())};  // make_truth() has refused wrong ones
+                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep, Rounding rounding,
+                       std::unique_ptr<faults::Faults> faults) {
+  if (faults == nullptr)
+    faults = std::make_unique<faults::Faults>(scenario, run_index, messages::all_messages);
+  auto nodes = nodes::make({.scenario = scenario,
+                            .index = run_index,
+                            .flight = truth,
+                            .glide = own_truth.glide ? &*own_truth.glide : nullptr,
+                            .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr,
+                            .faults = faults.get()});
+  return {std::move(nodes), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
+          std::move(faults)};
 }
 
 }  // namespace canhil::drive

@@ -43,9 +43,16 @@ struct Flight {
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index);
 
+/// What each estimator of the target is told at a time of the run: the errors are those of its start.
+std::vector<InitialState> initial_states(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                                         const OwnTruth& own_truth, std::uint64_t run_index,
+                                         std::int64_t t_us);
+
 /// The nodes of run `run_index`, in the order of precedence. All but the index must outlive the schedule.
+/// `faults`: of the run; null: those of the scenario that need no more than the frames.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                        OwnTruth& own_truth, std::uint64_t run_index, bool lockstep,
-                       Rounding rounding = Rounding::as_on_the_bus);
+                       Rounding rounding = Rounding::as_on_the_bus,
+                       std::unique_ptr<faults::Faults> faults = nullptr);
 
 }  // namespace canhil::drive

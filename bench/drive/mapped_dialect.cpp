@@ -124,7 +124,7 @@ class MappedDialect final : public Dialect {
   [[nodiscard]] std::span<const MessageInfo> messages() const override {
     return conversation_.mapping.messages;
   }
-  std::unique_ptr<Schedule> schedule() override {
+  std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) override {
     std::vector<std::unique_ptr<nodes::Node>> players;
     players.push_back(std::make_unique<mapping::Player>(
         conversation_,
@@ -133,10 +133,10 @@ class MappedDialect final : public Dialect {
             .index = of_.run_index,
             .flight = of_.truth,
             .glide = of_.flight.own_truth.glide ? &*of_.flight.own_truth.glide : nullptr,
-            .engagement = of_.flight.own_truth.engagement ? &*of_.flight.own_truth.engagement : nullptr}));
-    return std::make_unique<Schedule>(
-        std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()), Rounding::as_on_the_bus,
-        FrameFaults::make(of_.scenario.faults, messages()).value_or(FrameFaults()));
+            .engagement = of_.flight.own_truth.engagement ? &*of_.flight.own_truth.engagement : nullptr,
+            .faults = faults.get()}));
+    return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
+                                      Rounding::as_on_the_bus, std::move(faults));
   }
   std::unique_ptr<observe::Watcher> watcher() override {
     WireFacts wire = of_.wire;

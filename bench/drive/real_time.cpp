@@ -34,12 +34,14 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
   const Attached bus_attached(link, bus);
   std::int64_t progress_due_us = 0;
 
-  // Nobody can be heard, nor hear, while the bus is away: then, and for as long after as always,
-  // silence says nothing.
+  // Nobody can be heard, nor hear, while the bus is away or the target is held by a fault: then, and for as
+  // long after as always, silence says nothing.
   const auto excused_until_ns = [&] {
     if (watch.heard()) heard_ns = link.now_ns();
     if (bus.outage()) return bus.outage()->since_ns + outage_limit_ns;
-    return std::max(heard_ns, bus.ended_ns()) + silence_limit_ns;
+    const std::int64_t held_us = schedule.silent_until_us();
+    const std::int64_t held_ns = held_us < 0 ? 0 : start_ns + held_us * ns_per_us;
+    return std::max({heard_ns, bus.ended_ns(), held_ns}) + silence_limit_ns;
   };
   const auto silent = [&] {
     const std::int64_t since_us = bench_us(bus.outage() ? bus.outage()->since_ns : heard_ns);

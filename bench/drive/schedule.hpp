@@ -2,42 +2,66 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "bench/drive/frame_faults.hpp"
 #include "bench/drive/link.hpp"
+#include "bench/faults/in_run.hpp"
 #include "bench/nodes/node.hpp"
 
 namespace canhil::drive {
 
 /// The nodes of a bus in order of precedence: of those due at the same time the earlier one transmits first.
+/// What faults of bus and target do at that time comes before.
 class Schedule final : public observe::Observer {
  public:
-  /// `keeper` closes every step, so it comes last among equals.
+  /// `keeper` closes every step, so it comes last among equals; when it is done all are. `faults`: of the
+  /// run; null: none.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
-           Rounding rounding = Rounding::as_on_the_bus, FrameFaults faults = {})
+           Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr)
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
     nodes_.push_back(std::move(keeper));
     for (const auto& node : nodes_) {
       due_us_.push_back(node->due_us());
       if (node->listens()) listeners_.push_back(node.get());
     }
+    if (faults_) injectors_ = faults_->injectors();
     find_next();
   }
 
   /// When the next transmission is due; nodes::never_us after the last one.
-  [[nodiscard]] std::int64_t due_us() const { return due_us_[next_]; }
+  [[nodiscard]] std::int64_t due_us() const {
+    return due_us_.back() == nodes::never_us ? nodes::never_us : std::min(due_us_[next_], injected_us_);
+  }
 
   /// Takes the next transmission; the frames are valid until the next call.
   std::span<const Frame> take() {
-    out_.clear();
-    nodes_[next_]->transmit(out_);
-    const std::int64_t t_us = due_us_[next_];
-    due_us_[next_] = nodes_[next_]->due_us();
+    const std::int64_t t_us = due_us();
+    std::size_t injected = 0;  // those that have had their turn
+    if (injected_us_ == t_us) {
+      frames_.clear();
+      injected = static_cast<std::size_t>(first_injector() - injectors_.begin());
+      injectors_[injected++]->transmit(frames_);
+    } else {
+      out_.clear();
+      nodes_[next_]->transmit(out_);
+      due_us_[next_] = nodes_[next_]->due_us();
+      find_next();
+      if (injectors_.empty()) return out_.frames();
+      frames_.assign(out_.frames().begin(), out_.frames().end());
+    }
+    for (; injected < injectors_.size(); ++injected) injectors_[injected]->befall(frames_, t_us);
     find_next();
-    return faults_.befall(out_.frames(), t_us);
+    return frames_;
+  }
+
+  /// Until when the target's silence is the doing of a fault.
+  [[nodiscard]] std::int64_t silent_until_us() const {
+    std::int64_t until_us = std::numeric_limits<std::int64_t>::min();
+    for (const auto& injector : injectors_) until_us = std::max(until_us, injector->silent_until_us());
+    return until_us;
   }
 
   /// Whether any node does.
@@ -48,16 +72,24 @@ class Schedule final : public observe::Observer {
     for (nodes::Node* node : listeners_) node->hear(received.frame);
   }
 
-  /// What befell the frames.
-  [[nodiscard]] const FrameFaults& faults() const { return faults_; }
+  /// The run is over, however it ended: faults let go what they hold.
+  void end() {
+    for (const auto& injector : injectors_) injector->end();
+  }
+  /// Null: none.
+  [[nodiscard]] const faults::Faults* faults() const { return faults_.get(); }
 
   /// Counters of the bench's own messages live in the same outbox.
   nodes::Transmission& outbox() { return out_; }
 
  private:
+  [[nodiscard]] std::span<const std::unique_ptr<faults::Injector>>::iterator first_injector() const {
+    return std::ranges::min_element(injectors_, {}, [](const auto& one) { return one->due_us(); });
+  }
   void find_next() {
     next_ =
         static_cast<std::size_t>(std::ranges::min_element(due_us_) - due_us_.begin());  // the first of equals
+    if (!injectors_.empty()) injected_us_ = (*first_injector())->due_us();
   }
 
   std::vector<std::unique_ptr<nodes::Node>> nodes_;
@@ -65,7 +97,10 @@ class Schedule final : public observe::Observer {
   std::vector<nodes::Node*> listeners_;
   std::size_t next_ = 0;
   nodes::Transmission out_;
-  FrameFaults faults_;
+  std::vector<Frame> frames_;
+  std::unique_ptr<faults::Faults> faults_;
+  std::span<const std::unique_ptr<faults::Injector>> injectors_;
+  std::int64_t injected_us_ = nodes::never_us;  // when the first of them is due
 };
 
 }  // namespace canhil::drive

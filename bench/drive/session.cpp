@@ -8,6 +8,7 @@
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/drive/dialect.hpp"
+#include "bench/drive/hands.hpp"
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/of_scenario.hpp"
@@ -70,6 +71,7 @@ class Session {
         bus_(known_of(*port_, options.controller)),
         clock_(clock_of(bus_.time, options.lockstep)),
         truth_(truth),
+        hands_(options.bus.text, target_, [this](std::int64_t t_us) { restart_target(t_us); }),
         link_(*port_),
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_, scenario.foreign == nullptr)) {}
@@ -88,7 +90,10 @@ class Session {
                                  .wire = bus_.wire});
     if (!dialect) return tl::unexpected(dialect.error());
     dialect_ = std::move(*dialect);
-    schedule_ = dialect_->schedule();
+    const faults::Place where = place();
+    if (auto work = faults::check(scenario_.faults, where); !work) return work;
+    schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(scenario_, options_.run_index,
+                                                                    dialect_->messages(), where, &hands_));
     watcher_ = dialect_->watcher();
     if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
@@ -98,12 +103,7 @@ class Session {
 
   // Makes the target ready and starts its estimators.
   Result<void> configure(const std::atomic<bool>& stop) {
-    const auto gone = [&]() -> std::optional<std::string> {
-      if (stop) return "interrupted";
-      const auto why = target_ ? target_->ended() : std::nullopt;
-      return why ? std::optional("target: " + *why) : std::nullopt;
-    };
-    auto ready = dialect_->configure(link_, schedule_->outbox(), gone);
+    auto ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(stop); });
     if (!ready) return failure(explained(ready.error().message) + log_of_the_handshake());
     return ready;
   }
@@ -131,20 +131,22 @@ class Session {
 
   // Stops the target and closes the log.
   Collected collect() {
+    schedule_->end();
     if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = watcher_->finish();
     // A changed value may make an estimator refuse a group that is otherwise right, a changed time find it
     // late.
-    const FrameFaults::Changed& changed = schedule_->faults().changed();
-    seen.expected_counts.most.bad_group += changed.all * scenario_.targets.size();
-    seen.expected_counts.most.late += changed.times * scenario_.targets.size();
+    const faults::Tally befallen = schedule_->faults()->tally();
+    seen.expected_counts.most.bad_group += befallen.changed * scenario_.targets.size();
+    seen.expected_counts.most.late += befallen.changed_times * scenario_.targets.size();
     if (options_.for_verdict) add_watched(seen);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
                      .seen = std::move(seen),
                      .own_truth = std::move(flight_.own_truth),
+                     .faults = schedule_->faults()->told(),
                      .log_error = logged ? std::nullopt : std::optional(logged.error())};
   }
 
@@ -172,8 +174,42 @@ class Session {
         });
   }
 
+  // Why there is no point in waiting for the target.
+  std::optional<std::string> gone(bool stop) {
+    if (stop) return "interrupted";
+    const auto why = target_ ? target_->ended() : std::nullopt;
+    return why ? std::optional("target: " + *why) : std::nullopt;
+  }
+
+  // As faults see it.
+  [[nodiscard]] faults::Place place() const {
+    const InterfaceFacts interface =
+        scenario_.faults.empty() ? InterfaceFacts{} : interface_facts(options_.bus.text);
+    return {.bus = options_.bus.text,
+            .interface = interface.kind,
+            .may_set_interface = interface.may_set,
+            .virtual_time = clock_ != ClockKind::real_time,
+            .in_process = bus_.in_process,
+            .starts_target = options_.target && !bus_.in_process,
+            .mapped = scenario_.foreign != nullptr,
+            .fd = options_.format != BusFormat::classic,
+            .wire = bus_.wire};
+  }
+
+  // A fault's doing. What goes wrong with it ends the run, as the target stays silent.
+  void restart_target(std::int64_t t_us) {
+    target_->kill_it();
+    target_.reset();
+    auto ready = start_target(target_cpus_);
+    flight_.initial = initial_states(scenario_, truth_, flight_.own_truth, options_.run_index, t_us);
+    if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(false); });
+    if (!ready) restart_error_ = "; restarted: " + ready.error().message;
+    watcher_->target_restarted();
+  }
+
   Result<void> start_target(const std::vector<int>& cpus) {
     if (!options_.target || bus_.in_process) return {};
+    target_cpus_ = cpus;
     target_files_ = look_at_target(*options_.target);
     std::vector<std::string> arguments = options_.target_arguments;
     // Every target is told, ours or another: it is to speak the same contract.
@@ -192,6 +228,7 @@ class Session {
   }
 
   std::string why_silent() {
+    if (!restart_error_.empty()) return restart_error_;
     if (target_) {
       if (const auto why = target_->ended()) return fmt::format(" (its process {})", *why);
       if (target_->stopped()) return " (its process is stopped by a signal)";
@@ -227,6 +264,7 @@ class Session {
   Capabilities bus_;
   ClockKind clock_;
   const world::FlightRecord& truth_;
+  RunHands hands_;
   Link link_;
   std::unique_ptr<Dialect> dialect_;
   std::unique_ptr<Schedule> schedule_;
@@ -238,6 +276,8 @@ class Session {
   std::unique_ptr<observe::Recorder> log_;
   std::vector<std::pair<std::string, ProgramFile>> target_files_;
   std::optional<TargetProcess> target_;
+  std::vector<int> target_cpus_;
+  std::string restart_error_;
   Ending ending_;
 };
 
@@ -323,6 +363,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
              .seen = std::move(flown.seen),
              .truth = std::move(*truth),
              .own_truth = std::move(flown.own_truth),
+             .faults = std::move(flown.faults),
              .options = options,
              .clock = clock,
              .in_process = session.bus().in_process,

@@ -53,7 +53,8 @@ struct Collected {
   Ending ending;
   checks::Observations seen;
   OwnTruth own_truth{};
-  std::optional<Error> log_error{};  ///< why Options::log_path does not hold every frame
+  std::vector<faults::Told> faults{};  ///< in the order of the scenario
+  std::optional<Error> log_error{};    ///< why Options::log_path does not hold every frame
 };
 
 /// A finished run.
@@ -63,6 +64,7 @@ struct Run {
   checks::Observations seen;
   world::FlightRecord truth;
   OwnTruth own_truth{};
+  std::vector<faults::Told> faults{};  ///< in the order of the scenario
   Options options;
   ClockKind clock = ClockKind::real_time;
   bool in_process = false;                   ///< the target was the bench's own device

@@ -90,6 +90,18 @@ bool TargetProcess::stopped() const {
          info.si_pid == pid_;
 }
 
+void TargetProcess::send_signal(int signal) {
+  if (pid_ >= 0 && !ended()) kill(pid_, signal);
+}
+
+void TargetProcess::kill_it() {
+  if (pid_ < 0 || ended()) return;
+  kill(pid_, SIGKILL);
+  int status = 0;
+  waitpid(pid_, &status, 0);
+  pid_ = -1;
+}
+
 std::optional<std::string> TargetProcess::ended() {
   int status = 0;
   if (pid_ >= 0 && !ended_ && waitpid(pid_, &status, WNOHANG) == pid_) {

@@ -28,6 +28,10 @@ class TargetProcess {
   std::optional<std::string> ended();
   /// True while a signal holds it, as SIGSTOP does.
   [[nodiscard]] bool stopped() const;
+  /// If it still runs.
+  void send_signal(int signal);
+  /// At once, without asking it.
+  void kill_it();
 
  private:
   explicit TargetProcess(pid_t pid) : pid_(pid) {}

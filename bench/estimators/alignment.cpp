@@ -4,8 +4,8 @@
 
 namespace canhil::estimators {
 
-std::vector<ResultLine> alignment_results(const std::vector<NavigationError>& errors,
-                                          std::span<const double> bands, const quantities::Unit& angle) {
+std::vector<ResultLine> alignment_results(const Spool<NavigationError>& errors, std::span<const double> bands,
+                                          const quantities::Unit& angle) {
   ResultLine convergence{.name = "heading_convergence", .what = "heading error for good within"};
   for (const double band : bands) {
     const std::string name = fmt::format("{:g} {}", band, angle.name);

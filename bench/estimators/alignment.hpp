@@ -46,8 +46,8 @@ constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, 
 struct Alignment {
   const quantities::Unit& angle;                            ///< in which people read its angles
   std::array<const quantities::Quantity*, 3> innovation{};  ///< north, east, down
-  const std::vector<NavigationAnswer>& navigation;
-  const std::vector<NavigationError>& errors;  ///< of these
+  const Spool<NavigationAnswer>& navigation;
+  const Spool<NavigationError>& errors;  ///< of these
   Answering navigates;
   Answering filters;
 };
@@ -60,9 +60,10 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
   // Errors with the sigma of the last filter answer before each, as long as that one is not stale.
   const auto fill = [&](Track track, auto error, auto sigma) {
     auto next = filter.begin();
+    AnswerTo answer(of.navigation);
     for (const NavigationError& e : of.errors) {
       while (next != filter.end() && next->cause_us <= e.t_us) ++next;
-      Told told = error(e);
+      Told told = error(e, answer(e.t_us));
       told.t_us = e.t_us;
       if (next != filter.begin()) {
         const auto& last = *std::prev(next);
@@ -87,8 +88,8 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
   double truth = 0;
   fill(
       std::move(heading),
-      [&](const NavigationError& e) {
-        const double now = answer_to(of.navigation, e.t_us).angles.heading - e.angles.heading;
+      [&](const NavigationError& e, const NavigationAnswer& answer) {
+        const double now = answer.angles.heading - e.angles.heading;
         truth += world::wrapped(now - truth);
         return Told{.value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
       },
@@ -97,15 +98,15 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
             [&](const Quantity& quantity, const std::string& name, int axis) {
               fill(
                   angle(quantity, "attitude error about " + name),
-                  [=](const NavigationError& e) { return Told{.value = e.misalignment(axis)}; },
+                  [=](const NavigationError& e, const auto&) { return Told{.value = e.misalignment(axis)}; },
                   [=](const auto& a) { return a.attitude_sigma(axis); });
             });
   // Sigmas of roll and pitch are not told: those of the tilts are.
   const auto give_angle = [&](const Quantity& quantity, std::string title, double world::Euler::*member) {
     fill(
         judged(angle(quantity, std::move(title))),
-        [&](const NavigationError& e) {
-          const double told = answer_to(of.navigation, e.t_us).angles.*member;
+        [&](const NavigationError& e, const NavigationAnswer& answer) {
+          const double told = answer.angles.*member;
           return Told{.value = e.angles.*member, .estimate = told, .truth = told - e.angles.*member};
         },
         untold);
@@ -116,15 +117,15 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
             [&](const Quantity& quantity, const std::string& name, int axis) {
               fill(
                   of.navigates.track(quantity, "velocity error " + name),
-                  [&](const NavigationError& e) {
-                    const double told = answer_to(of.navigation, e.t_us).v_eb_n(axis);
+                  [=](const NavigationError& e, const NavigationAnswer& answer) {
+                    const double told = answer.v_eb_n(axis);
                     return Told{.value = e.v_eb_n(axis), .estimate = told, .truth = told - e.v_eb_n(axis)};
                   },
                   [=](const auto& a) { return a.velocity_sigma(axis); });
             });
   fill(
       judged(of.navigates.track(velocity_norm, "velocity error norm")),
-      [](const NavigationError& e) { return Told{.value = e.v_eb_n.norm()}; }, untold);
+      [](const NavigationError& e, const auto&) { return Told{.value = e.v_eb_n.norm()}; }, untold);
   each_axis(of.innovation, [&](const Quantity& quantity, const std::string& name, int axis) {
     Track track = of.filters.track(quantity, "innovation " + name);
     track.kind = Track::Kind::innovation;
@@ -134,7 +135,7 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
 }
 
 /// When the heading error entered each band [angle] for good, and the errors of the last answer.
-std::vector<ResultLine> alignment_results(const std::vector<NavigationError>& errors,
-                                          std::span<const double> bands, const quantities::Unit& angle);
+std::vector<ResultLine> alignment_results(const Spool<NavigationError>& errors, std::span<const double> bands,
+                                          const quantities::Unit& angle);
 
 }  // namespace canhil::estimators

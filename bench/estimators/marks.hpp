@@ -5,12 +5,14 @@
 #include <functional>
 #include <vector>
 
+#include "bench/spool/spool.hpp"
+
 namespace canhil::estimators {
 
 /// Times of the causes of those answers for which something holds.
 template <class Answers, class Holds>
-std::vector<std::int64_t> times_of(const Answers& answers, Holds holds) {
-  std::vector<std::int64_t> times;
+Spool<std::int64_t> times_of(const Answers& answers, Holds holds) {
+  Spool<std::int64_t> times;
   for (const auto& answer : answers) {
     if (std::invoke(holds, answer)) times.push_back(answer.cause_us);
   }

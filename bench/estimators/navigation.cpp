@@ -10,9 +10,9 @@ using world::Matrix3;
 using world::Vector3;
 using world::wrapped;
 
-std::vector<NavigationError> navigation_errors(const std::vector<NavigationAnswer>& answers,
-                                               const world::FlightRecord& truth) {
-  std::vector<NavigationError> errors;
+Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
+                                         const world::FlightRecord& truth) {
+  Spool<NavigationError> errors;
   errors.reserve(answers.size());
   for (const NavigationAnswer& answer : answers) {
     if (answer.cause_us < 0 || answer.cause_us > truth.end_us()) continue;
@@ -28,7 +28,7 @@ std::vector<NavigationError> navigation_errors(const std::vector<NavigationAnswe
   return errors;
 }
 
-const NavigationError* first_after(const std::vector<NavigationError>& errors, std::int64_t cause_us,
+const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us) {
   const auto after =
       std::ranges::upper_bound(errors, std::max(cause_us, navigation_us), {}, &NavigationError::t_us);

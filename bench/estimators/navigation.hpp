@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "bench/estimators/answer_group.hpp"
 #include "bench/quantities/track.hpp"
+#include "bench/spool/spool.hpp"
 #include "bench/world/attitude.hpp"
 #include "bench/world/flight_record.hpp"
 #include "bench/world/units.hpp"
@@ -40,7 +40,7 @@ struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
 };
 
 /// The cause of the last one; -1: there is none.
-inline std::int64_t last_cause_us(const std::vector<NavigationAnswer>& navigation) {
+inline std::int64_t last_cause_us(const Spool<NavigationAnswer>& navigation) {
   return navigation.empty() ? -1 : navigation.back().cause_us;
 }
 
@@ -53,12 +53,12 @@ struct NavigationError {
 };
 
 /// Errors of all navigation answers whose cause lies within the truth.
-std::vector<NavigationError> navigation_errors(const std::vector<NavigationAnswer>& answers,
-                                               const world::FlightRecord& truth);
+Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
+                                         const world::FlightRecord& truth);
 
 /// The first navigation answer that knew of a filter update: of a late fix not those between its time of
 /// validity and its arrival. `navigation_us` is the cause of the last one before the update. None: nullptr.
-const NavigationError* first_after(const std::vector<NavigationError>& errors, std::int64_t cause_us,
+const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 
 /// error' P^-1 error, with P from the sigmas and correlations (north-east, north-down, east-down) that the
@@ -68,7 +68,7 @@ double nees(const world::Vector3& error, const world::Vector3& sigma, const worl
 /// (error / sigma)^2 of the heading (1 degree of freedom) after an update with cause_us, navigation_us and
 /// attitude_sigma, with the error from first_after(); added to `series` where there is one.
 template <class Update>
-void add_heading_nees(std::vector<quantities::Told>& series, const std::vector<NavigationError>& errors,
+void add_heading_nees(Spool<quantities::Told>& series, const Spool<NavigationError>& errors,
                       const Update& update) {
   const NavigationError* after = first_after(errors, update.cause_us, update.navigation_us);
   if (after != nullptr)

@@ -19,11 +19,19 @@ inline double longest_wait_us(const checks::Observations& seen, std::string_view
   return checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, message));
 }
 
-/// The answer to a cause; there is one.
+/// Finds the answers to causes that are asked for in their order. There is one to each.
 template <class Answers>
-const auto& answer_to(const Answers& answers, std::int64_t cause_us) {
-  return *std::ranges::lower_bound(answers, cause_us, {}, &Answers::value_type::cause_us);
-}
+class AnswerTo {
+ public:
+  explicit AnswerTo(const Answers& answers) : next_(answers.begin()) {}
+  const auto& operator()(std::int64_t cause_us) {
+    while (next_->cause_us < cause_us) ++next_;
+    return *next_;
+  }
+
+ private:
+  typename Answers::const_iterator next_;
+};
 
 /// Calls visit(quantity, the axis's name, its place) for north, east and down.
 template <class Visit>
@@ -55,7 +63,7 @@ struct Answering {
             .answers_end_us = answers_end_us};
   }
   [[nodiscard]] quantities::Track statistic(const quantities::Quantity& quantity, std::string title,
-                                            std::vector<quantities::Told> values) const {
+                                            Spool<quantities::Told> values) const {
     quantities::Track of = track(quantity, std::move(title));
     of.kind = quantities::Track::Kind::statistic;
     of.told = std::move(values);

@@ -5,9 +5,9 @@
 #include <map>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "bench/mapping/mapping.hpp"
+#include "bench/spool/spool.hpp"
 
 namespace canhil::mapping {
 
@@ -21,8 +21,8 @@ struct ToldOnce {
 /// By quantity, in the order of time.
 struct Answers {
   const Mapping* mapping = nullptr;
-  std::map<const quantities::Quantity*, std::vector<ToldOnce>> told;
-  std::map<std::string_view, std::vector<std::int64_t>> messages;  ///< their times, by name
+  std::map<const quantities::Quantity*, Spool<ToldOnce>> told;
+  std::map<std::string_view, Spool<std::int64_t>> messages;  ///< their times, by name
 };
 
 }  // namespace canhil::mapping

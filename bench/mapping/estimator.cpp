@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <vector>
 
 #include "bench/checks/delay.hpp"
 #include "bench/estimators/tracks.hpp"
@@ -22,9 +24,18 @@ double difference(const Truthed& of, double a, double b) {
   return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
 }
 
+// What came out of its order is sorted in memory.
+template <class Value, class TimeOf>
+Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
+  if (std::ranges::is_sorted(values, {}, time_of)) return values;
+  std::vector<Value> sorted(values.begin(), values.end());
+  std::ranges::stable_sort(sorted, {}, time_of);
+  return Spool<Value>(sorted);
+}
+
 // In order of time: a cause that was told later may be earlier.
-std::vector<Told> errors_of(const Truthed& of, const std::vector<ToldOnce>& all, const Truth& truth) {
-  std::vector<Told> errors;
+Spool<Told> errors_of(const Truthed& of, const Spool<ToldOnce>& all, const Truth& truth) {
+  Spool<Told> errors;
   for (const ToldOnce& one : all) {
     const auto at = of.truth(truth, one.t_us);
     if (!at || one.t_us > truth.duration_us) continue;
@@ -33,8 +44,7 @@ std::vector<Told> errors_of(const Truthed& of, const std::vector<ToldOnce>& all,
     errors.push_back(
         {.t_us = one.t_us, .value = error, .sigma = one.sigma, .estimate = *at + error, .truth = *at});
   }
-  std::ranges::stable_sort(errors, {}, &Told::t_us);
-  return errors;
+  return in_order(std::move(errors), &Told::t_us);
 }
 
 const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
@@ -95,10 +105,10 @@ std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
         *std::ranges::find(answers.mapping->hears, message,
                            [](const Hear& one) -> std::string_view { return one.of.message->name; });
     if (!hear.answers && hear.tellings.empty()) continue;
-    all.t_us.insert(all.t_us.end(), times.begin(), times.end());
+    for (const std::int64_t t_us : times) all.t_us.push_back(t_us);
     marks.push_back({.name = message, .t_us = times});
   }
-  std::ranges::sort(all.t_us);
+  all.t_us = in_order(std::move(all.t_us), std::identity{});
   marks.insert(marks.begin(), std::move(all));
   return marks;
 }

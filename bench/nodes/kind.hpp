@@ -18,6 +18,16 @@ using scenario::NodeSettings;
 using scenario::NodeTable;
 using scenario::Section;
 
+/// Makes of a node what it is in a run in which something befalls it.
+class Befalling {
+ public:
+  Befalling() = default;
+  Befalling(const Befalling&) = delete;
+  Befalling& operator=(const Befalling&) = delete;
+  virtual ~Befalling() = default;
+  virtual std::unique_ptr<Node> befallen(std::unique_ptr<Node> node, const NodeSettings& settings) = 0;
+};
+
 /// What a run has for its nodes; all of it must outlive them.
 struct Run {
   const scenario::Scenario& scenario;
@@ -25,6 +35,7 @@ struct Run {
   const world::FlightRecord& flight;              ///< ends when the run does
   const world::GlideRecord* glide = nullptr;      ///< there where [glide] is
   world::EngagementRecord* engagement = nullptr;  ///< where [engagement] is; filled as it is flown
+  Befalling* faults = nullptr;                    ///< null: nothing befalls a node
 
   /// Random numbers. The name may never change: results hang on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }

@@ -40,8 +40,10 @@ std::vector<const scenario::NodeTable*> tables() {
 
 std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run& run) {
   const auto* recorded = node.own<RecordedSettings>();
-  if (recorded == nullptr) return kind.make(node, run);
-  return recorded->samples ? make_samples(node, run) : make_frames({recorded->frames.get()}, run);
+  auto made = recorded == nullptr ? kind.make(node, run)
+              : recorded->samples ? make_samples(node, run)
+                                  : make_frames({recorded->frames.get()}, run);
+  return run.faults == nullptr ? std::move(made) : run.faults->befallen(std::move(made), node);
 }
 
 // By the truth that they sample, then as on the bus: the lower id first. So the deflection of an instant is
@@ -51,17 +53,24 @@ std::vector<std::unique_ptr<Node>> make(const Run& run) {
   std::ranges::sort(kinds, {},
                     [](const Kind* kind) { return std::pair(kind->table.samples, kind->table.closes.id); });
   std::vector<std::unique_ptr<Node>> nodes;
-  std::map<std::string, std::vector<const RecordedFrames*>> logs;
+  std::map<std::string, std::vector<const NodeSettings*>> logs;
   for (const Kind* kind : kinds) {
     const auto* node = run.scenario.node(kind->table.key);
     if (node == nullptr) continue;
     const auto* recorded = node->own<RecordedSettings>();
     if (recorded != nullptr && recorded->frames)  // those of one log keep their order
-      logs[recorded->recorded_from].push_back(recorded->frames.get());
+      logs[recorded->recorded_from].push_back(node);
     else
       nodes.push_back(make(*kind, *node, run));
   }
-  for (const auto& [log, frames] : logs) nodes.push_back(make_frames(frames, run));
+  for (const auto& [log, of_it] : logs) {
+    std::vector<const RecordedFrames*> frames;
+    for (const NodeSettings* node : of_it) frames.push_back(node->own<RecordedSettings>()->frames.get());
+    auto made = make_frames(frames, run);
+    for (const NodeSettings* node : of_it)
+      if (run.faults != nullptr) made = run.faults->befallen(std::move(made), *node);
+    nodes.push_back(std::move(made));
+  }
   return nodes;
 }
 

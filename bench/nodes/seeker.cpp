@@ -217,10 +217,12 @@ void Seeker::hear(const Frame& frame) {
 
 // The answered rate dt after its sample by what is answered beside it, the target's acceleration, and what
 // the missile measured itself: w' = (2 vc/r) w + (a - a_m)/r, vc and accelerations constant (Na and Lee, eq.
-// (1)), of at most half of the range, as it grows without bound. In the antenna's axes of the sample.
+// (1)), over at most half of the range, as it grows without bound. In the antenna's axes of the sample.
 world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
                                    const LosRateTarget& target, double dt) {
-  const double r0 = sample.range, r = std::max(r0 - sample.closing_speed * dt, r0 / 2);
+  const double r0 = sample.range;
+  if (sample.closing_speed * dt > r0 / 2) dt = r0 / (2 * sample.closing_speed);
+  const double r = r0 - sample.closing_speed * dt;
   const double w = r0 * r0 / (r * r), a = dt * (r0 + r) / (2 * r * r);
   return {0,
           w * estimate.los_rate_pitch_radps -

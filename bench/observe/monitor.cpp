@@ -63,7 +63,8 @@ Monitor::Monitor(std::optional<Asked> asked) {
     seen_.timing.wire = asked->wire;
     seen_.own_interval_s = std::move(asked->own_interval_s);
     stopwatch_.emplace(seen_.timing);
-    model_.emplace(asked->takers);
+    takers_ = std::move(asked->takers);
+    model_.emplace(takers_);
   }
   for (const estimators::Estimator* estimator : estimators::all()) {
     estimators::Reception* own = receptions_.emplace_back(estimator->reception()).get();
@@ -71,6 +72,11 @@ Monitor::Monitor(std::optional<Asked> asked) {
       if (own->takes(message)) reception_of_[message] = own;
     }
   }
+}
+
+void Monitor::target_restarted() {
+  receivers_ = {};
+  if (model_) model_.emplace(takers_);
 }
 
 void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) {
@@ -143,7 +149,10 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
   }
   if (frame.id == TargetCounters::info.id) {
     seen_.counters = from_frame<TargetCounters>(frame);
+    seen_.complaints.hear(*seen_.counters, now_us_);
     if (model_) seen_.expected_counts = model_->expected();
+  } else if (frame.id == TargetHeartbeat::info.id) {
+    seen_.complaints.hear(from_frame<TargetHeartbeat>(frame), now_us_);
   } else if (frame.id == TargetTiming::info.id) {
     const auto timing = from_frame<TargetTiming>(frame);
     seen_.target_timing_seen = true;

@@ -33,12 +33,14 @@ class Monitor final : public Watcher {
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
+  void target_restarted() override;
 
   /// What was seen so far.
   [[nodiscard]] const checks::Observations& observations() const { return seen_; }
   /// The run is over: all of it.
   checks::Observations finish() override {
     if (stopwatch_) stopwatch_->finish();
+    seen_.complaints.end(now_us_);
     return std::move(seen_);
   }
 
@@ -47,6 +49,7 @@ class Monitor final : public Watcher {
   void decode(const Frame& frame, std::size_t index);
   checks::Observations seen_;
   std::optional<Stopwatch> stopwatch_;
+  Takers takers_;
   std::optional<ReceiverModel> model_;
   bool sent_any_ = false;
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};

@@ -8,6 +8,8 @@ namespace canhil::observe {
 
 class Watcher : public Observer {
  public:
+  /// The target was started again: its counters and counts begin anew.
+  virtual void target_restarted() {}
   /// The run is over: all that was seen.
   virtual checks::Observations finish() = 0;
 };

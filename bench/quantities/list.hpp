@@ -80,4 +80,11 @@ inline constexpr Quantity trusted_over_sigma{
         "degraded or blind",
     .unit = plain};
 
+/// What a target that says so of all its answers is judged by.
+inline constexpr Quantity degraded{.name = "degraded",
+                                   .meaning =
+                                       "1 where the answer says that it is degraded or blind, else 0; of a "
+                                       "LOS rate the share in 20 ms of the time to go",
+                                   .unit = plain};
+
 }  // namespace canhil::quantities

@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "bench/quantities/quantity.hpp"
+#include "bench/spool/spool.hpp"
 
 namespace canhil::quantities {
 
@@ -34,7 +34,7 @@ struct Track {
   std::string estimate_title{};  ///< of a picture of estimate and truth; empty: none is drawn
   Unit estimate_unit{};          ///< that this picture has
   bool only_if_judged = false;   ///< the values are of no interest without a bar
-  std::vector<Told> told{};      ///< in order of time
+  Spool<Told> told{};            ///< in order of time
   /// Where answers that were owed are missing from one time to another, ends included [us], in words; empty:
   /// nowhere. Not set: wherever one waits longer than longest_wait_us.
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
@@ -46,7 +46,7 @@ struct Track {
     std::int64_t t_us = 0;
     double to_go_s = 0;
   };
-  std::vector<ToGo> to_go{};
+  Spool<ToGo> to_go{};
   /// Values after it are beyond any picture.
   std::int64_t drawn_until_us = std::numeric_limits<std::int64_t>::max();
 };

@@ -11,20 +11,19 @@ std::string field(const std::optional<double>& value) { return value ? fmt::form
 
 }  // namespace
 
-std::string csv(const scenario::Scenario& scenario, const drive::Run& run) {
+void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& give) {
   using quantities::Track;
-  std::string table = "t_s,estimator,quantity,unit,estimate,truth,error,sigma\n";
+  give("t_s,estimator,quantity,unit,estimate,truth,error,sigma\n");
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
     const bool is_error = track.kind == Track::Kind::error;
     for (const quantities::Told& told : track.told) {
       const auto estimate = is_error ? told.estimate : std::optional(told.value);
       const auto error = is_error && run.truth.is_known() ? std::optional(told.value) : std::nullopt;
-      table += fmt::format("{:.6f},{},{},{},{},{},{},{}\n", static_cast<double>(told.t_us) * 1e-6, estimator,
-                           track.quantity->name, quantities::si_name(track.unit), field(estimate),
-                           field(told.truth), field(error), field(told.sigma));
+      give(fmt::format("{:.6f},{},{},{},{},{},{},{}\n", static_cast<double>(told.t_us) * 1e-6, estimator,
+                       track.quantity->name, quantities::si_name(track.unit), field(estimate),
+                       field(told.truth), field(error), field(told.sigma)));
     }
   });
-  return table;
 }
 
 }  // namespace canhil::report

@@ -28,17 +28,24 @@ Result<void> write_stdout(std::string_view content) {
   return failure(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
 }
 
-Result<void> write_file(const std::string& path, std::string_view content) {
+Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content) {
   const std::string unfinished = unfinished_name(path);
   std::FILE* file = std::fopen(unfinished.c_str(), "wb");
   if (file == nullptr) return complaint(path, errno);
   // The first thing that went wrong is told.
-  int error = std::fwrite(content.data(), 1, content.size(), file) == content.size() ? 0 : errno;
+  int error = 0;
+  content([&](std::string_view part) {
+    if (error == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) error = errno;
+  });
   if (std::fclose(file) != 0 && error == 0) error = errno;
   if (error == 0 && std::rename(unfinished.c_str(), path.c_str()) != 0) error = errno;
   if (error == 0) return {};
   std::remove(unfinished.c_str());
   return complaint(path, error);
+}
+
+Result<void> write_file(const std::string& path, std::string_view content) {
+  return write_file(path, [&](const Sink& give) { give(content); });
 }
 
 Result<void> write(const std::string& path, std::string_view content) {

@@ -1,6 +1,7 @@
 // Files that are whole or not there.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +16,12 @@ inline constexpr std::string_view to_stdout = "-";
 /// Writes to standard output, now. Error: one line.
 Result<void> write_stdout(std::string_view content);
 
+/// Takes the parts of a content in their order.
+using Sink = std::function<void(std::string_view part)>;
+
 /// Writes a file under a temporary name and renames it. Error: one line; then whatever stood under the name
-/// still does.
+/// still does. `content` gives it, part by part, so a large one needs no room in memory.
+Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content);
 Result<void> write_file(const std::string& path, std::string_view content);
 
 /// To standard output or a file, as `path` says.

@@ -224,6 +224,14 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   page["ending"] = {{"completed", run.ending.kind == drive::Ending::Kind::completed},
                     {"t_s", static_cast<double>(run.ending.t_us) * 1e-6},
                     {"detail", run.ending.detail}};
+  for (const faults::Told& fault : run.faults) {
+    page["faults"].push_back({{"name", fault.name},
+                              {"kind", fault.kind},
+                              {"stage", faults::name(fault.stage)},
+                              {"from_s", static_cast<double>(fault.from_us) * 1e-6},
+                              {"to_s", static_cast<double>(fault.to_us) * 1e-6},
+                              {"count", fault.count}});
+  }
   page["checks"] = Json::array();
   for (const checks::CheckResult& check : run.verdict.checks) {
     page["checks"].push_back({{"name", check.name},

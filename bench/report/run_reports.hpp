@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bench/drive/session.hpp"
+#include "bench/report/file.hpp"
 #include "bench/scenario/scenario.hpp"
 
 namespace canhil::report {
@@ -28,8 +29,8 @@ std::string junit_whole(std::string_view suites);
 /// A table that anybody can read, a line an answer and quantity. Comma-separated: t_s (time of validity),
 /// estimator, quantity, unit, estimate, truth, error, sigma, in SI and rad. Empty fields were not told. A
 /// statistic or an innovation is in `estimate`. The order is that of estimators, of their quantities, of
-/// time.
-std::string csv(const scenario::Scenario& scenario, const drive::Run& run);
+/// time. Given part by part.
+void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& give);
 
 /// The value of "schema" in a report.
 inline constexpr std::string_view schema = "canhil-report-1";

@@ -170,6 +170,9 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
                     run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
   }
   for (const std::string& line : period_overrides(scenario)) page += fmt::format("  {}\n", line);
+  for (const faults::Told& fault : run.faults)
+    page += fmt::format("  fault '{}' of the {}: struck {} times\n", fault.name, faults::name(fault.stage),
+                        fault.count);
   page += '\n';
 
   std::size_t width = 5;

@@ -23,6 +23,12 @@ struct Window {
   std::int64_t to_us = 0;
 };
 
+/// When a fault of the scenario is at work, by time of transmission.
+struct FaultWindow {
+  std::string name;
+  Window window;
+};
+
 struct Check {
   std::string name;         ///< unique in the scenario; by default kind and subject: "error attitude.heading"
   std::string requirement;  ///< id carried to the reports; may be empty
@@ -36,6 +42,8 @@ struct CheckContext {
   std::int64_t duration_us = 0;
   const Contract& contract;
   std::span<const std::string> estimators;  ///< that run
+  std::span<const FaultWindow> faults{};    ///< up to the end of the run
+  std::int64_t latency_us = 0;              ///< the longest from validity to transmission, of all nodes
 };
 
 /// A rule, and what it looks at, if a scenario may well have several of its kind; else empty.

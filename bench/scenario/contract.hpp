@@ -12,6 +12,7 @@
 
 #include "bench/scenario/checks.hpp"
 #include "bench/scenario/estimator_facts.hpp"
+#include "bench/scenario/faults.hpp"
 
 namespace canhil::estimators {
 struct Estimator;
@@ -37,6 +38,7 @@ struct Contract {
   std::map<std::string, std::string, std::less<>> sent_by{};
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
+  std::vector<FaultKind> fault_kinds{};
   std::shared_ptr<const Foreign> foreign{};  ///< null: the target speaks the project's own contract
   /// Reads the table of any node that has a key `recorded`; null: none may.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;

@@ -1,37 +1,54 @@
-// [[fault]]: what befalls frames of the bench's nodes on their way to the bus.
+// [[fault]]: what goes wrong in a run on purpose: in a sensor, in a node, on the bus, in the target. A kind
+// of fault is a file of bench/faults/kinds; this folder only asks the kinds that it is given
+// (Contract::fault_kinds).
 #pragma once
 
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+namespace canhil::faults {
+class Rule;
+}
 
 namespace canhil::scenario {
 
+class NodeSettings;
 class Section;
 struct Contract;
 
-/// What becomes of a frame.
-enum class FaultKind : std::uint8_t {
-  lost,       ///< not sent
-  damaged,    ///< a bit of its payload is another, its CRC as it was
-  repeated,   ///< sent twice
-  too_short,  ///< without its last byte
-  foreign,    ///< as an extended frame, with 29 bits of id
-  changed     ///< a signal has another value, counter and CRC are right
-};
-
-/// One fault: of the frames of some messages, in a stretch of the run.
 struct Fault {
-  FaultKind kind = FaultKind::lost;
-  std::vector<std::string> messages{};
+  std::string name{};  ///< unique in the scenario; by default kind and what it befalls
+  std::string kind{};
   std::int64_t from_us = 0, to_us = std::numeric_limits<std::int64_t>::max();  ///< times of transmission
-  std::int64_t every = 1;  ///< befalls the first of each so many frames of a message
-  std::string signal{};    ///< of `changed`
-  double value = 0;        ///< in the signal's unit
-  std::string where{};     ///< its key "messages", for people
+  std::string where{};  ///< "file:line: key 'fault[1]'", for people
+  std::shared_ptr<const faults::Rule> rule{};
 };
 
-std::vector<Fault> read_faults(Section& root, const Contract& contract);
+/// What the readers of all kinds need to know of the scenario.
+struct FaultContext {
+  std::int64_t duration_us = 0;
+  const Contract& contract;
+  std::span<const NodeSettings> nodes;  ///< that are on the bus
+};
+
+/// A rule, when it is at work, and what it befalls: what tells one fault of the kind from another.
+struct FaultRead {
+  std::shared_ptr<const faults::Rule> rule;
+  std::int64_t from_us = 0, to_us = std::numeric_limits<std::int64_t>::max();
+  std::string subject{};
+};
+
+struct FaultKind {
+  std::string_view name;
+  FaultRead (*read)(Section& section, const FaultContext& context) = nullptr;
+};
+
+/// Appends the faults of a file's root to those before.
+void read_faults(Section& root, const FaultContext& context, std::vector<Fault>& faults);
 
 }  // namespace canhil::scenario

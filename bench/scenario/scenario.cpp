@@ -84,8 +84,16 @@ std::vector<std::string> estimators_of(const Scenario& scenario) {
 
 std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Contract& contract) {
   const std::vector<std::string> estimators = estimators_of(scenario);
-  const CheckContext context{
-      .duration_us = scenario.duration_us, .contract = contract, .estimators = estimators};
+  std::vector<FaultWindow> faults;
+  for (const Fault& fault : scenario.faults)
+    faults.push_back({fault.name, {fault.from_us, std::min(fault.to_us, scenario.duration_us)}});
+  std::int64_t latency_us = 0;
+  for (const NodeSettings& node : scenario.nodes) latency_us = std::max(latency_us, node.latency_us());
+  const CheckContext context{.duration_us = scenario.duration_us,
+                             .contract = contract,
+                             .estimators = estimators,
+                             .faults = faults,
+                             .latency_us = latency_us};
   std::vector<Check> checks;
   for (Section& section : root.tables("check")) {
     Check check = read_check(section, context);
@@ -217,7 +225,8 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
       root.reject("engagement", "is missing", fmt::format("a table beside [{}]", node.table().key));
   }
   if (!scenario.truth_is_known()) refuse_errors_of_start(root, scenario);
-  scenario.faults = read_faults(root, contract);
+  read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
+              scenario.faults);
   scenario.checks = read_checks(root, scenario, contract);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
@@ -225,6 +234,18 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
   if (scenario.recordings_hash != 0)
     scenario.hash = world::fnv1a_64(fmt::format("{:016x}", scenario.recordings_hash), scenario.hash);
   return scenario;
+}
+
+Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
+                        const Contract& contract) {
+  Section root = Section::parse(text, name);
+  if (!root.has("fault")) root.tables("fault");  // it has nothing else
+  read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
+              scenario.faults);
+  root.finish();
+  if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
+  scenario.hash = world::fnv1a_64(text, scenario.hash);
+  return {};
 }
 
 Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract) {

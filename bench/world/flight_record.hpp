@@ -10,9 +10,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
+#include "bench/spool/spool.hpp"
 #include "bench/world/motion.hpp"
 
 namespace canhil::world {
@@ -46,9 +45,9 @@ class FlightRecord {
   [[nodiscard]] bool is_known() const { return !std::holds_alternative<Unknown>(flight_.motion); }
 
   /// Truth at epochs 0, 1, ...: epoch k is at k * interval_us().
-  [[nodiscard]] std::span<const Truth> epochs() const { return epochs_; }
+  [[nodiscard]] const Spool<Truth>& epochs() const { return epochs_; }
   /// Increment k covers epoch k to epoch k + 1.
-  [[nodiscard]] std::span<const ImuIncrement> increments() const { return increments_; }
+  [[nodiscard]] const Spool<ImuIncrement>& increments() const { return increments_; }
   [[nodiscard]] std::int64_t interval_us() const { return interval_us_; }
   /// Time of the last epoch.
   [[nodiscard]] std::int64_t end_us() const { return epochs_.back().t_us; }
@@ -59,8 +58,8 @@ class FlightRecord {
  private:
   Flight flight_;
   std::int64_t interval_us_;
-  std::vector<Truth> epochs_;
-  std::vector<ImuIncrement> increments_;
+  Spool<Truth> epochs_;
+  Spool<ImuIncrement> increments_;
 };
 
 }  // namespace canhil::world

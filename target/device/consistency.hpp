@@ -58,7 +58,7 @@ class ConsistencyMonitor {
     bool alarm_ = false;
   };
 
-  // Three outliers in a row do not do it, four do; 6 standard deviations are a mean NIS of 2.1 m for m = 3,
+  // Three outliers in a row do not do it, four do; 6 standard deviations are a mean NIS of 1.8 m for m = 3,
   // and a mean innovation of 0.19 sigma. Of consistent draws one or two in a million updates raise an alarm
   // (5e6 each of m = 1, 2, 3 and 9).
   Chart<20, 6, false> size_;

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "bench/checks/reception.hpp"
+#include "bench/spool/spool.hpp"
 #include "bench/world/flight_record.hpp"
 
 namespace canhil::estimators {
@@ -19,7 +19,7 @@ struct HeightAnswer {
   double nis = 0;
   bool used = false;  ///< else it was gated
 };
-using HeightAnswers = std::vector<HeightAnswer>;
+using HeightAnswers = Spool<HeightAnswer>;
 
 std::unique_ptr<Reception> height_reception();
 

@@ -41,7 +41,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   const HeightAnswers& answers = seen.of<HeightAnswers>();
   const Answering of{longest_wait_us(seen, messages::HeightUpdate::info.name), truth.duration_us};
   const auto values = [&](auto told) {
-    std::vector<Told> all;
+    Spool<Told> all;
     for (const HeightAnswer& answer : answers) {
       all.push_back(told(answer, error_of(answer, truth.flight)));
       all.back().t_us = answer.cause_us;
@@ -104,6 +104,8 @@ constexpr auto parameters = [] {
 }();
 constexpr std::array<std::string_view, 2> nodes{"slave_imu", "barometer"};
 
+constexpr std::array<std::string_view, 1> plain_marks{"used"};
+
 }  // namespace
 
 constinit const Estimator baro_inertial{.name = "baro_inertial",
@@ -114,6 +116,7 @@ constinit const Estimator baro_inertial{.name = "baro_inertial",
                                         .samples = samples_of,
                                         .tracks = tracks_of,
                                         .marks = marks_of,
+                                        .plain_marks = plain_marks,
                                         .results = results_of,
                                         .closing = closing,
                                         .freshness = freshness_of};

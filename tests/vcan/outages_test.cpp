@@ -109,6 +109,27 @@ TEST(Outages, AnInterfaceThatStaysAwayEndsTheRunAndIsNamed) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
+TEST(Outages, TheBenchMakesThemByItselfWhereAScenarioSaysSo) {
+  const std::string json = scratch("made.json"), faults = scratch("faults.toml");
+  std::ofstream(faults) << "[[fault]]\nkind = \"error_frame\"\nperiod_ms = 50\nfrom_s = 0.5\nto_s = 0.7\n"
+                           "[[fault]]\nkind = \"error_passive\"\nfrom_s = 1\nfor_s = 0.1\n"
+                           "[[fault]]\nkind = \"bus_off\"\nfrom_s = 1.5\nfor_s = 0.1\n"
+                           "[[fault]]\nkind = \"interface_down\"\nfrom_s = 2\nfor_s = 0.2\n"
+                           "[[fault]]\nkind = \"wrong_crc\"\nnode = \"slave_imu\"\nevery = 50\n"
+                           "[[fault]]\nkind = \"flood\"\nperiod_us = 1000\nfrom_s = 2.5\n";
+  const Ended ended = hil_bench(fmt::format("run {} --bus vcan0 --faults {} --json {}",
+                                            scenario("transfer_alignment_quick"), faults, json));
+  ASSERT_NE(ended.code, 2) << ended.err;
+  Outcome outcome{.ended = ended, .report = read_json(json)};
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << outcome.report["ending"];
+  EXPECT_THAT(outcome.incidents(),
+              testing::ElementsAre("error passive", "error active", "bus off", "restarted", "down", "up"));
+  EXPECT_EQ(outcome.report["bus"]["error_frames"], 5 + 2 + 2);
+  EXPECT_GT(outcome.report["target_counters"]["bad_crc"], 0);
+  for (const auto& fault : outcome.report["faults"]) EXPECT_GT(fault["count"], 0) << fault["name"];
+  EXPECT_THAT(ended.err, HasSubstr("hil-target: vcan0: 9 error frames (bus off 1, restarted 1"));
+}
+
 /// A wire on vcan0 that carries a third of what is sent, for half a second, behind a queue of some bytes.
 std::string slow_wire(int queue_bytes) {
   return fmt::format(

@@ -56,7 +56,8 @@ Finding Answers::judge(const Evidence& evidence) const {
   const auto marks = told_by == nullptr ? std::vector<estimators::Mark>() : told_by->marks(evidence.seen);
   for (const Count& wanted : counts) {
     const auto mark = std::ranges::find(marks, std::string_view(wanted.mark), &estimators::Mark::name);
-    const std::vector<std::int64_t> times = mark == marks.end() ? std::vector<std::int64_t>() : mark->t_us;
+    static const Spool<std::int64_t> none;
+    const Spool<std::int64_t>& times = mark == marks.end() ? none : mark->t_us;
     if (wanted.at_least || wanted.at_most) {
       const auto count =
           std::ranges::count_if(times, [&](std::int64_t t_us) { return within(window, t_us); });

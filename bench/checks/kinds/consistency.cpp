@@ -46,8 +46,7 @@ Consistency Consistency::read(scenario::Section& section, const scenario::CheckC
 Finding Consistency::judge(const Evidence& evidence) const {
   const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
   const Stretch stretch{.window = window};
-  const std::vector<std::size_t> part =
-      tracks.empty() ? std::vector<std::size_t>() : inside(*tracks.front(), stretch);
+  const Places part = tracks.empty() ? Places() : inside(*tracks.front(), stretch);
   const auto [low, high] = interval(*this, part.size());
   const std::string expected = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(window));
   if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};

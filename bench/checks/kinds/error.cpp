@@ -54,7 +54,7 @@ Finding Error::judge(const Evidence& evidence) const {
                                            below / unit.factor, unit.name, words(stretch));
   const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
   if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
-  const std::vector<std::size_t> part = inside(*tracks.front(), stretch);
+  const Places part = inside(*tracks.front(), stretch);
   if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
   double worst = 0, sum = 0, squares = 0, last = 0;

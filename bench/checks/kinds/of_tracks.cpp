@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "bench/checks/estimator.hpp"
 #include "bench/checks/read_quantity.hpp"
@@ -113,8 +114,8 @@ std::string words(const Stretch& stretch) {
   return fmt::format("from {:g} to {:g} s to go", stretch.to_go_s->second, stretch.to_go_s->first);
 }
 
-std::vector<std::size_t> inside(const Track& track, const Stretch& stretch) {
-  std::vector<std::size_t> places;
+Places inside(const Track& track, const Stretch& stretch) {
+  Places places;
   auto epoch = track.to_go.begin();
   for (std::size_t place = 0; place < track.told.size(); ++place) {
     const std::int64_t t_us = track.told[place].t_us;
@@ -130,7 +131,7 @@ std::vector<std::size_t> inside(const Track& track, const Stretch& stretch) {
   return places;
 }
 
-std::string silence(const Track& track, const Stretch& stretch, const std::vector<std::size_t>& part) {
+std::string silence(const Track& track, const Stretch& stretch, const Places& part) {
   if (stretch.to_go_s) {
     const auto flown = std::ranges::count_if(
         track.to_go, [&](const Track::ToGo& epoch) { return lies_in(*stretch.to_go_s, epoch.to_go_s); });
@@ -142,7 +143,7 @@ std::string silence(const Track& track, const Stretch& stretch, const std::vecto
   }
   if (part.empty()) return "no answers";
   if (track.unanswered) return track.unanswered(stretch.window.from_us, stretch.window.to_us);
-  std::vector<std::int64_t> times;
+  Spool<std::int64_t> times;
   for (const std::size_t place : part) times.push_back(track.told[place].t_us);
   const auto silent = silent_stretch(times, stretch.window, track.answers_end_us, track.longest_wait_us);
   return silent ? "no answers " + seconds(*silent) : std::string();

@@ -41,11 +41,13 @@ int digits_of(const quantities::Unit& unit);
 /// "from 1 to 2 s", "from 3 to 2 s to go".
 std::string words(const Stretch& stretch);
 
-/// The places of what was told in a stretch.
-std::vector<std::size_t> inside(const quantities::Track& track, const Stretch& stretch);
+/// Where in what a track told.
+using Places = Spool<std::size_t>;
+
+/// Of what was told in a stretch.
+Places inside(const quantities::Track& track, const Stretch& stretch);
 
 /// Where answers are missing in a stretch; empty: nowhere. `part`: the places of those that are there.
-std::string silence(const quantities::Track& track, const Stretch& stretch,
-                    const std::vector<std::size_t>& part);
+std::string silence(const quantities::Track& track, const Stretch& stretch, const Places& part);
 
 }  // namespace canhil::checks

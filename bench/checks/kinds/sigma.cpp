@@ -28,7 +28,7 @@ Finding Sigma::judge(const Evidence& evidence) const {
   const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
   if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
   const quantities::Track& track = *tracks.front();
-  const std::vector<std::size_t> part = inside(track, stretch);
+  const Places part = inside(track, stretch);
   if (auto gap = silence(track, stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
   double least = std::numeric_limits<double>::infinity(), most = -least;

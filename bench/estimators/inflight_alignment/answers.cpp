@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
-#include <set>
+#include <vector>
 
 #include "bench/checks/finding.hpp"
 #include "bench/checks/silence.hpp"
@@ -87,13 +88,14 @@ class InflightReception final : public ReceptionOf<InflightAnswers, Navigation, 
 std::unique_ptr<Reception> inflight_reception() { return std::make_unique<InflightReception>(); }
 
 std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Window& window) {
-  std::set<std::pair<FixSource, std::int64_t>> answered;
-  for (const FixAnswer& fix : answers.fixes) answered.emplace(fix.source, fix.cause_us);
+  std::vector<std::pair<FixSource, std::int64_t>> answered;
+  for (const FixAnswer& fix : answers.fixes) answered.emplace_back(fix.source, fix.cause_us);
+  std::ranges::sort(answered);
   std::map<FixSource, int> in_a_row;
   for (const auto& [source, valid_us] : answers.sent) {
     if (!checks::within(window, valid_us)) continue;
     int& missing = in_a_row[source];
-    missing = answered.contains({source, valid_us}) ? 0 : missing + 1;
+    missing = std::ranges::binary_search(answered, std::pair(source, valid_us)) ? 0 : missing + 1;
     if (missing > checks::tolerated_fixes)
       return fmt::format("no answers to {} before {:g} s", group_of(source),
                          static_cast<double>(valid_us) * 1e-6);

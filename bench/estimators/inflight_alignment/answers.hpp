@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "bench/estimators/navigation.hpp"
 
@@ -44,9 +43,9 @@ struct SentFix {
 };
 
 struct InflightAnswers {
-  std::vector<NavigationAnswer> navigation;
-  std::vector<FixAnswer> fixes;
-  std::vector<SentFix> sent;
+  Spool<NavigationAnswer> navigation;
+  Spool<FixAnswer> fixes;
+  Spool<SentFix> sent;
 };
 
 /// Where more than two fixes in a row that the bench sent in a window were not answered; empty: nowhere.

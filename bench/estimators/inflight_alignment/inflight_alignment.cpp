@@ -26,11 +26,11 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 17> kept{
-    &misalignment_north,  &misalignment_east, &misalignment_down, &attitude_roll, &attitude_pitch,
-    &attitude_heading,    &velocity_north,    &velocity_east,     &velocity_down, &innovation_nis,
-    &position_north,      &position_east,     &position_down,     &heading_sigma, &covariance_repairs,
-    &velocity_down_sigma, &trusted_over_sigma};
+constexpr std::array<const Quantity*, 18> kept{
+    &misalignment_north,  &misalignment_east,  &misalignment_down, &attitude_roll, &attitude_pitch,
+    &attitude_heading,    &velocity_north,     &velocity_east,     &velocity_down, &innovation_nis,
+    &position_north,      &position_east,      &position_down,     &heading_sigma, &covariance_repairs,
+    &velocity_down_sigma, &trusted_over_sigma, &degraded};
 
 constexpr auto of_runs = and_alignment_told(
     std::array<const Quantity*, 10>{&position_north, &position_east, &position_down, &position_horizontal,
@@ -77,7 +77,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  update.attitude_sigma.z(),
                                                  static_cast<double>(update.repairs),
                                                  update.velocity_sigma.z(),
-                                                 trusted};
+                                                 trusted,
+                                                 update.degraded ? 1.0 : 0.0};
     samples.add(update.cause_us, values);
   }
   return samples;
@@ -141,7 +142,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
       .navigates = {longest_wait_us(seen, messages::FixVelocityD::info.name), truth.duration_us},
       .filters = {wait_for_fixes_us(answers), truth.duration_us, unanswered}};
   give_alignment(alignment, answers.fixes, give);
-  std::vector<Told> nis, of_heading;
+  Spool<Told> nis, of_heading;
   for (const FixAnswer& answer : answers.fixes) {
     if (!used(answer.outcome)) continue;
     nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
@@ -219,6 +220,8 @@ constexpr auto parameters = [] {
 }();
 constexpr std::array<std::string_view, 1> nodes{"slave_imu"};
 
+constexpr std::array<std::string_view, 2> plain_marks{"accepted", "handed_over"};
+
 }  // namespace
 
 constinit const Estimator inflight_alignment{
@@ -230,6 +233,7 @@ constinit const Estimator inflight_alignment{
     .samples = samples_of,
     .tracks = tracks_of,
     .marks = marks_of,
+    .plain_marks = plain_marks,
     .results = results_of,
     .closing = closing,
     .of_own_interval = messages::FixVelocityD::info.sample_group,

@@ -29,8 +29,8 @@ struct LosGroup : AnswerGroup<LosRateEstimate, LosRateSigma, LosRateTarget> {
 
 std::unique_ptr<Reception> los_reception() { return std::make_unique<ReceptionOf<LosAnswers, LosGroup>>(); }
 
-std::vector<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement) {
-  std::vector<LosError> errors;
+Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement) {
+  Spool<LosError> errors;
   errors.reserve(answers.size());
   for (const LosAnswer& answer : answers) {
     const world::EngagementTruth* truth = engagement.at(answer.cause_us);
@@ -45,15 +45,15 @@ std::vector<LosError> los_errors(const LosAnswers& answers, const world::Engagem
   return errors;
 }
 
-std::vector<quantities::Told> nis_of(const LosAnswers& answers) {
-  std::vector<quantities::Told> series;
+Spool<quantities::Told> nis_of(const LosAnswers& answers) {
+  Spool<quantities::Told> series;
   for (const LosAnswer& answer : answers) {
     if (updated(answer.outcome)) series.push_back({answer.cause_us, answer.nis});
   }
   return series;
 }
 
-std::optional<double> los_rms(const std::vector<LosError>& errors, double least, double most) {
+std::optional<double> los_rms(const Spool<LosError>& errors, double least, double most) {
   double squares = 0;
   int count = 0;
   for (const LosError& error : errors) {

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "bench/estimators/navigation.hpp"
 #include "bench/world/engagement/engagement.hpp"
@@ -24,7 +23,7 @@ struct LosAnswer {
   bool degraded = false;  ///< it says that its sigmas do not hold
 };
 
-using LosAnswers = std::vector<LosAnswer>;
+using LosAnswers = Spool<LosAnswer>;
 
 /// True if the filter was corrected by the sample, and by nothing it was told in place of one.
 constexpr bool updated(messages::LosRateOutcome outcome) {
@@ -45,14 +44,14 @@ struct LosError {
 };
 
 /// Errors of all answers that tell a rate, whose cause is an epoch of the engagement.
-std::vector<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
+Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
 
 /// NIS (2 degrees of freedom) of each answer that was an update.
-std::vector<quantities::Told> nis_of(const LosAnswers& answers);
+Spool<quantities::Told> nis_of(const LosAnswers& answers);
 
 /// Root of the mean square, over both planes, of the errors with time to go in [least, most); none: no errors
 /// there.
-std::optional<double> los_rms(const std::vector<LosError>& errors, double least, double most);
+std::optional<double> los_rms(const Spool<LosError>& errors, double least, double most);
 
 std::unique_ptr<Reception> los_reception();
 

@@ -25,9 +25,9 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 8> kept{&los_rate_pitch,      &los_rate_yaw,      &los_mean_nis,
-                                              &miss_pitch,          &miss_yaw,          &los_rate_sigma,
-                                              &los_rate_over_sigma, &trusted_over_sigma};
+constexpr std::array<const Quantity*, 9> kept{&los_rate_pitch,      &los_rate_yaw,       &los_mean_nis,
+                                              &miss_pitch,          &miss_yaw,           &los_rate_sigma,
+                                              &los_rate_over_sigma, &trusted_over_sigma, &degraded};
 
 double both_planes(const Samples& samples, std::size_t place) {
   const double pitch = samples.value(place, los_rate_pitch), yaw = samples.value(place, los_rate_yaw);
@@ -49,7 +49,7 @@ constexpr Layout layout{
 struct Stretch {
   double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
   double variances = 0, over_variances = 0, trusted = 0;
-  int rates = 0, updates = 0;
+  int rates = 0, updates = 0, untrusted = 0;
 };
 
 Samples samples_of(const checks::Observations& seen, const Truth& truth) {
@@ -72,6 +72,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     ++stretch.rates;
     if (error.trusted)
       stretch.trusted = std::max({stretch.trusted, told(std::abs(pitch)), told(std::abs(yaw))});
+    else
+      ++stretch.untrusted;
   }
   for (const Told& update : nis_of(seen.of<LosAnswers>())) {
     const world::EngagementTruth* epoch = engagement.at(update.t_us);
@@ -91,7 +93,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
         miss_n.y(),
         std::sqrt(stretch.variances / (2 * stretch.rates)),
         std::sqrt(stretch.over_variances / (2 * stretch.rates)),
-        stretch.trusted};
+        stretch.trusted,
+        static_cast<double>(stretch.untrusted) / stretch.rates};
     samples.add((place - 1) * stretch_us, values);
   }
   return samples;
@@ -117,8 +120,9 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     track.estimate_unit = mradps;
     for (const world::EngagementTruth& epoch : engagement.epochs)
       track.to_go.push_back({.t_us = epoch.t_us, .to_go_s = epoch.time_to_go()});
+    AnswerTo answer_to(answers);
     for (const LosError& e : errors) {
-      const LosAnswer& answer = answer_to(answers, e.t_us);
+      const LosAnswer& answer = answer_to(e.t_us);
       track.told.push_back({.t_us = e.t_us,
                             .value = e.rate.*member,
                             .sigma = answer.rate_sigma.*member,
@@ -201,6 +205,8 @@ constexpr auto parameters = [] {
 }();
 constexpr std::array<std::string_view, 1> nodes{"seeker"};
 
+constexpr std::array<std::string_view, 4> plain_marks{"waiting", "started", "start_up", "updated"};
+
 }  // namespace
 
 constinit const Estimator los_rate{
@@ -212,6 +218,7 @@ constinit const Estimator los_rate{
     .samples = samples_of,
     .tracks = tracks_of,
     .marks = marks_of,
+    .plain_marks = plain_marks,
     .results = results_of,
     .closing = closing,
     .check_kinds = check_kinds,

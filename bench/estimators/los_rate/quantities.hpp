@@ -29,13 +29,11 @@ inline constexpr Quantity los_rate_both{
 inline constexpr Quantity los_rate_sigma{
     .name = "los.rate.sigma",
     .meaning = "sigma of the LOS rate as the target tells it: RMS of both planes and 20 ms of the time to go",
-    .unit = mradps,
-    .once = "los_sigma"};
+    .unit = mradps};
 inline constexpr Quantity los_rate_over_sigma{
     .name = "los.rate.over_sigma",
     .meaning = "error of the LOS rate over its sigma: RMS of both planes and 20 ms of the time to go",
-    .unit = plain,
-    .once = "los_over_sigma"};
+    .unit = plain};
 /// Mean over the updates of a stretch, of 2 degrees of freedom each; NaN without an update.
 inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",

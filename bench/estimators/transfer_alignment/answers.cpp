@@ -43,9 +43,8 @@ std::unique_ptr<Reception> transfer_reception() {
   return std::make_unique<ReceptionOf<TransferAnswers, Navigation, FilterGroup>>();
 }
 
-std::vector<quantities::Told> nees_of(const std::vector<FilterAnswer>& filter,
-                                      const std::vector<NavigationError>& errors) {
-  std::vector<quantities::Told> series;
+Spool<quantities::Told> nees_of(const Spool<FilterAnswer>& filter, const Spool<NavigationError>& errors) {
+  Spool<quantities::Told> series;
   for (const FilterAnswer& answer : filter) {
     const NavigationError* after = first_after(errors, answer.cause_us, answer.navigation_us);
     if (after == nullptr) continue;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "bench/estimators/navigation.hpp"
 
@@ -23,13 +22,12 @@ struct FilterAnswer {
 };
 
 struct TransferAnswers {
-  std::vector<NavigationAnswer> navigation;
-  std::vector<FilterAnswer> filter;
+  Spool<NavigationAnswer> navigation;
+  Spool<FilterAnswer> filter;
 };
 
 /// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of phi from first_after().
-std::vector<quantities::Told> nees_of(const std::vector<FilterAnswer>& filter,
-                                      const std::vector<NavigationError>& errors);
+Spool<quantities::Told> nees_of(const Spool<FilterAnswer>& filter, const Spool<NavigationError>& errors);
 
 std::unique_ptr<Reception> transfer_reception();
 

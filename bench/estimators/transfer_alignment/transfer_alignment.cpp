@@ -1,6 +1,5 @@
 #include "bench/estimators/transfer_alignment/transfer_alignment.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,10 +17,10 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 13> kept{
-    &misalignment_north, &misalignment_east, &misalignment_down, &attitude_roll, &attitude_pitch,
-    &attitude_heading,   &velocity_north,    &velocity_east,     &velocity_down, &attitude_nees,
-    &innovation_nis,     &heading_sigma,     &trusted_over_sigma};
+constexpr std::array<const Quantity*, 14> kept{
+    &misalignment_north, &misalignment_east, &misalignment_down,  &attitude_roll, &attitude_pitch,
+    &attitude_heading,   &velocity_north,    &velocity_east,      &velocity_down, &attitude_nees,
+    &innovation_nis,     &heading_sigma,     &trusted_over_sigma, &degraded};
 
 constexpr auto of_runs = and_alignment_told(std::array<const Quantity*, 6>{
     &velocity_innovation_north, &velocity_innovation_east, &velocity_innovation_down, &innovation_nis,
@@ -34,7 +33,7 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const TransferAnswers& answers = seen.of<TransferAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
   // One value an update, in order, up to the last one that a navigation answer follows.
-  const std::vector<Told> nees = nees_of(answers.filter, errors);
+  const Spool<Told> nees = nees_of(answers.filter, errors);
   for (std::size_t i = 0; i < nees.size(); ++i) {
     const FilterAnswer& update = answers.filter[i];
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
@@ -43,10 +42,20 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     // Of the attitude alone: the velocity's sigma is of the cause's time, and until the answer after it a
     // turned heading and 1 g make more of an error than that.
     const double trusted = update.degraded ? 0 : over_sigma(phi, update.attitude_sigma);
-    const std::array<double, kept.size()> values{
-        phi.x(),      phi.y(), phi.z(), angles.roll,         angles.pitch,     angles.heading,
-        v.x(),        v.y(),   v.z(),   told(nees[i].value), told(update.nis), update.attitude_sigma.z(),
-        told(trusted)};
+    const std::array<double, kept.size()> values{phi.x(),
+                                                 phi.y(),
+                                                 phi.z(),
+                                                 angles.roll,
+                                                 angles.pitch,
+                                                 angles.heading,
+                                                 v.x(),
+                                                 v.y(),
+                                                 v.z(),
+                                                 told(nees[i].value),
+                                                 told(update.nis),
+                                                 update.attitude_sigma.z(),
+                                                 told(trusted),
+                                                 update.degraded ? 1.0 : 0.0};
     samples.add(update.cause_us, values);
   }
   return samples;
@@ -63,7 +72,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
       .navigates = {longest_wait_us(seen, messages::AlignVelocityD::info.name), truth.duration_us},
       .filters = {longest_wait_us(seen, messages::AlignUpdate::info.name), truth.duration_us}};
   give_alignment(alignment, answers.filter, give);
-  std::vector<Told> nis, of_heading;
+  Spool<Told> nis, of_heading;
   for (const FilterAnswer& answer : answers.filter) {
     nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
     add_heading_nees(of_heading, errors, answer);
@@ -112,6 +121,8 @@ constexpr auto parameters = [] {
 }();
 constexpr std::array<std::string_view, 2> nodes{"slave_imu", "master_ins"};
 
+constexpr std::array<std::string_view, 1> plain_marks{"updates"};
+
 }  // namespace
 
 constinit const Estimator transfer_alignment{.name = "transfer_alignment",
@@ -122,6 +133,7 @@ constinit const Estimator transfer_alignment{.name = "transfer_alignment",
                                              .samples = samples_of,
                                              .tracks = tracks_of,
                                              .marks = marks_of,
+                                             .plain_marks = plain_marks,
                                              .results = results_of,
                                              .closing = closing,
                                              .of_own_interval = messages::AlignVelocityD::info.sample_group,

@@ -58,24 +58,24 @@ std::unique_ptr<Reception> wind_reception() {
   return std::make_unique<ReceptionOf<WindAnswers, WindGroup>>();
 }
 
-std::vector<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide) {
-  std::vector<WindError> errors;
+Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide) {
+  Spool<WindError> errors;
   for (const WindAnswer& answer : answers) {
     if (lies_within(answer, glide)) errors.push_back(error_of(answer, glide));
   }
   return errors;
 }
 
-std::vector<quantities::Told> nis_of(const WindAnswers& answers) {
-  std::vector<quantities::Told> all;
+Spool<quantities::Told> nis_of(const WindAnswers& answers) {
+  Spool<quantities::Told> all;
   for (const WindAnswer& answer : answers) {
     if (answer.outcome == messages::WindOutcome::updated) all.push_back({answer.cause_us, answer.nis});
   }
   return all;
 }
 
-std::vector<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide) {
-  std::vector<quantities::Told> all;
+Spool<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide) {
+  Spool<quantities::Told> all;
   for (const WindAnswer& answer : answers) {
     if (!lies_within(answer, glide)) continue;
     const Vector3 error = error_of(answer, glide).error_n;

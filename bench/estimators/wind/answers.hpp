@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "bench/estimators/navigation.hpp"
 #include "bench/world/glide/glide.hpp"
@@ -28,7 +27,7 @@ struct WindAnswer {
   double nis = 0;  ///< of 9 degrees of freedom; 0: without an update
 };
 
-using WindAnswers = std::vector<WindAnswer>;
+using WindAnswers = Spool<WindAnswer>;
 
 /// The error (estimated - true) of one wind answer of a filter that had started, at the time of validity of
 /// its cause. Along track is along the true horizontal air velocity, about the heading: the air speed is what
@@ -41,12 +40,12 @@ struct WindError {
 };
 
 /// Errors of all answers of a running filter whose cause lies within the record.
-std::vector<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide);
+Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide);
 
 /// NIS (9 degrees of freedom) of each update.
-std::vector<quantities::Told> nis_of(const WindAnswers& answers);
+Spool<quantities::Told> nis_of(const WindAnswers& answers);
 /// NEES of the wind (3 degrees of freedom), with the covariance that the bus carries.
-std::vector<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
+Spool<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
 
 std::unique_ptr<Reception> wind_reception();
 

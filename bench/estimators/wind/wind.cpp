@@ -25,8 +25,8 @@ namespace {
 
 using namespace quantities;
 
-constexpr std::array<const Quantity*, 7> kept{&wind_along, &wind_cross,       &wind_down,         &wind_nis,
-                                              &wind_nees,  &wind_along_sigma, &trusted_over_sigma};
+constexpr std::array<const Quantity*, 8> kept{&wind_along, &wind_cross,       &wind_down,          &wind_nis,
+                                              &wind_nees,  &wind_along_sigma, &trusted_over_sigma, &degraded};
 
 double of_all_three(const Samples& samples, std::size_t place) {
   return std::hypot(samples.value(place, wind_along), samples.value(place, wind_cross),
@@ -56,7 +56,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
         updated ? told(answer->nis) : std::numeric_limits<double>::quiet_NaN(),
         told(normalised[i].value),
         answer->along_track_sigma,
-        told(trusted)};
+        told(trusted),
+        answer->degraded ? 1.0 : 0.0};
     samples.add(errors[i].t_us, values);
     ++answer;
   }
@@ -69,8 +70,9 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   const auto errors = wind_errors(answers, *truth.glide);
   const Answering of{longest_wait_us(seen, messages::WindUpdate::info.name), truth.glide->end_us()};
   const auto fill = [&](Track track, auto told) {
+    AnswerTo answer(answers);
     for (const WindError& e : errors) {
-      track.told.push_back(told(answer_to(answers, e.t_us), e));
+      track.told.push_back(told(answer(e.t_us), e));
       track.told.back().t_us = e.t_us;
     }
     give(std::move(track));
@@ -117,8 +119,10 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
                                    std::string_view /*algorithm*/) {
   if (truth.glide == nullptr) return {};
   constexpr std::int64_t from_us = 10'000'000;  // until then the filter settles
-  std::vector<WindError> errors = wind_errors(seen.of<WindAnswers>(), *truth.glide);
-  std::erase_if(errors, [](const WindError& error) { return error.t_us < from_us; });
+  Spool<WindError> errors;
+  for (const WindError& error : wind_errors(seen.of<WindAnswers>(), *truth.glide)) {
+    if (error.t_us >= from_us) errors.push_back(error);
+  }
   ResultLine mean{.name = "mean_error", .what = "mean |error| from 10 s on"};
   const auto add = [&](const char* name, const char* words, auto component) {
     double sum = 0;
@@ -168,6 +172,8 @@ constexpr auto parameters = [] {
 }();
 constexpr std::array<std::string_view, 2> nodes{"glider_nav", "fins"};
 
+constexpr std::array<std::string_view, 4> plain_marks{"waiting", "started", "updated", "theta_capped"};
+
 }  // namespace
 
 constinit const Estimator wind{.name = "wind",
@@ -182,6 +188,7 @@ constinit const Estimator wind{.name = "wind",
                                .samples = samples_of,
                                .tracks = tracks_of,
                                .marks = marks_of,
+                               .plain_marks = plain_marks,
                                .results = results_of,
                                .closing = closing,
                                .of_own_interval = messages::WindUpdate::info.sample_group,

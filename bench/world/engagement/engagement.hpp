@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 #include <deque>
-#include <vector>
 
+#include "bench/spool/spool.hpp"
 #include "bench/world/engagement/plan.hpp"
 #include "bench/world/stream.hpp"
 
@@ -38,7 +38,7 @@ struct SeekerIncrement {
 
 /// What an engagement leaves behind for checks and reports.
 struct EngagementRecord {
-  std::vector<EngagementTruth> epochs;  ///< at the times of the seeker's samples, ascending
+  Spool<EngagementTruth> epochs;  ///< at the times of the seeker's samples, ascending
   std::optional<Vector3> miss_n;  ///< target from missile at the closest approach [m]; none: not reached
   std::int64_t passage_us = 0;    ///< time of the closest approach
   std::size_t late_commands = 0;  ///< that were heard after they should have taken effect

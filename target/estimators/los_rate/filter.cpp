@@ -32,15 +32,22 @@ struct Sample {
   Plane error, antenna_increment;
   double roll_increment;
   Motion motion;  // over its interval; what was not measured is what was measured last
-  bool error_ok, antenna_measured, antenna_ok, acceleration_ok;  // antenna: of its interval, of the step
-  Fault fault;                                                   // the first
+  bool error_ok, antenna_ok, acceleration_ok;  // antenna: of the whole step
+  bool motion_known;                           // of its interval
+  Fault fault;                                 // the first
 };
 
-// A gap that cannot be bridged leaves the motion of the whole step unknown.
+// A gap lies between two samples that tell the motion, or it cannot be bridged: then the motion of the whole
+// step is unknown. The classical filter has no use for the missile's acceleration.
 Sample judged(const State& state, const Measurement& m, const Settings& settings) {
   const bool lost = m.interval > 0 && m.interval < m.dt;
-  const bool bridged = lost && m.dt - m.interval <= settings.gap_limit && state.antenna_known;
   const Plane missile_acceleration = acceleration(m.missile_acceleration);
+  const bool antenna_measured =
+      m.antenna_valid && finite(angle(m.antenna_increment)) && std::isfinite(m.roll_increment);
+  const bool acceleration_ok = m.acceleration_valid && finite(missile_acceleration);
+  const bool motion_known =
+      antenna_measured && (acceleration_ok || settings.algorithm == Algorithm::low_pass);
+  const bool bridged = lost && m.dt - m.interval <= settings.gap_limit && state.motion_known && motion_known;
   Sample s{.gap = bridged ? m.dt - m.interval : 0,
            .interval = bridged ? m.interval : m.dt,
            .error = angle(m.error),
@@ -48,12 +55,10 @@ Sample judged(const State& state, const Measurement& m, const Settings& settings
            .roll_increment = m.roll_increment,
            .motion = state.motion,
            .error_ok = m.error_valid && finite(angle(m.error)),
-           .antenna_measured =
-               m.antenna_valid && finite(angle(m.antenna_increment)) && std::isfinite(m.roll_increment),
-           .antenna_ok = false,
-           .acceleration_ok = m.acceleration_valid && finite(missile_acceleration),
+           .antenna_ok = antenna_measured && lost == bridged,
+           .acceleration_ok = acceleration_ok,
+           .motion_known = motion_known,
            .fault = Fault::none};
-  s.antenna_ok = s.antenna_measured && lost == bridged;
   if (!s.error_ok) {
     s.fault = Fault::error_angle;
   } else if (!(std::norm(s.error) <= settings.field_of_view * settings.field_of_view)) {
@@ -64,7 +69,7 @@ Sample judged(const State& state, const Measurement& m, const Settings& settings
   } else if (!s.acceleration_ok) {
     s.fault = Fault::acceleration;
   }
-  if (s.antenna_measured) {
+  if (antenna_measured) {
     const double own = lost ? m.interval : m.dt;
     s.motion.antenna_rate = s.antenna_increment / own;
     s.motion.roll_rate = s.roll_increment / own;
@@ -271,7 +276,7 @@ UpdateResult step(State& state, const Measurement& m, const Design& design) {
     result.outcome = Outcome::waiting;
   }
   next.motion = sample.motion;
-  next.antenna_known = sample.antenna_measured;
+  next.motion_known = sample.motion_known;
   if (!finite(next) || !std::isfinite(result.nis)) {
     result.outcome = Outcome::non_finite;
     return result;
@@ -291,14 +296,13 @@ Planes<Sigma> told_sigma(const UpdateResult& result, const Design& design) {
   const Settings& s = design.settings;
   const bool tracks = result.outcome != Outcome::waiting && result.outcome != Outcome::started;
   if (!tracks || s.algorithm != Algorithm::combined || !(result.used.range > 0)) return sigma;
-  const auto allow_for_turn = [&](double& rate, const Noise& noise) {
-    const double r = result.used.range;
-    const double displacement_psd = r * r * sample_variance(noise, r) * s.sample_period;
-    const double bandwidth = std::pow(s.jerk_density / displacement_psd, 1.0 / 6);
-    rate = std::hypot(rate, 0.885 * s.acceleration_sigma_0 / (bandwidth * r) / 3);
-  };
-  allow_for_turn(sigma.pitch.rate, s.noise.pitch);
-  allow_for_turn(sigma.yaw.rate, s.noise.yaw);
+  const Planes<double> lag = of_planes(design, [&](auto plane) {
+    const double R_y = displacement_noise(plane(s.noise), result.used, s.sample_period).R_y;
+    const double bandwidth = std::pow(s.jerk_density / R_y, 1.0 / 6);
+    return 0.885 * s.acceleration_sigma_0 / (bandwidth * result.used.range);
+  });
+  sigma.pitch.rate = std::hypot(sigma.pitch.rate, lag.pitch / 3);
+  sigma.yaw.rate = std::hypot(sigma.yaw.rate, lag.yaw / 3);
   return sigma;
 }
 

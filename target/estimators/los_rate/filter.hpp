@@ -25,7 +25,7 @@ struct Measurement {
 struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
   Motion motion;                    // the last measured of each
-  bool antenna_known = false;       // by the last sample
+  bool motion_known = false;        // by the last sample
   Planes<Covariance> P;             // while `covariance` is set; in pitch alone where the noises are equal
   RangeTrack track;
   double start_up_s = 0;  // of Kalman filter still to come

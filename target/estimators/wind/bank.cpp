@@ -38,12 +38,13 @@ StateVector difference(const StateVector& x, const StateVector& y) {
 }
 
 void mix(Bank& bank, const BankDesign& design) {
-  const std::size_t most_at = likeliest(bank);
-  const State& most = bank.states[most_at];
+  const State& most = bank.states[likeliest(bank)];
   bank.started = most.started;
   bank.x = most.x;
-  bank.P = told_covariance(most, design.of[most_at].settings);
-  if (design.count == 1) return;
+  if (design.count == 1) {
+    bank.P = told_covariance(most, design.of[0].settings);
+    return;
+  }
   StateVector mean = StateVector::Zero();
   for (std::size_t i = 0; i < design.count; ++i)
     mean += bank.weight[i] * difference(bank.states[i].x, most.x);

@@ -170,7 +170,7 @@ TEST(Export, IsATableOfWhatTheRunsTold) {
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
   // 30 runs of four variants with 12 quantities an update: two have 29, and two, whose updates come 150 ms
   // late, 28.
-  EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 13);
+  EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
   EXPECT_EQ(hil_bench(fmt::format("campaign export {}", results)).out, ended.out);

@@ -9,6 +9,7 @@
 #include "bench/world/units.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
+#include "tests/unit/bench/edited.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -37,18 +38,12 @@ class Fixed : public testing::Test {
   }
   template <class Rule>
   CheckResult judge(const Rule& rule) {
-    scenario::Scenario scenario;
-    scenario.checks.push_back(check_of(rule));
-    return checks::judge(scenario, {.seen = seen_,
-                                    .truth = {.flight = truth_, .duration_us = duration_us},
-                                    .estimators = estimators::all()})
-        .checks.at(0);
+    return judged(rule, seen_, {.flight = truth_, .duration_us = duration_us});
   }
   void unanswered(std::size_t place, std::size_t count) {
     const auto from = static_cast<std::ptrdiff_t>(place);
     const auto to = static_cast<std::ptrdiff_t>(place + count);
-    seen_.of<InflightAnswers>().fixes.erase(seen_.of<InflightAnswers>().fixes.begin() + from,
-                                            seen_.of<InflightAnswers>().fixes.begin() + to);
+    test::Edited(seen_.of<InflightAnswers>().fixes).erase(from, to);
   }
 
   static constexpr world::Position start{.latitude = 0.6, .longitude = 2, .height = 5};
@@ -111,7 +106,7 @@ TEST_F(Fixed, FixesThatAreNotAnsweredFail) {
 TEST_F(Fixed, FixesThatWereNotSentNeedNoAnswer) {
   unanswered(5, 8);
   auto& sent = seen_.of<InflightAnswers>().sent;
-  sent.erase(sent.begin() + 5, sent.begin() + 13);
+  test::Edited(sent).erase(5, 13);
   EXPECT_EQ(judge(position()).outcome, Outcome::pass);
   EXPECT_EQ(judge(consistency(quantities::innovation_nis, 2, 4)).outcome, Outcome::pass);
 }
@@ -128,10 +123,11 @@ TEST_F(Fixed, NisIsOfTheFixesThatWereUsed) {
 
 TEST_F(Fixed, HeadingNeesFailsAnOverconfidentFilter) {
   const Consistency rule = consistency(quantities::heading_nees, 0, 1.5);
-  for (NavigationAnswer& answer : seen_.of<InflightAnswers>().navigation) answer.angles.heading = 0.1;
+  for (NavigationAnswer& answer : test::Edited(seen_.of<InflightAnswers>().navigation))
+    answer.angles.heading = 0.1;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   EXPECT_EQ(judge(rule).measured, "mean 1.000 of 19");
-  for (FixAnswer& fix : seen_.of<InflightAnswers>().fixes) fix.attitude_sigma.z() = 0.05;
+  for (FixAnswer& fix : test::Edited(seen_.of<InflightAnswers>().fixes)) fix.attitude_sigma.z() = 0.05;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
@@ -170,8 +166,8 @@ TEST_F(Fixed, ARepairIsCountedWhereItCameAndTheHandoverWhereItFirstWas) {
 }
 
 TEST_F(Fixed, SilenceNeverPasses) {
-  seen_.of<InflightAnswers>().fixes.clear();
-  seen_.of<InflightAnswers>().navigation.clear();
+  seen_.of<InflightAnswers>().fixes = {};
+  seen_.of<InflightAnswers>().navigation = {};
   EXPECT_EQ(judge(position()).measured, "no answers");
   EXPECT_EQ(judge(counted({.mark = "gated", .at_most = 3})).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_most = 0})).measured, "no answers");

@@ -19,6 +19,7 @@
 #include "bench/observe/stopwatch.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
+#include "tests/unit/bench/edited.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -63,9 +64,9 @@ class Judged : public testing::Test {
     return came_[message_index<Message>()];
   }
   void silence_from(std::int64_t t_us) {
-    std::erase_if(seen_.of<TransferAnswers>().navigation,
+    std::erase_if(*test::Edited(seen_.of<TransferAnswers>().navigation),
                   [&](const auto& answer) { return answer.cause_us >= t_us; });
-    std::erase_if(seen_.of<TransferAnswers>().filter,
+    std::erase_if(*test::Edited(seen_.of<TransferAnswers>().filter),
                   [&](const auto& answer) { return answer.cause_us >= t_us; });
     std::erase_if(came<messages::AlignAttitude>(), [&](const Came& one) { return one.cause_us >= t_us; });
   }
@@ -154,7 +155,7 @@ TEST_F(Judged, VelocityErrorByAxisOrNorm) {
 
 TEST_F(Judged, AnErrorByItsStatistic) {
   using enum Error::Statistic;
-  for (auto& answer : seen_.of<TransferAnswers>().navigation) answer.angles.roll = 0.003;
+  for (auto& answer : test::Edited(seen_.of<TransferAnswers>().navigation)) answer.angles.roll = 0.003;
   seen_.of<TransferAnswers>().navigation[100].angles.roll = -0.103;
   const auto measured = [&](Error::Statistic statistic) {
     return judge(error(quantities::attitude_roll, 0.05, whole, statistic)).measured;
@@ -212,19 +213,20 @@ TEST_F(Judged, ConsistencyByTheMeanInTheChiSquareInterval) {
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   // 40 values of 3 degrees of freedom: chi-square of 120, 95 %: 91.573 to 152.211.
   EXPECT_THAT(judge(rule).expected, HasSubstr("between 2.29 and 3.81"));
-  for (auto& answer : seen_.of<TransferAnswers>().filter) answer.nis = 3.9;
+  for (auto& answer : test::Edited(seen_.of<TransferAnswers>().filter)) answer.nis = 3.9;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  for (auto& answer : seen_.of<TransferAnswers>().filter) answer.nis = 2.2;
+  for (auto& answer : test::Edited(seen_.of<TransferAnswers>().filter)) answer.nis = 2.2;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
   rule.bound = MeanBetween{2, 2.5};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
 }
 
 TEST_F(Judged, NeesFailsAnOverconfidentFilter) {
-  for (auto& answer : seen_.of<TransferAnswers>().navigation) answer.angles.heading = 0.1;
+  for (auto& answer : test::Edited(seen_.of<TransferAnswers>().navigation)) answer.angles.heading = 0.1;
   const Consistency rule = consistency(quantities::attitude_nees, MeanBetween{0, 9});
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  for (auto& answer : seen_.of<TransferAnswers>().filter) answer.attitude_sigma *= 0.01;  // 10 sigma
+  for (auto& answer : test::Edited(seen_.of<TransferAnswers>().filter))
+    answer.attitude_sigma *= 0.01;  // 10 sigma
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 

@@ -21,6 +21,14 @@ scenario::Check check_of(Kind rule, std::string name = "it") {
           .rule = std::make_shared<RuleOf<Kind>>(std::move(rule))};
 }
 
+/// What the judge says of one rule.
+template <class Kind>
+CheckResult judged(const Kind& rule, const Observations& seen, const estimators::Truth& truth) {
+  scenario::Scenario scenario;
+  scenario.checks.push_back(check_of(rule));
+  return judge(scenario, {.seen = seen, .truth = truth, .estimators = estimators::all()}).checks.at(0);
+}
+
 /// An error in a window of the run.
 inline Error error_of(std::string estimator, const quantities::Quantity& quantity,
                       const scenario::Window& window, double below,

@@ -8,6 +8,7 @@
 #include "bench/estimators/los_rate/miss_distance.hpp"
 #include "bench/estimators/los_rate/quantities.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
+#include "tests/unit/bench/edited.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -44,17 +45,12 @@ class Engaged : public testing::Test {
   }
   template <class Rule>
   CheckResult judge(const Rule& rule) {
-    scenario::Scenario scenario;
-    scenario.checks.push_back(check_of(rule));
-    return checks::judge(scenario, {.seen = seen_,
-                                    .truth = {.flight = truth_,
-                                              .duration_us = duration_us,
-                                              .engagement = present_ ? &engagement_ : nullptr},
-                                    .estimators = estimators::all()})
-        .checks.at(0);
+    return judged(
+        rule, seen_,
+        {.flight = truth_, .duration_us = duration_us, .engagement = present_ ? &engagement_ : nullptr});
   }
   LosAnswer& answer_at(double to_go) {
-    return seen_.of<LosAnswers>().at(static_cast<std::size_t>(std::lround((5 - to_go) * 100)) - 1);
+    return seen_.of<LosAnswers>()[static_cast<std::size_t>(std::lround((5 - to_go) * 100)) - 1];
   }
 
   bool present_ = true;
@@ -81,7 +77,7 @@ TEST_F(Engaged, LosRateErrorByPlaneAndStatistic) {
   EXPECT_EQ(judge(error_rule(los_rate_both, max)).measured, "max 3.000 mrad/s of 100");
   EXPECT_EQ(judge(error_rule(los_rate_pitch, max)).outcome, Outcome::pass);
   EXPECT_EQ(judge(error_rule(los_rate_yaw, rms)).measured, "RMS 0.300 mrad/s of 100") << "one of 100";
-  for (LosAnswer& answer : seen_.of<LosAnswers>()) answer.rate.pitch += 2.1e-3;
+  for (LosAnswer& answer : test::Edited(seen_.of<LosAnswers>())) answer.rate.pitch += 2.1e-3;
   EXPECT_EQ(judge(error_rule(los_rate_pitch, rms)).outcome, Outcome::fail);
 }
 
@@ -95,19 +91,20 @@ TEST_F(Engaged, TheWindowIsOfTheTimeToGo) {
 
 TEST_F(Engaged, MissingAnswersFail) {
   const auto rule = error_rule(los_rate_both, rms);
-  std::erase_if(seen_.of<LosAnswers>(),
+  std::erase_if(*test::Edited(seen_.of<LosAnswers>()),
                 [](const LosAnswer& answer) { return answer.cause_us % 20'000 == 0; });
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << "half of the samples may be lost";
-  std::erase_if(seen_.of<LosAnswers>(), [](const LosAnswer& answer) { return answer.cause_us == 3'510'000; });
+  std::erase_if(*test::Edited(seen_.of<LosAnswers>()),
+                [](const LosAnswer& answer) { return answer.cause_us == 3'510'000; });
   EXPECT_THAT(judge(rule).measured, HasSubstr("answers to 49 of 100 samples"));
-  seen_.of<LosAnswers>().clear();
+  seen_.of<LosAnswers>() = {};
   EXPECT_THAT(judge(rule).measured, HasSubstr("no answers"));
-  engagement_.epochs.clear();
+  engagement_.epochs = {};
   EXPECT_THAT(judge(rule).measured, HasSubstr("no samples there"));
 }
 
 TEST_F(Engaged, AnswersThatAreNoEstimateTellNoRate) {
-  for (LosAnswer& answer : seen_.of<LosAnswers>()) answer.outcome = LosRateOutcome::waiting;
+  for (LosAnswer& answer : test::Edited(seen_.of<LosAnswers>())) answer.outcome = LosRateOutcome::waiting;
   EXPECT_THAT(judge(error_rule(los_rate_both, max)).measured, HasSubstr("no answers"));
 }
 
@@ -125,9 +122,9 @@ TEST_F(Engaged, ConsistencyIsOfTwoDegreesOfFreedomUntilThePassage) {
                          .window = {.from_us = 0, .to_us = duration_us},
                          .bound = Probability{.value = 0.99}};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
-  for (LosAnswer& answer : seen_.of<LosAnswers>()) answer.nis = 3;
+  for (LosAnswer& answer : test::Edited(seen_.of<LosAnswers>())) answer.nis = 3;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "consistent with three";
-  for (LosAnswer& answer : seen_.of<LosAnswers>()) {
+  for (LosAnswer& answer : test::Edited(seen_.of<LosAnswers>())) {
     answer.nis = answer.cause_us > 2'000'000 ? 0 : 2;
     if (answer.cause_us > 2'000'000) answer.outcome = LosRateOutcome::coasting;
   }

@@ -7,6 +7,7 @@
 
 #include "bench/quantities/list.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
+#include "tests/unit/bench/edited.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -48,7 +49,7 @@ TEST_F(SigmaCheck, EachSigmaOfTheWindowLiesBetween) {
 
 TEST_F(SigmaCheck, HalfOrTwiceASigmaFails) {
   for (const double factor : {0.5, 2.0}) {
-    for (auto& told : track_.told) told.sigma = factor * 0.2e-3;
+    for (auto& told : test::Edited(track_.told)) told.sigma = factor * 0.2e-3;
     EXPECT_EQ(judge(0.14, 0.28).outcome, Outcome::fail) << factor;
   }
 }
@@ -59,9 +60,9 @@ TEST_F(SigmaCheck, WhatIsNotToldOrNoNumberNeverPasses) {
   track_.told[30].sigma.reset();
   EXPECT_EQ(judge(0, 9).outcome, Outcome::fail);
   EXPECT_EQ(judge(0, 9).measured, "1 of 40 answers have no sigma");
-  track_.told.erase(track_.told.begin() + 20, track_.told.begin() + 35);
+  test::Edited(track_.told).erase(20, 35);
   EXPECT_EQ(judge(0, 9).measured, "no answers from 2 to 3.6 s");
-  track_.told.clear();
+  track_.told = {};
   EXPECT_EQ(judge(0, 9).measured, "no answers");
   EXPECT_EQ(judge(0, 9).outcome, Outcome::fail);
 }

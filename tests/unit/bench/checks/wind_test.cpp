@@ -11,6 +11,7 @@
 #include "bench/estimators/wind/quantities.hpp"
 #include "dbc/wire/transmit.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
+#include "tests/unit/bench/edited.hpp"
 
 namespace canhil::checks {
 namespace {
@@ -49,12 +50,7 @@ class Winds : public testing::Test {
   }
   template <class Rule>
   CheckResult judge(const Rule& rule) {
-    scenario::Scenario scenario;
-    scenario.checks.push_back(check_of(rule));
-    return checks::judge(scenario, {.seen = seen_,
-                                    .truth = {.flight = rest_, .duration_us = duration_us, .glide = &glide_},
-                                    .estimators = estimators::all()})
-        .checks.at(0);
+    return judged(rule, seen_, {.flight = rest_, .duration_us = duration_us, .glide = &glide_});
   }
   CheckResult error(const quantities::Quantity& quantity, Error::Statistic statistic, double below) {
     return judge(error_of("wind", quantity, whole, below, statistic));
@@ -95,16 +91,15 @@ TEST_F(Winds, SilenceAndNansNeverPass) {
   seen_.of<WindAnswers>()[100].wind_n.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error(wind_norm, mean, 1e9).outcome, Outcome::fail);
   EXPECT_EQ(error(wind_norm, max, 1e9).outcome, Outcome::fail);
-  seen_.of<WindAnswers>().erase(seen_.of<WindAnswers>().begin() + 90,
-                                seen_.of<WindAnswers>().begin() + 150);  // 1.2 s
+  test::Edited(seen_.of<WindAnswers>()).erase(90, 150);  // 1.2 s
   EXPECT_THAT(error(wind_norm, max, 1).measured, HasSubstr("no answers from 1.8 to 3.02 s"));
-  seen_.of<WindAnswers>().clear();
+  seen_.of<WindAnswers>() = {};
   EXPECT_EQ(error(wind_norm, max, 1).measured, "no answers");
   EXPECT_EQ(judge(Answers{.estimator = "wind", .window = whole, .counts = {}}).outcome, Outcome::fail);
 }
 
 TEST_F(Winds, AFilterThatWaitsHasNoError) {
-  for (WindAnswer& answer : seen_.of<WindAnswers>()) answer.started = false;
+  for (WindAnswer& answer : test::Edited(seen_.of<WindAnswers>())) answer.started = false;
   EXPECT_TRUE(wind_errors(seen_.of<WindAnswers>(), glide_).empty());
 }
 
@@ -127,12 +122,12 @@ TEST_F(Winds, ACovarianceThatIsNoneExplainsNothing) {
 TEST_F(Winds, SilenceIsTwoPeriodsOfTheNavigationIfThatIsLonger) {
   seen_.stimuli.clear();
   for (std::int64_t t_us = 0; t_us <= duration_us; t_us += 1'000'000) seen_.stimuli["GliderNav"].add(t_us);
-  std::erase_if(seen_.of<WindAnswers>(),
+  std::erase_if(*test::Edited(seen_.of<WindAnswers>()),
                 [](const WindAnswer& answer) { return answer.cause_us % 1'000'000 != 0; });
-  std::erase_if(seen_.of<WindAnswers>(),
+  std::erase_if(*test::Edited(seen_.of<WindAnswers>()),
                 [](const WindAnswer& answer) { return answer.cause_us == 3'000'000; });
   EXPECT_EQ(error(wind_norm, max, 1).outcome, Outcome::pass) << "one was lost";
-  std::erase_if(seen_.of<WindAnswers>(),
+  std::erase_if(*test::Edited(seen_.of<WindAnswers>()),
                 [](const WindAnswer& answer) { return answer.cause_us == 4'000'000; });
   EXPECT_THAT(error(wind_norm, max, 1).measured, HasSubstr("no answers from 2 to 5 s"));
 }
@@ -142,9 +137,9 @@ TEST_F(Winds, NisIsOfNineDegreesOfFreedom) {
     return consistency(quantities::wind_nis, Probability{.value = 0.999}).outcome;
   };
   EXPECT_EQ(consistent(), Outcome::pass);
-  for (WindAnswer& answer : seen_.of<WindAnswers>()) answer.nis = 3;
+  for (WindAnswer& answer : test::Edited(seen_.of<WindAnswers>())) answer.nis = 3;
   EXPECT_EQ(consistent(), Outcome::fail);
-  for (WindAnswer& answer : seen_.of<WindAnswers>()) answer.outcome = WindOutcome::coasting;
+  for (WindAnswer& answer : test::Edited(seen_.of<WindAnswers>())) answer.outcome = WindOutcome::coasting;
   EXPECT_TRUE(nis_of(seen_.of<WindAnswers>()).empty());
 }
 

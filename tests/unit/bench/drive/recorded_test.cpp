@@ -72,8 +72,8 @@ std::string csv_of(const world::FlightRecord& record, std::int64_t every_us) {
 }
 
 struct Flown {
-  std::vector<estimators::NavigationError> errors;
-  std::vector<estimators::FilterAnswer> filter;
+  Spool<estimators::NavigationError> errors;
+  Spool<estimators::FilterAnswer> filter;
 };
 
 Flown fly(const std::string& text, const std::string& folder) {
@@ -92,7 +92,7 @@ std::string folder() { return test::own_folder(); }
 
 void write(const std::string& name, const std::string& text) { std::ofstream(folder() + "/" + name) << text; }
 
-double rms(const std::vector<estimators::NavigationError>& errors, std::int64_t from_us) {
+double rms(const Spool<estimators::NavigationError>& errors, std::int64_t from_us) {
   double sum = 0;
   int count = 0;
   for (const auto& error : errors) {

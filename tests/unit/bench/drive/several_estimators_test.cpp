@@ -23,7 +23,7 @@ Collected fly(const scenario::Scenario& scenario) {
 }
 
 template <class Answer>
-void expect_same(const std::vector<Answer>& together, const std::vector<Answer>& alone, auto&&... members) {
+void expect_same(const Spool<Answer>& together, const Spool<Answer>& alone, auto&&... members) {
   ASSERT_GT(together.size(), 30U);
   ASSERT_EQ(together.size(), alone.size());
   for (std::size_t i = 0; i < alone.size(); ++i)

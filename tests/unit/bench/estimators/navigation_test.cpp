@@ -69,15 +69,15 @@ TEST(AttitudeNees, KnowsWhichCorrelationIsWhich) {
 }
 
 TEST(AttitudeNees, TakesTheFirstAnswerThatKnewOfTheUpdate) {
-  const std::vector<NavigationError> errors{erring(100, {9, 0, 0}), erring(110, {5, 0, 0}),
-                                            erring(120, {2, 0, 0}), erring(130, {1, 0, 0})};
+  const Spool<NavigationError> errors{erring(100, {9, 0, 0}), erring(110, {5, 0, 0}), erring(120, {2, 0, 0}),
+                                      erring(130, {1, 0, 0})};
   checks::Observations seen;
   seen.of<TransferAnswers>().filter.push_back(
       {.cause_us = 100, .navigation_us = 100, .attitude_sigma = Vector3::Ones()});
-  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors).at(0).value, 25, 1e-9);
+  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 25, 1e-9);
   seen.of<TransferAnswers>().filter[0].navigation_us =
       120;  // the fix was 20 us late: those before knew nothing of it
-  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors).at(0).value, 1, 1e-9);
+  EXPECT_NEAR(nees_of(seen.of<TransferAnswers>().filter, errors)[0].value, 1, 1e-9);
   seen.of<TransferAnswers>().filter[0].navigation_us = 130;
   EXPECT_THAT(nees_of(seen.of<TransferAnswers>().filter, errors), SizeIs(0));
 }
@@ -85,16 +85,16 @@ TEST(AttitudeNees, TakesTheFirstAnswerThatKnewOfTheUpdate) {
 TEST(AttitudeNees, ACovarianceThatIsNoneExplainsNothing) {
   checks::Observations seen;
   seen.of<TransferAnswers>().filter.push_back({.cause_us = 100, .attitude_sigma = Vector3(0.01, 0, 0.05)});
-  EXPECT_TRUE(std::isinf(nees_of(seen.of<TransferAnswers>().filter, {erring(110, {0, 0, 0})}).at(0).value));
+  EXPECT_TRUE(std::isinf(nees_of(seen.of<TransferAnswers>().filter, {erring(110, {0, 0, 0})})[0].value));
 }
 
-std::optional<std::int64_t> entered(const std::vector<NavigationError>& errors, double within) {
+std::optional<std::int64_t> entered(const Spool<NavigationError>& errors, double within) {
   return quantities::entered_for_good_us(errors, within,
                                          [](const NavigationError& e) { return e.angles.heading; });
 }
 
 TEST(Convergence, IsWhenTheErrorEntersTheBandForGood) {
-  std::vector<NavigationError> errors;
+  Spool<NavigationError> errors;
   for (const double heading : {0.5, 0.05, 0.2, -0.1, 0.05, -0.09})
     errors.push_back({.t_us = static_cast<std::int64_t>(errors.size()), .angles = {.heading = heading}});
   EXPECT_EQ(entered(errors, 0.1), 3);

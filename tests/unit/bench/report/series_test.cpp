@@ -16,6 +16,7 @@
 #include "bench/report/run_reports.hpp"
 #include "bench/world/motion/rest.hpp"
 #include "tests/unit/bench/checks/judged.hpp"
+#include "tests/unit/bench/edited.hpp"
 
 namespace canhil::report {
 namespace {
@@ -111,7 +112,7 @@ TEST(Series, ShowTheEstimateBesideTheTruthWithoutAJumpAtSouth) {
   run.truth = {{.start = {}, .motion = world::Rest{.angles = {.roll = 0, .pitch = 0, .heading = south}}},
                duration_us,
                10'000};
-  for (auto& answer : run.seen.of<estimators::TransferAnswers>().navigation) {
+  for (auto& answer : test::Edited(run.seen.of<estimators::TransferAnswers>().navigation)) {
     const double off = answer.cause_us % 20'000 == 0 ? 0.001 : -0.001;
     answer.angles.heading = std::remainder(south + off, 2 * std::numbers::pi);
   }
@@ -128,7 +129,7 @@ TEST(Series, ShowTheEstimateBesideTheTruthWithoutAJumpAtSouth) {
 
 TEST(Series, ASigmaThatIsStaleIsAGap) {
   drive::Run run = run_of();
-  std::erase_if(run.seen.of<estimators::TransferAnswers>().filter,
+  std::erase_if(*test::Edited(run.seen.of<estimators::TransferAnswers>().filter),
                 [](const auto& a) { return a.cause_us > 5'000'000 && a.cause_us < 15'000'000; });
   const auto all = series(scenario_of(), run);
   for (const Series::Point& point : find(all, "attitude error about down")->points) {
@@ -161,9 +162,9 @@ TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
 
 TEST(Series, SilenceIsAGapUpToTheEndOfTheRun) {
   drive::Run run = run_of();
-  std::erase_if(run.seen.of<estimators::TransferAnswers>().navigation,
+  std::erase_if(*test::Edited(run.seen.of<estimators::TransferAnswers>().navigation),
                 [](const auto& a) { return a.cause_us > 5'000'000 && a.cause_us < 8'000'000; });
-  std::erase_if(run.seen.of<estimators::TransferAnswers>().navigation,
+  std::erase_if(*test::Edited(run.seen.of<estimators::TransferAnswers>().navigation),
                 [](const auto& a) { return a.cause_us > 12'000'000; });
   const auto all = series(scenario_of(), run);
   const auto& points = find(all, "attitude error about down")->points;

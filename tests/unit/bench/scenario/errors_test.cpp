@@ -170,7 +170,7 @@ INSTANTIATE_TEST_SUITE_P(
             "17: key 'check[1].kind': 'banana' is unknown, expected one of: error, convergence, consistency, "
             "sigma, answers, latency, latency_growth, delay, output_period, own_times, heartbeat, counters, "
             "counts_match, protection, bus_load, bus_errors, "
-            "wire_response, "
+            "wire_response, detected_within, recovers_within, sigma_grows, honest, answering, "
             "miss_distance"},
         Wrong{
             "[[check]]", check("kind = 'error'\nquantity = 'yaw.of.the.body'\nbelow_mrad = 1"),

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ranges>
+
 #include "bench/world/flight_record.hpp"
 #include "bench/world/units.hpp"
 #include "tests/unit/target/estimators/csv.hpp"
@@ -100,7 +102,8 @@ TEST(Motion, TheSPathIsThatOfTheReference) {
   for (std::size_t second = 0; second < seconds.rows(); ++second) {
     Vector3 rotation = Vector3::Zero();
     Vector3 velocity = Vector3::Zero();
-    for (const ImuIncrement& increment : flight.increments().subspan(50 * second, 50)) {
+    for (const ImuIncrement& increment :
+         flight.increments() | std::views::drop(50 * second) | std::views::take(50)) {
       rotation += increment.delta_theta;
       velocity += increment.delta_v;
     }

@@ -20,6 +20,21 @@ Measurement next_after(Engagement& engagement, int lost) {
   return m;
 }
 
+struct Flown {
+  EngagementSetup setup;
+  Design design = make_design(setup.settings);
+  Engagement engagement{setup};
+  State state = initial();
+};
+
+// Every sample arrived until so many seconds are left.
+Flown flown(Algorithm algorithm, double time_to_go) {
+  Flown now{.setup = setup_of(algorithm)};
+  while (now.engagement.truth().range == 0 || now.engagement.truth().time_to_go > time_to_go)
+    step(now.state, now.engagement.next(), now.design);
+  return now;
+}
+
 TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   const Motion before{.antenna_rate = {0.1, 0.2}, .roll_rate = 1, .missile_acceleration = {10, -20}};
   const Motion after{.antenna_rate = {0.4, -0.2}, .roll_rate = 3, .missile_acceleration = {40, 20}};
@@ -79,12 +94,7 @@ TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
 // What an error angle does to the LOS rate after 30 ms of nothing is what the Kalman filter makes of it.
 TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   const auto gain = [](Algorithm algorithm, int lost) {
-    EngagementSetup setup = setup_of(algorithm);
-    const Design design = make_design(setup.settings);
-    Engagement engagement(setup);
-    State state = initial();
-    while (engagement.truth().range == 0 || engagement.truth().time_to_go > 0.3)
-      step(state, engagement.next(), design);
+    auto [setup, design, engagement, state] = flown(algorithm, 0.3);
     Measurement m = next_after(engagement, lost);
     State other = state;
     step(state, m, design);
@@ -99,13 +109,28 @@ TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   }
 }
 
+// Nobody knows what antenna or missile did in a gap that ends with a sample which does not tell it: the
+// angle's variance grows by that of the whole step, as of a gap that is too long.
+TEST(Gaps, BeforeAnUnknownMotionAreNotBridged) {
+  auto [setup, design, engagement, state] = flown(Algorithm::combined, 2.4);
+  const Measurement whole = next_after(engagement, 4);
+  Measurement no_antenna = whole, no_acceleration = whole;
+  no_antenna.antenna_valid = false;
+  no_acceleration.acceleration_valid = false;
+  const double turn = setup.settings.antenna_rate_sigma * whole.dt;
+  for (const Measurement& m : {no_antenna, no_acceleration}) {
+    State next = state;
+    const UpdateResult result = step(next, m, design);
+    EXPECT_EQ(result.outcome, Outcome::coasting);
+    EXPECT_GE(result.sigma.pitch.error, turn);
+    EXPECT_LE(result.sigma.pitch.error, 1.1 * turn);
+  }
+  State next = state;
+  EXPECT_LT(step(next, whole, design).sigma.pitch.error, turn / 2);
+}
+
 TEST(Gaps, LongerThanTheLimitOrAfterAnUnknownAntennaAreCoasted) {
-  EngagementSetup setup = setup_of(Algorithm::combined);
-  const Design design = make_design(setup.settings);
-  Engagement engagement(setup);
-  State state = initial();
-  while (engagement.truth().range == 0 || engagement.truth().time_to_go > 2.4)
-    step(state, engagement.next(), design);
+  auto [setup, design, engagement, state] = flown(Algorithm::combined, 2.4);
   EXPECT_EQ(step(state, next_after(engagement, 9), design).outcome, Outcome::updated);
   EXPECT_EQ(step(state, next_after(engagement, 11), design).outcome, Outcome::coasting);
   EXPECT_EQ(step(state, engagement.next(), design).outcome, Outcome::start_up);

@@ -1,0 +1,85 @@
+#include "bench/checks/kinds/answering.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/checks/silence.hpp"
+
+namespace canhil::checks {
+namespace {
+
+std::string at(std::int64_t t_us) { return fmt::format("{:g} s", static_cast<double>(t_us) * 1e-6); }
+
+// The first value or sigma that is no number; empty: there is none.
+std::string no_number(const Evidence& evidence, const std::vector<Subject>& subjects) {
+  for (const Subject& subject : subjects) {
+    for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
+      for (const quantities::Told& told : track->told) {
+        if (!std::isfinite(told.value) || !std::isfinite(told.sigma.value_or(0)))
+          return fmt::format("{} at {} is no number", subject.words, at(told.t_us));
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<scenario::Window> without(const scenario::Window& whole, std::vector<scenario::Window> others) {
+  std::ranges::sort(others, {}, &scenario::Window::from_us);
+  std::vector<scenario::Window> left;
+  std::int64_t from_us = whole.from_us;
+  for (const scenario::Window& other : others) {
+    if (other.from_us > from_us)
+      left.push_back({.from_us = from_us, .to_us = std::min(other.from_us, whole.to_us)});
+    from_us = std::max(from_us, other.to_us);
+  }
+  if (from_us < whole.to_us) left.push_back({.from_us = from_us, .to_us = whole.to_us});
+  std::erase_if(left, [](const scenario::Window& one) { return one.from_us >= one.to_us; });
+  return left;
+}
+
+Answering Answering::read(scenario::Section& /*section*/, const scenario::CheckContext& context) {
+  Answering rule;
+  for (const estimators::Estimator* one : running(context)) {
+    const std::vector<Subject> told = told_always(*one);
+    rule.of.insert(rule.of.end(), told.begin(), told.end());
+  }
+  // A sample that was measured before a fault may be sent in it.
+  for (const scenario::FaultWindow& fault : context.faults)
+    rule.excused.push_back(
+        {.from_us = fault.window.from_us - context.latency_us, .to_us = fault.window.to_us});
+  return rule;
+}
+
+Finding Answering::judge(const Evidence& evidence) const {
+  const std::string expected = "answers and heartbeats without a gap, all numbers, whole frames";
+  const auto failed = [&](std::string why) { return Finding{Outcome::fail, std::move(why), expected}; };
+  const Observations& seen = evidence.seen;
+  if (seen.target_bad_crc > 0)
+    return failed(fmt::format("{} frames of the target with a wrong CRC or size", seen.target_bad_crc));
+  if (auto wrong = no_number(evidence, of); !wrong.empty()) return failed(std::move(wrong));
+  std::size_t told = 0;
+  for (const Subject& subject : of) {
+    for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity))
+      told += track->told.size();
+  }
+  if (told == 0) return failed("no answers");
+  const scenario::Window whole{.from_us = 0, .to_us = evidence.truth.duration_us};
+  for (const scenario::Window& stretch : without(whole, excused)) {
+    if (auto gap = silence_of(evidence, of, stretch); !gap.empty()) return failed(std::move(gap));
+  }
+  const double longest = longest_wait_us(static_cast<double>(messages::TargetHeartbeat::info.cycle_time_us));
+  for (const scenario::Window& silence : seen.complaints.silences()) {
+    for (const scenario::Window& owed : without(silence, excused)) {
+      if (static_cast<double>(owed.to_us - owed.from_us) > longest)
+        return failed("no heartbeat " + seconds(owed));
+    }
+  }
+  return {Outcome::pass, fmt::format("{} values", told), expected};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,23 @@
+// Whatever befalls its inputs, a target goes on: answers and heartbeats come, with numbers, in whole frames.
+#pragma once
+
+#include "bench/checks/kinds/of_faults.hpp"
+
+namespace canhil::checks {
+
+struct Answering {
+  static constexpr std::string_view kind = "answering";
+  std::vector<Subject> of;  ///< what is told with every answer
+  /// In these answers may be missing: faults of the scenario, which may leave nothing to be answered.
+  std::vector<scenario::Window> excused;
+
+  static Answering read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::vector<Subject> subjects() const { return of; }
+  [[nodiscard]] std::vector<std::string> held_against_truth() const { return {}; }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+/// What is left of a window without others, in order.
+std::vector<scenario::Window> without(const scenario::Window& whole, std::vector<scenario::Window> others);
+
+}  // namespace canhil::checks

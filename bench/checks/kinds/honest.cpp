@@ -1,0 +1,68 @@
+#include "bench/checks/kinds/honest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/checks/evidence.hpp"
+#include "bench/quantities/list.hpp"
+#include "bench/quantities/samples.hpp"
+#include "bench/scenario/section.hpp"
+
+namespace canhil::checks {
+
+Honest Honest::read(scenario::Section& section, const scenario::CheckContext& context) {
+  Honest rule;
+  rule.estimators = running(context);
+  std::erase_if(rule.estimators, [](const estimators::Estimator* one) {
+    return !quantities::tells(one->layout, quantities::trusted_over_sigma);
+  });
+  std::vector<std::string> names;
+  for (const estimators::Estimator* one : rule.estimators) names.emplace_back(one->name);
+  if (names.empty())
+    section.reject("kind", fmt::format("'{}' is of estimators that tell trusted.over_sigma", kind),
+                   "another kind");
+  section.optional("estimator");
+  if (section.has("estimator")) {
+    rule.named = section.one_of("estimator", names);
+    std::erase_if(rule.estimators, [&](const estimators::Estimator* one) { return one->name != rule.named; });
+  }
+  rule.over_sigma = section.plain_number("over_sigma", scenario::Limits::above(0), rule.over_sigma);
+  return rule;
+}
+
+std::vector<std::string> Honest::held_against_truth() const {
+  std::vector<std::string> names;
+  for (const estimators::Estimator* one : estimators) names.emplace_back(one->name);
+  return names;
+}
+
+Finding Honest::judge(const Evidence& evidence) const {
+  const std::string expected =
+      fmt::format("no error beyond {:g} sigma where the answer is not degraded", over_sigma);
+  double worst = 0;
+  std::int64_t at_us = 0;
+  bool to_go = false;
+  std::size_t judged = 0;
+  for (const estimators::Estimator* one : estimators) {
+    const quantities::Samples samples = one->samples(evidence.seen, evidence.truth);
+    if (samples.empty())
+      return {Outcome::fail, fmt::format("{}: no answers to be judged", one->name), expected};
+    judged += samples.size();
+    for (std::size_t place = 0; place < samples.size(); ++place) {
+      const double ratio = samples.value(place, quantities::trusted_over_sigma);
+      if (!(ratio > worst)) continue;
+      worst = ratio;
+      at_us = samples.times()[place];
+      to_go = one->layout.to_go_stretch_us > 0;
+    }
+  }
+  const double at_s = static_cast<double>(at_us) * 1e-6;
+  return {pass_if(worst <= over_sigma),
+          fmt::format("{:.2f} sigma at {:g} s{} of {}", worst, to_go ? -at_s : at_s, to_go ? " to go" : "",
+                      judged),
+          expected};
+}
+
+}  // namespace canhil::checks

@@ -1,0 +1,22 @@
+// The sigma that a target tells grows while it has nothing to go by: through a fault, or a window.
+#pragma once
+
+#include "bench/checks/kinds/of_faults.hpp"
+
+namespace canhil::checks {
+
+struct SigmaGrows {
+  static constexpr std::string_view kind = "sigma_grows";
+  Subject of;
+  std::string fault;  ///< empty: the check gives the window
+  scenario::Window window;
+  double by = 1;  ///< more than so many times
+
+  static SigmaGrows read(scenario::Section& section, const scenario::CheckContext& context);
+  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::vector<std::string> held_against_truth() const { return {}; }
+  [[nodiscard]] Finding judge(const Evidence& evidence) const;
+};
+
+}  // namespace canhil::checks

@@ -1,0 +1,44 @@
+// What faults may touch beside frames: the target's process, the interface.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "bench/drive/target_process.hpp"
+#include "bench/faults/injector.hpp"
+#include "bench/faults/place.hpp"
+
+namespace canhil::drive {
+
+/// What the kernel knows of the interface of this name, and whether the bench may set it up and down.
+struct InterfaceFacts {
+  faults::Place::Interface kind = faults::Place::Interface::none;
+  bool may_set = false;
+};
+InterfaceFacts interface_facts(const std::string& bus);
+
+class RunHands final : public faults::Hands {
+ public:
+  /// `target`: none while it is not started; must outlive it. `restart`: does it.
+  RunHands(std::string bus, std::optional<TargetProcess>& target,
+           std::function<void(std::int64_t t_us)> restart);
+  ~RunHands() override;
+
+  void pause_target() override;
+  void resume_target() override;
+  void restart_target(std::int64_t t_us) override { restart_(t_us); }
+  void report_error(const Frame& error) override;
+  void interface_down(std::int64_t for_us) override;
+  void interface_up() override;
+
+ private:
+  std::string bus_;
+  std::optional<TargetProcess>& target_;
+  std::function<void(std::int64_t)> restart_;
+  std::thread up_;   // sets the interface up again
+  int errors_ = -1;  // a socket on the interface, opened when it is wanted
+};
+
+}  // namespace canhil::drive

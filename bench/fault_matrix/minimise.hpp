@@ -1,0 +1,25 @@
+// A violation, made as small as it still shows.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/fault_matrix/plan.hpp"
+
+namespace canhil::fault_matrix {
+
+/// Whether a flight with these faults, of this length (0: the file's), violates the check.
+using Shows = std::function<bool(const std::vector<FaultText>& faults, std::int64_t duration_us)>;
+
+struct Minimised {
+  std::vector<FaultText> faults{};
+  std::int64_t duration_us = 0;  ///< 0: as the file says
+};
+
+/// The fewest faults, then the shortest flight, then of each fault the shortest window and the fewest frames.
+/// `flown_us`: how far the flight went that showed it.
+Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, const Shows& shows);
+
+}  // namespace canhil::fault_matrix

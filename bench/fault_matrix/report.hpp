@@ -1,0 +1,22 @@
+// A matrix of faults for people and programs. What is shown follows from the results alone.
+#pragma once
+
+#include <string>
+
+#include "bench/checks/verdict.hpp"
+#include "bench/fault_matrix/results.hpp"
+
+namespace canhil::fault_matrix {
+
+/// Fail if anything is violated; not measured if cells are missing, or could not be judged.
+checks::Outcome outcome_of(const Results& results);
+
+/// The matrix, and below it what ended a flight and what was violated, with the command that flies it again;
+/// `folder`: where the scenarios of violations lie.
+std::string text(const Results& results, const std::string& folder);
+/// The matrix as a table of Markdown.
+std::string markdown(const Results& results);
+std::string json(const Results& results);
+std::string html(const Results& results, const std::string& folder);
+
+}  // namespace canhil::fault_matrix

@@ -1,0 +1,142 @@
+#include "bench/fault_matrix/response.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/drive/flight.hpp"
+#include "bench/estimators/registry.hpp"
+
+namespace canhil::fault_matrix {
+namespace {
+
+using checks::CheckResult;
+using checks::Outcome;
+using checks::Sign;
+using drive::Ending;
+
+constexpr std::array<std::string_view, 5> names{"tolerated", "detected", "ended", "violated", "not measured"};
+
+double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
+
+// Up to where the flight went, judged as one that was to go no further: a target that gave up is to have kept
+// to the checks until then.
+checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const drive::Run& run) {
+  if (run.ending.kind == Ending::Kind::completed) return run.verdict;
+  return checks::judge(scenario, {.seen = run.seen,
+                                  .truth = drive::truth_of(run.truth, run.own_truth, run.ending.t_us),
+                                  .estimators = estimators::in(scenario),
+                                  .timing_unfit = run.timing_unfit});
+}
+
+// What the flight without faults has at the same times, too, is taken away.
+std::vector<Sign> signs_beyond(std::vector<Sign> signs, const std::vector<Sign>& before) {
+  for (Sign& sign : signs) {
+    const auto same = std::ranges::find_if(
+        before, [&](const Sign& other) { return other.name == sign.name && other.by == sign.by; });
+    if (same == before.end()) continue;
+    std::erase_if(sign.t_us, [&](std::int64_t t_us) { return std::ranges::binary_search(same->t_us, t_us); });
+  }
+  return signs;
+}
+
+std::int64_t latency_us(const scenario::Scenario& scenario) {
+  std::int64_t longest = 0;
+  for (const scenario::NodeSettings& node : scenario.nodes) longest = std::max(longest, node.latency_us());
+  return longest;
+}
+
+// The errors of the heartbeat that ended it, without the words around them.
+std::string reason_of(const std::string& detail) {
+  constexpr std::string_view before = "its errors: ";
+  const std::size_t at = detail.find(before);
+  return at == std::string::npos ? detail : detail.substr(at + before.size());
+}
+
+Response violated(std::string_view check, std::string why) {
+  return {.kind = Response::Kind::violated, .why = std::move(why), .check = std::string(check)};
+}
+
+}  // namespace
+
+std::string_view name(Response::Kind kind) { return names[static_cast<std::size_t>(kind)]; }
+
+std::optional<Response::Kind> kind_named(std::string_view name) {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Response::Kind>(found - names.begin());
+}
+
+std::string words(const Response& response) {
+  switch (response.kind) {
+    case Response::Kind::tolerated:
+      return "tolerated";
+    case Response::Kind::detected: {
+      std::string text =
+          fmt::format("detected in {:.3f} s ({})", response.detected_s.value_or(0), response.by);
+      return text + (response.recovered_s ? fmt::format(", recovered in {:.3f} s", *response.recovered_s)
+                                          : std::string(", not recovered"));
+    }
+    case Response::Kind::ended:
+      return fmt::format("ended in {:.3f} s: {}", response.detected_s.value_or(0), response.why);
+    case Response::Kind::violated:
+      return fmt::format("violated {}: {}", response.check, response.why);
+    case Response::Kind::not_measured:
+      return fmt::format("not measured: {}", response.why);
+  }
+  return {};
+}
+
+Undisturbed undisturbed(const scenario::Scenario& scenario, const drive::Run& run) {
+  Undisturbed found{.signs = checks::signs_in(run.seen, estimators::in(scenario))};
+  for (const CheckResult& check : run.verdict.checks) {
+    if (check.outcome != Outcome::pass) found.failed.push_back(check.kind);
+  }
+  return found;
+}
+
+Response response_of(const scenario::Scenario& scenario, const drive::Run& run, const Undisturbed* before) {
+  const bool ended = run.ending.kind == Ending::Kind::target_fault;
+  if (run.ending.kind != Ending::Kind::completed && !ended) return violated(flight_itself, run.ending.detail);
+  std::string unjudged;
+  for (const CheckResult& check : verdict_to_its_end(scenario, run).checks) {
+    if (before != nullptr && std::ranges::find(before->failed, check.kind) != before->failed.end()) continue;
+    if (check.outcome == Outcome::fail) return violated(check.kind, check.measured);
+    if (check.outcome == Outcome::not_measured && unjudged.empty())
+      unjudged = fmt::format("{}: {}", check.kind, check.measured);
+  }
+  if (!unjudged.empty()) return {.kind = Response::Kind::not_measured, .why = unjudged};
+  if (scenario.faults.empty()) {
+    if (ended) return violated(flight_itself, run.ending.detail);
+    return {};
+  }
+  std::int64_t onset_us = std::numeric_limits<std::int64_t>::max(), end_us = 0;
+  for (const scenario::Fault& fault : scenario.faults) {
+    onset_us = std::min(onset_us, fault.from_us);
+    end_us = std::max(end_us, std::min(fault.to_us, scenario.duration_us));
+  }
+  if (ended)
+    return {.kind = Response::Kind::ended,
+            .detected_s = seconds(std::max<std::int64_t>(run.ending.t_us - onset_us, 0)),
+            .why = reason_of(run.ending.detail)};
+  const std::int64_t valid_from_us = std::max<std::int64_t>(onset_us - latency_us(scenario), 0);
+  const std::vector<Sign> signs =
+      checks::new_since(signs_beyond(checks::signs_in(run.seen, estimators::in(scenario)),
+                                     before == nullptr ? std::vector<Sign>() : before->signs),
+                        valid_from_us);
+  const auto first = checks::first_in(signs, valid_from_us, scenario.duration_us);
+  if (!first) return {};
+  Response response{.kind = Response::Kind::detected,
+                    .detected_s = seconds(std::max<std::int64_t>(first->t_us - onset_us, 0)),
+                    .by = first->words};
+  const auto last = checks::last_after(signs, end_us);
+  constexpr std::int64_t quiet_us = 1'000'000;  // without a sign: it is over
+  if (!last)
+    response.recovered_s = 0;
+  else if (last->t_us + quiet_us <= scenario.duration_us)
+    response.recovered_s = seconds(last->t_us - end_us);
+  return response;
+}
+
+}  // namespace canhil::fault_matrix

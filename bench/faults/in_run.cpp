@@ -1,0 +1,74 @@
+#include "bench/faults/in_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace canhil::faults {
+
+Result<void> check(std::span<const scenario::Fault> faults, const Place& place) {
+  for (const scenario::Fault& fault : faults) {
+    if (const std::string why = fault.rule->cannot(place); !why.empty())
+      return failure(fmt::format("{}: '{}' {}", fault.where, fault.kind, why));
+  }
+  return {};
+}
+
+Faults::Faults(const scenario::Scenario& scenario, std::uint64_t run_index,
+               std::span<const MessageInfo> messages, Place place, Hands* hands)
+    : scenario_(scenario),
+      run_index_(run_index),
+      messages_(messages),
+      place_(std::move(place)),
+      hands_(hands),
+      tallies_(scenario.faults.size()) {
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    if (!scenario.faults[i].rule->cannot(place_).empty()) continue;  // check() has told
+    if (auto injector = scenario.faults[i].rule->injector(in_run(i)))
+      injectors_.push_back(std::move(injector));
+  }
+}
+
+InRun Faults::in_run(std::size_t place) {
+  return {.fault = scenario_.faults[place],
+          .seed = scenario_.seed,
+          .run_index = run_index_,
+          .end_us = scenario_.duration_us,
+          .messages = messages_,
+          .place = place_,
+          .hands = hands_,
+          .tally = tallies_[place]};
+}
+
+std::unique_ptr<nodes::Node> Faults::befallen(std::unique_ptr<nodes::Node> node,
+                                              const scenario::NodeSettings& settings) {
+  for (std::size_t i = 0; i < tallies_.size(); ++i)
+    node = scenario_.faults[i].rule->befallen(std::move(node), settings, in_run(i));
+  return node;
+}
+
+std::vector<Told> Faults::told() const {
+  std::vector<Told> all;
+  for (std::size_t i = 0; i < tallies_.size(); ++i) {
+    const scenario::Fault& fault = scenario_.faults[i];
+    all.push_back({.name = fault.name,
+                   .kind = fault.kind,
+                   .stage = fault.rule->stage(),
+                   .from_us = fault.from_us,
+                   .to_us = std::min(fault.to_us, scenario_.duration_us),
+                   .count = tallies_[i].count});
+  }
+  return all;
+}
+
+Tally Faults::tally() const {
+  Tally sum;
+  for (const Tally& one : tallies_) {
+    sum.count += one.count;
+    sum.changed += one.changed;
+    sum.changed_times += one.changed_times;
+  }
+  return sum;
+}
+
+}  // namespace canhil::faults

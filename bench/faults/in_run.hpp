@@ -1,0 +1,55 @@
+// The faults of a scenario in one run of it.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/faults/rule.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::faults {
+
+/// What a report tells of a fault.
+struct Told {
+  std::string name, kind;
+  Stage stage = Stage::bus;
+  std::int64_t from_us = 0, to_us = 0;
+  std::uint64_t count = 0;  ///< see Tally
+};
+
+/// Error: one line; a fault does not work in such a run.
+Result<void> check(std::span<const scenario::Fault> faults, const Place& place);
+
+class Faults final : public nodes::Befalling {
+ public:
+  /// `scenario`, `messages` (of the bus) and `hands` must outlive it.
+  Faults(const scenario::Scenario& scenario, std::uint64_t run_index, std::span<const MessageInfo> messages,
+         Place place = {}, Hands* hands = nullptr);
+
+  std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+                                        const scenario::NodeSettings& settings) override;
+  /// Those between nodes and bus, in the order of the scenario.
+  [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }
+
+  [[nodiscard]] std::vector<Told> told() const;
+  /// Of all of them.
+  [[nodiscard]] Tally tally() const;
+
+ private:
+  [[nodiscard]] InRun in_run(std::size_t place);
+
+  const scenario::Scenario& scenario_;
+  std::uint64_t run_index_;
+  std::span<const MessageInfo> messages_;
+  Place place_;
+  Hands* hands_;
+  std::vector<Tally> tallies_;  // of each fault
+  std::vector<std::unique_ptr<Injector>> injectors_;
+};
+
+}  // namespace canhil::faults

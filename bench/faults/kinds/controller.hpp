@@ -1,0 +1,49 @@
+// What the driver of a CAN controller reports, and the interface itself.
+#pragma once
+
+#include "bench/faults/rule.hpp"
+
+namespace canhil::faults {
+
+/// An error frame of the bus every so often: a protocol error that the controller saw.
+struct ErrorFrames {
+  static constexpr std::string_view kind = "error_frame";
+  static constexpr Stage stage = Stage::bus;
+  When when{};
+  std::int64_t period_us = 0;
+  static ErrorFrames read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// The controller is error passive, then error active again.
+struct ErrorPassive {
+  static constexpr std::string_view kind = "error_passive";
+  static constexpr Stage stage = Stage::bus;
+  When when{};
+  static ErrorPassive read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// The controller is off the bus, then restarted.
+struct BusOff {
+  static constexpr std::string_view kind = "bus_off";
+  static constexpr Stage stage = Stage::bus;
+  When when{};
+  static BusOff read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// The interface is set down, then up.
+struct InterfaceDown {
+  static constexpr std::string_view kind = "interface_down";
+  static constexpr Stage stage = Stage::bus;
+  When when{};
+  static InterfaceDown read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+}  // namespace canhil::faults

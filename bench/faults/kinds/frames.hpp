@@ -1,0 +1,70 @@
+// Frames on their way to the bus that get lost, doubled, or another form.
+#pragma once
+
+#include "bench/faults/of_frames.hpp"
+#include "bench/faults/rule.hpp"
+
+namespace canhil::faults {
+
+/// What all kinds of frames have in common.
+struct Frames {
+  static constexpr Stage stage = Stage::bus;
+  OfMessages of{};
+  When when{};
+  [[nodiscard]] std::string subject() const { return of.words; }
+};
+
+/// A kind that changes each frame by itself: `Kind::change`.
+template <class Kind>
+struct EachFrame : Frames {
+  static Kind read(scenario::Section& section, const scenario::FaultContext& context) {
+    Kind kind;
+    kind.of = read_messages(section, context);
+    kind.when = read_when(section, context, Repeats::each);
+    return kind;
+  }
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const {
+    return change_frames(of, when, run, &Kind::change);
+  }
+};
+
+/// Not sent.
+struct Lost : EachFrame<Lost> {
+  static constexpr std::string_view kind = "lost";
+  static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
+};
+
+/// Sent twice.
+struct Repetition : EachFrame<Repetition> {
+  static constexpr std::string_view kind = "repeated";
+  static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
+};
+
+/// Without its last byte.
+struct TooShort : EachFrame<TooShort> {
+  static constexpr std::string_view kind = "too_short";
+  static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
+};
+
+/// With more bytes than the message has, zeros.
+struct TooLong : EachFrame<TooLong> {
+  static constexpr std::string_view kind = "too_long";
+  static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+};
+
+/// As an extended frame, with 29 bits of id.
+struct ForeignFormat : EachFrame<ForeignFormat> {
+  static constexpr std::string_view kind = "foreign";
+  static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
+};
+
+/// Bits of the payload are others, the CRC is as it was.
+struct Damaged : Frames {
+  static constexpr std::string_view kind = "damaged";
+  std::optional<std::int64_t> bits{};  ///< so many at random; none: one of the first signal of a measurement
+  static Damaged read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+}  // namespace canhil::faults

@@ -1,0 +1,88 @@
+// A node that does not work as it should: its numbers are right, but when it sends, what it counts or which
+// time it tells is not.
+#pragma once
+
+#include "bench/faults/read.hpp"
+#include "bench/faults/rule.hpp"
+
+namespace canhil::faults {
+
+/// What all kinds of nodes have in common: `Kind::wrap` makes of the node the befallen one.
+template <class Kind>
+struct OfNode {
+  static constexpr Stage stage = Stage::node;
+  const scenario::NodeTable* table = nullptr;
+  When when{};
+  [[nodiscard]] std::string subject() const { return table == nullptr ? "" : std::string(table->key); }
+  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+                                                      const scenario::NodeSettings& settings,
+                                                      const InRun& run) const {
+    if (&settings.table() != table) return node;
+    return static_cast<const Kind&>(*this).wrap(std::move(node), settings, run);
+  }
+};
+
+/// Sends nothing, and counts nothing.
+struct Silent : OfNode<Silent> {
+  static constexpr std::string_view kind = "silent";
+  static Silent read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
+                                                  const scenario::NodeSettings& settings,
+                                                  const InRun& run) const;
+};
+
+/// Silent for a time; then its counters begin at 0, and what it measured meanwhile is gone.
+struct NodeRestart : OfNode<NodeRestart> {
+  static constexpr std::string_view kind = "restart";
+  static NodeRestart read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
+                                                  const scenario::NodeSettings& settings,
+                                                  const InRun& run) const;
+};
+
+/// Its samples leave later; their time of validity is right.
+struct Late : OfNode<Late> {
+  static constexpr std::string_view kind = "late";
+  static constexpr Stage stage = Stage::sensor;
+  std::int64_t by_us = 0;
+  static Late read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
+                                                  const scenario::NodeSettings& settings,
+                                                  const InRun& run) const;
+};
+
+/// It sends less often than it should: each time the newest sample, with the increments of those between.
+struct Slow : OfNode<Slow> {
+  static constexpr std::string_view kind = "slow";
+  double longer = 0;  ///< its period, as a share of the right one
+  static Slow read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
+                                                  const scenario::NodeSettings& settings,
+                                                  const InRun& run) const;
+};
+
+/// The time that it tells is off.
+struct ClockStep : OfNode<ClockStep> {
+  static constexpr std::string_view kind = "clock_step";
+  std::int64_t by_us = 0;
+  static ClockStep read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
+                                                  const scenario::NodeSettings& settings,
+                                                  const InRun& run) const;
+};
+
+/// Its clock goes too fast, and so do the intervals that it tells.
+struct ClockDrift : OfNode<ClockDrift> {
+  static constexpr std::string_view kind = "clock_drift";
+  double rate = 0;
+  static ClockDrift read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
+                                                  const scenario::NodeSettings& settings,
+                                                  const InRun& run) const;
+};
+
+}  // namespace canhil::faults

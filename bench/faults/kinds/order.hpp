@@ -1,0 +1,23 @@
+// Frames that come to the bus at another time than they were sent.
+#pragma once
+
+#include "bench/faults/kinds/frames.hpp"
+
+namespace canhil::faults {
+
+/// Later by a time; frames that are not befallen overtake it.
+struct Delayed : Frames {
+  static constexpr std::string_view kind = "delayed";
+  std::int64_t by_us = 0;
+  static Delayed read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// After the next frame of its message.
+struct Reordered : Frames {
+  static constexpr std::string_view kind = "reordered";
+  static Reordered read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+}  // namespace canhil::faults

@@ -1,0 +1,33 @@
+// Frames that no node of the scenario sends.
+#pragma once
+
+#include <optional>
+
+#include "bench/faults/rule.hpp"
+
+namespace canhil::faults {
+
+/// Of an id that nobody has on this bus, with a random payload.
+struct Stranger {
+  static constexpr std::string_view kind = "stranger";
+  static constexpr Stage stage = Stage::bus;
+  When when{};
+  std::int64_t period_us = 0;
+  std::uint32_t id = 0;
+  static Stranger read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// Of the highest priority: they go before all others.
+struct Flood {
+  static constexpr std::string_view kind = "flood";
+  static constexpr Stage stage = Stage::bus;
+  When when{};
+  std::optional<std::int64_t> period_us{};
+  double load = 0;  ///< where there is no period: of the bus's bit rate
+  static Flood read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+}  // namespace canhil::faults

@@ -1,0 +1,30 @@
+// Frames whose values are right and whose protection is not.
+#pragma once
+
+#include "bench/faults/kinds/frames.hpp"
+
+namespace canhil::faults {
+
+/// Another CRC than the frame's.
+struct WrongCrc : Frames {
+  static constexpr std::string_view kind = "wrong_crc";
+  static WrongCrc read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// The counter stays at that of the first befallen frame; the CRC is right.
+struct CounterStuck : Frames {
+  static constexpr std::string_view kind = "counter_stuck";
+  static CounterStuck read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// The counter is ahead; the CRC is right.
+struct CounterJump : Frames {
+  static constexpr std::string_view kind = "counter_jump";
+  std::int64_t by = 1;
+  static CounterJump read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+}  // namespace canhil::faults

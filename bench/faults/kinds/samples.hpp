@@ -1,0 +1,37 @@
+// Samples of a sensor that say something else than it measures, though each number for itself is right.
+#pragma once
+
+#include "bench/faults/read.hpp"
+#include "bench/faults/rule.hpp"
+
+namespace canhil::faults {
+
+/// Two numbers of a sample have each other's value.
+struct Swapped {
+  static constexpr std::string_view kind = "swapped";
+  static constexpr Stage stage = Stage::sensor;
+  OfValues one{};
+  Measured other{};
+  When when{};
+  static Swapped read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string subject() const { return one.words; }
+  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+                                                      const scenario::NodeSettings& settings,
+                                                      const InRun& run) const;
+};
+
+/// The sensor does not vouch for it.
+struct Invalid {
+  static constexpr std::string_view kind = "invalid";
+  static constexpr Stage stage = Stage::sensor;
+  std::vector<Measured> flags{};
+  std::string words{};
+  When when{};
+  static Invalid read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string subject() const { return words; }
+  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+                                                      const scenario::NodeSettings& settings,
+                                                      const InRun& run) const;
+};
+
+}  // namespace canhil::faults

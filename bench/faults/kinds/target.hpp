@@ -1,0 +1,40 @@
+// What is done to the process of a target that the bench has started.
+#pragma once
+
+#include "bench/faults/rule.hpp"
+
+namespace canhil::faults {
+
+/// It stands still, by SIGSTOP, and goes on.
+struct Paused {
+  static constexpr std::string_view kind = "paused";
+  static constexpr Stage stage = Stage::target;
+  When when{};
+  static Paused read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// It has a share of the time: in each period it stands still for the rest.
+struct Slowed {
+  static constexpr std::string_view kind = "slowed";
+  static constexpr Stage stage = Stage::target;
+  When when{};
+  double share = 1;
+  std::int64_t period_us = 0;
+  static Slowed read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+/// It is killed, started again, and told the state of that time. Meanwhile the bench sends nothing else.
+struct Restarted {
+  static constexpr std::string_view kind = "restarted";
+  static constexpr Stage stage = Stage::target;
+  When when{};
+  static Restarted read(scenario::Section& section, const scenario::FaultContext& context);
+  [[nodiscard]] std::string cannot(const Place& place) const;
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
+};
+
+}  // namespace canhil::faults

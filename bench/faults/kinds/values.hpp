@@ -1,0 +1,116 @@
+// Values that a sensor measures wrongly: the sample goes out in time, with its counter and CRC right. A
+// number is that of a quantity, in SI, or of a signal, in its unit.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "bench/faults/read.hpp"
+#include "bench/faults/rule.hpp"
+
+namespace canhil::faults {
+
+/// A number of a sample in a run.
+struct Sampled {
+  std::int64_t since_us = 0;    ///< from the start of the fault
+  std::optional<double>& held;  ///< for kinds that remember one: none at the start of each stretch
+  world::Stream& noise;
+};
+using Becomes = std::function<double(double value, const Sampled& sample)>;
+
+/// The node with these values changed; the node itself if it has none of them. `exactly`: without the
+/// remainders of increments.
+std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
+                                         const scenario::NodeSettings& settings, const InRun& run,
+                                         const OfValues& of, const When& when, Becomes becomes,
+                                         bool exactly = false);
+
+/// What all these kinds have in common: `Kind::becomes` says what a number is.
+template <class Kind>
+struct EachValue {
+  static constexpr Stage stage = Stage::sensor;
+  static constexpr bool exactly = false;
+  OfValues of{};
+  When when{};
+  double size = 0;
+  static Kind read(scenario::Section& section, const scenario::FaultContext& context) {
+    Kind kind;
+    kind.of = read_values(section, context);
+    kind.when = read_when(section, context, Repeats::each);
+    if constexpr (requires { Kind::stem; }) kind.size = read_size(section, Kind::stem, kind.of, Kind::limits);
+    if constexpr (requires { kind.check(section); }) kind.check(section);
+    return kind;
+  }
+  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+                                                      const scenario::NodeSettings& settings,
+                                                      const InRun& run) const {
+    return with_values(
+        std::move(node), settings, run, of, when,
+        [size = size](double value, const Sampled& sample) { return Kind::becomes(value, size, sample); },
+        Kind::exactly);
+  }
+};
+
+/// It is this.
+struct Changed : EachValue<Changed> {
+  static constexpr std::string_view kind = "changed", stem = "value";
+  static constexpr scenario::Limits limits{};
+  static constexpr bool exactly = true;
+  void check(scenario::Section& section) const;
+  static double becomes(double /*value*/, double size, const Sampled& /*sample*/) { return size; }
+};
+
+/// A step.
+struct Bias : EachValue<Bias> {
+  static constexpr std::string_view kind = "bias", stem = "by";
+  static constexpr scenario::Limits limits{};
+  static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
+};
+
+/// So much more each second.
+struct Drift : EachValue<Drift> {
+  static constexpr std::string_view kind = "drift", stem = "by";
+  static constexpr scenario::Limits limits{};
+  static double becomes(double value, double size, const Sampled& sample) {
+    return value + size * 1e-6 * static_cast<double>(sample.since_us);
+  }
+};
+
+/// Single samples that are off.
+struct Spike : EachValue<Spike> {
+  static constexpr std::string_view kind = "spike", stem = "by";
+  static constexpr scenario::Limits limits{};
+  void check(scenario::Section& section) const;
+  static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
+};
+
+/// It stays at what it was at the start.
+struct Stuck : EachValue<Stuck> {
+  static constexpr std::string_view kind = "stuck";
+  static double becomes(double value, double size, const Sampled& sample);
+};
+
+/// No larger than this, to either side.
+struct Saturated : EachValue<Saturated> {
+  static constexpr std::string_view kind = "saturated", stem = "at";
+  static constexpr scenario::Limits limits = {.least = 0};
+  static double becomes(double value, double size, const Sampled& sample);
+};
+
+/// White noise beside its own, 1-sigma a sample.
+struct Noise : EachValue<Noise> {
+  static constexpr std::string_view kind = "noise", stem = "sigma";
+  static constexpr scenario::Limits limits = {.least = 0};
+  static double becomes(double value, double size, const Sampled& sample) {
+    return value + size * sample.noise.normal();
+  }
+};
+
+/// It has the wrong sign.
+struct Reversed : EachValue<Reversed> {
+  static constexpr std::string_view kind = "reversed";
+  static double becomes(double value, double /*size*/, const Sampled& /*sample*/) { return -value; }
+};
+
+}  // namespace canhil::faults

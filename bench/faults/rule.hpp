@@ -1,0 +1,98 @@
+// A rule of a scenario: what a kind of fault is put together from.
+//
+// A kind is a struct with a constant `kind`, a constant `stage`, its fields, among them `When when`, and
+//   static Kind read(scenario::Section&, const scenario::FaultContext&)
+//   std::string subject() const                  what it befalls: what tells one fault of the kind from
+//   another
+// of a sensor or a node
+//   std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&, const
+//   InRun&) const                                the node itself where it is another's fault
+// of the bus or the target
+//   std::unique_ptr<Injector> injector(const InRun&) const
+// and, where it does not work everywhere,
+//   std::string cannot(const Place&) const       why not, after "KIND "; empty: it works
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "bench/faults/injector.hpp"
+#include "bench/faults/place.hpp"
+#include "bench/faults/when.hpp"
+#include "bench/nodes/kind.hpp"
+#include "bench/scenario/faults.hpp"
+
+namespace canhil::faults {
+
+/// Where on the way of the data it strikes.
+enum class Stage : std::uint8_t { sensor, node, bus, target };
+constexpr std::string_view name(Stage stage) {
+  constexpr std::array<std::string_view, 4> names{"sensor", "node", "bus", "target"};
+  return names[static_cast<std::size_t>(stage)];
+}
+
+class Rule {
+ public:
+  Rule() = default;
+  Rule(const Rule&) = delete;
+  Rule& operator=(const Rule&) = delete;
+  virtual ~Rule() = default;
+
+  [[nodiscard]] virtual Stage stage() const = 0;
+  [[nodiscard]] virtual std::string cannot(const Place& place) const = 0;
+  /// Null: it strikes in the nodes.
+  [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
+  [[nodiscard]] virtual std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+                                                              const scenario::NodeSettings& settings,
+                                                              const InRun& run) const = 0;
+};
+
+template <class Kind>
+class RuleOf final : public Rule {
+ public:
+  explicit RuleOf(Kind kind) : kind_(std::move(kind)) {}
+  [[nodiscard]] Stage stage() const override { return Kind::stage; }
+  [[nodiscard]] std::string cannot(const Place& place) const override {
+    if constexpr (requires { kind_.cannot(place); }) return kind_.cannot(place);
+    return {};
+  }
+  [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const override {
+    if constexpr (requires { kind_.injector(run); }) return kind_.injector(run);
+    return nullptr;
+  }
+  [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
+                                                      const scenario::NodeSettings& settings,
+                                                      const InRun& run) const override {
+    if constexpr (requires { kind_.befallen(std::move(node), settings, run); })
+      return kind_.befallen(std::move(node), settings, run);
+    return node;
+  }
+
+ private:
+  Kind kind_;
+};
+
+template <class Kind>
+scenario::FaultRead read_rule(scenario::Section& section, const scenario::FaultContext& context) {
+  Kind rule = Kind::read(section, context);
+  const When when = rule.when;
+  std::string subject;
+  if constexpr (requires { rule.subject(); }) subject = rule.subject();
+  return {.rule = std::make_shared<RuleOf<Kind>>(std::move(rule)),
+          .from_us = when.from_us,
+          .to_us = when.to_us,
+          .subject = std::move(subject)};
+}
+
+/// The line of a registry.
+struct Listed {
+  scenario::FaultKind kind;
+  Stage stage;
+};
+template <class Kind>
+inline constexpr Listed listed{.kind = {.name = Kind::kind, .read = read_rule<Kind>}, .stage = Kind::stage};
+
+}  // namespace canhil::faults

@@ -1,0 +1,50 @@
+#include "bench/faults/when.hpp"
+
+#include "bench/scenario/section.hpp"
+
+namespace canhil::faults {
+namespace {
+
+using scenario::Limits;
+
+constexpr double longest_s = 86'400;
+
+void read_periods(scenario::Section& section, When& when) {
+  const auto for_us = section.optional_time_us("for_s", Limits::above(0));
+  const auto each_us = section.optional_time_us("each_s", Limits::above(0));
+  if (each_us && !for_us) section.reject("each_s", "is given alone", "for_s beside it");
+  if (!for_us) return;
+  if (each_us) {
+    if (*for_us > *each_us) section.reject("for_s", "is longer than each_s", "a shorter time");
+    when.for_us = *for_us;
+    when.each_us = *each_us;
+    return;
+  }
+  if (section.has("to_s")) section.reject("for_s", "is given beside to_s", "one of the two, or each_s too");
+  when.to_us = when.from_us + *for_us;
+}
+
+}  // namespace
+
+When read_when(scenario::Section& section, const scenario::FaultContext& /*context*/, Repeats repeats) {
+  When when;
+  when.from_us = section.time_us("from_s", Limits::between(0, longest_s), 0);
+  when.to_us = section.time_us("to_s", Limits::between(0, longest_s), longest_s);
+  if (when.to_us < when.from_us) section.reject("to_s", "is before from_s", "a later time");
+  read_periods(section, when);
+  if (repeats == Repeats::stretch) return when;
+  when.every = section.optional_integer("every", 1).value_or(1);
+  when.share = 0.01 * section.plain_number("percent", Limits::between(0, 100), 100);
+  return when;
+}
+
+When read_stretches(scenario::Section& section, const scenario::FaultContext& context) {
+  const When when = read_when(section, context, Repeats::stretch);
+  if (!section.has("for_s")) section.reject("for_s", "is missing", "how long it lasts");
+  const std::int64_t end_us = when.each_us == 0 ? when.to_us : when.from_us + when.for_us;
+  if (end_us >= context.duration_us)
+    section.reject("for_s", "lasts to the end of the run or longer", "an end before that of the run");
+  return when;
+}
+
+}  // namespace canhil::faults

@@ -1,0 +1,150 @@
+// Values in the order in which they came, in a memory that does not grow with them: what a run collects.
+//
+// The first two megabytes are in memory. What follows is in a file without a name, mapped: its pages come
+// when they are looked at, and those behind are let go, so a pass over a day holds no more of it than one
+// over a minute. Letting go is a hint to the kernel: a page that is still wanted comes again, and a reference
+// holds as long as it would into a vector.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <compare>
+#include <cstddef>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace canhil {
+
+/// A file in TMPDIR (/var/tmp where that is not set), mapped. It has no name, so nothing is left behind
+/// however the program ends. Where no file can be made, or the disk is full, it is memory as any other.
+class SpoolFile {
+ public:
+  /// Errors: std::bad_alloc.
+  SpoolFile();
+  ~SpoolFile();
+  SpoolFile(const SpoolFile&) = delete;
+  SpoolFile& operator=(const SpoolFile&) = delete;
+
+  [[nodiscard]] void* data() const { return data_; }
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  /// Makes it larger; what is in it stays, its place may change. Errors: std::bad_alloc.
+  void grow();
+  /// To be called before what is there is looked at: now and then all other pages are let go. Any thread may.
+  void touch(std::size_t offset) const {
+    const std::size_t block = offset / block_bytes;
+    if (block != last_block_.load(std::memory_order_relaxed)) enter(block);
+  }
+  [[nodiscard]] bool on_disk() const { return file_ >= 0; }
+
+ private:
+  static constexpr std::size_t block_bytes = 64 << 10;  // that a fault brings
+  static constexpr unsigned most_blocks = 32;           // that are entered before all are let go
+  static constexpr std::size_t step_bytes = 16 << 20;   // by which it grows
+
+  void enter(std::size_t block) const;
+  void into_memory(std::size_t bytes);
+
+  int file_ = -1;
+  void* data_ = nullptr;
+  std::size_t bytes_ = step_bytes;
+  mutable std::atomic<std::size_t> last_block_ = 0;
+  mutable std::atomic<unsigned> entered_ = 0;
+};
+
+/// As a vector that is only added to. Of types that may be moved as bytes: numbers, and structs and matrices
+/// of them.
+template <class T>
+class Spool {
+  static_assert(std::is_trivially_destructible_v<T>);
+
+ public:
+  using value_type = T;
+  static constexpr std::size_t most_in_memory = std::size_t{2 << 20} / sizeof(T);
+
+  class Iterator {
+   public:
+    using iterator_category = std::random_access_iterator_tag;
+    using value_type = T;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const T*;
+    using reference = const T&;
+
+    Iterator() = default;
+    Iterator(const Spool* of, std::ptrdiff_t place) : of_(of), place_(place) {}
+    reference operator*() const { return (*of_)[static_cast<std::size_t>(place_)]; }
+    pointer operator->() const { return &**this; }
+    reference operator[](std::ptrdiff_t n) const { return *(*this + n); }
+    Iterator& operator+=(std::ptrdiff_t n) { return place_ += n, *this; }
+    Iterator& operator-=(std::ptrdiff_t n) { return place_ -= n, *this; }
+    Iterator& operator++() { return *this += 1; }
+    Iterator& operator--() { return *this -= 1; }
+    Iterator operator++(int) { return std::exchange(*this, *this + 1); }
+    Iterator operator--(int) { return std::exchange(*this, *this - 1); }
+    friend Iterator operator+(Iterator a, std::ptrdiff_t n) { return a += n; }
+    friend Iterator operator+(std::ptrdiff_t n, Iterator a) { return a += n; }
+    friend Iterator operator-(Iterator a, std::ptrdiff_t n) { return a -= n; }
+    friend std::ptrdiff_t operator-(const Iterator& a, const Iterator& b) { return a.place_ - b.place_; }
+    friend bool operator==(const Iterator& a, const Iterator& b) { return a.place_ == b.place_; }
+    friend auto operator<=>(const Iterator& a, const Iterator& b) { return a.place_ <=> b.place_; }
+
+   private:
+    const Spool* of_ = nullptr;
+    std::ptrdiff_t place_ = 0;
+  };
+  using const_iterator = Iterator;
+
+  Spool() = default;
+  Spool(std::initializer_list<T> values) { add(values); }
+  explicit Spool(const std::vector<T>& values) { add(values); }
+  Spool(const Spool& other) { add(other); }
+  Spool(Spool&& other) noexcept { swap(other); }
+  Spool& operator=(Spool other) noexcept { return swap(other), *this; }
+  ~Spool() = default;
+
+  void push_back(const T& value) {
+    if (few_.size() < most_in_memory) return few_.push_back(value);
+    if (!file_) file_ = std::make_unique<SpoolFile>();
+    if ((filed_ + 1) * sizeof(T) > file_->bytes()) file_->grow();
+    std::construct_at(static_cast<T*>(file_->data()) + filed_, value);
+    file_->touch(filed_++ * sizeof(T));
+  }
+  /// Room for so many, as far as they are held in memory.
+  void reserve(std::size_t count) { few_.reserve(std::min(count, most_in_memory)); }
+
+  [[nodiscard]] std::size_t size() const { return few_.size() + filed_; }
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  const T& operator[](std::size_t place) const {
+    if (place < few_.size()) return few_[place];
+    file_->touch((place - few_.size()) * sizeof(T));
+    return static_cast<const T*>(file_->data())[place - few_.size()];
+  }
+  T& operator[](std::size_t place) { return const_cast<T&>(std::as_const(*this)[place]); }
+  [[nodiscard]] const T& front() const { return (*this)[0]; }
+  [[nodiscard]] const T& back() const { return (*this)[size() - 1]; }
+  T& back() { return (*this)[size() - 1]; }
+  [[nodiscard]] Iterator begin() const { return {this, 0}; }
+  [[nodiscard]] Iterator end() const { return {this, static_cast<std::ptrdiff_t>(size())}; }
+  [[nodiscard]] auto rbegin() const { return std::reverse_iterator(end()); }
+  [[nodiscard]] auto rend() const { return std::reverse_iterator(begin()); }
+
+ private:
+  void swap(Spool& other) noexcept {
+    few_.swap(other.few_);
+    file_.swap(other.file_);
+    std::swap(filed_, other.filed_);
+  }
+  template <class Values>
+  void add(const Values& values) {
+    for (const T& value : values) push_back(value);
+  }
+
+  std::vector<T> few_;               // the first of them
+  std::unique_ptr<SpoolFile> file_;  // those that follow
+  std::size_t filed_ = 0;
+};
+
+}  // namespace canhil

@@ -1,0 +1,217 @@
+// hil-bench faults: what the matrix says, the same bytes whatever kills and shards did, and a violation whose
+// least scenario shows it again.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <csignal>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "tests/processes/hil/program.hpp"
+
+namespace canhil::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::string file(const std::string& name, const std::string& text) {
+  std::string path = scratch(name);
+  std::ofstream(path) << text;
+  return path;
+}
+
+// Of a flight of 6 s with a seeker of 200 Hz: an outage, damage, and a group that nobody answers.
+std::string small_set() {
+  return file("small.toml", R"(
+[[fault]]
+name = "seeker away"
+kind = "lost"
+messages = ["SeekerAntenna", "SeekerAngles", "SeekerMotion", "SeekerRange"]
+from_s = 2
+to_s = 2.3
+[[fault]]
+name = "one in ten damaged"
+kind = "damaged"
+messages = ["SeekerAngles"]
+from_s = 2
+to_s = 3
+every = 10
+[[fault]]
+name = "master away"
+kind = "lost"
+messages = ["MasterInsVelocityNE"]
+from_s = 2
+to_s = 2.5
+)");
+}
+
+std::string flown(const std::string& arguments) {
+  const Ended ended = hil_bench("faults " + arguments);
+  EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+  EXPECT_EQ(ended.err, "") << "progress is for a terminal";
+  return ended.out;
+}
+
+std::string two() { return scenario("los_quick") + " " + scenario("transfer_alignment_quick"); }
+
+TEST(Faults, MatrixHasARowAFaultAndAColumnAScenario) {
+  const std::string page = scratch("matrix.html");
+  const nlohmann::json matrix = json_of(flown(
+      fmt::format("{} --set {} --out {} --json - --html {}", two(), small_set(), scratch("matrix"), page)));
+  EXPECT_EQ(matrix["outcome"], "pass") << matrix.dump(1);
+  EXPECT_THAT(matrix["rows"], ElementsAre("no fault", "seeker away", "one in ten damaged", "master away"));
+  std::map<std::string, std::string> responses;
+  for (const auto& cell : matrix["cells"])
+    responses[fmt::format("{}, {}", cell["row"].get<std::string>(), cell["column"].get<std::string>())] =
+        cell["words"];
+  EXPECT_EQ(responses.size(), 5U) << "each scenario has its own nodes";
+  EXPECT_EQ(responses["no fault, los_quick"], "tolerated");
+  EXPECT_EQ(responses["no fault, transfer_alignment_quick"], "tolerated");
+  EXPECT_THAT(responses["seeker away, los_quick"], HasSubstr("detected in"));
+  EXPECT_THAT(responses["one in ten damaged, los_quick"], HasSubstr("(input_lost in a heartbeat)"));
+  EXPECT_THAT(read(page), HasSubstr("one in ten damaged"));
+}
+
+TEST(Faults, TextAndMarkdownSayTheSame) {
+  const std::string arguments = fmt::format("{} --set {} --out ", scenario("los_quick"), file("one.toml", R"(
+[[fault]]
+name = "angles away"
+kind = "lost"
+messages = ["SeekerAngles"]
+from_s = 2
+to_s = 2.3
+)"));
+  EXPECT_THAT(flown(arguments + scratch("text")), HasSubstr("  angles away  detected in"));
+  EXPECT_THAT(flown(arguments + scratch("markdown") + " --markdown"),
+              HasSubstr("| angles away | detected in"));
+}
+
+// The seeded defect: a signal that its sensor did not measure, which the target believes and is sure of.
+TEST(Faults, AViolationIsMadeSmallAndShowsAgain) {
+  const std::string storm = file("storm.toml", R"(
+[[fault]]
+name = "ship away"
+together = "storm"
+kind = "lost"
+messages = ["SsblRelativeNE"]
+from_s = 6
+to_s = 8.5
+[[fault]]
+name = "accelerometer stuck"
+together = "storm"
+kind = "changed"
+messages = ["SlaveImuDeltaV"]
+signal = "delta_v_x_mps"
+value = 0.22
+from_s = 12
+to_s = 13
+every = 5
+[[fault]]
+name = "damaged"
+together = "storm"
+kind = "damaged"
+messages = ["SlaveImuDeltaV"]
+from_s = 3
+to_s = 5
+every = 20
+)");
+  const std::string out = scratch("storm");
+  const Ended ended =
+      hil_bench(fmt::format("faults {} --set {} --out {} --json -", scenario("inflight_quick"), storm, out));
+  EXPECT_EQ(ended.code, 1) << ended.out << ended.err;
+  const nlohmann::json matrix = json_of(ended.out);
+  ASSERT_EQ(matrix["cells"].size(), 2U);
+  const nlohmann::json& cell = matrix["cells"][1];
+  EXPECT_EQ(cell["response"], "violated");
+  EXPECT_EQ(cell["check"], "honest");
+  EXPECT_EQ(cell["faults"].size(), 3U);
+  ASSERT_EQ(cell["least"].size(), 1U) << "one of the three matters";
+  EXPECT_THAT(cell["least"][0].get<std::string>(), HasSubstr("accelerometer stuck"));
+  const std::string least = out + "/" + cell["replay"].get<std::string>();
+  EXPECT_GT(target_frames(out + "/violation-1.log").size(), 1000U);
+
+  // As the line says that the report has of it.
+  const Ended told = hil_bench(fmt::format("faults merge {}/faults.jsonl", out));
+  EXPECT_THAT(told.out, HasSubstr(fmt::format("hil-bench run {} --bus in-process", least)));
+  const std::string log = scratch("again.log");
+  const Ended again = hil_bench(fmt::format("run {} --bus in-process --log {} --json -", least, log));
+  EXPECT_EQ(again.code, 1) << again.out << again.err;
+  const nlohmann::json report = json_of(again.out);
+  EXPECT_EQ(report["ending"]["completed"], true);
+  EXPECT_EQ(report["checks"][0]["kind"], "honest");
+  EXPECT_EQ(report["checks"][0]["outcome"], "fail");
+  EXPECT_EQ(target_frames(log).size(), target_frames(out + "/violation-1.log").size());
+}
+
+TEST(Faults, ShardsAndAKillGiveTheSameBytes) {
+  const std::string arguments = scenario("los_quick") + " --seed 3 --runs 4";
+  const auto json_in = [](const std::string& folder) {
+    return hil_bench(fmt::format("faults merge $(ls -r {}/*.jsonl) --json -", folder)).out;
+  };
+  const std::string whole = scratch("whole"), shards = scratch("shards"), killed = scratch("killed");
+  hil_bench(fmt::format("faults {} --out {} --threads 1", arguments, whole));
+  for (int i = 0; i < 3; ++i) hil_bench(fmt::format("faults {} --out {} --shard {}/3", arguments, shards, i));
+  EXPECT_GT(json_in(whole).size(), 1000U);
+  EXPECT_TRUE(json_in(whole) == json_in(shards));
+
+  // Killed when it has some cells, and cut in the middle of a line.
+  const std::string cells = killed + "/faults.jsonl";
+  const pid_t child = fork();
+  if (child == 0) {
+    fclose(stdout);
+    execl(HIL_BENCH, HIL_BENCH, "faults", scenario("los_quick").c_str(), "--seed", "3", "--runs", "4",
+          "--out", killed.c_str(), "--threads", "1", nullptr);
+    _exit(127);
+  }
+  const auto lines = [&] { return std::ranges::count(fs::exists(cells) ? read(cells) : "", '\n'); };
+  while (lines() < 5 && waitpid(child, nullptr, WNOHANG) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  const auto kept = lines();
+  ASSERT_GE(kept, 5);
+  std::ofstream(cells, std::ios::app) << R"({"cell": 7, "row)";
+  expect_one_line(hil_bench(fmt::format("faults merge {} --json -", cells)), "cells are in no file");
+  expect_one_line(hil_bench(fmt::format("faults {} --out {}", arguments, killed)),
+                  "exists already, expected --resume");
+  hil_bench(fmt::format("faults {} --out {} --resume", arguments, killed));
+  EXPECT_TRUE(json_in(whole) == json_in(killed));
+}
+
+TEST(Faults, InterruptedIsNotMeasured) {
+  // As soon as a cell is there.
+  const Ended ended =
+      shell(fmt::format("{0} faults {1} --runs 1000 --out {2} & "
+                        "for i in $(seq 1000); do [ -s {2}/faults.jsonl ] && break; sleep 0.02; done; "
+                        "kill -INT $!; wait $!",
+                        HIL_BENCH, scenario("los_quick"), scratch("interrupted")));
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(ended.err, HasSubstr("interrupted; --resume goes on"));
+  EXPECT_EQ(ended.out, "");
+}
+
+TEST(Faults, BadInputIsOneLine) {
+  const std::string los = scenario("los_quick");
+  expect_one_line(hil_bench("faults"), "SCENARIO, or merge");
+  expect_one_line(hil_bench("faults none.toml"), "none.toml: cannot be read");
+  expect_one_line(hil_bench(fmt::format("faults {} --set {}", los, file("none.toml", "a = 1\n"))),
+                  "none.toml");
+  expect_one_line(hil_bench(fmt::format("faults {} --set {}", los,
+                                        file("master.toml",
+                                             "[[fault]]\nname = 'm'\nkind = 'lost'\n"
+                                             "messages = ['MasterInsVelocityNE']\n"))),
+                  "fault 'm' fits no scenario");
+  expect_one_line(hil_bench(fmt::format("faults {} --shard 3/3 --out {}", los, scratch("none"))),
+                  "shard '3/3'");
+  expect_one_line(hil_bench("faults merge " + los), "holds no results of a fault matrix");
+  EXPECT_FALSE(fs::exists(scratch("none")));
+}
+
+}  // namespace
+}  // namespace canhil::test

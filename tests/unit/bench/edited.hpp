@@ -1,0 +1,29 @@
+// What a run collected, changed by a test: a Spool is only added to.
+#pragma once
+
+#include <vector>
+
+#include "bench/spool/spool.hpp"
+
+namespace canhil::test {
+
+/// All values as a vector, put back with the end of the expression, or the loop, that changes them.
+template <class T>
+class Edited {
+ public:
+  explicit Edited(Spool<T>& of) : of_(of), all_(of.begin(), of.end()) {}
+  ~Edited() { of_ = Spool<T>(all_); }
+  Edited(const Edited&) = delete;
+  Edited& operator=(const Edited&) = delete;
+  std::vector<T>& operator*() { return all_; }
+  auto begin() { return all_.begin(); }
+  auto end() { return all_.end(); }
+  /// Without those from one place up to another, that one excluded.
+  void erase(std::ptrdiff_t from, std::ptrdiff_t to) { all_.erase(all_.begin() + from, all_.begin() + to); }
+
+ private:
+  Spool<T>& of_;
+  std::vector<T> all_;
+};
+
+}  // namespace canhil::test

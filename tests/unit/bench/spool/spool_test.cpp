@@ -1,0 +1,162 @@
+#include "bench/spool/spool.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <thread>
+#include <vector>
+
+#include "tests/own_folder.hpp"
+
+namespace canhil {
+namespace {
+
+static_assert(std::random_access_iterator<Spool<double>::const_iterator>);
+
+struct Sample {
+  std::int64_t t_us = 0;
+  double value[7] = {};
+};
+constexpr std::size_t many = 8 * Spool<Sample>::most_in_memory;  // 16 MiB: in a file, the most of them
+
+Sample sample(std::size_t place) {
+  return {.t_us = static_cast<std::int64_t>(place), .value = {1.0 / static_cast<double>(place + 1)}};
+}
+bool is_right(const Sample& found, std::size_t place) {
+  return found.t_us == sample(place).t_us && found.value[0] == sample(place).value[0];
+}
+
+Spool<Sample> filled(std::size_t count) {
+  Spool<Sample> spool;
+  for (std::size_t place = 0; place < count; ++place) spool.push_back(sample(place));
+  return spool;
+}
+
+bool holds(const Spool<Sample>& spool, std::size_t count) {
+  std::size_t place = 0;
+  return spool.size() == count &&
+         std::ranges::all_of(spool, [&](const Sample& found) { return is_right(found, place++); });
+}
+
+std::size_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t size = 0, resident = 0;
+  file >> size >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+class SpoolOf : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(SpoolOf, HoldsWhatWasAdded) {
+  const std::size_t count = GetParam();
+  const Spool<Sample> spool = filled(count);
+  ASSERT_TRUE(holds(spool, count));
+  EXPECT_TRUE(is_right(spool.front(), 0));
+  EXPECT_TRUE(is_right(spool.back(), count - 1));
+  const auto half = static_cast<std::int64_t>(count / 2);
+  EXPECT_EQ(std::ranges::lower_bound(spool, half, {}, &Sample::t_us) - spool.begin(), half);
+  EXPECT_EQ(spool.rbegin()->t_us, static_cast<std::int64_t>(count) - 1);
+}
+
+TEST_P(SpoolOf, IsCopiedAndMoved) {
+  const std::size_t count = GetParam();
+  Spool<Sample> spool = filled(count);
+  Spool<Sample> copy = spool;
+  copy.push_back(sample(count));
+  EXPECT_TRUE(holds(copy, count + 1));
+  EXPECT_TRUE(holds(spool, count));
+  const Spool<Sample> moved = std::move(spool);
+  EXPECT_TRUE(holds(moved, count));
+}
+
+INSTANTIATE_TEST_SUITE_P(Counts, SpoolOf,
+                         testing::Values(1, Spool<Sample>::most_in_memory, Spool<Sample>::most_in_memory + 1,
+                                         many));
+
+TEST(Spool, WhatIsChangedStays) {
+  Spool<Sample> spool = filled(many);
+  Sample& first = spool[0];
+  for (std::size_t place = 0; place < many; ++place)
+    spool[place].value[6] = 6;  // the first pages were let go
+  first.value[6] = 7;
+  EXPECT_TRUE(
+      std::all_of(spool.begin() + 1, spool.end(), [](const Sample& one) { return one.value[6] == 6; }));
+  EXPECT_EQ(spool[0].value[6], 7);
+}
+
+#ifndef CANHIL_SANITIZED  // which holds memory of its own
+TEST(Spool, LetsGoOfWhatItPassed) {
+  constexpr std::size_t megabyte = 1 << 20;
+  const std::size_t before = resident_bytes();
+  Spool<Sample> spool;
+  std::size_t most = 0;
+  const auto look = [&] { most = std::max(most, resident_bytes() - std::min(before, resident_bytes())); };
+  for (std::size_t place = 0; place < 4 * many; ++place) {  // 64 MiB
+    spool.push_back(sample(place));
+    if (place % 10'000 == 0) look();
+  }
+  std::size_t place = 0;
+  for (const Sample& found : spool) {
+    ASSERT_TRUE(is_right(found, place));
+    if (place++ % 10'000 == 0) look();
+  }
+  EXPECT_LT(most, 10 * megabyte);  // 2 MiB in memory, half as much again as they grow, 2 MiB of the file, and
+                                   // the heap's own
+}
+#endif
+
+TEST(Spool, ManyReadersAtOnce) {
+  const Spool<Sample> spool = filled(many);
+  std::vector<std::thread> readers;
+  std::array<bool, 4> right{};
+  for (std::size_t reader = 0; reader < right.size(); ++reader)
+    readers.emplace_back([&, reader] { right[reader] = holds(spool, many); });
+  for (std::thread& reader : readers) reader.join();
+  EXPECT_TRUE(std::ranges::all_of(right, std::identity{}));
+}
+
+class SpoolFolder : public testing::Test {
+ protected:
+  ~SpoolFolder() override { unsetenv("TMPDIR"); }
+  static void use(const std::string& folder) { setenv("TMPDIR", folder.c_str(), 1); }
+};
+
+TEST_F(SpoolFolder, HasNoNameInIt) {
+  const std::string folder = test::own_folder() + "/spool";
+  std::filesystem::create_directory(folder);
+  use(folder);
+  const SpoolFile file;
+  EXPECT_TRUE(file.on_disk());
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+}
+
+TEST_F(SpoolFolder, WithoutOneItIsMemory) {
+  use("/nonexistent");
+  EXPECT_FALSE(SpoolFile().on_disk());
+  EXPECT_TRUE(holds(filled(many), many));
+}
+
+// A limit of the size of files stands for a disk that is full.
+TEST_F(SpoolFolder, ThatIsFullInMidwayItIsMemory) {
+  signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit few{.rlim_cur = 20 << 20, .rlim_max = before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &few);
+  const Spool<Sample> spool = filled(4 * many);
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_TRUE(holds(spool, 4 * many));
+}
+
+}  // namespace
+}  // namespace canhil
