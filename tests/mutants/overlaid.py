@@ -50,6 +50,22 @@ def linking(folder):
     return shlex.split(re.sub(r"^: && (.*?) && :$", r"\1", last))
 
 
+def source_again(place, file, source):
+    """What to compile in place of `source`: the file of `place`, or, of sources compiled as one, the list that names it."""
+    if Path(source) == ROOT / file:
+        return place / file
+    if "/Unity/" not in source:
+        return source
+    was = Path(source).read_text()
+    text = was.replace(f'"{ROOT / file}"', f'"{place / file}"')
+    if text == was and Path(file).suffix == ".cpp":
+        raise DoesNotBuild(f"{file}: not in {source}, which reads it")
+    again = place / source.split("/CMakeFiles/", 1)[1]
+    again.parent.mkdir(parents=True, exist_ok=True)
+    again.write_text(text)
+    return again
+
+
 def compile_again(folder, place, file, name):
     """The object `name` with the file of `place` in the project's place."""
     words, again = shlex.split(compilations(folder)[name]), place / name
@@ -61,7 +77,7 @@ def compile_again(folder, place, file, name):
         elif word in ("-MT", "-MF", "-o"):
             skip = 1
         elif word != "-MD":
-            kept.append(str(place / file) if Path(word) == ROOT / file else word)
+            kept.append(str(source_again(place, file, word)) if word.endswith((".cpp", ".cxx")) else word)
     first = next(i for i, word in enumerate(kept) if word.startswith("-I"))
     kept[first:first] = [f"-I{place}"]  # before the project's own files of the same name
     finished = subprocess.run([*kept, "-o", str(again)], cwd=folder, capture_output=True, text=True)

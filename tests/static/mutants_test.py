@@ -11,6 +11,7 @@ from unittest import mock
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/mutants"), str(ROOT / "tests/static")]
 import copied_tree  # noqa: E402
+import overlaid  # noqa: E402
 import run  # noqa: E402
 import seeded  # noqa: E402
 
@@ -136,6 +137,30 @@ class Judging(unittest.TestCase):
 
     def test_every_suite_is_flown(self):
         self.assertEqual(sorted(run.SUITES), sorted(file.parent.name for file in (ROOT / "bench/acceptance").glob("*/suite.toml")))
+
+
+class Overlaying(unittest.TestCase):
+    """What is compiled in the place of a source, where sources are compiled one by one and as one."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.place = Path(self.folder.name, "place")
+        self.list = Path(self.folder.name, "a/CMakeFiles/a.dir/Unity/unity_0_cxx.cxx")
+        self.list.parent.mkdir(parents=True)
+        self.list.write_text(f'#include "{ROOT}/target/a.cpp"\n#include "{ROOT}/target/b.cpp"\n')
+
+    def test_a_source_is_replaced(self):
+        self.assertEqual(overlaid.source_again(self.place, "target/a.cpp", f"{ROOT}/target/a.cpp"), self.place / "target/a.cpp")
+        self.assertEqual(overlaid.source_again(self.place, "target/a.hpp", f"{ROOT}/target/a.cpp"), f"{ROOT}/target/a.cpp")
+
+    def test_a_source_is_replaced_where_it_is_compiled_with_others(self):
+        again = overlaid.source_again(self.place, "target/a.cpp", str(self.list))
+        self.assertEqual(again.read_text(), f'#include "{self.place}/target/a.cpp"\n#include "{ROOT}/target/b.cpp"\n')
+
+    def test_a_source_that_is_not_among_them_is_told(self):
+        with self.assertRaisesRegex(overlaid.DoesNotBuild, "target/c.cpp: not in"):
+            overlaid.source_again(self.place, "target/c.cpp", str(self.list))
 
 
 class Copying(unittest.TestCase):
