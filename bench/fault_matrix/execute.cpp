@@ -136,7 +136,7 @@ class Flights {
         text_of(column, cell.run, least.faults, least.duration_us,
                 std::ranges::find(judged_by, check) == judged_by.end() ? "answering" : check,
                 fmt::format("# The least of '{}' that violates {}: hil-bench faults --seed {}.\n",
-                            plan_.rows[cell.row], check, plan_.seed));
+                            plan_.rows[cell.row].name(), check, plan_.seed));
     if (auto written = report::write_file(file.string(), text); !written) return written;
     auto scenario = drive::read_scenario(file.string());
     if (!scenario) return tl::unexpected(scenario.error());

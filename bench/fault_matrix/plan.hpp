@@ -33,6 +33,14 @@ struct Column {
 };
 Result<Column> read_column(const std::string& file);
 
+/// A fault that is flown in each scenario that it fits.
+struct Row {
+  std::string fault;   ///< a kind, or its name in a set
+  std::string node{};  ///< that it befalls; empty: the bus, or whatever a set says
+
+  [[nodiscard]] std::string name() const { return node.empty() ? fault : fault + " " + node; }
+};
+
 /// A flight: its scenario with these faults and no others.
 struct Cell {
   std::size_t row = 0, column = 0;
@@ -45,12 +53,12 @@ struct Plan {
   std::uint64_t runs = 1;
   std::uint64_t set_hash = 0;  ///< of the text of a set; 0: the set that is made of the scenarios
   std::vector<Column> columns{};
-  std::vector<std::string> rows{};  ///< the first is "no fault"
-  std::vector<Cell> cells{};        ///< row by row, then column by column, then run by run
+  std::vector<Row> rows{};    ///< the first is "no fault"
+  std::vector<Cell> cells{};  ///< row by row, then column by column, then run by run
 };
 
-/// The set that is made of the scenarios: each kind of fault on each node that is on the bus, with times
-/// drawn from the seed; and three of them at once.
+/// The set that is made of the scenarios: each kind of fault (drawn.hpp) on each node that is on the bus,
+/// what else it is drawn from the seed; and three of them at once.
 Plan made_plan(std::vector<Column> columns, std::uint64_t seed, std::uint64_t runs);
 
 /// That of a file: each [[fault]] is a row; those with the same `together` are one. Error: one line; one of

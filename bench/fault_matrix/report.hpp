@@ -14,7 +14,7 @@ checks::Outcome outcome_of(const Results& results);
 /// The matrix, and below it what ended a flight and what was violated, with the command that flies it again;
 /// `folder`: where the scenarios of violations lie.
 std::string text(const Results& results, const std::string& folder);
-/// The matrix as a table of Markdown.
+/// The matrix as tables of Markdown.
 std::string markdown(const Results& results);
 std::string json(const Results& results);
 std::string html(const Results& results, const std::string& folder);

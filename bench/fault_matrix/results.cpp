@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::string_view format = "canhil fault matrix 1";
+constexpr std::string_view format = "canhil fault matrix 2";
 constexpr std::size_t most_bytes = std::size_t{1} << 28U;
 
 // Names of files need not be UTF-8.
@@ -63,11 +63,12 @@ Identity identity_of_line(const std::string& line) {
                     .seed = json.at("seed"),
                     .runs = json.at("runs"),
                     .target = json.at("target").at("command"),
-                    .rows = json.at("rows"),
                     .cells = json.at("cells")};
   for (const Json& column : json.at("columns"))
     identity.columns.push_back(
         {.file = column.at("scenario"), .title = column.at("title"), .estimators = column.at("estimators")});
+  for (const Json& row : json.at("rows"))
+    identity.rows.push_back({.fault = row.at("fault"), .node = row.at("node")});
   return identity;
 }
 
@@ -84,6 +85,8 @@ Identity identity_of(const Plan& plan, const std::string& target) {
                        {"estimators", estimators},
                        {"hash", fmt::format("{:016x}", column.scenario.hash)}});
   }
+  Json rows = Json::array();
+  for (const Row& row : plan.rows) rows.push_back({{"fault", row.fault}, {"node", row.node}});
   Json files = Json::array();
   if (!target.empty()) {
     for (const auto& [path, file] : drive::look_at_target(target)) files.push_back(file.hash);
@@ -96,7 +99,7 @@ Identity identity_of(const Plan& plan, const std::string& target) {
                                    {"runs", plan.runs},
                                    {"set", fmt::format("{:016x}", plan.set_hash)},
                                    {"columns", columns},
-                                   {"rows", plan.rows},
+                                   {"rows", rows},
                                    {"cells", plan.cells.size()}}));
 }
 

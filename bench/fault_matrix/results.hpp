@@ -25,7 +25,7 @@ struct Identity {
     std::string file, title, estimators;
   };
   std::vector<Column> columns{};
-  std::vector<std::string> rows{};
+  std::vector<Row> rows{};
   std::size_t cells = 0;  ///< of all shards
 };
 Identity identity_of(const Plan& plan, const std::string& target);

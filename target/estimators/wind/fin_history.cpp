@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace canhil::wind {
 namespace {
@@ -17,7 +18,15 @@ FinOutcome FinHistory::push(std::int64_t t_us, const Deflection& d, double limit
   const auto physical = [limit](double angle) { return std::abs(angle) <= limit; };  // false for NaN
   last_refused_ = !(physical(d.elevator) && physical(d.aileron) && physical(d.rudder));
   if (last_refused_) return FinOutcome::not_physical;
-  if (count_ > 0 && t_us <= back(0).t_us) return FinOutcome::out_of_order;
+  const std::optional<Sample> before = std::exchange(out_of_order_, std::nullopt);
+  if (count_ > 0 && t_us <= back(0).t_us) {
+    if (!before || t_us <= before->t_us) {
+      out_of_order_ = {t_us, d};
+      return FinOutcome::out_of_order;
+    }
+    samples_[0] = *before;
+    count_ = 1;
+  }
   samples_[count_ % samples_.size()] = {t_us, d};
   ++count_;
   return FinOutcome::kept;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "target/estimators/wind/airframe.hpp"
 
@@ -25,7 +26,9 @@ struct ActingFins {
 
 class FinHistory {
  public:
-  /// Deflections [rad] valid at t_us; each at most `limit`. In the order of their times.
+  /// Deflections [rad] valid at t_us; each at most `limit`. In the order of their times: one that is not is
+  /// out of order, but a second in a row that comes after the first says that the newest time was wrong, and
+  /// the history begins anew with the two.
   FinOutcome push(std::int64_t t_us, const Deflection& deflection, double limit);
 
   /// The mean over [from, to] of the samples joined by lines, the newest held after it, the oldest before it.
@@ -40,6 +43,7 @@ class FinHistory {
 
   std::array<Sample, 64> samples_{};  // 1.3 s at 50 Hz
   std::size_t count_ = 0;
+  std::optional<Sample> out_of_order_{};  // the last one, if it was
   bool last_refused_ = false;
 };
 

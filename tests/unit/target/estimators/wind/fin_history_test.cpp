@@ -79,5 +79,22 @@ TEST(FinHistory, RefusesWhatIsNotPhysicalOrInOrder) {
   EXPECT_NEAR(fins.over(0, 20'000).mean.elevator, 0.1, 1e-15);
 }
 
+TEST(FinHistory, ATimeInTheFutureIsOutvotedByTheNextTwo) {
+  FinHistory fins = elevator_at({{0, 0.1}, {20'000, 0.1}, {5'000'000, 0.3}});
+  EXPECT_EQ(fins.push(40'000, {0.1, 0, 0}, limit), FinOutcome::out_of_order);
+  EXPECT_EQ(fins.push(40'000, {0.1, 0, 0}, limit), FinOutcome::out_of_order) << "the same one again";
+  EXPECT_EQ(fins.push(60'000, {0.2, 0, 0}, limit), FinOutcome::kept);
+  EXPECT_NEAR(fins.over(40'000, 60'000).mean.elevator, 0.15, 1e-15);
+  EXPECT_EQ(fins.push(80'000, {0.2, 0, 0}, limit), FinOutcome::kept);
+}
+
+TEST(FinHistory, ThoseThatOvertakeOneAnotherKeepTheirOrder) {
+  FinHistory fins;
+  int late = 0;
+  for (const std::int64_t t_us : {20'000, 0, 60'000, 40'000, 100'000, 80'000})
+    late += fins.push(t_us, {0.1, 0, 0}, limit) == FinOutcome::out_of_order ? 1 : 0;
+  EXPECT_EQ(late, 3);
+}
+
 }  // namespace
 }  // namespace canhil::wind

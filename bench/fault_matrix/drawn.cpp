@@ -1,0 +1,237 @@
+#include "bench/fault_matrix/drawn.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "bench/mapping/stimuli.hpp"
+#include "bench/observe/values.hpp"
+#include "bench/world/hash.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::fault_matrix {
+namespace {
+
+// Random numbers of one fault.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : engine_(seed) {}
+
+  double between(double low, double high) {
+    constexpr double unit = 0x1p-53;  // 53 random bits make a double in [0, 1)
+    return low + (high - low) * unit * static_cast<double>(engine_() >> 11U);
+  }
+  std::size_t below(std::size_t count) {
+    return std::min(count - 1, static_cast<std::size_t>(between(0, static_cast<double>(count))));
+  }
+  template <class Range>
+  const auto& one_of(const Range& range) {
+    return range[below(range.size())];
+  }
+  /// Each power of ten as likely as another, with either sign.
+  double of_any_size(double low, double high) {
+    const double size = std::pow(10, between(std::log10(low), std::log10(high)));
+    return between(0, 1) < 0.5 ? -size : size;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+enum class Befalls : std::uint8_t {
+  frames,  // those of a node
+  value,   // a number of one of its messages
+  pair,    // two quantities of it
+  node,
+  bus
+};
+enum class Times : std::uint8_t { each, seldom, stretch, begins };
+
+// A further key of a kind, and between what its value is drawn.
+enum class Size : std::uint8_t {
+  none,
+  within,    // anywhere in the signal's range
+  range,     // a part of the signal's range, of any size and sign
+  positive,  // the same without a sign
+  number,
+  whole
+};
+struct Kind {
+  std::string_view name;
+  Befalls befalls;
+  Times times;
+  std::string_view key{};
+  Size size = Size::none;
+  double low = 0, high = 0;
+};
+
+constexpr std::array table{
+    Kind{"changed", Befalls::value, Times::each, "value", Size::within},
+    Kind{"bias", Befalls::value, Times::each, "by", Size::range, 1e-5, 0.1},
+    Kind{"drift", Befalls::value, Times::each, "by", Size::range, 1e-5, 0.1},
+    Kind{"spike", Befalls::value, Times::seldom, "by", Size::range, 1e-3, 0.5},
+    Kind{"stuck", Befalls::value, Times::each},
+    Kind{"saturated", Befalls::value, Times::each, "at", Size::positive, 1e-4, 0.5},
+    Kind{"noise", Befalls::value, Times::each, "sigma", Size::positive, 1e-5, 1e-2},
+    Kind{"reversed", Befalls::value, Times::each},
+    Kind{"swapped", Befalls::pair, Times::each},
+    Kind{"invalid", Befalls::node, Times::each},
+    Kind{"late", Befalls::node, Times::each, "by_ms", Size::number, 0.5, 50},
+    Kind{"silent", Befalls::node, Times::stretch},
+    Kind{"slow", Befalls::node, Times::stretch, "longer_percent", Size::number, 1, 100},
+    Kind{"clock_step", Befalls::node, Times::stretch, "by_ms", Size::number, -50, 50},
+    Kind{"clock_drift", Befalls::node, Times::stretch, "by_ppm", Size::number, -1000, 1000},
+    Kind{"restart", Befalls::node, Times::begins, "silent_s", Size::number, 0.01, 0.5},
+    Kind{"lost", Befalls::frames, Times::each},
+    Kind{"repeated", Befalls::frames, Times::each},
+    Kind{"delayed", Befalls::frames, Times::each, "by_ms", Size::number, 0.5, 50},
+    Kind{"reordered", Befalls::frames, Times::each},
+    Kind{"damaged", Befalls::frames, Times::each},
+    Kind{"wrong_crc", Befalls::frames, Times::each},
+    Kind{"counter_stuck", Befalls::frames, Times::each},
+    Kind{"counter_jump", Befalls::frames, Times::each, "by", Size::whole, 1, 14},
+    Kind{"too_short", Befalls::frames, Times::each},
+    Kind{"foreign", Befalls::frames, Times::each},
+    Kind{"stranger", Befalls::bus, Times::stretch, "period_ms", Size::number, 0.5, 20},
+    Kind{"flood", Befalls::bus, Times::stretch, "period_us", Size::whole, 100, 1000},
+};
+
+const Kind& kind_of(std::string_view name) { return *std::ranges::find(table, name, &Kind::name); }
+
+std::string quoted(std::string_view text) { return fmt::format("\"{}\"", text); }
+
+std::vector<const MessageInfo*> messages_of(const scenario::NodeTable& node) {
+  std::vector<const MessageInfo*> group;
+  for (const MessageInfo& info : messages::all_messages) {
+    if (info.sample_group == node.closes.sample_group && info.sender == node.closes.sender)
+      group.push_back(&info);
+  }
+  return group;
+}
+
+double drawn_size(const Kind& kind, const SignalInfo* signal, Draw& draw) {
+  switch (kind.size) {
+    case Size::within:
+      return draw.between(signal->minimum, signal->maximum);
+    case Size::range:
+      return (signal->maximum - signal->minimum) * draw.of_any_size(kind.low, kind.high);
+    case Size::positive:
+      return (signal->maximum - signal->minimum) * std::abs(draw.of_any_size(kind.low, kind.high));
+    case Size::number:
+      return draw.between(kind.low, kind.high);
+    case Size::whole:
+      return std::floor(draw.between(kind.low, kind.high + 1));
+    case Size::none:
+      break;
+  }
+  return 0;
+}
+
+// A number that is more than a flag; whether one may be: `changed` befalls flags too.
+const SignalInfo* draw_signal(const Kind& kind, const MessageInfo& message, Draw& draw) {
+  std::vector<const SignalInfo*> signals = observe::signals_of(message);
+  if (kind.size != Size::within)
+    std::erase_if(signals, [](const SignalInfo* signal) { return signal->length == 1; });
+  return signals.empty() ? nullptr : draw.one_of(signals);
+}
+
+// False: the node measures no two quantities of one unit.
+bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const mapping::Stimulus& one : mapping::stimuli()) {
+    for (const mapping::Stimulus& other : mapping::stimuli()) {
+      if (one.node == node && other.node == node && one.si == other.si && one.over == other.over &&
+          one.name < other.name)
+        pairs.emplace_back(one.name, other.name);
+    }
+  }
+  if (pairs.empty()) return false;
+  const auto& [one, other] = draw.one_of(pairs);
+  fault.set("quantity", quoted(one));
+  fault.set("with", quoted(other));
+  return true;
+}
+
+// Within the flight, so that what was before is known, and there is time to recover.
+void draw_times(FaultText& fault, Times times, double duration_s, Draw& draw) {
+  const double from_s = duration_s * draw.between(0.3, 0.6);
+  const double length_s = duration_s * draw.between(0.01, 0.15);
+  fault.set("from_s", fmt::format("{:.3f}", from_s));
+  if (times != Times::begins) fault.set("to_s", fmt::format("{:.3f}", from_s + length_s));
+  constexpr std::array every{1, 2, 5, 10}, seldom{5, 10, 20, 50};
+  if (times == Times::each || times == Times::seldom)
+    fault.set("every", std::to_string(draw.one_of(times == Times::each ? every : seldom)));
+}
+
+std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw& draw) {
+  const Kind& kind = kind_of(row.kind);
+  const scenario::NodeSettings* node = column.scenario.node(row.node);
+  if (kind.befalls != Befalls::bus && node == nullptr) return std::nullopt;
+  FaultText fault;
+  fault.set("kind", quoted(kind.name));
+  const SignalInfo* signal = nullptr;
+  switch (kind.befalls) {
+    case Befalls::value: {
+      const MessageInfo& message = *draw.one_of(messages_of(node->table()));
+      signal = draw_signal(kind, message, draw);
+      if (signal == nullptr) return std::nullopt;
+      fault.set("messages", fmt::format("[{}]", quoted(message.name)));
+      fault.set("signal", quoted(signal->name));
+      break;
+    }
+    case Befalls::pair:
+      if (!draw_pair(fault, row.node, draw)) return std::nullopt;
+      break;
+    case Befalls::frames:
+    case Befalls::node:
+      fault.set("node", quoted(row.node));
+      break;
+    case Befalls::bus:
+      break;
+  }
+  if (kind.size != Size::none) fault.set(kind.key, fmt::format("{:.6g}", drawn_size(kind, signal, draw)));
+  draw_times(fault, kind.times, static_cast<double>(column.scenario.duration_us) * 1e-6, draw);
+  if (!scenario_of(column, 0, {fault})) return std::nullopt;  // as a sensor that vouches for nothing
+  return fault;
+}
+
+Draw draw_of(const Column& column, std::uint64_t seed, std::uint64_t run, std::string_view row) {
+  return Draw(world::fnv1a_64(fmt::format("{} {} {} {}", seed, row, column.scenario.title, run)));
+}
+
+}  // namespace
+
+std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes) {
+  std::vector<Drawn> rows;
+  for (const Kind& kind : table) {
+    if (kind.befalls == Befalls::bus) {
+      rows.push_back({.kind = kind.name});
+      continue;
+    }
+    for (const std::string_view node : nodes) rows.push_back({.kind = kind.name, .node = node});
+  }
+  return rows;
+}
+
+std::optional<FaultText> drawn_fault(const Drawn& row, const Column& column, std::uint64_t seed,
+                                     std::uint64_t run) {
+  Draw draw = draw_of(column, seed, run, fmt::format("{} {}", row.kind, row.node));
+  return draw_fault(row, column, draw);
+}
+
+std::vector<FaultText> drawn_faults(int count, const Column& column, std::uint64_t seed, std::uint64_t run) {
+  std::vector<std::string_view> nodes;
+  for (const scenario::NodeSettings& node : column.scenario.nodes) nodes.push_back(node.table().key);
+  const std::vector<Drawn> rows = drawn_rows(nodes);
+  Draw draw = draw_of(column, seed, run, fmt::format("{} at once", count));
+  std::vector<FaultText> faults;
+  while (faults.size() < static_cast<std::size_t>(count)) {
+    if (auto fault = draw_fault(draw.one_of(rows), column, draw)) faults.push_back(std::move(*fault));
+  }
+  return faults;
+}
+
+}  // namespace canhil::fault_matrix
