@@ -65,6 +65,9 @@ constexpr std::array rows{
         }},
     Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
+    Row{Parameter::gate_nis, 40, 0, 1e9, real, any_time, [](Tuning& t, double v) { t.filter.gate_nis = v; }},
+    Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time,
+        [](Tuning& t, double v) { t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v)); }},
     Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
         [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
 };
@@ -167,8 +170,10 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     const ta::UpdateResult result = history_.update(state_, fix.value, fix.t_us, tuning_.filter);
     switch (result.outcome) {
       case ta::Outcome::ok:
-        observe(result, context.consistency);
         context.consistency.distrust(result.degraded);
+        [[fallthrough]];
+      case ta::Outcome::gated:
+        observe(result, context.consistency);
         answer_filter(fix, result, context);
         return Health::good;
       case ta::Outcome::non_finite:

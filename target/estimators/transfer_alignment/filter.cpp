@@ -114,6 +114,13 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   result.outcome = Outcome::not_positive_definite;
   if (!correction.positive_definite) return result;
   result.nis = correction.nis;
+  const bool beyond_gate =
+      settings.loop == Loop::invariant && settings.gate_nis > 0 && result.nis > settings.gate_nis;
+  if (beyond_gate && state.rejected < settings.gate_recovery) {
+    result.outcome = Outcome::gated;
+    ++state.rejected;
+    return result;
+  }
   result.dx = settings.loop == Loop::invariant ? invariant_correction(correction.K, result.innovation)
                                                : correction.dx;
   if (!result.dx.allFinite() || !correction.P.allFinite()) {
@@ -125,6 +132,7 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
 
   result.outcome = Outcome::ok;
   state.P = correction.P;
+  state.rejected = 0;
   state.ins.interval = Interval{};
   if (settings.loop == Loop::open) {
     state.x = prior.x + result.dx;

@@ -22,12 +22,14 @@ struct Ins {
 
 struct State {
   Ins ins;
-  Covariance P;   // posterior of the last update
-  StateVector x;  // estimated errors of ins at the last update; zero in a closed loop
+  Covariance P;                // posterior of the last update
+  StateVector x;               // estimated errors of ins at the last update; zero in a closed loop
+  std::uint32_t rejected = 0;  // velocities gated in a row
 };
 
 enum class Outcome : std::uint8_t {
   ok,
+  gated,                  // NIS above the gate
   no_interval,            // no IMU sample since the last update
   non_finite,             // a NaN or infinity in the measurement or in the result
   not_positive_definite,  // of the innovation covariance or of P's diagonal
@@ -36,7 +38,7 @@ enum class Outcome : std::uint8_t {
   older_than_history,     // History: valid before the oldest epoch kept
 };
 
-/// An update's answer. Unless outcome is ok the state is as before the call.
+/// An update's answer. Unless outcome is ok the state is as before the call, but for the count of gated ones.
 struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
   Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // V_slave - V_master, less x in an open loop [m/s]

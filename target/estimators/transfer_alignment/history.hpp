@@ -23,7 +23,7 @@ struct HistoryModel {
     return update_with_difference(state, velocity - master_velocity, settings);
   }
   static std::int64_t applied_at(std::int64_t valid_us, std::int64_t, const Settings&) { return valid_us; }
-  static void keep_refusal(State&, const State&) {}
+  static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 
 /// filtering::History of the transfer alignment, about 0.4 kB an increment.

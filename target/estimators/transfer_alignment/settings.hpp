@@ -24,7 +24,8 @@ enum class H2Case : std::uint8_t { one = 1, two, three, four };
 enum class AlphaRule : std::uint8_t { cov_df, constant };
 
 /// What an update does with its correction. open: it is kept beside the INS. published: the INS takes it, and
-/// P stays as it is. invariant: the INS takes that of an invariant error (invariant.hpp), and H2 is guarded.
+/// P stays as it is. invariant: the INS takes that of an invariant error (invariant.hpp), H2 is guarded, and
+/// a velocity beyond the gate is refused.
 enum class Loop : std::uint8_t { open, published, invariant };
 
 struct Settings {
@@ -36,6 +37,9 @@ struct Settings {
       0;  // Kalman only: P grows by exp(2 fading dt), i.e. sigmas by exp(fading dt), before Q
   Loop loop = Loop::published;
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
+
+  double gate_nis = 40;             // Loop::invariant: a velocity with a larger NIS is refused; 0: none is
+  std::uint32_t gate_recovery = 5;  // ... but not more than this many in a row
 
   double velocity_noise_density = 0.01;                   // of the master, R_k = this/dt [(m/s)^2 s]
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]

@@ -44,11 +44,11 @@ std::optional<double> timing_bar_s(const nlohmann::json& check) {
 }
 
 /// By how much the bench was late for its own deadlines; 0 in lockstep, which has none.
+}  // namespace
+
 double largest_lateness_s(const nlohmann::json& report) {
   return report.contains("bench_lateness_s") ? report["bench_lateness_s"]["max"].get<double>() : 0;
 }
-
-}  // namespace
 
 std::string scratch(const std::string& name) { return own_folder() + "/" + name; }
 

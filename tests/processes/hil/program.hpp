@@ -43,6 +43,9 @@ std::vector<Frame> target_frames(const std::string& log_path);
 /// again.
 bool whole(const nlohmann::json& report);
 
+/// How late the bench itself was at the most; 0 in virtual time.
+double largest_lateness_s(const nlohmann::json& report);
+
 /// Runs hil-bench until the run whose report it is told to write to `report` is whole, four times at the
 /// most; the last one. A configuration that is refused is not tried again.
 Ended hil_bench_whole(const std::string& arguments, const std::string& report);

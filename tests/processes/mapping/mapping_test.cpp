@@ -27,6 +27,17 @@ Ended run(const std::string& target, const std::string& report, const std::strin
   return hil_bench(fmt::format("run {} --bus {} {} --json {} {}", own_ecu, bus(), target, report, more));
 }
 
+// In real time, again where the host stood still for longer than two samples: what the ECU then tells is
+// late.
+Ended run_in_time(const std::string& target, const std::string& report, const std::string& more = "") {
+  constexpr double two_samples_s = 0.02;
+  Ended ended = run(target, report, more);
+  for (int left = 3; left > 0 && ended.code != 2 && largest_lateness_s(read_json(report)) > two_samples_s;
+       --left)
+    ended = run(target, report, more);
+  return ended;
+}
+
 // The checks with this outcome.
 std::vector<std::string> checks(const nlohmann::json& report, const std::string& outcome) {
   std::vector<std::string> names;
@@ -41,7 +52,7 @@ class Ecu : public testing::TestWithParam<const char*> {};
 
 TEST_P(Ecu, PassesInRealTime) {
   const std::string report = scratch("ecu.json");
-  const Ended ended = run(GetParam(), report);
+  const Ended ended = run_in_time(GetParam(), report);
   ASSERT_NE(ended.code, 2) << ended.err;
   const nlohmann::json seen = read_json(report);
   expect_outputs_passed(ended, seen);
@@ -117,7 +128,7 @@ TEST(OwnEcu, IsFlownByACampaign) {
 // A drive is recorded from the bus, taken out of the log by the mapping, and driven again.
 TEST(OwnEcu, ARecordedDriveIsDrivenAgain) {
   const std::string log = scratch("drive.log"), csv = scratch("imu.csv"), again = scratch("again.toml");
-  ASSERT_NE(run(in_python("none"), scratch("drive.json"), "--log " + log).code, 2);
+  ASSERT_NE(run_in_time(in_python("none"), scratch("drive.json"), "--log " + log).code, 2);
   const std::string extract = fmt::format("dbc extract {}/own_ecu.mapping.toml {}", folder, log);
   const Ended taken = hil_bench(extract + " --play IMU_TX3");
   ASSERT_EQ(taken.code, 0) << taken.err;

@@ -120,6 +120,32 @@ TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   EXPECT_GT(fly(told(Algorithm::kalman, Loop::published, 1, 30), phi).worst_of_heading, 2);
 }
 
+// One wrong velocity is no reason to turn the INS, five in a row are.
+TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
+  for (const Loop loop : {Loop::invariant, Loop::published}) {
+    const Settings settings = told(Algorithm::kalman, loop, 1, 5);
+    State state = initial(flight_start(), settings);
+    strapdown::NavState truth = flight_start();
+    int gated = 0;
+    for (int k = 0; k < 20; ++k) {
+      propagate(state, flight_increment(truth, 0.1 * k, 0.1), settings);
+      truth = flight_next(truth, 0.1 * k, 0.1);
+      const bool wrong = k == 10 || k >= 13;
+      const State before = state;
+      const UpdateResult result =
+          update(state, truth.v_eb_n + (wrong ? Vector3d(0, 0, 100) : Vector3d::Zero()), settings);
+      if (result.outcome != Outcome::gated) continue;
+      ++gated;
+      EXPECT_GT(result.nis, settings.gate_nis) << k;
+      EXPECT_EQ(state.P, before.P) << k;
+      EXPECT_EQ(state.ins.nav.v_eb_n, before.ins.nav.v_eb_n) << k;
+    }
+    // That of k = 10, and five of the seven from k = 13 on; with the sixth the INS goes where the master is.
+    EXPECT_EQ(gated, loop == Loop::invariant ? 6 : 0);
+    EXPECT_GT(state.ins.nav.v_eb_n.z() - truth.v_eb_n.z(), 50);
+  }
+}
+
 // H2 told 15 deg: its own covariance runs away in the cruise. Guarded it keeps to what the start told, and
 // says so.
 TEST(InvariantLoop, GuardsH2AgainstItsOwnCovariance) {
