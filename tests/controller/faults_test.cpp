@@ -60,6 +60,29 @@ TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
+// The same where a scenario's faults have the bench do it; what a controller's own driver tells is not made
+// up.
+TEST(Interface, IsSetDownAndUpByAFaultOfTheScenario) {
+  set_up_on_wire();
+  const auto with_fault = [](const std::string& kind) {
+    std::string path = scratch(kind + ".toml");
+    std::ofstream(path) << fmt::format("[[fault]]\nkind = \"{}\"\nfrom_s = 1\nfor_s = 0.2\n", kind);
+    return path;
+  };
+  const std::string json = scratch("made.json");
+  const Target target;
+  const auto fly = [&](const std::string& kind) {
+    return bench_run(fmt::format("{} --json {} --faults {}", scenario("transfer_alignment_quick"), json,
+                                 with_fault(kind)));
+  };
+  const Ended ended = fly("interface_down");
+  const Outcome outcome{.ended = ended, .report = read_json(json), .target_said = ""};
+  EXPECT_TRUE(outcome.report["ending"]["completed"]) << ended.out << ended.err;
+  EXPECT_THAT(outcome.incidents(), testing::IsSupersetOf({"down", "up"}));
+  EXPECT_EQ(outcome.report["faults"][0]["count"], 1);
+  expect_one_line(fly("bus_off"), "'bus_off'");
+}
+
 TEST(Interface, DownForGoodOnTheBenchsSideEndsTheRun) {
   set_up_on_wire();
   const Outcome outcome = run_with([] { set_interface("can1", false); });

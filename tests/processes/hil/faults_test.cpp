@@ -86,6 +86,15 @@ TEST(Faults, OfTheBusAreCountedByTheirCauseExactly) {
   }
 }
 
+TEST(Faults, OfLengthAreCountedOnCanFd) {
+  const Flown flown =
+      fly(fault("too_long", "messages = [\"SlaveImuDeltaTheta\"]\nfrom_s = 1\nto_s = 2\nevery = 10"),
+          "--lockstep --dbc canhil-fd");
+  EXPECT_THAT(flown.outcome_of("counts_match"), testing::StartsWith("pass"));
+  EXPECT_EQ(causes(flown), "bad_crc bad_group frames_lost");
+  EXPECT_GT(flown.report["faults"][0]["count"], 0);
+}
+
 TEST(Faults, OfSensorsAndClocksChangeWhatTheTargetTells) {
   const nlohmann::json right = fly("").report["results"];
   const std::string rate = "quantity = \"imu.rate.z\"\nfrom_s = 1\nto_s = 2\n";

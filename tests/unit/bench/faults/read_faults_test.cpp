@@ -121,5 +121,15 @@ TEST(ReadFaults, ThePageHasEveryKindWithItsStage) {
   EXPECT_EQ(written, known);
 }
 
+TEST(ReadFaults, EveryKindIsFlownBetweenTwoProcesses) {
+  std::stringstream tests;
+  for (const char* file : {"processes/hil/faults_test.cpp", "vcan/outages_test.cpp"})
+    tests << std::ifstream(fmt::format("{}/tests/{}", SOURCE_DIR, file)).rdbuf();
+  for (const Listed& one : listed_kinds()) {
+    EXPECT_TRUE(std::regex_search(tests.str(), std::regex(fmt::format("\\\\?\"{}\\\\?\"", one.kind.name))))
+        << one.kind.name;
+  }
+}
+
 }  // namespace
 }  // namespace canhil::faults
