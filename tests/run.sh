@@ -160,8 +160,9 @@ address_sanitizer() {
     "$dbcgen" dbc/canhil.dbc --python -o $kit.py; } || failure "the contract of $copy"
   # What the documentation shows of the contract is of the project's own. That each rule of conformance names its defect, that each
   # shipped scenario is valid, and that a campaign may be killed at any time is no matter of memory; the latter two take a minute each.
+  # Long flights in real time run the code of the quick ones, and wait.
   build asan tests_input tests_processes tests_fuzz tests_fifth_estimator &&
-    run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed'
+    run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed|Bits[.]A|ThePapersFlight|Ecu[.]PassesInRealTime|DefectiveEcu'
   cd "$root" || exit 2
 }
 

@@ -13,6 +13,9 @@ struct LossCounts {
   std::uint64_t late = 0;
 };
 
+/// More than any target counts.
+inline constexpr std::uint32_t any_count = 1'000'000;
+
 /// The limits of the counts that the target last sent. They differ where the bench cannot know how far the
 /// target had read when it sent them, and where the contract lets an estimator refuse a group or use it.
 struct ExpectedCounts {

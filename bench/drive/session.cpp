@@ -136,11 +136,13 @@ class Session {
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = watcher_->finish();
-    // A changed value may make an estimator refuse a group that is otherwise right, a changed time find it
-    // late.
+    // A changed value may make an estimator refuse a group that is otherwise right, another order find it
+    // late; and who believes a time of the future finds late what comes until then.
     const faults::Tally befallen = schedule_->faults()->tally();
     seen.expected_counts.most.bad_group += befallen.changed * scenario_.targets.size();
-    seen.expected_counts.most.late += befallen.changed_times * scenario_.targets.size();
+    seen.expected_counts.most.late += befallen.overtaken * scenario_.targets.size();
+    if (befallen.changed_times > 0)
+      seen.expected_counts.most.late = seen.expected_counts.most.bad_group = checks::any_count;
     if (options_.for_verdict) add_watched(seen);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),

@@ -101,7 +101,7 @@ constexpr std::array table{
 
 const Kind& kind_of(std::string_view name) { return *std::ranges::find(table, name, &Kind::name); }
 
-std::string quoted(std::string_view text) { return fmt::format("\"{}\"", text); }
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text); }
 
 std::vector<const MessageInfo*> messages_of(const scenario::NodeTable& node) {
   std::vector<const MessageInfo*> group;
@@ -150,8 +150,8 @@ bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   }
   if (pairs.empty()) return false;
   const auto& [one, other] = draw.one_of(pairs);
-  fault.set("quantity", quoted(one));
-  fault.set("with", quoted(other));
+  fault.set("quantity", in_quotes(one));
+  fault.set("with", in_quotes(other));
   return true;
 }
 
@@ -171,15 +171,15 @@ std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw
   const scenario::NodeSettings* node = column.scenario.node(row.node);
   if (kind.befalls != Befalls::bus && node == nullptr) return std::nullopt;
   FaultText fault;
-  fault.set("kind", quoted(kind.name));
+  fault.set("kind", in_quotes(kind.name));
   const SignalInfo* signal = nullptr;
   switch (kind.befalls) {
     case Befalls::value: {
       const MessageInfo& message = *draw.one_of(messages_of(node->table()));
       signal = draw_signal(kind, message, draw);
       if (signal == nullptr) return std::nullopt;
-      fault.set("messages", fmt::format("[{}]", quoted(message.name)));
-      fault.set("signal", quoted(signal->name));
+      fault.set("messages", fmt::format("[{}]", in_quotes(message.name)));
+      fault.set("signal", in_quotes(signal->name));
       break;
     }
     case Befalls::pair:
@@ -187,12 +187,16 @@ std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw
       break;
     case Befalls::frames:
     case Befalls::node:
-      fault.set("node", quoted(row.node));
+      fault.set("node", in_quotes(row.node));
       break;
     case Befalls::bus:
       break;
   }
-  if (kind.size != Size::none) fault.set(kind.key, fmt::format("{:.6g}", drawn_size(kind, signal, draw)));
+  const double size = drawn_size(kind, signal, draw);
+  if (kind.size == Size::number)
+    fault.set(kind.key, fmt::format("{:.3f}", size));  // of milliseconds whole microseconds
+  else if (kind.size != Size::none)
+    fault.set(kind.key, fmt::format("{:.6g}", size));
   draw_times(fault, kind.times, static_cast<double>(column.scenario.duration_us) * 1e-6, draw);
   if (!scenario_of(column, 0, {fault})) return std::nullopt;  // as a sensor that vouches for nothing
   return fault;

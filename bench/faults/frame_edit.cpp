@@ -54,6 +54,10 @@ void set(Frame& frame, std::string_view signal, double value) {
   as_message(frame.id, frame.extended, [&]<class Message>() { set_in<Message>(frame, signal, value); });
 }
 
+bool is_time(std::string_view signal) {
+  return signal == "interval_us" || signal.starts_with("time_of_validity");
+}
+
 bool is_validity(const MessageInfo& info, std::string_view name) {
   bool is = false;
   as_message(info.id, info.extended, [&]<class Message>() {

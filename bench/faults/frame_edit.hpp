@@ -20,6 +20,9 @@ void set(Frame& frame, std::string_view signal, double value);
 /// Whether a signal is the flag by which a sensor vouches for its sample.
 bool is_validity(const MessageInfo& message, std::string_view signal);
 
+/// Whether a signal says when a sample is valid, or over how long.
+bool is_time(std::string_view signal);
+
 /// Writes the counter of a message that has one, and its CRC.
 void set_counter(Frame& frame, const MessageInfo& message, std::uint8_t counter);
 

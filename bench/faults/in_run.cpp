@@ -67,6 +67,7 @@ Tally Faults::tally() const {
     sum.count += one.count;
     sum.changed += one.changed;
     sum.changed_times += one.changed_times;
+    sum.overtaken += one.overtaken;
   }
   return sum;
 }

@@ -42,6 +42,9 @@ struct Tally {
   std::uint64_t count = 0;  ///< frames or samples that it befell, or times that it struck
   /// Frames with a value that the node did not send, right by their protection; of those, with another time.
   std::uint64_t changed = 0, changed_times = 0;
+  /// Frames that came after a newer one of their message: by its time of validity a sample of one message is
+  /// then late.
+  std::uint64_t overtaken = 0;
 };
 
 /// A fault in a run. All that it refers to must outlive what is made of it.

@@ -25,7 +25,7 @@ std::string signals_text(const Message& message) {
         "    {{.name = {}, .unit = {}, .scale = {}, .offset = {}, .minimum = {}, .maximum = {},\n"
         "     .sensor_sigma = {}, .carries_remainder = {}, .start_bit = {}, .length = {}, .big_endian = {},\n"
         "     .is_float = {}, .multiplexed = {}}},\n",
-        quoted(s->name), quoted(s->unit), literal(s->scale), literal(s->offset), literal(s->minimum),
+        in_quotes(s->name), in_quotes(s->unit), literal(s->scale), literal(s->offset), literal(s->minimum),
         literal(s->maximum), literal(s->sensor_sigma), s->carries_remainder, s->start_bit, s->length,
         s->byte_order == ByteOrder::big_endian, s->is_float(), !s->multiplexed_by.empty());
   }

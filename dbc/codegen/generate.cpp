@@ -20,7 +20,7 @@ std::string enum_text(const EnumType& type) {
     const char* separator = i == 0 ? "" : ", ";
     declared += fmt::format("{}{} = {}", separator, name, type.values[i].value);
     listed += fmt::format("{}{}::{}", separator, type.name, name);
-    named += fmt::format("    case {}::{}: return {};\n", type.name, name, quoted(type.values[i].name));
+    named += fmt::format("    case {}::{}: return {};\n", type.name, name, in_quotes(type.values[i].name));
   }
   return fmt::format(
       "enum class {0} : {1} {{ {2} }};\n"

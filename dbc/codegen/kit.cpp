@@ -231,9 +231,9 @@ Result<std::string> python_module(const Database& database, std::string_view dbc
       fmt::format("\"\"\"{}\"\"\"\n\nDBC_HASH24 = 0x{:06X}\n\n# name: {{value: name}}\nVALUE_TABLES = {{\n",
                   made_by("--python", dbc_name), fold24(database.hash));
   for (const ValueTable& table : database.value_tables) {
-    text += fmt::format("    {}: {{", quoted(table.name));
+    text += fmt::format("    {}: {{", in_quotes(table.name));
     for (const ValueName& value : ascending(table.values))
-      text += fmt::format("{}: {}, ", value.value, quoted(value.name));
+      text += fmt::format("{}: {}, ", value.value, in_quotes(value.name));
     text += "},\n";
   }
   text +=
@@ -244,28 +244,29 @@ Result<std::string> python_module(const Database& database, std::string_view dbc
       "GROUPS = {\n";
   std::string answers, cycles, from_target;
   for (const Group& group : *groups) {
-    text += fmt::format("    {}: (\n", quoted(group.name));
+    text += fmt::format("    {}: (\n", in_quotes(group.name));
     for (const Message* message : group.messages) {
-      text += fmt::format("        ({}, 0x{:X}, 0x{:X}, {}, (\n", quoted(message->name), message->id,
+      text += fmt::format("        ({}, 0x{:X}, 0x{:X}, {}, (\n", in_quotes(message->name), message->id,
                           message->e2e_data_id, message->size);
       for (const Signal* signal : members_of(*message)) {
         const auto [lowest, highest] = limits_of(*signal);
         const std::string table = table_of(database, *signal);
-        text += fmt::format("            ({}, {}, {}, \"{}\", {}, {}, {}, {}, {}),\n", quoted(signal->name),
-                            signal->start_bit, signal->length, kind_of(*signal), literal(signal->scale),
-                            literal(signal->offset), lowest, highest, table.empty() ? "None" : quoted(table));
+        text +=
+            fmt::format("            ({}, {}, {}, \"{}\", {}, {}, {}, {}, {}),\n", in_quotes(signal->name),
+                        signal->start_bit, signal->length, kind_of(*signal), literal(signal->scale),
+                        literal(signal->offset), lowest, highest, table.empty() ? "None" : in_quotes(table));
       }
       text += "        )),\n";
     }
     text += "    ),\n";
     const Message& first = *group.messages.front();
     if (first.cycle_time_us > 0)
-      cycles +=
-          fmt::format("    {}: {},\n", quoted(group.name), static_cast<double>(first.cycle_time_us) / 1000);
-    if (first.sender == "Target") from_target += fmt::format("    {},\n", quoted(group.name));
+      cycles += fmt::format("    {}: {},\n", in_quotes(group.name),
+                            static_cast<double>(first.cycle_time_us) / 1000);
+    if (first.sender == "Target") from_target += fmt::format("    {},\n", in_quotes(group.name));
     if (first.answers.empty()) continue;
-    answers += fmt::format("    {}: (", quoted(group.name));
-    for (const std::string& answered : first.answers) answers += quoted(answered) + ", ";
+    answers += fmt::format("    {}: (", in_quotes(group.name));
+    for (const std::string& answered : first.answers) answers += in_quotes(answered) + ", ";
     answers += "),\n";
   }
   return text + fmt::format(

@@ -208,7 +208,7 @@ std::string answers_text(const Message& message) {
   std::string text =
       fmt::format("namespace detail {{\ninline constexpr std::array<std::string_view, {}> answers_of_{}{{",
                   message.answers.size(), type_name(message));
-  for (const std::string& group : message.answers) text += quoted(group) + ", ";
+  for (const std::string& group : message.answers) text += in_quotes(group) + ", ";
   return text + "};\n}  // namespace detail\n\n";
 }
 
@@ -231,8 +231,8 @@ std::string message_text(const Enums& enums, const Message& message) {
       "  static std::span<const SignalInfo> signals() noexcept;\n"
       "  /// What `pack` rounds.\n"
       "  static std::span<const wire::ScaledMember> scaled() noexcept;\n\n",
-      quoted(message.name), message.id, message.extended, message.fd, message.cycle_time_us,
-      message.e2e_data_id, quoted(message.sender), quoted(message.sample_group),
+      in_quotes(message.name), message.id, message.extended, message.fd, message.cycle_time_us,
+      message.e2e_data_id, in_quotes(message.sender), in_quotes(message.sample_group),
       message.answers.empty() ? "{}" : fmt::format("detail::answers_of_{}", type),
       can_travel_unrounded(message));
   text += unpack_text(enums, message, members) + pack_text(message, members) + visit_text(message, members);

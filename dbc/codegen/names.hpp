@@ -51,6 +51,6 @@ bool is_protection(const Message& message, const Signal& signal);
 std::vector<const Signal*> members_of(const Message& message);
 /// A literal of exactly this value.
 std::string literal(double value);
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace canhil::dbc

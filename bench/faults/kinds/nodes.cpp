@@ -83,6 +83,7 @@ class LateNode final : public BefallenNode {
   void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (frames.empty() || !is_own(frames.front()) || !occasions_.next(t_us)) return;
     ++tally().count;
+    ++tally().overtaken;
     waiting_.emplace_back(t_us + by_us_, std::exchange(frames, {}));
   }
   std::int64_t by_us_;

@@ -22,6 +22,7 @@ class DelayedFrames final : public OfFrames {
  private:
   void put(Own& /*own*/, const Frame& frame, std::int64_t t_us, std::vector<Frame>& /*left*/) override {
     waiting_.emplace_back(t_us + by_us_, frame);
+    ++tally().overtaken;
   }
   std::int64_t by_us_;
   std::deque<std::pair<std::int64_t, Frame>> waiting_;  // by their times: all wait as long
@@ -39,7 +40,9 @@ class ReorderedFrames final : public OfFrames {
   }
   void pass(Own& own, const Frame& frame, std::vector<Frame>& left) override {
     left.push_back(frame);
-    if (own.held) left.push_back(*std::exchange(own.held, std::nullopt));
+    if (!own.held) return;
+    left.push_back(*std::exchange(own.held, std::nullopt));
+    ++tally().overtaken;
   }
 };
 

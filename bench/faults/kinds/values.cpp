@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bench/faults/befallen_node.hpp"
+#include "bench/faults/frame_edit.hpp"
 #include "bench/faults/measured_value.hpp"
 
 namespace canhil::faults {
@@ -50,7 +51,7 @@ class WithValues final : public BefallenNode {
         own.value.put(*frame, value, interval_s);
       ++tally().count;
       ++tally().changed;
-      if (own.value.of().signal->name.starts_with("time_of_validity")) ++tally().changed_times;
+      if (is_time(own.value.of().signal->name)) ++tally().changed_times;
     }
   }
 
