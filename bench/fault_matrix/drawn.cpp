@@ -155,15 +155,15 @@ bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   return true;
 }
 
-// Within the flight, so that what was before is known, and there is time to recover.
-void draw_times(FaultText& fault, Times times, double duration_s, Draw& draw) {
+// Within the flight, so that what was before is known, and there is time to recover; long enough to strike.
+void draw_times(FaultText& fault, Times times, double duration_s, double period_s, Draw& draw) {
+  constexpr std::array often{1, 2, 5, 10}, seldom{5, 10, 20, 50};
   const double from_s = duration_s * draw.between(0.3, 0.6);
-  const double length_s = duration_s * draw.between(0.01, 0.15);
+  const double length_s = std::max(duration_s * draw.between(0.01, 0.15), 2 * period_s);
   fault.set("from_s", fmt::format("{:.3f}", from_s));
   if (times != Times::begins) fault.set("to_s", fmt::format("{:.3f}", from_s + length_s));
-  constexpr std::array every{1, 2, 5, 10}, seldom{5, 10, 20, 50};
   if (times == Times::each || times == Times::seldom)
-    fault.set("every", std::to_string(draw.one_of(times == Times::each ? every : seldom)));
+    fault.set("every", std::to_string(draw.one_of(times == Times::each ? often : seldom)));
 }
 
 std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw& draw) {
@@ -197,7 +197,8 @@ std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw
     fault.set(kind.key, fmt::format("{:.3f}", size));  // of milliseconds whole microseconds
   else if (kind.size != Size::none)
     fault.set(kind.key, fmt::format("{:.6g}", size));
-  draw_times(fault, kind.times, static_cast<double>(column.scenario.duration_us) * 1e-6, draw);
+  const double period_s = node == nullptr ? 0 : 1e-6 * static_cast<double>(node->period_us());
+  draw_times(fault, kind.times, 1e-6 * static_cast<double>(column.scenario.duration_us), period_s, draw);
   if (!scenario_of(column, 0, {fault})) return std::nullopt;  // as a sensor that vouches for nothing
   return fault;
 }

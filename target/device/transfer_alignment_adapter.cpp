@@ -65,7 +65,7 @@ constexpr std::array rows{
         }},
     Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
         [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
-    Row{Parameter::gate_nis, 40, 0, 1e9, real, any_time, [](Tuning& t, double v) { t.filter.gate_nis = v; }},
+    Row{Parameter::gate_nis, 250, 0, 1e9, real, any_time, [](Tuning& t, double v) { t.filter.gate_nis = v; }},
     Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time,
         [](Tuning& t, double v) { t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v)); }},
     Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,

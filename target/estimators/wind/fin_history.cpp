@@ -20,7 +20,8 @@ FinOutcome FinHistory::push(std::int64_t t_us, const Deflection& d, double limit
   if (last_refused_) return FinOutcome::not_physical;
   const std::optional<Sample> before = std::exchange(out_of_order_, std::nullopt);
   if (count_ > 0 && t_us <= back(0).t_us) {
-    if (!before || t_us <= before->t_us) {
+    constexpr std::int64_t overtaken_us = 100'000;  // by no more on a bus that delays frames
+    if (!before || t_us <= before->t_us || t_us >= back(0).t_us - overtaken_us) {
       out_of_order_ = {t_us, d};
       return FinOutcome::out_of_order;
     }

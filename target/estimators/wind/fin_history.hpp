@@ -27,8 +27,8 @@ struct ActingFins {
 class FinHistory {
  public:
   /// Deflections [rad] valid at t_us; each at most `limit`. In the order of their times: one that is not is
-  /// out of order, but a second in a row that comes after the first says that the newest time was wrong, and
-  /// the history begins anew with the two.
+  /// out of order, but two in a row, one after the other and 0.1 s before the newest, say that its time was
+  /// wrong: the history begins anew with the two.
   FinOutcome push(std::int64_t t_us, const Deflection& deflection, double limit);
 
   /// The mean over [from, to] of the samples joined by lines, the newest held after it, the oldest before it.

@@ -213,5 +213,36 @@ TEST(Faults, BadInputIsOneLine) {
   EXPECT_FALSE(fs::exists(scratch("none")));
 }
 
+std::string recommended() {
+  return fmt::format("{} {} {} {}", scenario("transfer_alignment_quick"), scenario("inflight_quick"),
+                     scenario("los_quick"), scenario("wind_recommended"));
+}
+
+// One that is mended is to be taken out of the file, and out of docs/fault-matrix.md.
+TEST(Faults, WhatIsKnownToBeBelievedIsEachOfOneEstimator) {
+  const Ended ended =
+      hil_bench(fmt::format("faults {} --set {}/bench/fault_matrix/believed.toml --out {} --json -",
+                            recommended(), SOURCE_DIR, scratch("believed")));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  const nlohmann::json matrix = nlohmann::json::parse(ended.out);
+  std::map<std::string, int> believed;
+  for (const auto& cell : matrix["cells"]) {
+    int& count = believed[cell["row"]];
+    if (cell["response"] != "violated") continue;
+    EXPECT_EQ(cell["check"], "honest") << cell;
+    ++count;
+  }
+  EXPECT_EQ(believed.extract("no fault").mapped(), 0);
+  EXPECT_EQ(believed.size(), 12U);
+  for (const auto& [fault, count] : believed) EXPECT_EQ(count, 1) << fault;
+}
+
+TEST(Documentation, HasTheMatrixOfTheFourEstimators) {
+  const Ended ended =
+      hil_bench(fmt::format("faults {} --out {} --markdown", recommended(), scratch("documented")));
+  EXPECT_EQ(ended.code, 1) << ended.err;
+  EXPECT_THAT(read(SOURCE_DIR "/docs/fault-matrix.md"), testing::EndsWith(ended.out));
+}
+
 }  // namespace
 }  // namespace canhil::test

@@ -34,6 +34,15 @@ TEST(Wind, AnswersEachGroupNamingItsCause) {
                            WindAttitude::info.id, WindInnovation::info.id, WindUpdate::info.id));
 }
 
+TEST(Wind, IsDegradedForTheFirstSecond) {
+  Glider bench;
+  bench.forget();
+  bench.fly(0, 60);
+  const auto answers = bench.all<WindSpeed>();
+  ASSERT_EQ(answers.size(), 60U);
+  for (std::size_t k = 0; k < 60; ++k) EXPECT_EQ(answers[k].degraded, k < 50 ? 1 : 0) << k;
+}
+
 TEST(Wind, ComesAsComponentsAndAsSpeedAndDirectionWithTheirSigmas) {
   Glider bench;
   bench.fly(0, 600);
