@@ -117,7 +117,7 @@ constexpr auto parameters = [] {
   using enum messages::Parameter;
   return names_of(accel_bias_sigma_ug, gyro_bias_sigma_degph, accel_noise_ugprthz, gyro_noise_degprth,
                   velocity_noise_m2ps, h2_case, h2_alpha_rule, h2_alpha_mps2, fading_per_s, mechanization,
-                  closed_loop, gate_nis, gate_recovery, output_interval_ms);
+                  closed_loop, output_interval_ms, gate_nis, gate_recovery);
 }();
 constexpr std::array<std::string_view, 2> nodes{"slave_imu", "master_ins"};
 
