@@ -5,7 +5,7 @@ A file of the copy that stays the same is not written again, so that a build of 
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "dbc", "docs", "target", "tests")
+PARTS = ("CMakeLists.txt", "CMakePresets.json", "README.md", "bench", "cmake", "dbc", "docs", "target", "tests")
 
 
 def copy_tree(target, changed=lambda name, content: content, made=()):

@@ -56,7 +56,7 @@ def check(root):
     graph = {name: includes(text) for name, text in sources.items()}
     return [*direct_breaches(graph), *reach_breaches(graph), *cycle_breaches(graph), *size_breaches(sources),
             *name_breaches(texts), *machine_path_breaches(texts), *quantity_breaches(sources),
-            *estimator_breaches(sources), *node_breaches(sources, graph),
+            *estimator_breaches(sources), *named_test_breaches(texts), *node_breaches(sources, graph),
             *dbc_breaches(texts, sources)]
 
 
@@ -233,6 +233,20 @@ def machine_path_breaches(texts):
         for number, line in enumerate(text.splitlines(), 1):
             if match := MACHINE_PATH.search(line):
                 yield f"{name}:{number}: '{match[0]}' is a path of one machine, expected a relative one"
+
+
+# Where a page names the tests that keep what it promises.
+PROVEN = "docs/duty.md"
+NAMED_TEST = re.compile(r"`([A-Z]\w+)\.([A-Z]\w+)`")
+TEST = re.compile(r"\bTEST(?:_[FP])?\((\w+),\s*(\w+)\)")
+
+
+def named_test_breaches(texts):
+    tests = {match.groups() for name, text in texts.items() if name.endswith("_test.cpp") for match in TEST.finditer(text)}
+    for number, line in enumerate(texts.get(PROVEN, "").splitlines(), 1):
+        for match in NAMED_TEST.finditer(line):
+            if match.groups() not in tests:
+                yield f"{PROVEN}:{number}: there is no test {match[1]}.{match[2]}, expected one"
 
 
 # What the DBC alone may say. An id counts in hexadecimal anywhere, in decimal only where the line is about an id.

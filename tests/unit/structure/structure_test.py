@@ -161,6 +161,11 @@ class Checker(unittest.TestCase):
             with self.subTest(path):
                 self.expect("docs/x.md:2: ", {"docs/x.md": f"one\nsee {path}/y\n"})
 
+    def test_tests_that_a_page_names_are_there(self):
+        page = {"docs/duty.md": "one\nkept by `Wind.Blows`\n"}
+        self.expect("docs/duty.md:2: there is no test Wind.Blows", page)
+        self.assertEqual(breaches_of({**page, "tests/wind_test.cpp": "TEST(Wind, Blows) {}\n"}), [])
+
     def test_dbc_is_the_only_truth(self):
         for line in ("if (frame.id == 0x081) {}", "constexpr auto x = 0x182U;", "const int imu_id = 129;",
                      "case 386:", "send(Frame{.id = 129});", "e2e(0x4081);", "double scale = 2e-5;",
