@@ -13,6 +13,7 @@ namespace canhil::fault_matrix {
 /// A row of the matrix without its text: a kind of fault, and the node that it befalls; empty: the bus.
 struct Drawn {
   std::string_view kind, node{};
+  bool operator==(const Drawn&) const = default;
 };
 /// Each kind that works in virtual time and needs no bit rate, on each of these nodes and on the bus.
 std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes);
@@ -22,7 +23,12 @@ std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes);
 std::optional<FaultText> drawn_fault(const Drawn& row, const Column& column, std::uint64_t seed,
                                      std::uint64_t run);
 
-/// Of a cell with several faults: what befalls which of the scenario's nodes is drawn too.
-std::vector<FaultText> drawn_faults(int count, const Column& column, std::uint64_t seed, std::uint64_t run);
+/// Whether the scenario takes such a fault: a sensor may vouch for nothing. A look at one draw; it costs far
+/// more than the draw.
+bool fits(const Drawn& row, const Column& column, std::uint64_t seed);
+
+/// Of a cell with several faults: those of which rows is drawn too; all of them fit.
+std::vector<FaultText> drawn_faults(int count, const std::vector<Drawn>& rows, const Column& column,
+                                    std::uint64_t seed, std::uint64_t run);
 
 }  // namespace canhil::fault_matrix

@@ -77,11 +77,18 @@ Plan made_plan(std::vector<Column> columns, std::uint64_t seed, std::uint64_t ru
   for (const Drawn& row : drawn)
     plan.rows.push_back({.fault = std::string(row.kind), .node = std::string(row.node)});
   plan.rows.push_back({.fault = fmt::format("{} at once", at_once)});
+  std::vector<std::vector<Drawn>> fitting(plan.columns.size());
+  for (std::size_t column = 0; column < plan.columns.size(); ++column) {
+    for (const Drawn& row : drawn) {
+      if (fits(row, plan.columns[column], seed)) fitting[column].push_back(row);
+    }
+  }
   add_cells(
       plan,
       [&](std::size_t row, std::size_t place, std::uint64_t run) -> std::optional<std::vector<FaultText>> {
         const Column& column = plan.columns[place];
-        if (row > drawn.size()) return drawn_faults(at_once, column, seed, run);
+        if (row > drawn.size()) return drawn_faults(at_once, fitting[place], column, seed, run);
+        if (std::ranges::find(fitting[place], drawn[row - 1]) == fitting[place].end()) return std::nullopt;
         auto fault = drawn_fault(drawn[row - 1], column, seed, run);
         if (!fault) return std::nullopt;
         return std::vector{std::move(*fault)};
