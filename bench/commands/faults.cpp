@@ -48,9 +48,12 @@ void add_shown(command_line::Command command, Shown& shown) {
   command.add_flag("--markdown", shown.markdown, "as a table of Markdown, in place of the text");
 }
 
-Result<void> check_outputs(const Shown& shown, std::vector<std::string> files) {
+Result<void> check_outputs(const Shown& shown, std::vector<std::string> files, const fs::path& out) {
   files.insert(files.end(), {shown.json, shown.html});
   if (auto distinct = report::check_distinct(files); !distinct) return distinct;
+  std::error_code error;  // they may lie in it
+  if (!out.empty()) fs::create_directories(out, error);
+  if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
   for (const std::string& path : {shown.json, shown.html}) {
     if (path.empty() || (path == report::to_stdout && path == shown.json)) continue;
     if (auto writable = report::check_writable(path); !writable) return writable;
@@ -102,10 +105,8 @@ ExitCode execute(const Arguments& arguments) {
   std::vector<std::string> files = drive::files_of_target(arguments.target);
   files.insert(files.end(), arguments.scenarios.begin(), arguments.scenarios.end());
   files.insert(files.end(), {arguments.set, file.string()});
-  if (auto fine = check_outputs(arguments.shown, std::move(files)); !fine) return complain(fine.error());
-  std::error_code error;
-  if (!folder.empty()) fs::create_directories(folder, error);
-  if (error) return complain({fmt::format("{}: cannot be a folder: {}", folder.string(), error.message())});
+  if (auto fine = check_outputs(arguments.shown, std::move(files), folder); !fine)
+    return complain(fine.error());
 
   catch_interrupts();  // from here on a file is written
   const auto identity = fault_matrix::identity_of(*plan, arguments.target);
@@ -152,7 +153,7 @@ ExitCode execute(const Arguments& arguments) {
 
 ExitCode merge(const MergeArguments& arguments) {
   const std::vector<fs::path> files(arguments.files.begin(), arguments.files.end());
-  if (auto fine = check_outputs(arguments.shown, arguments.files); !fine) return complain(fine.error());
+  if (auto fine = check_outputs(arguments.shown, arguments.files, {}); !fine) return complain(fine.error());
   const auto results = fault_matrix::merged(files);
   if (!results) return complain(results.error());
   return show(*results, arguments.shown, files.front().parent_path().string());

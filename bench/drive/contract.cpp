@@ -67,13 +67,18 @@ Result<scenario::Scenario> parse_scenario(std::string_view text, const std::stri
 Result<void> add_faults(scenario::Scenario& scenario, const std::string& file) {
   const auto text = read_text_file(file, "a file of faults", scenario::most_toml_bytes);
   if (!text) return tl::unexpected(text.error());
+  return add_faults(scenario, *text, file);
+}
+
+Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, const std::string& name,
+                        const scenario::FaultPlaces* some) {
   scenario::Contract by = contract();
   if (scenario.foreign != nullptr) {
     by.foreign = scenario.foreign;
     by.messages.clear();
     for (const MessageInfo& info : scenario.foreign->messages) by.messages.emplace_back(info.name);
   }
-  return scenario::add_faults(scenario, *text, file, by);
+  return scenario::add_faults(scenario, text, name, by, some);
 }
 
 Result<scenario::Scenario> read_scenario(const std::string& file) {

@@ -26,5 +26,8 @@ Result<scenario::Scenario> read_scenario(const std::string& file);
 
 /// Adds the [[fault]] tables of a file to those of the scenario. Error: one line.
 Result<void> add_faults(scenario::Scenario& scenario, const std::string& file);
+/// The same of the text of a file, or some of them.
+Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, const std::string& name,
+                        const scenario::FaultPlaces* some = nullptr);
 
 }  // namespace canhil::drive

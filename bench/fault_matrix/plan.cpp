@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "bench/drive/contract.hpp"
 #include "bench/fault_matrix/drawn.hpp"
 #include "bench/fault_matrix/response.hpp"
 #include "bench/scenario/section.hpp"
@@ -39,27 +40,13 @@ void add_cells(Plan& plan, const FaultsOf& faults_of) {
   }
 }
 
-// Whether a value lists a text, in quotes of either kind.
-bool lists(const Setting& value, std::string_view text) {
-  return std::ranges::any_of(value.elements, [&](const std::string& element) {
-    return element.size() == text.size() + 2 && std::string_view(element).substr(1, text.size()) == text;
-  });
-}
-
-// Why a fault does not fit a scenario; empty: it does.
-std::string unfit(const Column& column, const std::vector<FaultText>& faults) {
-  for (const FaultText& fault : faults) {
-    const Setting* named = fault.find("messages");
-    for (const MessageInfo& info : messages::all_messages) {
-      if (named == nullptr || !lists(*named, info.name)) continue;
-      const bool sent = std::ranges::any_of(column.scenario.nodes, [&](const scenario::NodeSettings& node) {
-        return node.table().closes.sample_group == info.sample_group;
-      });
-      if (!sent) return fmt::format("{}: nobody sends {}", column.file, info.name);
-    }
-  }
-  const auto scenario = scenario_of(column, 0, faults);
-  return scenario ? "" : scenario.error().message;
+// Why some faults of a set do not fit a scenario; none: they do.
+std::optional<Error> unfit(const Column& column, const std::string& set, const std::string& file,
+                           const scenario::FaultPlaces& places) {
+  scenario::Scenario scenario = column.scenario;
+  scenario.faults.clear();
+  const auto added = drive::add_faults(scenario, set, file, &places);
+  return added ? std::nullopt : std::optional(added.error());
 }
 
 }  // namespace
@@ -103,8 +90,11 @@ Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, s
   Plan plan{.seed = seed, .runs = runs, .set_hash = world::fnv1a_64(*text), .columns = std::move(columns)};
   plan.rows.push_back({.fault = std::string(no_fault)});
   std::vector<std::vector<FaultText>> sets{{}};
+  std::vector<scenario::FaultPlaces> places{{}};
   Section root = Section::parse(*text, set_file);
-  for (Section& section : root.tables("fault")) {
+  std::vector<Section> sections = root.tables("fault");
+  for (std::size_t place = 0; place < sections.size(); ++place) {
+    Section& section = sections[place];
     const std::string kind = section.text("kind");
     const std::string name = section.text("name", fmt::format("{} {}", kind, sets.size()));
     const std::string row = section.text("together", name);
@@ -113,28 +103,30 @@ Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, s
       if (key.key != "together") fault.keys.push_back(std::move(key));
     }
     const auto known = std::ranges::find(plan.rows, row, &Row::fault);
+    const auto at = static_cast<std::size_t>(known - plan.rows.begin());
     if (known == plan.rows.end()) {
       plan.rows.push_back({.fault = row});
-      sets.push_back({std::move(fault)});
-    } else if (section.has("together")) {
-      sets[static_cast<std::size_t>(known - plan.rows.begin())].push_back(std::move(fault));
-    } else {
+      sets.emplace_back();
+      places.emplace_back();
+    } else if (!section.has("together")) {
       section.reject("name", fmt::format("'{}' is there twice", row), "each once");
     }
+    sets[at].push_back(std::move(fault));
+    places[at].push_back(place);
   }
   root.finish();
   if (const auto error = root.error()) return tl::unexpected(*error);
   std::vector<std::vector<bool>> fits;
-  for (std::size_t row = 0; row < sets.size(); ++row) {
-    std::string why;
+  for (const scenario::FaultPlaces& of_row : places) {
+    std::vector<std::optional<Error>> why;
+    for (const Column& column : plan.columns) why.push_back(unfit(column, *text, set_file, of_row));
     fits.emplace_back();
-    for (const Column& column : plan.columns) {
-      const std::string reason = unfit(column, sets[row]);
-      fits.back().push_back(reason.empty());
-      if (why.empty()) why = reason;
-    }
-    if (row > 0 && std::ranges::find(fits.back(), true) == fits.back().end())
-      return failure(fmt::format("{}: fault '{}' fits no scenario: {}", set_file, plan.rows[row].fault, why));
+    for (const auto& one : why) fits.back().push_back(!one);
+    if (std::ranges::find(fits.back(), true) != fits.back().end()) continue;
+    const std::string& first = why.front()->message;
+    if (std::ranges::all_of(why, [&](const auto& one) { return one->message == first; }))
+      return failure(first);
+    return failure(fmt::format("{} in {}, and it fits no other scenario", first, plan.columns.front().file));
   }
   add_cells(plan,
             [&](std::size_t row, std::size_t column, std::uint64_t) -> std::optional<std::vector<FaultText>> {

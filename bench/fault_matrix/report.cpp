@@ -28,10 +28,14 @@ std::vector<std::string> told(const Results& results, Kind kind, const std::stri
                     head_of(results.identity.columns[cell.column]),
                     results.identity.runs > 1 ? fmt::format(", run {}", cell.run) : "", words(cell.response));
     lines.push_back(std::move(line));
-    for (const std::string& fault : cell.least) lines.push_back("  " + fault);
-    if (!cell.replay.empty())
-      lines.push_back("  " + replay_command((std::filesystem::path(folder) / cell.replay).string(),
-                                            results.identity.target));
+    if (cell.replay.empty()) continue;
+    for (const std::string& fault : cell.faults) lines.push_back("  flown: " + fault);
+    for (const std::string& fault : cell.least) lines.push_back("  least: " + fault);
+    const std::string file = (std::filesystem::path(folder) / cell.replay).string();
+    std::error_code unknown;
+    lines.push_back("  " + (std::filesystem::exists(file, unknown)
+                                ? replay_command(file, results.identity.target)
+                                : fmt::format("{} is not there any more: no replay", file)));
   }
   return lines;
 }

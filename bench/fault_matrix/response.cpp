@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bench/checks/kinds/honest.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/estimators/registry.hpp"
 
@@ -28,6 +29,13 @@ checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const dri
                                   .truth = drive::truth_of(run.truth, run.own_truth, run.ending.t_us),
                                   .estimators = estimators::in(scenario),
                                   .timing_unfit = run.timing_unfit});
+}
+
+// Whether each estimator has answers to be held against the truth: one that ended before its first has none.
+bool has_samples(const scenario::Scenario& scenario, const drive::Run& run) {
+  return std::ranges::all_of(estimators::in(scenario), [&](const estimators::Estimator* one) {
+    return !one->samples(run.seen, drive::truth_of(run.truth, run.own_truth, run.ending.t_us)).empty();
+  });
 }
 
 // What the flight without faults has at the same times, too, is taken away.
@@ -101,6 +109,7 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
   if (run.ending.kind != Ending::Kind::completed && !ended) return violated(flight_itself, run.ending.detail);
   std::string unjudged;
   for (const CheckResult& check : verdict_to_its_end(scenario, run).checks) {
+    if (ended && check.kind == checks::Honest::kind && !has_samples(scenario, run)) continue;
     if (before != nullptr && std::ranges::find(before->failed, check.kind) != before->failed.end()) continue;
     if (check.outcome == Outcome::fail) return violated(check.kind, check.measured);
     if (check.outcome == Outcome::not_measured && unjudged.empty())
@@ -120,6 +129,10 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
     return {.kind = Response::Kind::ended,
             .detected_s = seconds(std::max<std::int64_t>(run.ending.t_us - onset_us, 0)),
             .why = reason_of(run.ending.detail)};
+  for (const faults::Told& fault : run.faults) {
+    if (fault.count == 0)
+      return {.kind = Response::Kind::not_measured, .why = fmt::format("'{}' did not strike", fault.name)};
+  }
   const std::int64_t valid_from_us = std::max<std::int64_t>(onset_us - latency_us(scenario), 0);
   const std::vector<Sign> signs =
       checks::new_since(signs_beyond(checks::signs_in(run.seen, estimators::in(scenario)),

@@ -16,7 +16,7 @@ namespace {
 
 using scenario::Setting;
 
-std::string seconds_of(std::int64_t t_us) { return fmt::format("{}", static_cast<double>(t_us) * 1e-6); }
+std::string seconds_of(std::int64_t t_us) { return fmt::format("{}", static_cast<double>(t_us) / 1e6); }
 
 // How much deeper in brackets a line ends than it began; strings and comments aside.
 int deeper_by(const std::string& line) {

@@ -41,17 +41,23 @@ bool on_the_bus(const FaultContext& context, std::string_view node) {
                              [&](const scenario::NodeSettings& one) { return one.table().key == node; });
 }
 
+bool is_sample_of_a_node(const MessageInfo& message, const FaultContext& context) {
+  return !message.sample_group.empty() &&
+         std::ranges::any_of(context.nodes, [&](const scenario::NodeSettings& node) {
+           return node.table().closes.sample_group == message.sample_group &&
+                  node.table().closes.sender == message.sender;
+         });
+}
+
 std::vector<const MessageInfo*> messages_by_name(Section& section, const FaultContext& context) {
   std::vector<const MessageInfo*> all;
-  const auto known = messages_of(context);
-  for (const std::string& name : section.some_of("messages", context.contract.messages)) {
-    const auto message = std::ranges::find(known, std::string_view(name), &MessageInfo::name);
-    if (message == known.end() || message->sample_group.empty() ||
-        message->sender == messages::TargetHeartbeat::info.sender)
-      section.reject("messages", fmt::format("{} is no sample of a node of the bench", name), "one");
-    else
-      all.push_back(&*message);
+  std::vector<std::string> sent;
+  for (const MessageInfo& message : messages_of(context)) {
+    if (context.contract.foreign != nullptr || is_sample_of_a_node(message, context))
+      sent.emplace_back(message.name);
   }
+  for (const std::string& name : section.some_of("messages", sent))
+    all.push_back(&*std::ranges::find(messages_of(context), std::string_view(name), &MessageInfo::name));
   return all;
 }
 
@@ -82,8 +88,7 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
   if (!section.has("node")) {
     section.optional("node");
     of.all = messages_by_name(section, context);
-    if (of.all.empty())
-      section.reject("messages", "names none", "at least one message that a node of the bench sends");
+    if (of.all.empty()) section.missing("messages", "some that a node of the scenario sends, or node");
     of.words = words_of(of.all);
     return of;
   }
@@ -129,7 +134,7 @@ OfValues read_values(Section& section, const FaultContext& context) {
   }
   section.optional("quantity");
   const auto messages = messages_by_name(section, context);
-  if (messages.empty()) section.reject("quantity", "is missing", "a quantity, or messages and signal");
+  if (messages.empty()) section.missing("quantity", "a quantity, or messages and signal");
   const std::string name = section.text("signal");
   of.words = words_of(messages);
   for (const MessageInfo* message : messages) {
@@ -160,8 +165,8 @@ double read_size(Section& section, std::string_view stem, const OfValues& of, sc
     given = key;
   }
   if (given.empty()) {
-    section.reject(keys.front(), "is missing",
-                   keys.size() == 1 ? "a number" : fmt::format("one of: {}", fmt::join(keys, ", ")));
+    section.missing(keys.front(),
+                    keys.size() == 1 ? "a number" : fmt::format("one of: {}", fmt::join(keys, ", ")));
     return 0;
   }
   return si.empty() ? section.plain_number(given, limits) : section.number(given, limits);

@@ -1,5 +1,6 @@
 #include "bench/faults/when.hpp"
 
+#include "bench/scenario/rule.hpp"
 #include "bench/scenario/section.hpp"
 
 namespace canhil::faults {
@@ -26,10 +27,11 @@ void read_periods(scenario::Section& section, When& when) {
 
 }  // namespace
 
-When read_when(scenario::Section& section, const scenario::FaultContext& /*context*/, Repeats repeats) {
+When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats) {
   When when;
   when.from_us = section.time_us("from_s", Limits::between(0, longest_s), 0);
   when.to_us = section.time_us("to_s", Limits::between(0, longest_s), longest_s);
+  scenario::expect_within_run(section, "from_s", when.from_us, context.duration_us);
   if (when.to_us < when.from_us) section.reject("to_s", "is before from_s", "a later time");
   read_periods(section, when);
   if (repeats == Repeats::stretch) return when;
@@ -40,7 +42,10 @@ When read_when(scenario::Section& section, const scenario::FaultContext& /*conte
 
 When read_stretches(scenario::Section& section, const scenario::FaultContext& context) {
   const When when = read_when(section, context, Repeats::stretch);
-  if (!section.has("for_s")) section.reject("for_s", "is missing", "how long it lasts");
+  if (!section.has("for_s")) {
+    section.missing("for_s", "how long it lasts");
+    return when;
+  }
   const std::int64_t end_us = when.each_us == 0 ? when.to_us : when.from_us + when.for_us;
   if (end_us >= context.duration_us)
     section.reject("for_s", "lasts to the end of the run or longer", "an end before that of the run");

@@ -1,6 +1,7 @@
 #include "bench/observe/receiver_model.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 
@@ -47,6 +48,7 @@ ReceiverModel::ReceiverModel(const Takers& takers) {
     if (taken == takers.end()) continue;
     Group& group = groups_[taken->first];
     group.takers = taken->second;
+    group.each_us = all_messages[i].cycle_time_us;
     places_[i] = {.group = &group, .bit = group.all + 1};
     group.all = 2 * group.all + 1;
   }
@@ -98,12 +100,22 @@ void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int
   group.seen = 0;
   bool early = false, late = false;
   if (group.valid_us) {
-    early = *group.valid_us > now_us + promised_us;
+    early = *group.valid_us > std::min(now_us, faster_reached_us(group)) + promised_us;
     late = *group.valid_us < now_us - promised_us || *group.valid_us <= group.last_valid_us;
     group.last_valid_us = group.valid_us;
+    if (!group.invalid) group.reached_us = *group.valid_us;
   }
   if (early || group.invalid) refusable_ += group.takers;
   if (late) may_be_late_ += group.takers;
+}
+
+// An estimator's time is that of its fastest samples: while they stay away, what is valid later has to wait.
+std::int64_t ReceiverModel::faster_reached_us(const Group& group) const {
+  std::int64_t least_us = std::numeric_limits<std::int64_t>::max();
+  for (const auto& [name, other] : groups_) {
+    if (other.each_us < group.each_us) least_us = std::min(least_us, other.reached_us);
+  }
+  return least_us;
 }
 
 void ReceiverModel::synchronised(bool lockstep) {

@@ -39,10 +39,12 @@ class ReceiverModel {
   // Of the messages of one sample group, as SampleGroup keeps them.
   struct Group {
     std::uint64_t takers = 0;
+    std::int64_t each_us = 0;    // by the contract
     unsigned all = 0, seen = 0;  // a bit a message
     std::uint8_t counter = 0;
     bool invalid = false;  // a flag in it says so
     std::optional<std::int64_t> valid_us{}, last_valid_us{};
+    std::int64_t reached_us = 0;  // validity of the last whole one without such a flag
   };
   struct Place {
     Group* group = nullptr;  // null: a message that stands alone, or that no estimator takes
@@ -51,6 +53,7 @@ class ReceiverModel {
   };
 
   void put(const Frame& frame, Place& place, std::optional<std::int64_t> valid_us, std::int64_t now_us);
+  [[nodiscard]] std::int64_t faster_reached_us(const Group& group) const;
 
   std::map<std::string_view, Group> groups_;
   std::array<Place, messages::all_messages.size()> places_{};

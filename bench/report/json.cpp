@@ -219,17 +219,17 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   page["verdict"] = checks::name(run.verdict.outcome);
   page["reason"] = run.verdict.reason;
   page["provenance"] = provenance(scenario, run);
-  page["duration_s"] = static_cast<double>(scenario.duration_us) * 1e-6;
+  page["duration_s"] = static_cast<double>(scenario.duration_us) / 1e6;
   page["wall_s"] = run.wall_s;
   page["ending"] = {{"completed", run.ending.kind == drive::Ending::Kind::completed},
-                    {"t_s", static_cast<double>(run.ending.t_us) * 1e-6},
+                    {"t_s", static_cast<double>(run.ending.t_us) / 1e6},
                     {"detail", run.ending.detail}};
   for (const faults::Told& fault : run.faults) {
     page["faults"].push_back({{"name", fault.name},
                               {"kind", fault.kind},
                               {"stage", faults::name(fault.stage)},
-                              {"from_s", static_cast<double>(fault.from_us) * 1e-6},
-                              {"to_s", static_cast<double>(fault.to_us) * 1e-6},
+                              {"from_s", static_cast<double>(fault.from_us) / 1e6},
+                              {"to_s", static_cast<double>(fault.to_us) / 1e6},
                               {"count", fault.count}});
   }
   page["checks"] = Json::array();

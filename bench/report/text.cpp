@@ -171,8 +171,10 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   }
   for (const std::string& line : period_overrides(scenario)) page += fmt::format("  {}\n", line);
   for (const faults::Told& fault : run.faults)
-    page += fmt::format("  fault '{}' of the {}: struck {} times\n", fault.name, faults::name(fault.stage),
-                        fault.count);
+    page += fmt::format("  fault '{}' of the {}: {}\n", fault.name, faults::name(fault.stage),
+                        fault.count == 0   ? "did not strike"
+                        : fault.count == 1 ? "struck once"
+                                           : fmt::format("struck {} times", fault.count));
   page += '\n';
 
   std::size_t width = 5;

@@ -43,12 +43,18 @@ Fault read_fault(Section& section, const FaultContext& context, const std::vecto
 
 }  // namespace
 
-void read_faults(Section& root, const FaultContext& context, std::vector<Fault>& faults) {
+void read_faults(Section& root, const FaultContext& context, std::vector<Fault>& faults,
+                 const FaultPlaces* some) {
   if (!root.has("fault")) {
     root.optional("fault");
     return;
   }
-  for (Section& section : root.tables("fault")) faults.push_back(read_fault(section, context, faults));
+  std::vector<Section> sections = root.tables("fault");
+  for (std::size_t place = 0; place < sections.size(); ++place) {
+    if (some != nullptr && std::ranges::find(*some, place) == some->end()) continue;
+    if (some != nullptr) sections[place].optional("together");
+    faults.push_back(read_fault(sections[place], context, faults));
+  }
 }
 
 }  // namespace canhil::scenario

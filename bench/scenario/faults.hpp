@@ -48,7 +48,12 @@ struct FaultKind {
   FaultRead (*read)(Section& section, const FaultContext& context) = nullptr;
 };
 
-/// Appends the faults of a file's root to those before.
-void read_faults(Section& root, const FaultContext& context, std::vector<Fault>& faults);
+/// Which of a file's [[fault]] tables, counted from 0: those of a row of a set, which may name the row by the
+/// key `together`.
+using FaultPlaces = std::vector<std::size_t>;
+
+/// Appends the faults of a file's root, or some of them, to those before.
+void read_faults(Section& root, const FaultContext& context, std::vector<Fault>& faults,
+                 const FaultPlaces* some = nullptr);
 
 }  // namespace canhil::scenario

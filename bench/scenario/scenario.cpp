@@ -237,11 +237,11 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
 }
 
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
-                        const Contract& contract) {
+                        const Contract& contract, const FaultPlaces* some) {
   Section root = Section::parse(text, name);
   if (!root.has("fault")) root.tables("fault");  // it has nothing else
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
-              scenario.faults);
+              scenario.faults, some);
   root.finish();
   if (const std::optional<Error> error = root.error()) return tl::unexpected(*error);
   scenario.hash = world::fnv1a_64(text, scenario.hash);

@@ -70,9 +70,9 @@ Result<Scenario> read_file(const std::filesystem::path& path, const Contract& co
 Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
                        std::span<const Setting> settings = {}, std::optional<std::string> folder = {});
 
-/// Appends the [[fault]] tables of another text. The error is one line.
+/// Appends the [[fault]] tables of another text, or some of them. The error is one line.
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
-                        const Contract& contract);
+                        const Contract& contract, const FaultPlaces* some = nullptr);
 
 /// At most so much is read of a scenario or campaign file.
 inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;

@@ -375,6 +375,10 @@ void Section::reject(std::string_view key, const Error& error) {
   state_->file->fail(state_->line_of_key(key), fmt::format("key '{}': {}", path(key), error.message));
 }
 
+void Section::missing(std::string_view key, std::string_view expected) {
+  state_->missing.emplace_back(key, expected);
+}
+
 void Section::finish(std::string_view unasked) {
   if (state_->table == nullptr) return;
   // The first in the file, as the table itself is sorted by key.
@@ -386,9 +390,8 @@ void Section::finish(std::string_view unasked) {
     unknown = &node;
     unknown_key = key.str();
   }
-  if (unknown != nullptr) {
+  if (unknown != nullptr)
     state_->fail(unknown_key, line_of(*unknown), unasked, expected_instead(unknown_key, state_->asked));
-  }
   for (const auto& [key, expected] : state_->missing) reject(key, "is missing", expected);
 }
 

@@ -97,6 +97,8 @@ class Section {
   void reject(std::string_view key, std::string_view what, std::string_view expected);
   /// The same of what the key names: what is wrong there stands in one line.
   void reject(std::string_view key, const Error& error);
+  /// Says that a key, or one of several, is missing; a key that nobody asked for is told before.
+  void missing(std::string_view key, std::string_view expected);
   /// Rejects a key that is there though it has no effect beside the others.
   void refuse(std::string_view key, std::string_view what, std::string_view expected);
   /// To be called when all keys have been asked for: reports one that nobody asked for, as what it is, or

@@ -48,7 +48,7 @@ Finding Honest::judge(const Evidence& evidence) const {
   for (const estimators::Estimator* one : estimators) {
     const quantities::Samples samples = one->samples(evidence.seen, evidence.truth);
     if (samples.empty())
-      return {Outcome::fail, fmt::format("{}: no answers to be judged", one->name), expected};
+      return {Outcome::fail, fmt::format("{}: no answer to be judged", one->name), expected};
     judged += samples.size();
     for (std::size_t place = 0; place < samples.size(); ++place) {
       const double ratio = samples.value(place, quantities::trusted_over_sigma);
@@ -60,8 +60,8 @@ Finding Honest::judge(const Evidence& evidence) const {
   }
   const double at_s = static_cast<double>(at_us) * 1e-6;
   return {pass_if(worst <= over_sigma),
-          fmt::format("{:.2f} sigma at {:g} s{} of {}", worst, to_go ? -at_s : at_s, to_go ? " to go" : "",
-                      judged),
+          fmt::format("{:.2f} sigma at {:g} s{}, the largest of {} errors", worst, to_go ? -at_s : at_s,
+                      to_go ? " to go" : "", judged),
           expected};
 }
 

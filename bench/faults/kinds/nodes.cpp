@@ -48,18 +48,21 @@ class SilentNode final : public BefallenNode {
         if (is_own(frame)) recount_.skip(frame);
         return is_own(frame);
       });
-      if (gone > 0) ++tally().count;
-      silent_ = true;
+      if (gone > 0 && !restarts_) ++tally().count;
       return;
     }
-    if (std::exchange(silent_, false) && restarts_) recount_.begin_at_zero();
+    // However short it was away: there may be no sample in that time.
+    if (restarts_ && t_us > when_.to_us) {
+      restarts_ = false;
+      recount_.begin_at_zero();
+      ++tally().count;
+    }
     for (Frame& frame : frames) {
       if (const MessageInfo* message = message_of(frame); message != nullptr) recount_.write(frame, *message);
     }
   }
   When when_;
-  bool restarts_;
-  bool silent_ = false;
+  bool restarts_;  // and has not yet
   Recount recount_;
 };
 

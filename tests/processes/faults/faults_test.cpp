@@ -202,11 +202,16 @@ TEST(Faults, BadInputIsOneLine) {
   expect_one_line(hil_bench("faults none.toml"), "none.toml: cannot be read");
   expect_one_line(hil_bench(fmt::format("faults {} --set {}", los, file("none.toml", "a = 1\n"))),
                   "none.toml");
-  expect_one_line(hil_bench(fmt::format("faults {} --set {}", los,
-                                        file("master.toml",
-                                             "[[fault]]\nname = 'm'\nkind = 'lost'\n"
-                                             "messages = ['MasterInsVelocityNE']\n"))),
-                  "fault 'm' fits no scenario");
+  expect_one_line(
+      hil_bench(fmt::format("faults {} --set {}", los,
+                            file("master.toml",
+                                 "[[fault]]\nname = 'm'\nkind = 'lost'\n"
+                                 "messages = ['MasterInsVelocityNE']\n"))),
+      "master.toml:4: key 'fault[1].messages': 'MasterInsVelocityNE' is unknown, expected one of: Seeker");
+  expect_one_line(
+      hil_bench(fmt::format("faults {} {} --set {}", los, scenario("inflight_quick"),
+                            file("ssbl.toml", "[[fault]]\nkind = 'lost'\nnode = 'master_ins'\n"))),
+      "and it fits no other scenario");
   expect_one_line(hil_bench(fmt::format("faults {} --shard 3/3 --out {}", los, scratch("none"))),
                   "shard '3/3'");
   expect_one_line(hil_bench("faults merge " + los), "holds no results of a fault matrix");

@@ -114,6 +114,32 @@ TEST_F(Model, WhatAnEstimatorMayRefuseLeavesRoomAndNoMore) {
   EXPECT_EQ(most().bad_group, 4U);
 }
 
+TEST_F(Model, WhileTheImuStaysAwayAMasterVelocityMayBeRefused) {
+  ReceiverModel both{{{"SlaveImu", 1}, {"MasterIns", 1}}};
+  Outbox<5> master;
+  const auto hand_over = [&](std::span<const Frame> frames, std::int64_t valid_us) {
+    for (const Frame& frame : frames)
+      both.sent(frame, &frame == &frames.back() ? std::optional(valid_us) : std::nullopt, valid_us);
+  };
+  const auto master_ins = [&](std::int64_t valid_us) {
+    master.clear();
+    master.send(MasterInsVelocityNE{.velocity_validity = Validity::valid});
+    master.send(MasterInsAttitude{});
+    master.send(MasterInsLatitude{});
+    master.send(MasterInsLongitude{});
+    master.send(MasterInsVelocityD{.time_of_validity_us = wrap_us(valid_us)});
+    hand_over(master.frames(), valid_us);
+    return both.expected().most.bad_group;
+  };
+  imu(10'000);
+  hand_over(out_.frames(), 10'000);
+  EXPECT_EQ(master_ins(200'000), 0U);
+  EXPECT_EQ(master_ins(300'000), 1U) << "it waits for a time that does not come";
+  imu(310'000);
+  hand_over(out_.frames(), 310'000);
+  EXPECT_EQ(master_ins(400'000), 1U);
+}
+
 TEST_F(Model, GroupsThatNobodyTakesAreNotCounted) {
   Outbox<1> out;
   out.send(SeekerAngles{});
