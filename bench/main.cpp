@@ -23,8 +23,8 @@ void name_campaign(canhil::command_line::Command program, int& /*code*/) {
 int main(int argc, char** argv) {
   if (argc > 1 && (argv[1] == campaign_name || argv[1] == accept_name || argv[1] == faults_name))
     return become("hil-bench-campaign", {argv + 1, argv + argc});
-  constexpr std::array<AddCommand, 10> commands{add_run,         add_report, add_bus,    name_campaign,
+  constexpr std::array<AddCommand, 11> commands{add_run,         add_report, add_bus,    name_campaign,
                                                 add_diverge,     add_golden, add_doctor, add_schedulability,
-                                                add_conformance, add_dbc};
+                                                add_conformance, add_log,    add_dbc};
   return run_program(argc, argv, commands);
 }

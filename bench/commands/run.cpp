@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,12 +16,11 @@
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
+#include "bench/commands/reports.hpp"
 #include "bench/doctor/interface.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/session.hpp"
 #include "bench/report/file.hpp"
-#include "bench/report/page.hpp"
-#include "bench/report/run_reports.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/realtime/command_line.hpp"
@@ -46,10 +44,7 @@ struct Arguments {
   realtime::Options realtime;
   std::optional<int> target_cpu;
   std::optional<int> spin_us;
-  std::string json;
-  std::string junit;
-  std::string html;
-  std::string csv;
+  Reports reports;
   std::string log;
 };
 
@@ -124,55 +119,18 @@ std::string progress_text(std::int64_t t_us, std::int64_t duration_us) {
   return fmt::format("{} {:.1f} / {:g} s", progress_bar(t_s / duration_s), t_s, duration_s);
 }
 
-// A run that has begun leaves no report of an earlier one that could be taken for its own, however it ends.
 void remove_earlier(const Arguments& arguments) {
-  for (const std::string& path :
-       {arguments.json, arguments.junit, arguments.html, arguments.csv, arguments.log}) {
-    std::error_code ignored;
-    if (path != report::to_stdout) std::filesystem::remove(path, ignored);
-  }
-}
-
-// A report on stdout stands in place of the text. One that cannot be written costs none of the others. Error:
-// of the first.
-Result<void> write_reports(const Arguments& arguments, const scenario::Scenario& scenario,
-                           const drive::Run& run) {
-  Result<void> all;
-  const auto note = [&](Result<void> written) {
-    if (all && !written) all = std::move(written);
-  };
-  if (arguments.json != report::to_stdout && arguments.junit != report::to_stdout) {
-    note(report::write_stdout(report::text(scenario, run)));
-  }
-  if (!arguments.json.empty()) note(report::write(arguments.json, report::json(scenario, run)));
-  if (!arguments.junit.empty()) note(report::write(arguments.junit, report::junit(scenario, run)));
-  if (!arguments.html.empty()) {
-    const auto page = report::html(report::document(scenario, run));
-    note(page ? report::write_file(arguments.html, *page) : tl::unexpected(page.error()));
-  }
-  if (!arguments.csv.empty()) {
-    note(report::write_file(arguments.csv,
-                            [&](const report::Sink& give) { report::csv(scenario, run, give); }));
-  }
-  if (run.log_error) note(tl::unexpected(*run.log_error));
-  return all;
+  remove_earlier(arguments.reports);
+  std::error_code ignored;
+  std::filesystem::remove(arguments.log, ignored);
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
   // What is read must not be written over: --dbc and --target may name files too.
   std::vector<std::string> files = drive::files_of_target(arguments.target);
-  files.insert(files.end(), {arguments.scenario, arguments.faults, arguments.dbc, arguments.json,
-                             arguments.junit, arguments.html, arguments.csv, arguments.log});
-  if (auto distinct = report::check_distinct(files); !distinct) return distinct;
-  for (const std::string& path : {arguments.json, arguments.junit}) {
-    if (path.empty() || path == report::to_stdout) continue;
-    if (auto writable = report::check_writable(path); !writable) return writable;
-  }
-  for (const std::string& path : {arguments.html, arguments.csv, arguments.log}) {
-    if (path.empty()) continue;
-    if (auto writable = report::check_writable(path); !writable) return writable;
-  }
-  return {};
+  files.insert(files.end(), {arguments.scenario, arguments.faults, arguments.dbc, arguments.log});
+  if (auto fine = check_outputs(arguments.reports, std::move(files)); !fine) return fine;
+  return arguments.log.empty() ? Result<void>() : report::check_writable(arguments.log);
 }
 
 Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
@@ -286,7 +244,7 @@ ExitCode execute(const Arguments& arguments) {
     const std::string warning = realtime::frequency_warning(*finished->host);
     if (!warning.empty()) fmt::print(stderr, "hil-bench: {}\n", warning);
   }
-  if (auto written = write_reports(arguments, *scenario, *finished); !written)
+  if (auto written = write_reports(arguments.reports, *scenario, *finished); !written)
     return complain(written.error());
   return exit_code(finished->verdict.outcome);
 }
@@ -328,14 +286,10 @@ void add_run(command_line::Command app, int& code) {
                   "poll for so long before each deadline instead of sleeping up to it", 0, 10'000)
       .excludes(lockstep);
   command.add_number("--seed", arguments->seed, "another seed than the scenario's");
-  command.add_option("--json", arguments->json,
-                     "write the report as JSON to a file; -: to stdout, in place of the text");
-  command.add_option("--junit", arguments->junit,
-                     "write the checks as JUnit XML to a file; -: to stdout, in place of the text");
-  command.add_option("--html", arguments->html, "write the report as one HTML page to a file");
-  command.add_option("--csv", arguments->csv,
-                     "write a table of time, quantity, estimate, truth, error and sigma to a file");
-  command.add_option("--log", arguments->log, "record every frame in candump's log format");
+  add_reports(command, arguments->reports);
+  command.add_option(
+      "--log", arguments->log,
+      "record every frame: *.pcap (Wireshark), *.asc (Vector), any other name: candump's format");
   command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }
 

@@ -33,6 +33,9 @@ void add_doctor(command_line::Command app, int& code);
 /// miss its deadline.
 void add_schedulability(command_line::Command app, int& code);
 
+/// `hil-bench log|decode|replay|check`: what can be done with recorded frames.
+void add_log(command_line::Command app, int& code);
+
 /// `hil-bench dbc lint|show|rules`: DBC files, also of others. Exit code 1 if lint refuses one.
 void add_dbc(command_line::Command app, int& code);
 

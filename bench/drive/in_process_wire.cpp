@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "dbc/ports/frame_rules.hpp"
+#include "dbc/wire/frame_rules.hpp"
 #include "messages/canhil.hpp"
 
 namespace canhil::drive {

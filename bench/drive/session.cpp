@@ -9,6 +9,7 @@
 #include "bench/checks/timing.hpp"
 #include "bench/drive/dialect.hpp"
 #include "bench/drive/hands.hpp"
+#include "bench/drive/judged.hpp"
 #include "bench/drive/lockstep.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/of_scenario.hpp"
@@ -135,14 +136,7 @@ class Session {
     if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
     const auto logged = log_ ? log_->close() : Result<void>{};
-    checks::Observations seen = watcher_->finish();
-    // A changed value may make an estimator refuse a group that is otherwise right, another order find it
-    // late; and who believes a time of the future finds late what comes until then.
-    const faults::Tally befallen = schedule_->faults()->tally();
-    seen.expected_counts.most.bad_group += befallen.changed * scenario_.targets.size();
-    seen.expected_counts.most.late += befallen.overtaken * scenario_.targets.size();
-    if (befallen.changed_times > 0)
-      seen.expected_counts.most.late = seen.expected_counts.most.bad_group = checks::any_count;
+    checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     if (options_.for_verdict) add_watched(seen);
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
@@ -283,20 +277,6 @@ class Session {
   Ending ending_;
 };
 
-checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                           const Session& session, const Collected& flown, const std::string& timing_unfit) {
-  checks::Verdict verdict =
-      checks::judge(scenario, {.seen = flown.seen,
-                               .truth = truth_of(truth, flown.own_truth, scenario.duration_us),
-                               .estimators = estimators::in(scenario),
-                               .ended_early = flown.ending.detail,
-                               .timing_unfit = timing_unfit});
-  if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)
-    verdict.reason = session.explained(verdict.reason);
-  if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
-  return verdict;
-}
-
 // Without what only a verdict asks for.
 Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                    std::uint64_t run_index, Options options) {
@@ -360,7 +340,10 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
 
   std::string timing_unfit = session.timing_unfit(flown.seen);
   const ClockKind clock = session.clock();
-  return Run{.verdict = verdict_of(scenario, *truth, session, flown, timing_unfit),
+  checks::Verdict verdict = verdict_of(scenario, *truth, flown, timing_unfit);
+  if (flown.ending.detail.empty() && verdict.outcome != checks::Outcome::pass)
+    verdict.reason = session.explained(verdict.reason);
+  return Run{.verdict = std::move(verdict),
              .ending = std::move(flown.ending),
              .seen = std::move(flown.seen),
              .truth = std::move(*truth),

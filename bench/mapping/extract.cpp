@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 
 namespace canhil::mapping {
 namespace {

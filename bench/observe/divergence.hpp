@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/candump.hpp"
 
 namespace canhil::observe {
 

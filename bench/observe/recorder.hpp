@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/observe/observer.hpp"
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 
 namespace canhil::observe {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "dbc/parser/parse.hpp"
-#include "dbc/ports/frame_rules.hpp"
+#include "dbc/wire/frame_rules.hpp"
 #include "messages/canhil_fd.hpp"
 
 namespace canhil {

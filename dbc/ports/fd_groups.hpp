@@ -12,7 +12,7 @@
 #include <optional>
 #include <string_view>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/ports/port.hpp"
 #include "dbc/wire/fd_container.hpp"

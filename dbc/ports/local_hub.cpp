@@ -13,13 +13,13 @@
 #include <utility>
 
 #include "dbc/ports/descriptor.hpp"
-#include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/hub_wire.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/ports/local_gate.hpp"
 #include "dbc/ports/local_peer.hpp"
 #include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
 namespace {

@@ -10,10 +10,10 @@
 #include <ctime>
 
 #include "dbc/ports/descriptor.hpp"
-#include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
 namespace {

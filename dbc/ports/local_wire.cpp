@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cstring>
 
-#include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
 

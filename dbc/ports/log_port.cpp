@@ -1,4 +1,5 @@
-// A recorded log as a bus.
+#include "dbc/ports/log_port.hpp"
+
 #include <fmt/format.h>
 #include <sys/eventfd.h>
 
@@ -6,10 +7,10 @@
 #include <cstring>
 #include <ctime>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "dbc/ports/descriptor.hpp"
-#include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/local_wire.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <ctime>
 
-#include "dbc/ports/candump_log.hpp"
 #include "dbc/ports/local_bus.hpp"
+#include "dbc/ports/log_port.hpp"
 #include "dbc/ports/socketcan.hpp"
 
 namespace canhil {

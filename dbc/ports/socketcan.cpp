@@ -17,8 +17,8 @@
 #include "dbc/ports/ancillary.hpp"
 #include "dbc/ports/can_interface.hpp"
 #include "dbc/ports/descriptor.hpp"
-#include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/receive_batch.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
 namespace {

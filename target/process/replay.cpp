@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "dbc/logs/candump.hpp"
 #include "dbc/ports/fd_groups.hpp"
 #include "dbc/wire/routes.hpp"
 #include "target/device/device.hpp"

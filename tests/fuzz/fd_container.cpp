@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dbc/ports/fd_groups.hpp"
-#include "dbc/ports/frame_rules.hpp"
+#include "dbc/wire/frame_rules.hpp"
 #include "messages/canhil_fd.hpp"
 #include "tests/fuzz/expect.hpp"
 

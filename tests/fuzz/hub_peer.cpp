@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "dbc/ports/frame_rules.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/ports/local_place.hpp"
 #include "dbc/ports/local_wire.hpp"
+#include "dbc/wire/frame_rules.hpp"
 #include "tests/fuzz/expect.hpp"
 #include "tests/fuzz/script.hpp"
 

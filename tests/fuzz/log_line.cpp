@@ -1,13 +1,18 @@
-// Any line: an entry, or one line of error; and what is written of an entry reads as the same frame.
+// Any line, or packet, of a log: an entry, or one line of error; and what is written of an entry reads as the
+// same frame.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
 #include <string_view>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/asc.hpp"
+#include "dbc/logs/candump.hpp"
+#include "dbc/logs/pcap.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view line(reinterpret_cast<const char*>(data), size);
+  static_cast<void>(canhil::logs::AscParser().line(line));
+  static_cast<void>(canhil::logs::frame_of_packet({data, size}));
   const auto entry = canhil::parse_log_line(line, "fuzz");
   if (!entry) {
     const std::string& message = entry.error().message;

@@ -12,12 +12,12 @@ source "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config git
   libeigen3-dev libboost1.81-dev libgeographiclib-dev libfmt-dev libexpected-dev
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libsqlitecpp-dev libkainjow-mustache-dev
+  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libsqlitecpp-dev libkainjow-mustache-dev libpcap-dev
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev # CMake configures the tests too
 )
 test_packages=(
   clang-format
-  python3 python3-can python3-canmatrix # an independent DBC reader and CAN node
+  python3 python3-can python3-canmatrix tshark # an independent DBC reader and CAN node; reads our captures
   can-utils iproute2 kmod busybox user-mode-linux # vcan where the kernel has none
 )
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper; without it that says so and flies nothing

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <thread>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "dbc/ports/socketcan.hpp"
 #include "tests/vcan/interface.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "bench/faults/read.hpp"
-#include "dbc/ports/frame_rules.hpp"
 #include "dbc/wire/bit_length.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil::faults {
 namespace {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <thread>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "dbc/wire/bit_length.hpp"
 #include "dbc/wire/message.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"
 

@@ -18,7 +18,7 @@
 #include <regex>
 #include <stdexcept>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "messages/canhil.hpp"
 #include "tests/own_folder.hpp"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/candump.hpp"
 #include "dbc/wire/message.hpp"
 #include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"

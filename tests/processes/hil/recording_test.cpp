@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "dbc/wire/message.hpp"
 #include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/log.hpp"
 #include "dbc/ports/local_bus.hpp"
 #include "messages/canhil.hpp"
 #include "tests/processes/hil/program.hpp"

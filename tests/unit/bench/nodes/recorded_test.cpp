@@ -10,7 +10,7 @@
 #include "bench/nodes/registry.hpp"
 #include "bench/nodes/slave_imu.hpp"
 #include "bench/world/motion/rest.hpp"
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/candump.hpp"
 #include "messages/canhil.hpp"
 #include "tests/own_folder.hpp"
 #include "tests/unit/bench/nodes/made.hpp"

@@ -6,7 +6,7 @@
 #include <sys/socket.h>
 
 #include "dbc/ports/descriptor.hpp"
-#include "dbc/ports/frame_rules.hpp"
+#include "dbc/wire/frame_rules.hpp"
 #include "tests/unit/dbc/ports/frames.hpp"
 
 namespace canhil {

@@ -1,4 +1,4 @@
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/candump.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

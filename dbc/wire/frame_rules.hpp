@@ -1,6 +1,8 @@
 // What a bus can carry (ISO 11898-1:2015, 8.4.2).
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "dbc/wire/frame.hpp"
@@ -10,11 +12,17 @@ namespace canhil {
 constexpr std::uint32_t max_standard_id = 0x7FF;
 constexpr std::uint32_t max_extended_id = 0x1FFF'FFFF;
 
-/// True where a data length code stands for this size: 0-8, and in FD 12, 16, 20, 24, 32, 48, 64.
-constexpr bool size_has_dlc(std::uint8_t size, bool fd) {
-  if (size <= 8) return true;
-  return fd && ((size <= 24 && size % 4 == 0) || size == 32 || size == 48 || size == 64);
+/// By data length code, in CAN FD; of classic CAN the first nine.
+inline constexpr std::array<std::uint8_t, 16> size_of_dlc{0, 1,  2,  3,  4,  5,  6,  7,
+                                                          8, 12, 16, 20, 24, 32, 48, 64};
+
+/// The code that stands for a size; 16: none does.
+constexpr std::size_t dlc_of(std::uint8_t size) {
+  return static_cast<std::size_t>(std::ranges::find(size_of_dlc, size) - size_of_dlc.begin());
 }
+
+/// True where a data length code stands for this size: 0-8, and in FD 12, 16, 20, 24, 32, 48, 64.
+constexpr bool size_has_dlc(std::uint8_t size, bool fd) { return dlc_of(size) < (fd ? 16 : 9); }
 
 /// True if a bus, classic or FD, can carry the frame. Error frames have classic form and any class bits as
 /// id.

@@ -1,20 +1,18 @@
-#include "dbc/ports/candump_log.hpp"
+#include "dbc/logs/candump.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <limits>
-#include <system_error>
+#include <utility>
 
-#include "dbc/ports/frame_rules.hpp"
+#include "dbc/logs/formats.hpp"
+#include "dbc/wire/frame_rules.hpp"
 
 namespace canhil {
 namespace {
 
-constexpr std::int64_t ns_per_s = 1'000'000'000;
+using logs::ns_per_s;
 constexpr unsigned flag_brs = 1;
 constexpr unsigned flag_fd = 4;  // kernels from 6.1 on set it in every FD frame, and candump shows it
 
@@ -169,65 +167,52 @@ Result<LogEntry> parse_log_line(std::string_view line, std::string_view where) {
   return entry;
 }
 
-Result<LogWriter> LogWriter::create(const std::string& path, const std::string& final_name) {
-  std::FILE* file = std::fopen(path.c_str(), "we");
-  const int error = errno;
-  LogWriter writer(file, final_name.empty() ? path : final_name);
-  if (file == nullptr)
-    return failure(fmt::format("cannot write log '{}': {}", writer.path_, std::strerror(error)));
-  return writer;
-}
+namespace logs {
+namespace {
 
-void LogWriter::write(const LogEntry& entry) {
-  if (error_ != 0) return;  // a log ends somewhere, it has no holes
-  std::string line = format_log_line(entry);
-  line += '\n';
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size()) error_ = errno;
-}
+class CandumpSink final : public LogSink {
+ public:
+  explicit CandumpSink(File file) : lines_(std::move(file)) {}
+  void write(const LogEntry& entry) override { lines_.write(format_log_line(entry) + '\n'); }
+  int close() override { return lines_.close(); }
 
-Result<void> LogWriter::close() {
-  if (file_ && std::fclose(file_.release()) != 0 && error_ == 0) error_ = errno;
-  if (error_ != 0) return failure(fmt::format("cannot write log '{}': {}", path_, std::strerror(error_)));
-  return {};
-}
+ private:
+  LineWriter lines_;
+};
 
-Result<LogReader> LogReader::open(const std::string& path) {
-  std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);  // opens, and cannot be read
-  std::ifstream file(path);
-  if (!file || is_folder)
-    return failure(fmt::format("cannot read log '{}': {}", path, std::strerror(is_folder ? EISDIR : errno)));
-  return LogReader(std::move(file), path);
-}
+class CandumpSource final : public LogSource {
+ public:
+  explicit CandumpSource(const std::string& path) : lines_(path) {}
 
-Result<std::optional<LogEntry>> LogReader::next() {
-  for (;;) {
-    const bool read =
-        static_cast<bool>(file_.getline(line_.data(), static_cast<std::streamsize>(line_.size())));
-    auto length = static_cast<std::size_t>(file_.gcount());
-    if (!read) {
-      if (file_.bad()) return failure(fmt::format("cannot read log '{}' after line {}", path_, line_number_));
-      if (length == 0) return std::optional<LogEntry>();
+  Result<std::optional<LogEntry>> next() override {
+    for (;;) {
+      const auto line = lines_.next();
+      if (!line) return tl::unexpected(line.error());
+      if (!*line) return std::optional<LogEntry>();
+      const std::string_view text = (*line)->text;
+      if (is_remote(text)) continue;
+      auto entry = parse_log_line(text, lines_.where());
+      if (!entry) return tl::unexpected(entry.error());
+      // A recorder that was killed may have cut the line at the end of a byte: the rest would pass for a
+      // shorter frame.
+      if (!(*line)->ended)
+        return failure(fmt::format("{}:{}: expected the end of the line: the log is cut", lines_.where(),
+                                   text.size() + 1));
+      return std::optional<LogEntry>(std::move(*entry));
     }
-    ++line_number_;
-    const std::string where = fmt::format("{}:{}", path_, line_number_);
-    if (!file_.eof() && read) --length;  // the end of the line was read, too
-    if (length > longest_line) {
-      return failure(
-          fmt::format("{}: is longer than {} characters, expected a line of a log", where, longest_line));
-    }
-    std::string_view line(line_.data(), length);
-    if (line.ends_with('\r')) line.remove_suffix(1);  // of a log that went through Windows
-    if (is_remote(line)) continue;
-    auto entry = parse_log_line(line, where);
-    if (!entry) return tl::unexpected(entry.error());
-    // A recorder that was killed may have cut the line at the end of a byte: the rest would pass for a
-    // shorter frame.
-    if (file_.eof())
-      return failure(
-          fmt::format("{}:{}: expected the end of the line: the log is cut", where, line.size() + 1));
-    return std::optional<LogEntry>(std::move(*entry));
   }
+
+ private:
+  LineReader lines_;
+};
+
+}  // namespace
+
+std::unique_ptr<LogSink> candump_sink(File file) { return std::make_unique<CandumpSink>(std::move(file)); }
+
+std::unique_ptr<LogSource> candump_source(const std::string& path) {
+  return std::make_unique<CandumpSource>(path);
 }
 
+}  // namespace logs
 }  // namespace canhil

@@ -1,0 +1,233 @@
+// hil-bench log, decode, replay, check: what can be done with recorded frames.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
+#include <csignal>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/commands/exit_code.hpp"
+#include "bench/commands/interrupt.hpp"
+#include "bench/commands/progress_line.hpp"
+#include "bench/commands/reports.hpp"
+#include "bench/commands/subcommands.hpp"
+#include "bench/drive/contract.hpp"
+#include "bench/drive/recording.hpp"
+#include "bench/recordings/convert.hpp"
+#include "bench/recordings/decode.hpp"
+#include "bench/recordings/replay.hpp"
+#include "bench/report/file.hpp"
+#include "dbc/parser/parse.hpp"
+#include "dbc/ports/fd_groups.hpp"
+#include "dbc/wire/frame_rules.hpp"
+
+namespace canhil::commands {
+namespace {
+
+constexpr double slowest = 1e-3, fastest = 1e3;
+
+// As typed.
+struct DecodeArguments {
+  std::string log, dbc, format = "text", out{report::to_stdout};
+  std::vector<std::string> only;
+  bool since_1970 = false;
+};
+struct ReplayArguments {
+  std::string log, bus, direction = "both";
+  double speed = 1;
+  std::optional<std::uint64_t> loops;
+  std::vector<std::string> only;
+  bool fd = false;
+};
+struct CheckArguments {
+  std::string log, scenario;
+  std::optional<std::uint64_t> seed;
+  std::string faults;
+  Reports reports;
+};
+
+ExitCode convert(const std::string& from, const std::string& to) {
+  if (auto distinct = report::check_distinct({from, to}); !distinct) return complain(distinct.error());
+  if (auto writable = report::check_writable(to); !writable) return complain(writable.error());
+  const auto frames = recordings::convert(from, to);
+  if (!frames) return complain(frames.error());
+  fmt::print("{}: {} frames\n", to, *frames);
+  return ExitCode::pass;
+}
+
+ExitCode decode(const DecodeArguments& arguments) {
+  const auto database = dbc::read_file_leniently(arguments.dbc);
+  if (!database) return complain(database.error());
+  const bool to_stdout = arguments.out == report::to_stdout;
+  if (!to_stdout) {
+    if (auto distinct = report::check_distinct({arguments.log, arguments.dbc, arguments.out}); !distinct)
+      return complain(distinct.error());
+    if (auto writable = report::check_writable(arguments.out); !writable) return complain(writable.error());
+  }
+  const recordings::DecodeOptions options{.format = arguments.format == "csv" ? recordings::Format::csv
+                                                    : arguments.format == "jsonl"
+                                                        ? recordings::Format::json_lines
+                                                        : recordings::Format::text,
+                                          .only = arguments.only,
+                                          .since_1970 = arguments.since_1970};
+  Result<recordings::LeftOut> decoded = recordings::LeftOut{};
+  Result<void> written;
+  if (to_stdout) {
+    std::signal(SIGPIPE, SIG_DFL);  // `| head` ends it without a word
+    std::string some;
+    decoded = recordings::decode(arguments.log, *database, options, [&](std::string_view part) {
+      constexpr std::size_t enough = 1 << 16;
+      some += part;
+      if (some.size() < enough || !written) return;
+      written = report::write_stdout(some);
+      some.clear();
+    });
+    if (written) written = report::write_stdout(some);
+  } else {
+    written = report::write_file(arguments.out, [&](const report::Sink& give) {
+      decoded = recordings::decode(arguments.log, *database, options, give);
+    });
+  }
+  if (!decoded) return complain(decoded.error());
+  if (!written) return complain(written.error());
+  if (decoded->frames > 0)
+    fmt::print(
+        stderr,
+        "hil-bench: {} frames left out: {} of another size than their message, others of no message{}\n",
+        decoded->frames, decoded->of_another_size,
+        decoded->ids.empty() ? "" : fmt::format(": {}", fmt::join(decoded->ids, ", ")));
+  return ExitCode::pass;
+}
+
+Result<std::vector<std::uint32_t>> ids_of(const std::vector<std::string>& words) {
+  std::vector<std::uint32_t> ids;
+  for (const std::string& word : words) {
+    std::size_t read = 0;
+    unsigned long id = 0;
+    if (!word.empty() && std::isxdigit(static_cast<unsigned char>(word.front())) != 0 && word.size() <= 10)
+      id = std::stoul(word, &read, 16);
+    if (read == 0 || read != word.size() || id > max_extended_id)
+      return failure(fmt::format("--only '{}': expected an id as hexadecimal digits, up to 1FFFFFFF", word));
+    ids.push_back(static_cast<std::uint32_t>(id));
+  }
+  return ids;
+}
+
+ExitCode replay(const ReplayArguments& arguments) {
+  const auto ids = ids_of(arguments.only);
+  if (!ids) return complain(ids.error());
+  if (auto reader = LogReader::open(arguments.log); !reader) return complain(reader.error());
+  auto port = join_or_host(arguments.bus, {.fd = arguments.fd, .node_name = "hil-bench replay"},
+                           arguments.fd ? BusFormat::fd_frames : BusFormat::classic);
+  if (!port) return complain(port.error());
+  catch_interrupts();
+  const auto replayed = [&] {
+    const ProgressLine line;
+    return recordings::replay(
+        **port, arguments.log,
+        {.speed = arguments.speed,
+         .loops = arguments.loops.value_or(1),
+         .only = *ids,
+         .transmitted =
+             arguments.direction == "both" ? std::nullopt : std::optional(arguments.direction == "sent")},
+        interrupted, [&](std::uint64_t frames) {
+          if (frames % 256 == 0) line.show([&] { return fmt::format("{} frames", frames); });
+        });
+  }();
+  if (!replayed) return complain(replayed.error());
+  const checks::Histogram& late = replayed->lateness;
+  fmt::print("{} frames on {}; late by {:.0f} us (median), {:.0f} us (99 %), {:.0f} us (most)\n",
+             replayed->frames, arguments.bus, late.quantile_ns(0.5) / 1e3, late.quantile_ns(0.99) / 1e3,
+             static_cast<double>(late.max_ns()) / 1e3);
+  return ExitCode::pass;
+}
+
+ExitCode check(const CheckArguments& arguments) {
+  auto scenario = drive::read_scenario(arguments.scenario);
+  if (!scenario) return complain(scenario.error());
+  if (!arguments.faults.empty()) {
+    if (auto added = drive::add_faults(*scenario, arguments.faults); !added) return complain(added.error());
+  }
+  if (arguments.seed) scenario->seed = *arguments.seed;
+  if (auto fine = check_outputs(arguments.reports, {arguments.log, arguments.scenario, arguments.faults});
+      !fine)
+    return complain(fine.error());
+  const auto run = drive::judge_recording(*scenario, arguments.log);
+  if (!run) return complain(run.error());
+  if (auto written = write_reports(arguments.reports, *scenario, *run); !written)
+    return complain(written.error());
+  return exit_code(run->verdict.outcome);
+}
+
+void add_convert(command_line::Command app, int& code) {
+  auto names = std::make_shared<std::pair<std::string, std::string>>();
+  const auto log = app.add_subcommand("log", "recorded frames: in another format");
+  const auto command = log.add_subcommand(
+      "convert",
+      "write a log in another format: *.pcap (Wireshark), *.asc (Vector), any other name: candump's");
+  command.add_option("FROM", names->first, "log of any of these formats").required();
+  command.add_option("TO", names->second, "the new file").required();
+  log.require_subcommands(1, 1);
+  command.on_given([&code, names] { code = static_cast<int>(convert(names->first, names->second)); });
+}
+
+void add_decode(command_line::Command app, int& code) {
+  auto arguments = std::make_shared<DecodeArguments>();
+  const auto command = app.add_subcommand("decode", "the frames of a log as values, by a DBC file");
+  command.add_option("LOG", arguments->log, "log: candump's format, pcap or Vector ASC").required();
+  command.add_option("--dbc", arguments->dbc, "DBC file of the messages").required();
+  command
+      .add_option("--format", arguments->format,
+                  "text; csv: a column a signal; jsonl: a JSON object a line (default: text)")
+      .one_of({"text", "csv", "jsonl"});
+  command.add_option("--only", arguments->only, "name of a message; may be given again (default: all)")
+      .one_word_each();
+  command.add_flag("--since-1970", arguments->since_1970,
+                   "times since 1970, UTC (default: since the first frame)");
+  command.add_option("--out", arguments->out, "file (default: stdout)");
+  command.on_given([&code, arguments] { code = static_cast<int>(decode(*arguments)); });
+}
+
+void add_replay(command_line::Command app, int& code) {
+  auto arguments = std::make_shared<ReplayArguments>();
+  const auto command = app.add_subcommand("replay", "send the frames of a log again, at their times");
+  command.add_option("LOG", arguments->log, "log: candump's format, pcap or Vector ASC").required();
+  command.add_option("--bus", arguments->bus, "can0, vcan0: SocketCAN; local:NAME: embedded bus").required();
+  command.add_number("--speed", arguments->speed, "so many times as fast (default: 1)", slowest, fastest);
+  command.add_number("--loop", arguments->loops, "how often; 0: until interrupted (default: 1)");
+  command.add_option("--only", arguments->only, "id in hexadecimal digits; may be given again (default: all)")
+      .one_word_each();
+  command
+      .add_option("--direction", arguments->direction,
+                  "sent: what the recorder sent; received: what it received (default: both)")
+      .one_of({"both", "sent", "received"});
+  command.add_flag("--fd", arguments->fd, "carry CAN FD frames");
+  command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
+}
+
+void add_check(command_line::Command app, int& code) {
+  auto arguments = std::make_shared<CheckArguments>();
+  const auto command =
+      app.add_subcommand("check", "judge the log of a run by its scenario; timing is not measured");
+  command.add_option("LOG", arguments->log, "log of a run (hil-bench run --log)").required();
+  command.add_option("SCENARIO", arguments->scenario, "scenario file (TOML), its checks may have changed")
+      .required();
+  command.add_number("--seed", arguments->seed, "of the run, where it was another than the scenario's");
+  command.add_option("--faults", arguments->faults, "file of [[fault]] tables that the run had in addition");
+  add_reports(command, arguments->reports);
+  command.on_given([&code, arguments] { code = static_cast<int>(check(*arguments)); });
+}
+
+}  // namespace
+
+void add_log(command_line::Command app, int& code) {
+  add_convert(app, code);
+  add_decode(app, code);
+  add_replay(app, code);
+  add_check(app, code);
+}
+
+}  // namespace canhil::commands

@@ -1,0 +1,32 @@
+#include "bench/drive/judged.hpp"
+
+#include "bench/estimators/of_scenario.hpp"
+#include "bench/estimators/registry.hpp"
+
+namespace canhil::drive {
+
+checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
+                               const scenario::Scenario& scenario) {
+  // A changed value may make an estimator refuse a group that is otherwise right, another order find it
+  // late; and who believes a time of the future finds late what comes until then.
+  const faults::Tally befallen = faults.tally();
+  seen.expected_counts.most.bad_group += befallen.changed * scenario.targets.size();
+  seen.expected_counts.most.late += befallen.overtaken * scenario.targets.size();
+  if (befallen.changed_times > 0)
+    seen.expected_counts.most.late = seen.expected_counts.most.bad_group = checks::any_count;
+  return seen;
+}
+
+checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
+                           const Collected& flown, const std::string& timing_unfit) {
+  checks::Verdict verdict =
+      checks::judge(scenario, {.seen = flown.seen,
+                               .truth = truth_of(truth, flown.own_truth, scenario.duration_us),
+                               .estimators = estimators::in(scenario),
+                               .ended_early = flown.ending.detail,
+                               .timing_unfit = timing_unfit});
+  if (flown.ending.kind == Ending::Kind::interrupted) verdict.outcome = checks::Outcome::not_measured;
+  return verdict;
+}
+
+}  // namespace canhil::drive

@@ -1,0 +1,271 @@
+#include "bench/drive/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "bench/drive/dialect.hpp"
+#include "bench/drive/judged.hpp"
+#include "bench/faults/in_run.hpp"
+#include "bench/observe/load_meter.hpp"
+#include "dbc/logs/candump.hpp"
+#include "messages/canhil.hpp"
+
+namespace canhil::drive {
+namespace {
+
+constexpr std::string_view unknown_lateness = "a recording does not say when its frames were due";
+
+// What was done to the target and to the interface shows in the recorded frames.
+class NoHands final : public faults::Hands {
+ public:
+  void pause_target() override {}
+  void resume_target() override {}
+  void restart_target(std::int64_t /*t_us*/) override {}
+  void report_error(const Frame& /*error*/) override {}
+  void interface_down(std::int64_t /*for_us*/) override {}
+  void interface_up() override {}
+};
+
+const MessageInfo* find(std::span<const MessageInfo> messages, const Frame& frame) {
+  const auto found = std::ranges::find_if(messages, [&](const MessageInfo& info) {
+    return info.id == frame.id && info.extended == frame.extended && !frame.error;
+  });
+  return found == messages.end() ? nullptr : &*found;
+}
+
+// The entries of a log, the next one in sight.
+class Frames {
+ public:
+  static Result<Frames> open(const std::string& log) {
+    auto reader = LogReader::open(log);
+    if (!reader) return tl::unexpected(reader.error());
+    Frames frames(std::move(*reader));
+    if (auto read = frames.advance(); !read) return tl::unexpected(read.error());
+    return frames;
+  }
+  [[nodiscard]] const std::optional<LogEntry>& next() const { return next_; }
+  Result<void> advance() {
+    auto entry = reader_.next();
+    if (!entry) return tl::unexpected(entry.error());
+    next_ = std::move(*entry);
+    return {};
+  }
+
+ private:
+  explicit Frames(LogReader reader) : reader_(std::move(reader)) {}
+  ClassicLogReader reader_;
+  std::optional<LogEntry> next_;
+};
+
+// How the run was flown, by its frames.
+struct Manner {
+  bool lockstep = false;
+  bool in_process = false;
+  BusFormat format = BusFormat::classic;
+};
+
+// The first Sync says whether in lockstep, a frame of CAN FD that the contract was packed into such frames.
+Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scenario) {
+  auto reader = LogReader::open(log);
+  if (!reader) return tl::unexpected(reader.error());
+  Manner manner{.format = format_of(scenario)};
+  std::optional<std::int64_t> first_ns;
+  std::int64_t last_ns = 0;
+  for (;;) {
+    const auto entry = reader->next();
+    if (!entry) return tl::unexpected(entry.error());
+    if (!*entry) {
+      // A mapping has no Sync that says so: virtual time goes faster than the clock of the stamps.
+      const std::int64_t span_ns = last_ns - first_ns.value_or(0);
+      if (scenario.foreign != nullptr) manner.lockstep = span_ns < scenario.duration_us * 1000 / 2;
+      return manner;
+    }
+    if (!first_ns) first_ns = (*entry)->t_ns;
+    last_ns = (*entry)->t_ns;
+    if (scenario.foreign != nullptr) continue;
+    manner.in_process = BusName((*entry)->interface).in_process;
+    const Frame& frame = (*entry)->frame;
+    if (frame.fd) manner.format = BusFormat::fd;
+    const FdUnpacked unpacked(frame);
+    for (const Frame& one : unpacked.frames()) {
+      if (one.id != messages::Sync::info.id || one.size != messages::Sync::size || one.error) continue;
+      manner.lockstep = from_frame<messages::Sync>(one).lockstep != 0;
+      return manner;
+    }
+  }
+}
+
+observe::LoadBy load_by(const scenario::Scenario& scenario, const Manner& manner) {
+  if (scenario.foreign != nullptr) return observe::LoadBy::told;
+  return manner.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
+}
+
+class Recording {
+ public:
+  Recording(const scenario::Scenario& scenario, const world::FlightRecord& truth, Flight flight,
+            Frames frames, std::string log, Manner manner)
+      : scenario_(scenario),
+        truth_(truth),
+        flight_(std::move(flight)),
+        frames_(std::move(frames)),
+        log_(std::move(log)),
+        manner_(manner),
+        load_(manner.format, load_by(scenario, manner)) {}
+
+  Result<Collected> judge() {
+    auto dialect = make_dialect({.scenario = scenario_,
+                                 .truth = truth_,
+                                 .flight = flight_,
+                                 .virtual_time = manner_.lockstep,
+                                 .format = manner_.format});
+    if (!dialect) return tl::unexpected(dialect.error());
+    dialect_ = std::move(*dialect);
+    schedule_ = dialect_->schedule(
+        std::make_unique<faults::Faults>(scenario_, 0, dialect_->messages(),
+                                         faults::Place{.virtual_time = manner_.lockstep,
+                                                       .starts_target = true,
+                                                       .mapped = scenario_.foreign != nullptr,
+                                                       .fd = format_of(scenario_) != BusFormat::classic},
+                                         &hands_));
+    watcher_ = dialect_->watcher();
+    target_ = dialect_->target_watch(true);
+    observers_ = {watcher_.get(), target_.get(), &load_};
+    auto ending = replay();
+    if (!ending) return tl::unexpected(ending.error());
+    schedule_->end();
+    checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
+    seen.length_by_second = load_.lengths();
+    return Collected{.ending = std::move(*ending),
+                     .seen = std::move(seen),
+                     .own_truth = std::move(flight_.own_truth),
+                     .faults = schedule_->faults()->told()};
+  }
+  [[nodiscard]] double wall_s() const { return static_cast<double>(last_ns_ - first_ns_) / 1e9; }
+  [[nodiscard]] std::int64_t started_s() const { return first_ns_ / 1'000'000'000; }
+
+ private:
+  Result<Ending> replay() {
+    std::int64_t t_us = 0;
+    while (schedule_->due_us() != nodes::never_us) {
+      if (auto heard = hear(); !heard) return tl::unexpected(heard.error());  // before the nodes speak again
+      t_us = schedule_->due_us();
+      load_.time_told(t_us * 1000);
+      for (const Frame& frame : schedule_->take()) {
+        if (auto heard = hear(); !heard) return tl::unexpected(heard.error());
+        if (!frames_.next()) return ended_at(t_us);
+        if (auto same = expect(frame, t_us); !same) return tl::unexpected(same.error());
+      }
+      if (auto fault = target_->fault()) return Ending{Ending::Kind::target_fault, t_us, *fault};
+    }
+    if (auto heard = hear(); !heard) return tl::unexpected(heard.error());
+    if (auto fault = target_->fault()) return Ending{Ending::Kind::target_fault, t_us, *fault};
+    return Ending{Ending::Kind::completed, t_us, ""};
+  }
+
+  Result<Ending> ended_at(std::int64_t t_us) const {
+    if (!begun_) return failure(fmt::format("{}: no frame of the bench, expected the log of a run", log_));
+    return Ending{Ending::Kind::interrupted, t_us,
+                  fmt::format("the recording ends at t={:.3f} s", static_cast<double>(t_us) / 1e6)};
+  }
+
+  // What came up to the bench's next frame. The handshake is no part of the flight.
+  Result<void> hear() {
+    for (; frames_.next();) {
+      const LogEntry& entry = *frames_.next();
+      const MessageInfo* message = find(dialect_->messages(), entry.frame);
+      const bool target = message != nullptr && message->sender == messages::TargetHeartbeat::info.sender;
+      const bool handshake =
+          message != nullptr && !target && scenario_.foreign == nullptr && message->cycle_time_us == 0;
+      if (!target && !handshake && (message != nullptr || entry.transmitted)) return {};
+      if (begun_ && !handshake) hear(entry);
+      if (auto read = frames_.advance(); !read) return tl::unexpected(read.error());
+    }
+    return {};
+  }
+  void hear(const LogEntry& entry) {
+    const Received received{.frame = entry.frame, .t_ns = entry.t_ns};
+    last_ns_ = entry.t_ns;
+    for (observe::Observer* observer : observers_) observer->received(received);
+    if (schedule_->listens()) schedule_->received(received);
+  }
+
+  Result<void> expect(const Frame& frame, std::int64_t t_us) {
+    const LogEntry& entry = *frames_.next();
+    if (entry.frame != frame) {
+      const auto shown = [](Frame one) {
+        return format_log_line({.interface = "bus", .frame = one}).substr(15);
+      };
+      const MessageInfo* message = find(dialect_->messages(), frame);
+      return failure(fmt::format("{}: is not of {}: at t={:.3f} s it has {}, the scenario sends {}{}", log_,
+                                 scenario_.file, static_cast<double>(t_us) / 1e6, shown(entry.frame),
+                                 shown(frame),
+                                 message == nullptr ? "" : fmt::format(" ({})", message->name)));
+    }
+    if (!std::exchange(begun_, true)) {
+      first_ns_ = entry.t_ns;
+      first_us_ = t_us;
+    }
+    last_ns_ = entry.t_ns;
+    if (manner_.lockstep) target_->closes_step(frame);
+    // After its deadline, if the first frame left at its own.
+    const std::int64_t late_ns =
+        std::max<std::int64_t>(entry.t_ns - first_ns_ - (t_us - first_us_) * 1000, 0);
+    for (observe::Observer* observer : observers_)
+      observer->transmitted(frame, entry.t_ns, manner_.lockstep ? 0 : late_ns);
+    return frames_.advance();
+  }
+
+  const scenario::Scenario& scenario_;
+  const world::FlightRecord& truth_;
+  Flight flight_;
+  Frames frames_;
+  std::string log_;
+  Manner manner_;
+  NoHands hands_;
+  std::unique_ptr<Dialect> dialect_;
+  std::unique_ptr<Schedule> schedule_;
+  std::unique_ptr<observe::Watcher> watcher_;
+  std::unique_ptr<observe::TargetWatch> target_;
+  observe::LoadMeter load_;
+  std::vector<observe::Observer*> observers_;
+  bool begun_ = false;
+  std::int64_t first_ns_ = 0, last_ns_ = 0;  // stamps
+  std::int64_t first_us_ = 0;                // when the first frame was due
+};
+
+}  // namespace
+
+Result<Run> judge_recording(const scenario::Scenario& scenario, const std::string& log) {
+  auto truth = make_truth(scenario);
+  if (!truth) return failure(fmt::format("{}: {}", scenario.file, truth.error().message));
+  auto flight = make_flight(scenario, *truth, 0);
+  if (!flight) return failure(fmt::format("{}: {}", scenario.file, flight.error().message));
+  const auto manner = manner_of(log, scenario);
+  if (!manner) return tl::unexpected(manner.error());
+  auto frames = Frames::open(log);
+  if (!frames) return tl::unexpected(frames.error());
+  Recording recording(scenario, *truth, std::move(*flight), std::move(*frames), log, *manner);
+  auto flown = recording.judge();
+  if (!flown) return tl::unexpected(flown.error());
+  std::string timing_unfit(manner->lockstep ? "virtual time" : unknown_lateness);
+  Options options;
+  options.bus = BusName("log:" + log);
+  options.lockstep = manner->lockstep;
+  options.format = manner->format;
+  return Run{.verdict = verdict_of(scenario, *truth, *flown, timing_unfit),
+             .ending = std::move(flown->ending),
+             .seen = std::move(flown->seen),
+             .truth = std::move(*truth),
+             .own_truth = std::move(flown->own_truth),
+             .faults = std::move(flown->faults),
+             .options = std::move(options),
+             .clock = manner->lockstep ? ClockKind::lockstep : ClockKind::real_time,
+             .timing_unfit = std::move(timing_unfit),
+             .wall_s = recording.wall_s(),
+             .started_s = recording.started_s()};
+}
+
+}  // namespace canhil::drive

@@ -1,0 +1,43 @@
+// Vector's ASCII log: a header, then an event a line, most of them frames. Other events are ignored.
+//     date Tue Nov 24 08:12:13.000 2026
+//     base hex  timestamps absolute
+//     internal events logged
+//     Begin Triggerblock Tue Nov 24 08:12:13.000 2026
+//        0.249713 1  7DF             Rx   d 8 02 01 0D 00 00 00 00 00
+//        0.250000 CANFD   1 Tx        1FFx  1 0 9 12 00 01 ...
+// Channels are numbers from 1; a comment "// channel 1: can0" keeps the name of the interface.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "dbc/logs/log.hpp"
+
+namespace canhil::logs {
+
+/// Takes the lines of a log one after the other.
+class AscParser {
+ public:
+  /// The frame of a line; none: the line is not of a frame, or of a remote one. Error: what was expected.
+  Result<std::optional<LogEntry>> line(std::string_view text);
+
+ private:
+  Result<std::optional<LogEntry>> event(const std::vector<std::string_view>& words);
+  Result<void> read_classic(std::span<const std::string_view> words, LogEntry& entry) const;
+  Result<void> read_fd(std::span<const std::string_view> words, LogEntry& entry) const;
+  Result<void> read_data(std::span<const std::string_view> words, std::size_t size, Frame& frame) const;
+  [[nodiscard]] std::optional<std::uint32_t> number(std::string_view word) const;
+  bool read_id(std::string_view word, Frame& frame) const;
+  bool header(std::string_view text, const std::vector<std::string_view>& words);
+  [[nodiscard]] std::string interface_of(unsigned channel) const;
+
+  int base_ = 16;
+  bool relative_ = false;      // each time is since the event before
+  std::int64_t start_ns_ = 0;  // of the block
+  std::int64_t last_ns_ = 0;   // of the last event, since the start
+  std::map<unsigned, std::string> names_;
+};
+
+}  // namespace canhil::logs

@@ -1,0 +1,62 @@
+// What the formats share.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dbc/wire/result.hpp"
+
+namespace canhil::logs {
+
+inline constexpr std::int64_t ns_per_s = 1'000'000'000;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { (void)std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// Writes lines, buffered.
+class LineWriter {
+ public:
+  explicit LineWriter(File file) : file_(std::move(file)) {}
+  void write(std::string_view text);
+  /// The number of the first error; 0: none.
+  int close();
+
+ private:
+  File file_;
+  int error_ = 0;
+};
+
+/// Reads lines of a limited length, without their ends.
+class LineReader {
+ public:
+  explicit LineReader(const std::string& path) : file_(path), path_(path) {}
+
+  struct Line {
+    std::string_view text;
+    bool ended = true;  ///< false: the file ends without the end of a line
+  };
+  /// Nothing at the end of the file; the text is valid until the next call.
+  Result<std::optional<Line>> next();
+  /// "FILE:LINE", of the line that was read last.
+  [[nodiscard]] std::string where() const;
+
+ private:
+  /// A frame takes some 200 characters.
+  static constexpr std::size_t longest_line = 4096;
+
+  std::ifstream file_;
+  std::string path_;
+  std::vector<char> line_ = std::vector<char>(longest_line + 2);
+  std::size_t number_ = 0;
+};
+
+/// Up to so many characters of the beginning of a file. Error: one line; it cannot be read.
+Result<std::string> beginning_of(const std::string& path, std::size_t most);
+
+}  // namespace canhil::logs

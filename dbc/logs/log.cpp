@@ -1,0 +1,59 @@
+#include "dbc/logs/log.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "dbc/logs/formats.hpp"
+
+namespace canhil {
+namespace {
+
+using namespace std::string_view_literals;
+
+// Little and big endian; stamps in microseconds, in nanoseconds; pcapng.
+constexpr std::array captures{"\xD4\xC3\xB2\xA1"sv, "\xA1\xB2\xC3\xD4"sv, "\x4D\x3C\xB2\xA1"sv,
+                              "\xA1\xB2\x3C\x4D"sv, "\x0A\x0D\x0D\x0A"sv};
+
+bool is_capture(std::string_view beginning) {
+  return std::ranges::any_of(captures, [&](std::string_view magic) { return beginning.starts_with(magic); });
+}
+
+// Its header has the date first, or the base of its numbers, after comments.
+bool is_asc(std::string_view beginning) {
+  return beginning.starts_with("date ") || beginning.starts_with("base ") || beginning.starts_with("//");
+}
+
+}  // namespace
+
+Result<LogWriter> LogWriter::create(const std::string& path, const std::string& final_name) {
+  std::string name = final_name.empty() ? path : final_name;
+  logs::File file(std::fopen(path.c_str(), "we"));
+  if (!file) return failure(fmt::format("cannot write log '{}': {}", name, std::strerror(errno)));
+  auto sink = name.ends_with(".pcap")  ? logs::pcap_sink(std::move(file))
+              : name.ends_with(".asc") ? logs::asc_sink(std::move(file))
+                                       : logs::candump_sink(std::move(file));
+  return LogWriter(std::move(sink), std::move(name));
+}
+
+Result<void> LogWriter::close() {
+  if (const int error = sink_->close(); error != 0)
+    return failure(fmt::format("cannot write log '{}': {}", path_, std::strerror(error)));
+  return {};
+}
+
+Result<LogReader> LogReader::open(const std::string& path) {
+  const auto beginning = logs::beginning_of(path, 8);
+  if (!beginning) return tl::unexpected(beginning.error());
+  if (is_capture(*beginning)) {
+    auto source = logs::pcap_source(path);
+    if (!source) return tl::unexpected(source.error());
+    return LogReader(std::move(*source));
+  }
+  return LogReader(is_asc(*beginning) ? logs::asc_source(path) : logs::candump_source(path));
+}
+
+}  // namespace canhil

@@ -1,0 +1,16 @@
+// A packet of a capture of SocketCAN.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "dbc/wire/frame.hpp"
+#include "dbc/wire/result.hpp"
+
+namespace canhil::logs {
+
+/// The frame of a packet; none: a remote frame. Error: what is wrong with it.
+Result<std::optional<Frame>> frame_of_packet(std::span<const std::uint8_t> packet);
+
+}  // namespace canhil::logs

@@ -1,0 +1,41 @@
+"""Logs by python-can, and values by canmatrix: what other programs make of our files, and we of theirs.
+
+others.py frames LOG            a line a frame: time in microseconds, id, flags, data
+others.py copy FROM TO          written again by python-can
+others.py values LOG DBC        a line a frame: id, then each signal and its value
+"""
+import sys
+
+import can
+import canmatrix.formats
+
+
+def frames(path):
+    keep_time = {"relative_timestamp": False} if path.endswith(".asc") else {}
+    with can.LogReader(path, **keep_time) as log:
+        yield from log
+
+
+def flags(message):
+    names = (("x", message.is_extended_id), ("e", message.is_error_frame), ("f", message.is_fd), ("b", message.bitrate_switch))
+    return "".join(letter for letter, there in names if there) or "-"
+
+
+def main(what, source, *rest):
+    if what == "frames":
+        for message in frames(source):
+            print(round(message.timestamp * 1e6), f"{message.arbitration_id:X}", flags(message), message.data.hex() or "-")
+    elif what == "copy":
+        with can.Logger(rest[0]) as logger:
+            for message in frames(source):
+                logger(message)
+    else:
+        database = canmatrix.formats.loadp_flat(rest[0])
+        by_id = {frame.arbitration_id.id: frame for frame in database.frames if not frame.arbitration_id.extended}
+        for message in frames(source):
+            frame = by_id[message.arbitration_id]
+            values = frame.decode(bytes(message.data))
+            print(frame.name, " ".join(f"{name}={float(values[name].phys_value)!r}" for name in sorted(values)))
+
+
+main(*sys.argv[1:])
