@@ -6,6 +6,7 @@
 #   bash tests/run.sh --tidy          with either of the first two: also clang-tidy on every source, about ten minutes
 #   bash tests/run.sh --analyse       with either of the first two: also clang's static analyser on every source, about an hour
 #   bash tests/run.sh --soak          with either of the first two: also five minutes of random flights against one target (tests/soak)
+#   bash tests/run.sh --package       with --full: also the Debian package, installed and flown in a fresh Debian (root, network; tests/package)
 #   bash tests/run.sh --only REGEX    with any: of its CTest cases those whose name matches, in every configuration
 # Counted: each CTest case in each configuration, each static check, and each build that fails.
 # What a mode did not run it says at its end. JUnit files and logs: build/results/.
@@ -16,7 +17,7 @@ root=$PWD
 results=$root/build/results
 
 usage() { echo "tests/run.sh: $*" >&2; exit 2; }
-mode=default tidy=no analyse=no soak=no only=
+mode=default tidy=no analyse=no soak=no package=no only=
 while (($#)); do
   case "$1" in
     --full | --coverage)
@@ -25,6 +26,7 @@ while (($#)); do
     --tidy) tidy=yes ;;
     --analyse) analyse=yes ;;
     --soak) soak=yes ;;
+    --package) package=yes ;;
     --only)
       only=${2:-}
       if [[ -z "$only" ]]; then usage "--only: expected a regular expression"; fi
@@ -32,11 +34,12 @@ while (($#)); do
     -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/run.sh; exit ;;
     --quick) usage "--quick is now what it does without an option: bash tests/run.sh" ;;
     --fuzz) usage "--fuzz is now a part of --full: bash tests/run.sh --full" ;;
-    *) usage "unknown option '$1': expected --full, --coverage, --tidy, --analyse, --soak or --only REGEX" ;;
+    *) usage "unknown option '$1': expected --full, --coverage, --tidy, --analyse, --soak, --package or --only REGEX" ;;
   esac
   shift
 done
 if [[ $mode == coverage && $tidy$analyse$soak != nonono ]]; then usage "--coverage excludes --tidy, --analyse and --soak"; fi
+if [[ $package == yes && $mode != full ]]; then usage "--package: packs a whole build, expected --full beside it"; fi
 
 # The same result from any shell: Debian's tools first, one locale, no settings of the caller's builds.
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
@@ -213,6 +216,12 @@ if [[ $analyse == yes ]]; then
   stage "clang static analyser" one_check python3 tests/static/tidy.py --each build/default
 elif [[ $mode != coverage ]]; then
   not_run+=("clang's static analyser: $again --analyse")
+fi
+if [[ $package == yes ]]; then
+  bash tests/setup/install.sh package || failure "installing packages"
+  stage "Debian package" one_check bash tests/package/debian.sh build/default
+elif [[ $mode != coverage ]]; then
+  not_run+=("the Debian package in a fresh Debian: bash tests/run.sh --full --package")
 fi
 if [[ $soak == yes ]]; then
   stage "soak" one_check python3 tests/soak/soak.py build/default --minutes 5

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 // As typed.
 struct Arguments {
-  std::string suites = CANHIL_SUITES;
+  std::string suites = data_folder("acceptance");
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
   std::vector<std::string> estimators, families;
   std::optional<std::uint64_t> seed;

@@ -37,11 +37,11 @@ struct Arguments {
 Result<std::vector<scenario::Scenario>> quick_flights() {
   std::vector<fs::path> files;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(CANHIL_FLIGHTS, error)) {
+  const std::string folder = data_folder("flights");
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().filename().string().ends_with("_quick.toml")) files.push_back(entry.path());
   }
-  if (files.empty())
-    return failure(fmt::format("{}: has no flights, expected --scenario FILE", CANHIL_FLIGHTS));
+  if (files.empty()) return failure(fmt::format("{}: has no flights, expected --scenario FILE", folder));
   std::ranges::sort(files);
   std::vector<scenario::Scenario> flights;
   for (const fs::path& file : files) {

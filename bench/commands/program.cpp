@@ -103,6 +103,13 @@ std::string own_folder() {
   return std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path().string();
 }
 
+std::string data_folder(const std::string& name) {
+  std::error_code unknown;
+  const std::filesystem::path installed = std::filesystem::path(own_folder()) / "../share/canhil" / name;
+  return std::filesystem::is_directory(installed, unknown) ? installed.lexically_normal().string()
+                                                           : CANHIL_DATA "/" + name;
+}
+
 int become(const std::string& program, std::vector<std::string> words) {
   const std::string path = own_folder() + "/" + program;
   words.insert(words.begin(), "hil-bench");  // the name that it goes by in help

@@ -25,6 +25,10 @@ int run_program(int argc, char** argv, std::span<const AddCommand> add_commands)
 /// Where this program lies.
 std::string own_folder();
 
+/// The project's own data, "flights" or "acceptance": installed, share/canhil beside this program's bin; else
+/// in the source tree that it was built from.
+std::string data_folder(const std::string& name);
+
 /// Replaces this process by a program beside it, with these words for its command line (without its name).
 /// Returns only where that cannot be started: the exit code, after one line that says why.
 int become(const std::string& program, std::vector<std::string> words);

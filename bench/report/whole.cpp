@@ -104,6 +104,7 @@ void timing(const At& report) {
     report["latency_s"].each_key([](const At& message) {
       distribution(message);
       flag(message["closes_group"]);
+      count(message["unanswered"]);
     });
   }
   if (report.has("jitter_s")) report["jitter_s"].each_key(distribution);
@@ -114,6 +115,14 @@ void timing(const At& report) {
     });
   }
   if (report.has("bench_lateness_s")) distribution(report["bench_lateness_s"]);
+  if (report.has("split") && report["split"].has("slowest")) {
+    for (const char* key : {"queue_max_us", "compute_max_us"}) count(report["split"]["slowest"][key]);
+  }
+  if (report.has("wire")) {
+    const At wire = report["wire"];
+    count(wire["bitrate_bitps"]);
+    if (wire.has("data_bitrate_bitps")) count(wire["data_bitrate_bitps"]);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #   install.sh tests       that, and what tests/run.sh uses besides
 #   install.sh coverage    that, and what tests/run.sh --coverage does
 #   install.sh tidy        what tests/run.sh --tidy and --analyse use
+#   install.sh package     that, and what tests/package/debian.sh uses
 #   install.sh full        all that tests/run.sh --full and tests/perf/run.sh use
 #   install.sh list SET    prints the package names of a set
 set -euo pipefail
@@ -22,9 +23,11 @@ test_packages=(
 )
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper; without it that says so and flies nothing
 tidy_packages=(clang clang-tidy)
+package_packages=(dpkg-dev file debootstrap help2man) # makes a Debian package and tries it in a fresh system
 full_packages=(
   rt-tests valgrind libclang-rt-14-dev
   qemu-system-x86 make gcc-12 libelf1 # two CAN controllers with the kernel's driver, in an emulated PC; its kernel is not installed
+  help2man # pages of the manual, for a package
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
 )
 
@@ -37,8 +40,9 @@ select_packages() {
     tests) wanted+=("${test_packages[@]}") ;;
     coverage) wanted+=("${test_packages[@]}" "${paper_packages[@]}") ;;
     tidy) wanted+=("${test_packages[@]}" "${tidy_packages[@]}") ;;
+    package) wanted+=("${package_packages[@]}") ;;
     full) wanted+=("${test_packages[@]}" "${paper_packages[@]}" "${tidy_packages[@]}" "${full_packages[@]}") ;;
-    *) die "unknown set '$1': expected build, tests, coverage, tidy or full" ;;
+    *) die "unknown set '$1': expected build, tests, coverage, tidy, package or full" ;;
   esac
 }
 

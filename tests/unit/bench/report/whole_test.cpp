@@ -44,6 +44,13 @@ TEST(WholeReport, AKeyThatIsMissingOrOfAnotherKind) {
             "key 'timing.judged': is \"yes\", expected true or false");
 }
 
+TEST(WholeReport, ABitRateThatCannotBe) {
+  Json report = document(scenario_of(), run_on_a_wire());
+  report["wire"]["bitrate_bitps"] = 1e308;  // no conversion to a whole number is defined for it
+  EXPECT_EQ(why_not_whole(report),
+            "key 'wire.bitrate_bitps': is 1e+308, expected a whole number of at least 0");
+}
+
 TEST(WholeReport, ADistributionThatCannotBe) {
   const auto wrong = [](const std::function<void(Json&)>& edit) {
     return why([&](Json& r) { edit(r["latency_s"]["AlignVelocityD"]); });

@@ -1,0 +1,60 @@
+# cmake --install: programs, the libraries for find_package(canhil), data, documents; cpack -G DEB makes a Debian package of them.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# What a program of others may link: messages and their codecs, buses, logs, estimators.
+set(canhil_exported wire files dbc messages messages_fd logs ports strapdown filtering transfer_alignment inflight_alignment los_rate wind)
+foreach(library IN LISTS canhil_exported)
+  get_target_property(type canhil_${library} TYPE)
+  target_include_directories(canhil_${library} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/canhil>)
+  set_target_properties(canhil_${library} PROPERTIES EXPORT_NAME ${library})
+endforeach()
+list(TRANSFORM canhil_exported PREPEND canhil_ OUTPUT_VARIABLE targets)
+install(TARGETS ${targets} dbcgen EXPORT canhil ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/canhil)
+install(EXPORT canhil NAMESPACE canhil:: FILE canhil-targets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/canhil)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/canhil-config.cmake.in ${CMAKE_BINARY_DIR}/canhil-config.cmake
+                              INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/canhil)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/canhil-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/canhil-config.cmake ${CMAKE_BINARY_DIR}/canhil-config-version.cmake
+              ${CMAKE_CURRENT_LIST_DIR}/canhil_generate.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/canhil)
+foreach(folder dbc/wire dbc/files dbc/parser dbc/logs dbc/ports target/estimators)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/canhil/${folder}/.. FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+foreach(generated generated generated_fd)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/dbc/codegen/${generated}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/canhil FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+
+install(TARGETS hil-target hil-bench hil-bench-campaign hil-bench-paper)
+set(data ${CMAKE_INSTALL_DATADIR}/canhil)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/bench/flights ${CMAKE_SOURCE_DIR}/bench/monte_carlo ${CMAKE_SOURCE_DIR}/bench/acceptance
+                  ${CMAKE_SOURCE_DIR}/docs/examples DESTINATION ${data})
+install(FILES ${CMAKE_SOURCE_DIR}/dbc/canhil.dbc ${CMAKE_SOURCE_DIR}/dbc/canhil-fd.dbc DESTINATION ${data}/dbc)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN examples EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+foreach(program hil-bench hil-target)
+  install(FILES ${CMAKE_SOURCE_DIR}/packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
+endforeach()
+
+# Pages of the manual: what --help says, one for each program and each subcommand of hil-bench.
+find_program(HELP2MAN help2man)
+if(HELP2MAN)
+  add_custom_target(canhil_manual ALL
+    COMMAND ${CMAKE_SOURCE_DIR}/packaging/manual.sh ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/man ${PROJECT_VERSION}
+    DEPENDS hil-target hil-bench hil-bench-campaign dbcgen ${CMAKE_SOURCE_DIR}/packaging/manual.sh
+    COMMENT "Pages of the manual" VERBATIM)
+  install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
+endif()
+
+set(CPACK_PACKAGE_NAME canhil)
+set(CPACK_PACKAGE_VENDOR canhil)
+set(CPACK_PACKAGE_CONTACT "canhil developers <canhil@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "hardware-in-the-loop bench over CAN for navigation and guidance estimators")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "can-utils, iproute2")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, g++, libeigen3-dev, libfmt-dev, libexpected-dev, libpcap-dev")
+include(CPack)

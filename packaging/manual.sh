@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# manual.sh PROGRAMS OUT VERSION: pages of the manual from what the programs in a folder say by --help.
+set -euo pipefail
+programs=$1 out=$2 version=$3
+mkdir -p "$out"
+page() { # page NAME COMMAND...
+  local name=$1
+  shift
+  help2man --no-info --section 1 --version-string "canhil $version" --name "$("$@" --help | head -n 1)" --output "$out/$name.1" "$*"
+}
+export PATH=$programs:$programs/dbc/codegen:$PATH # the pages name the programs without a folder
+page hil-target hil-target
+page dbcgen dbcgen
+page hil-bench hil-bench
+hil-bench --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z-]*\) .*/\1/p' | while read -r command; do
+  page "hil-bench-$command" hil-bench "$command" </dev/null
+done

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# debian.sh BUILD: makes the Debian package of a finished build, installs it with its dependencies in a fresh Debian 12 that has
+# nothing else (debootstrap), and flies the demo there: program and target over the embedded bus. Needs root and the network.
+set -euo pipefail
+build=$(realpath "$1")
+for tool in debootstrap dpkg-shlibdeps; do
+  command -v "$tool" >/dev/null || { echo "debian.sh: no $tool here: bash tests/setup/install.sh package" >&2; exit 2; }
+done
+((EUID == 0)) || { echo "debian.sh: a chroot needs root" >&2; exit 2; }
+work=$(mktemp -d)
+trap 'umount -q "$work/root/proc" 2>/dev/null || true; rm -rf "$work"' EXIT
+
+(cd "$build" && cpack -G DEB -B "$work" >"$work/cpack.log") || { cat "$work/cpack.log" >&2; exit 1; }
+package=$(ls "$work"/*.deb)
+echo "package: $(basename "$package"), $(du -h "$package" | cut -f1)"
+dpkg-deb --field "$package" Package Version Depends
+
+# Mirror and proxy of this machine's own apt.
+mirror=$( (grep -rhvE '^ *#' /etc/apt/sources.list /etc/apt/sources.list.d 2>/dev/null || true) | grep -oE '(https?|file)://[^ ]+/debian/?( |$)' | head -n 1 | tr -d ' ' || true)
+eval "$(apt-config shell http_proxy Acquire::http::Proxy https_proxy Acquire::https::Proxy)"
+export http_proxy https_proxy
+debootstrap --variant=minbase --include=ca-certificates bookworm "$work/root" "${mirror:-http://deb.debian.org/debian}" >"$work/debootstrap.log" ||
+  { tail "$work/debootstrap.log" >&2; exit 1; }
+cp /etc/apt/apt.conf.d/* "$work/root/etc/apt/apt.conf.d/" 2>/dev/null || true # proxies
+cp "$package" "$work/root/canhil.deb"
+mount -t proc proc "$work/root/proc"
+in_chroot() { chroot "$work/root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
+in_chroot apt-get -q -y install --no-install-recommends /canhil.deb >"$work/apt.log" 2>&1 || { tail "$work/apt.log" >&2; exit 1; }
+
+# Outputs are judged, timing is not measured in virtual time: exit code 3.
+code=0
+in_chroot hil-bench run /usr/share/canhil/flights/transfer_alignment.toml --lockstep --log /run.pcap >"$work/run.txt" || code=$?
+cat "$work/run.txt"
+if ((code != 3)) || grep -q FAIL "$work/run.txt"; then echo "debian.sh: the demo ended with $code" >&2; exit 1; fi
+in_chroot hil-bench conformance
+echo "debian.sh: installed and flown"
