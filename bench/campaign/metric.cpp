@@ -24,9 +24,9 @@ struct Context {
 
 /// Whether campaigns keep a quantity: some of single runs they do not.
 bool is_sampled(const Quantity& quantity) {
-  if (mapping::find_truth(quantity.name) != nullptr) return true;
+  if (mapping::find_reference_quantity(quantity.name) != nullptr) return true;
   return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
-    return quantities::tells(one->layout, quantity);
+    return quantities::has(one->layout, quantity);
   });
 }
 
@@ -35,7 +35,7 @@ std::span<const Quantity* const> every_quantity() {
   static const std::vector<const Quantity*> all = [] {
     const auto own = estimators::every_quantity();
     std::vector<const Quantity*> known(own.begin(), own.end());
-    for (const mapping::Truthed& one : mapping::truths()) {
+    for (const mapping::ReferenceQuantity& one : mapping::reference_quantities()) {
       if (std::ranges::find(known, one.quantity) == known.end()) known.push_back(one.quantity);
     }
     return known;
@@ -208,7 +208,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   // Of a whole run there is no time to go.
   rule.quantity = read_quantity(section, [](const Quantity& one) {
     return !one.of_whole_run && std::ranges::any_of(estimators::all(), [&](const auto* estimator) {
-      return estimator->layout.to_go_stretch_us > 0 && quantities::tells(estimator->layout, one);
+      return estimator->layout.to_go_stretch_us > 0 && quantities::has(estimator->layout, one);
     });
   });
   std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));

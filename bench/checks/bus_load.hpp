@@ -22,6 +22,6 @@ std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 Load bus_load(const Observations& seen, wire::BitRates rates);
 
 /// "500 kbit/s", "500 and 2000 kbit/s".
-std::string words(const wire::BitRates& rates);
+std::string to_text(const wire::BitRates& rates);
 
 }  // namespace canhil::checks

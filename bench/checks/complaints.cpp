@@ -54,7 +54,7 @@ void Complaints::end(std::int64_t now_us) {
     silences_.push_back({.from_us = last_beat_us_, .to_us = now_us});
 }
 
-std::vector<std::string_view> Complaints::words() {
+std::vector<std::string_view> Complaints::names() {
   std::vector<std::string_view> words{"degraded"};
   for (const SignalInfo& signal : messages::TargetHeartbeat::signals()) {
     if (const std::string_view what = error_in(signal); !what.empty()) words.push_back(what);

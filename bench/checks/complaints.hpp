@@ -34,7 +34,7 @@ class Complaints {
   [[nodiscard]] const std::vector<scenario::Window>& silences() const { return silences_; }
 
   /// Every `what` there may be.
-  static std::vector<std::string_view> words();
+  static std::vector<std::string_view> names();
 
  private:
   std::vector<Said> of_heartbeats_, of_counters_;

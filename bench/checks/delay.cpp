@@ -6,7 +6,7 @@
 namespace canhil::checks {
 namespace {
 
-using quantities::Told;
+using quantities::TrackPoint;
 
 constexpr std::size_t fewest = 20;
 constexpr double least_s = -0.2, most_s = 1.0, step_s = 0.01;  // of the search
@@ -16,8 +16,8 @@ double seconds(std::int64_t t_us) { return 1e-6 * static_cast<double>(t_us); }
 // The truth between answers: the cubic through the four about it, and its slope.
 class Curve {
  public:
-  explicit Curve(const Spool<Told>& told) {
-    for (const Told& one : told) {
+  explicit Curve(const Spool<TrackPoint>& told) {
+    for (const TrackPoint& one : told) {
       if (!one.truth || (!t_.empty() && seconds(one.t_us) <= t_.back())) continue;
       t_.push_back(seconds(one.t_us));
       x_.push_back(*one.truth);
@@ -91,9 +91,9 @@ Fit fit(const Curve& curve, const Spool<Point>& points, double delay) {
 }  // namespace
 
 std::optional<Delay> delay_of(const quantities::Track& track, const scenario::Window& window) {
-  const Curve curve(track.told);
+  const Curve curve(track.points);
   Spool<Point> points;  // whose truth is known for every delay that is looked at
-  for (const Told& one : track.told) {
+  for (const TrackPoint& one : track.points) {
     const double t = seconds(one.t_us);
     const bool inside = one.t_us >= window.from_us && one.t_us <= window.to_us;
     if (inside && one.estimate && std::isfinite(*one.estimate) && curve.covers(t - most_s) &&

@@ -43,7 +43,7 @@ struct Stretch {
 
 /// |quantity| is to be below a value.
 struct Bar {
-  std::vector<Subject> of;
+  std::vector<Subject> judged;
   Stretch stretch;
   double below = 0;  ///< [SI]
   std::string_view statistic{};

@@ -15,10 +15,10 @@ namespace canhil::checks {
 
 /// One thing that it says, in one way.
 struct Sign {
-  std::string_view name;                    ///< "coasting"
-  std::string_view by;                      ///< "an answer", "a heartbeat", "a counter"
-  std::vector<std::int64_t> t_us{};         ///< ascending; of answers, the times of their causes
-  [[nodiscard]] std::string words() const;  ///< "coasting in an answer"
+  std::string_view name;                      ///< "coasting"
+  std::string_view by;                        ///< "an answer", "a heartbeat", "a counter"
+  std::vector<std::int64_t> t_us{};           ///< ascending; of answers, the times of their causes
+  [[nodiscard]] std::string to_text() const;  ///< "coasting in an answer"
 };
 
 /// All that a run had, of the estimators that answered.
@@ -36,7 +36,7 @@ std::vector<Sign> new_since(std::vector<Sign> signs, std::int64_t onset_us);
 
 struct SignAt {
   std::int64_t t_us = 0;
-  std::string words;
+  std::string text;
 };
 /// The first of all in [from, to]; none: there is none.
 std::optional<SignAt> first_in(std::span<const Sign> signs, std::int64_t from_us, std::int64_t to_us);

@@ -88,29 +88,29 @@ struct TimedWindow {
 };
 
 /// TargetTiming saturates here: what it tells as so long took at least so long [us].
-inline constexpr std::uint16_t most_told_us = 8191;
+inline constexpr std::uint16_t most_reported_us = 8191;
 
 /// Where the time of the answered stimuli went. Sums over them, from the hand-over of the last frame of a
 /// stimulus to the last frame that answers it.
-struct LatencySplit {
+struct LatencyBreakdown {
   std::uint64_t stimuli = 0;           ///< that were answered
   std::uint64_t echoed = 0;            ///< of those: whose passage over the bus was seen
   std::int64_t to_echo_ns = 0;         ///< from the hand-over to the end of the frame on the bus
   std::int64_t stimulus_wire_ns = 0;   ///< of that: the frame itself
   std::int64_t latency_ns = 0;         ///< from there to the end of the last frame of the answer
   std::int64_t reply_wire_ns = 0;      ///< of that: the frames of the answer themselves
-  std::uint64_t told = 0;              ///< stimuli that the target accounted for (TargetTiming)
+  std::uint64_t accounted = 0;         ///< stimuli that the target accounted for (TargetTiming)
   std::int64_t target_queue_ns = 0;    ///< of those: from the target's stamp to its turn
   std::int64_t target_compute_ns = 0;  ///< and the work
-  bool queue_clipped = false;          ///< means that it was told of were at most_told_us: it is longer
+  bool queue_clipped = false;          ///< means that it was told of were at most_reported_us: it is longer
   bool compute_clipped = false;
 };
 
 /// The same of the stimuli of one sample group. The target accounts for all groups together: of one alone it
 /// tells nothing.
-struct GroupSplit {
+struct GroupBreakdown {
   std::string_view group{};
-  LatencySplit split{};
+  LatencyBreakdown breakdown{};
 };
 
 /// The slowest answer, and what the target said of the window it fell into.
@@ -138,9 +138,9 @@ struct TimingRecord {
   TimeLine lateness_line;                 ///< the same over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource
   std::vector<TimedWindow> windows{};     ///< that checks ask for
-  LatencySplit split{};
-  std::vector<GroupSplit> split_by_group{};  ///< in the order of their first answers
-  SlowestAnswer slowest{};                   ///< of those that the target accounted for
+  LatencyBreakdown breakdown{};
+  std::vector<GroupBreakdown> breakdown_by_group{};  ///< in the order of their first answers
+  SlowestAnswer slowest{};                           ///< of those that the target accounted for
   std::uint64_t stimuli_with_hardware_stamp = 0;
   std::uint64_t without_hardware_stamp = 0;  ///< stimuli and frames of the target
 };

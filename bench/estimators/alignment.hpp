@@ -21,8 +21,8 @@
 namespace canhil::estimators {
 
 /// The error of the heading over the sigma that the target tells.
-inline double heading_over_its_sigma(const quantities::Samples& samples, std::size_t place) {
-  return samples.value(place, quantities::attitude_heading) / samples.value(place, quantities::heading_sigma);
+inline double heading_over_its_sigma(const quantities::Samples& samples, std::size_t index) {
+  return samples.value(index, quantities::attitude_heading) / samples.value(index, quantities::heading_sigma);
 }
 inline constexpr std::array alignment_derived{
     quantities::Derived{.quantity = &quantities::heading_over_sigma, .of = heading_over_its_sigma}};
@@ -63,18 +63,18 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
     AnswerTo answer(of.navigation);
     for (const NavigationError& e : of.errors) {
       while (next != filter.end() && next->cause_us <= e.t_us) ++next;
-      Told told = error(e, answer(e.t_us));
-      told.t_us = e.t_us;
+      TrackPoint point = error(e, answer(e.t_us));
+      point.t_us = e.t_us;
       if (next != filter.begin()) {
         const auto& last = *std::prev(next);
         if (static_cast<double>(e.t_us - last.cause_us) <= of.filters.longest_wait_us)
-          told.sigma = sigma(last);
+          point.sigma = sigma(last);
       }
-      track.told.push_back(told);
+      track.points.push_back(point);
     }
     give(std::move(track));
   };
-  const auto untold = [](const auto&) { return std::optional<double>(); };
+  const auto no_sigma = [](const auto&) { return std::optional<double>(); };
   const auto angle = [&](const Quantity& quantity, std::string title) {
     Track track = of.navigates.track(quantity, std::move(title));
     track.unit = of.angle;
@@ -91,25 +91,27 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
       [&](const NavigationError& e, const NavigationAnswer& answer) {
         const double now = answer.angles.heading - e.angles.heading;
         truth += world::wrapped(now - truth);
-        return Told{.value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
+        return TrackPoint{.value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
       },
       [](const auto& a) { return a.attitude_sigma.z(); });
-  each_axis({&misalignment_north, &misalignment_east, &misalignment_down},
-            [&](const Quantity& quantity, const std::string& name, int axis) {
-              fill(
-                  angle(quantity, "attitude error about " + name),
-                  [=](const NavigationError& e, const auto&) { return Told{.value = e.misalignment(axis)}; },
-                  [=](const auto& a) { return a.attitude_sigma(axis); });
-            });
+  each_axis(
+      {&misalignment_north, &misalignment_east, &misalignment_down},
+      [&](const Quantity& quantity, const std::string& name, int axis) {
+        fill(
+            angle(quantity, "attitude error about " + name),
+            [=](const NavigationError& e, const auto&) { return TrackPoint{.value = e.misalignment(axis)}; },
+            [=](const auto& a) { return a.attitude_sigma(axis); });
+      });
   // Sigmas of roll and pitch are not told: those of the tilts are.
   const auto give_angle = [&](const Quantity& quantity, std::string title, double world::Euler::*member) {
     fill(
         judged(angle(quantity, std::move(title))),
         [&](const NavigationError& e, const NavigationAnswer& answer) {
-          const double told = answer.angles.*member;
-          return Told{.value = e.angles.*member, .estimate = told, .truth = told - e.angles.*member};
+          const double estimate = answer.angles.*member;
+          return TrackPoint{
+              .value = e.angles.*member, .estimate = estimate, .truth = estimate - e.angles.*member};
         },
-        untold);
+        no_sigma);
   };
   give_angle(attitude_roll, "roll error", &world::Euler::roll);
   give_angle(attitude_pitch, "pitch error", &world::Euler::pitch);
@@ -118,18 +120,19 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
               fill(
                   of.navigates.track(quantity, "velocity error " + name),
                   [=](const NavigationError& e, const NavigationAnswer& answer) {
-                    const double told = answer.v_eb_n(axis);
-                    return Told{.value = e.v_eb_n(axis), .estimate = told, .truth = told - e.v_eb_n(axis)};
+                    const double estimate = answer.v_eb_n(axis);
+                    return TrackPoint{
+                        .value = e.v_eb_n(axis), .estimate = estimate, .truth = estimate - e.v_eb_n(axis)};
                   },
                   [=](const auto& a) { return a.velocity_sigma(axis); });
             });
   fill(
       judged(of.navigates.track(velocity_norm, "velocity error norm")),
-      [](const NavigationError& e, const auto&) { return Told{.value = e.v_eb_n.norm()}; }, untold);
+      [](const NavigationError& e, const auto&) { return TrackPoint{.value = e.v_eb_n.norm()}; }, no_sigma);
   each_axis(of.innovation, [&](const Quantity& quantity, const std::string& name, int axis) {
     Track track = of.filters.track(quantity, "innovation " + name);
     track.kind = Track::Kind::innovation;
-    for (const auto& a : filter) track.told.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
+    for (const auto& a : filter) track.points.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
     give(std::move(track));
   });
 }

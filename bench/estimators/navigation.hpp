@@ -68,7 +68,7 @@ double nees(const world::Vector3& error, const world::Vector3& sigma, const worl
 /// (error / sigma)^2 of the heading (1 degree of freedom) after an update with cause_us, navigation_us and
 /// attitude_sigma, with the error from first_after(); added to `series` where there is one.
 template <class Update>
-void add_heading_nees(Spool<quantities::Told>& series, const Spool<NavigationError>& errors,
+void add_heading_nees(Spool<quantities::TrackPoint>& series, const Spool<NavigationError>& errors,
                       const Update& update) {
   const NavigationError* after = first_after(errors, update.cause_us, update.navigation_us);
   if (after != nullptr)

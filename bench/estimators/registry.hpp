@@ -24,7 +24,7 @@ const Estimator* telling(std::string_view columns);
 const Estimator* sending(const MessageInfo& message);
 /// Whose samples a campaign keeps of a scenario.
 const Estimator& of(const scenario::Scenario& scenario);
-/// What scenarios have to know of them, by name, for scenario::Contract.
+/// What scenarios have to know of them, by name, for scenario::DbcVocabulary.
 std::map<std::string, scenario::EstimatorFacts, std::less<>> facts();
 /// Every quantity that any of them tells, each once, in the order of the registry.
 std::span<const quantities::Quantity* const> every_quantity();

@@ -63,10 +63,10 @@ struct Answering {
             .answers_end_us = answers_end_us};
   }
   [[nodiscard]] quantities::Track statistic(const quantities::Quantity& quantity, std::string title,
-                                            Spool<quantities::Told> values) const {
+                                            Spool<quantities::TrackPoint> values) const {
     quantities::Track of = track(quantity, std::move(title));
     of.kind = quantities::Track::Kind::statistic;
-    of.told = std::move(values);
+    of.points = std::move(values);
     return of;
   }
 };

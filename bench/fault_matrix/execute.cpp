@@ -39,16 +39,16 @@ class Flights {
     std::ranges::sort(needed);
     needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
     std::vector<Undisturbed> found(needed.size());
-    auto flown = each(needed.size(), [&](std::size_t place) -> Result<void> {
-      auto one = fly(plan_.columns[needed[place].first], needed[place].second, {}, 0);
+    auto flown = each(needed.size(), [&](std::size_t index) -> Result<void> {
+      auto one = fly(plan_.columns[needed[index].first], needed[index].second, {}, 0);
       if (!one) return tl::unexpected(one.error());
-      found[place] = undisturbed(one->scenario, one->run);
+      found[index] = undisturbed(one->scenario, one->run);
       return {};
     });
     if (!flown || stop_) return flown;
-    for (std::size_t place = 0; place < needed.size(); ++place)
-      undisturbed_.emplace(needed[place], std::move(found[place]));
-    return each(order.size(), [&](std::size_t place) { return fly_cell(order[place]); });
+    for (std::size_t index = 0; index < needed.size(); ++index)
+      undisturbed_.emplace(needed[index], std::move(found[index]));
+    return each(order.size(), [&](std::size_t index) { return fly_cell(order[index]); });
   }
 
  private:
@@ -61,8 +61,8 @@ class Flights {
       std::vector<std::jthread> workers;
       for (std::size_t i = 0; i < std::clamp<std::size_t>(cores, 1, std::max<std::size_t>(count, 1)); ++i) {
         workers.emplace_back([&] {
-          for (std::size_t place = next++; place < count && !stop_; place = next++) {
-            const auto flown = fly_one(place);
+          for (std::size_t index = next++; index < count && !stop_; index = next++) {
+            const auto flown = fly_one(index);
             if (flown) continue;
             const std::scoped_lock lock(mutex_);
             if (!error) error = flown.error();
@@ -95,13 +95,13 @@ class Flights {
     return fly(std::move(*scenario), "");
   }
 
-  Result<void> fly_cell(std::size_t place) {
-    const Cell& cell = plan_.cells[place];
+  Result<void> fly_cell(std::size_t index) {
+    const Cell& cell = plan_.cells[index];
     const Undisturbed& before = undisturbed_.at({cell.column, cell.run});
     auto flown = fly(plan_.columns[cell.column], cell.run, cell.faults, 0);
     if (!flown) return tl::unexpected(flown.error());
     if (flown->run.ending.kind == drive::Ending::Kind::interrupted) return {};
-    Finished finished{.cell = place, .row = cell.row, .column = cell.column, .run = cell.run};
+    Finished finished{.cell = index, .row = cell.row, .column = cell.column, .run = cell.run};
     finished.response = response_of(flown->scenario, flown->run, cell.faults.empty() ? nullptr : &before);
     for (const FaultText& fault : cell.faults) finished.faults.push_back(fault.in_line());
     if (finished.response.kind == Response::Kind::violated) {

@@ -45,38 +45,38 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       });
   if (shortest_us != most_us || least.duration_us != 0) least.duration_us = shortest_us;
 
-  for (std::size_t place = 0; place < least.faults.size(); ++place) {
+  for (std::size_t index = 0; index < least.faults.size(); ++index) {
     const auto with = [&](FaultText fault) {
       std::vector<FaultText> all = least.faults;
-      all[place] = std::move(fault);
+      all[index] = std::move(fault);
       return all;
     };
     const auto within = [&](std::int64_t from_us, std::int64_t to_us) {
-      FaultText fault = least.faults[place];
+      FaultText fault = least.faults[index];
       fault.set("from_s", seconds(from_us));
       fault.set("to_s", seconds(to_us));
       return fault;
     };
-    const std::int64_t from_us = time_us(least.faults[place], "from_s", 0);
+    const std::int64_t from_us = time_us(least.faults[index], "from_s", 0);
     const std::int64_t to_us =
-        std::min(time_us(least.faults[place], "to_s", shortest_us), std::max(shortest_us, from_us));
+        std::min(time_us(least.faults[index], "to_s", shortest_us), std::max(shortest_us, from_us));
     if (shows(with(within(from_us, to_us)), least.duration_us)) {
       const auto [first_us, last_us] =
           least_stretch(from_us, to_us, window_step_us, [&](std::int64_t a_us, std::int64_t b_us) {
             return shows(with(within(a_us, b_us)), least.duration_us);
           });
-      least.faults[place] = within(first_us, last_us);
+      least.faults[index] = within(first_us, last_us);
     }
-    const FaultText dense = least.faults[place];
+    const FaultText dense = least.faults[index];
     const scenario::Setting* given = dense.find("every");
     std::int64_t every = given == nullptr ? 1 : std::atoll(given->value.c_str());
     for (; every < most_sparse; every *= 2) {
-      FaultText sparser = least.faults[place];
+      FaultText sparser = least.faults[index];
       sparser.set("every", std::to_string(2 * every));
       if (!shows(with(sparser), least.duration_us)) break;
-      least.faults[place] = std::move(sparser);
+      least.faults[index] = std::move(sparser);
     }
-    if (every >= most_sparse) least.faults[place] = dense;  // the first frame alone, which the window has
+    if (every >= most_sparse) least.faults[index] = dense;  // the first frame alone, which the window has
   }
   return least;
 }

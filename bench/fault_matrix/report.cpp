@@ -21,12 +21,12 @@ using Kind = Response::Kind;
 // A line for each cell of a kind.
 std::vector<std::string> told(const Results& results, Kind kind, const std::string& folder) {
   std::vector<std::string> lines;
-  for (const auto& [place, cell] : results.cells) {
+  for (const auto& [index, cell] : results.cells) {
     if (cell.response.kind != kind) continue;
-    std::string line =
-        fmt::format("{}, {}{}: {}", results.identity.rows[cell.row].name(),
-                    head_of(results.identity.columns[cell.column]),
-                    results.identity.runs > 1 ? fmt::format(", run {}", cell.run) : "", words(cell.response));
+    std::string line = fmt::format("{}, {}{}: {}", results.identity.rows[cell.row].name(),
+                                   head_of(results.identity.columns[cell.column]),
+                                   results.identity.runs > 1 ? fmt::format(", run {}", cell.run) : "",
+                                   to_text(cell.response));
     lines.push_back(std::move(line));
     if (cell.replay.empty()) continue;
     for (const std::string& fault : cell.faults) lines.push_back("  flown: " + fault);
@@ -133,7 +133,7 @@ std::string json(const Results& results) {
   for (const Identity::Column& column : identity.columns)
     columns.push_back(
         {{"scenario", column.file}, {"title", column.title}, {"estimators", column.estimators}});
-  for (const auto& [place, cell] : results.cells) {
+  for (const auto& [index, cell] : results.cells) {
     const Response& response = cell.response;
     Json json{{"row", identity.rows[cell.row].name()},
               {"fault", identity.rows[cell.row].fault},
@@ -142,7 +142,7 @@ std::string json(const Results& results) {
               {"run", cell.run},
               {"faults", cell.faults},
               {"response", name(response.kind)},
-              {"words", words(response)}};
+              {"words", to_text(response)}};
     if (response.detected_s) json["detected_s"] = *response.detected_s;
     if (!response.by.empty()) json["by"] = response.by;
     if (response.recovered_s) json["recovered_s"] = *response.recovered_s;

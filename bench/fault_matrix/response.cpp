@@ -26,7 +26,7 @@ double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const drive::Run& run) {
   if (run.ending.kind == Ending::Kind::completed) return run.verdict;
   return checks::judge(scenario, {.seen = run.seen,
-                                  .truth = drive::truth_of(run.truth, run.own_truth, run.ending.t_us),
+                                  .truth = drive::truth_of(run.truth, run.per_run_truth, run.ending.t_us),
                                   .estimators = estimators::in(scenario),
                                   .timing_unfit = run.timing_unfit});
 }
@@ -34,7 +34,7 @@ checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const dri
 // Whether each estimator has answers to be held against the truth: one that ended before its first has none.
 bool has_samples(const scenario::Scenario& scenario, const drive::Run& run) {
   return std::ranges::all_of(estimators::in(scenario), [&](const estimators::Estimator* one) {
-    return !one->samples(run.seen, drive::truth_of(run.truth, run.own_truth, run.ending.t_us)).empty();
+    return !one->samples(run.seen, drive::truth_of(run.truth, run.per_run_truth, run.ending.t_us)).empty();
   });
 }
 
@@ -76,7 +76,7 @@ std::optional<Response::Kind> kind_named(std::string_view name) {
   return static_cast<Response::Kind>(found - names.begin());
 }
 
-std::string words(const Response& response) {
+std::string to_text(const Response& response) {
   switch (response.kind) {
     case Response::Kind::tolerated:
       return "tolerated";
@@ -129,7 +129,7 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
     return {.kind = Response::Kind::ended,
             .detected_s = seconds(std::max<std::int64_t>(run.ending.t_us - onset_us, 0)),
             .why = reason_of(run.ending.detail)};
-  for (const faults::Told& fault : run.faults) {
+  for (const faults::FaultReport& fault : run.faults) {
     if (fault.count == 0)
       return {.kind = Response::Kind::not_measured, .why = fmt::format("'{}' did not strike", fault.name)};
   }
@@ -142,7 +142,7 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
   if (!first) return {};
   Response response{.kind = Response::Kind::detected,
                     .detected_s = seconds(std::max<std::int64_t>(first->t_us - onset_us, 0)),
-                    .by = first->words};
+                    .by = first->text};
   const auto last = checks::last_after(signs, end_us);
   constexpr std::int64_t quiet_us = 1'000'000;  // without a sign: it is over
   if (!last)

@@ -43,7 +43,7 @@ std::string_view name(Response::Kind kind);
 std::optional<Response::Kind> kind_named(std::string_view name);
 
 /// "detected in 0.020 s (coasting in an answer), recovered in 0.100 s".
-std::string words(const Response& response);
+std::string to_text(const Response& response);
 
 /// What a flight without faults has, against which those with faults are held.
 struct Undisturbed {

@@ -77,7 +77,7 @@ Table table_of(const Results& results, std::size_t column) {
 
 Cells cells_of(const Results& results, std::size_t row, std::size_t column) {
   Cells cells;
-  for (const auto& [place, cell] : results.cells) {
+  for (const auto& [index, cell] : results.cells) {
     if (cell.row == row && cell.column == column) cells.push_back(&cell);
   }
   return cells;

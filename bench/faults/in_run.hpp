@@ -15,7 +15,7 @@
 namespace canhil::faults {
 
 /// What a report tells of a fault.
-struct Told {
+struct FaultReport {
   std::string name, kind;
   Stage stage = Stage::bus;
   std::int64_t from_us = 0, to_us = 0;
@@ -29,25 +29,25 @@ class Faults final : public nodes::Befalling {
  public:
   /// `scenario`, `messages` (of the bus) and `hands` must outlive it.
   Faults(const scenario::Scenario& scenario, std::uint64_t run_index, std::span<const MessageInfo> messages,
-         Place place = {}, Hands* hands = nullptr);
+         Place place = {}, RigControl* hands = nullptr);
 
   std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                         const scenario::NodeSettings& settings) override;
   /// Those between nodes and bus, in the order of the scenario.
   [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }
 
-  [[nodiscard]] std::vector<Told> told() const;
+  [[nodiscard]] std::vector<FaultReport> reports() const;
   /// Of all of them.
   [[nodiscard]] Tally tally() const;
 
  private:
-  [[nodiscard]] InRun in_run(std::size_t place);
+  [[nodiscard]] InRun in_run(std::size_t index);
 
   const scenario::Scenario& scenario_;
   std::uint64_t run_index_;
   std::span<const MessageInfo> messages_;
   Place place_;
-  Hands* hands_;
+  RigControl* rig_;
   std::vector<Tally> tallies_;  // of each fault
   std::vector<std::unique_ptr<Injector>> injectors_;
 };

@@ -19,12 +19,12 @@ namespace canhil::faults {
 
 /// What can be done to the target's process and to the interface; none of it is asked for where Place says
 /// that it cannot be.
-class Hands {
+class RigControl {
  public:
-  Hands() = default;
-  Hands(const Hands&) = delete;
-  Hands& operator=(const Hands&) = delete;
-  virtual ~Hands() = default;
+  RigControl() = default;
+  RigControl(const RigControl&) = delete;
+  RigControl& operator=(const RigControl&) = delete;
+  virtual ~RigControl() = default;
   virtual void pause_target() = 0;
   virtual void resume_target() = 0;
   /// Kills it, starts it again and makes it ready with the state of that time of the run.
@@ -54,7 +54,7 @@ struct InRun {
   std::int64_t end_us = 0;
   std::span<const MessageInfo> messages;  ///< of the bus
   const Place& place;
-  Hands* hands = nullptr;  ///< null: there is nothing to lay hands on
+  RigControl* hands = nullptr;  ///< null: there is nothing to lay hands on
   Tally& tally;
 
   /// Random numbers of this fault; `part`: of one of its parts, each of which has its own.
@@ -100,7 +100,7 @@ class Switched : public Injector {
   virtual void on(std::int64_t for_us) = 0;
   virtual void off() = 0;
   [[nodiscard]] virtual bool silences() const { return false; }
-  Hands* const hands_;
+  RigControl* const rig_;
 
  private:
   When when_;

@@ -11,7 +11,7 @@ namespace canhil::faults {
 /// All of them, stage by stage.
 std::span<const Listed> listed_kinds();
 
-/// For scenario::Contract.
+/// For scenario::DbcVocabulary.
 std::vector<scenario::FaultKind> kinds();
 
 }  // namespace canhil::faults

@@ -18,7 +18,7 @@ namespace canhil::faults {
 /// Messages that the nodes of the bench send, and how a scenario names them.
 struct OfMessages {
   std::vector<const MessageInfo*> all{};
-  std::string words{};
+  std::string text{};
 };
 /// The key `messages`, by name, or `node`, all of that node's. Error: none, or one that the bench does not
 /// send.
@@ -37,7 +37,7 @@ struct Measured {
 };
 struct OfValues {
   std::vector<Measured> all{};
-  std::string words{};
+  std::string text{};
 };
 /// The key `quantity`, or `signal` of `messages`.
 OfValues read_values(scenario::Section& section, const scenario::FaultContext& context);

@@ -12,7 +12,7 @@
 namespace canhil::mapping {
 
 /// One quantity, told once. SI.
-struct ToldOnce {
+struct TimedValue {
   std::int64_t t_us = 0;  ///< of validity: of what it answers, or of its arrival
   double value = 0;
   std::optional<double> sigma{};
@@ -21,7 +21,7 @@ struct ToldOnce {
 /// By quantity, in the order of time.
 struct Answers {
   const Mapping* mapping = nullptr;
-  std::map<const quantities::Quantity*, Spool<ToldOnce>> told;
+  std::map<const quantities::Quantity*, Spool<TimedValue>> values;
   std::map<std::string_view, Spool<std::int64_t>> messages;  ///< their times, by name
 };
 

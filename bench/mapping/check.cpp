@@ -40,12 +40,12 @@ class Remarks {
   static bool is_protection(const Mapped& of, const dbc::Signal& signal) {
     if (!of.protection) return false;
     const protection::Settings& settings = of.protection->settings();
-    const protection::Place place{.start_bit = signal.start_bit,
+    const protection::Place index{.start_bit = signal.start_bit,
                                   .length = signal.length,
                                   .big_endian = signal.byte_order == dbc::ByteOrder::big_endian};
-    return (settings.counter && settings.counter->place == place) ||
-           (settings.checksum && settings.checksum->place == place) ||
-           std::ranges::find(settings.constants, place, &protection::Constant::place) !=
+    return (settings.counter && settings.counter->index == index) ||
+           (settings.checksum && settings.checksum->index == index) ||
+           std::ranges::find(settings.constants, index, &protection::Constant::index) !=
                settings.constants.end();
   }
 
@@ -99,7 +99,8 @@ class Remarks {
 
   void on(const Hear& hear) {
     for (const dbc::Signal& signal : hear.of.message->signals) {
-      const bool told = std::ranges::find(hear.tellings, &signal, &Telling::signal) != hear.tellings.end();
+      const bool told = std::ranges::find(hear.reported_signals, &signal, &ReportedSignal::signal) !=
+                        hear.reported_signals.end();
       const bool echo = hear.echo && hear.echo->repeated == &signal;
       if (!told && !echo && !is_protection(hear.of, signal))
         add(Grade::note, "unheard", name(hear.of, signal), "tells the bench nothing");

@@ -15,12 +15,14 @@ namespace canhil::mapping {
 namespace {
 
 using estimators::Truth;
-using quantities::Told;
 using quantities::Track;
+using quantities::TrackPoint;
 
-const Truthed& truthed(const quantities::Quantity& quantity) { return *find_truth(quantity.name); }
+const ReferenceQuantity& reference_of(const quantities::Quantity& quantity) {
+  return *find_reference_quantity(quantity.name);
+}
 
-double difference(const Truthed& of, double a, double b) {
+double difference(const ReferenceQuantity& of, double a, double b) {
   return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
 }
 
@@ -34,9 +36,9 @@ Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
 }
 
 // In order of time: a cause that was told later may be earlier.
-Spool<Told> errors_of(const Truthed& of, const Spool<ToldOnce>& all, const Truth& truth) {
-  Spool<Told> errors;
-  for (const ToldOnce& one : all) {
+Spool<TrackPoint> errors_of(const ReferenceQuantity& of, const Spool<TimedValue>& all, const Truth& truth) {
+  Spool<TrackPoint> errors;
+  for (const TimedValue& one : all) {
     const auto at = of.truth(truth, one.t_us);
     if (!at || one.t_us > truth.duration_us) continue;
     const double error = difference(of, one.value, *at);
@@ -44,12 +46,12 @@ Spool<Told> errors_of(const Truthed& of, const Spool<ToldOnce>& all, const Truth
     errors.push_back(
         {.t_us = one.t_us, .value = error, .sigma = one.sigma, .estimate = *at + error, .truth = *at});
   }
-  return in_order(std::move(errors), &Told::t_us);
+  return in_order(std::move(errors), &TrackPoint::t_us);
 }
 
 const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
   return *std::ranges::find_if(mapping.hears, [&](const Hear& hear) {
-    return std::ranges::any_of(hear.tellings, [&](const Telling& telling) {
+    return std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& telling) {
       return !telling.sigma && telling.quantity->quantity == quantity;
     });
   });
@@ -57,16 +59,16 @@ const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give) {
   const Answers& answers = seen.of<Answers>();
-  for (const auto& [quantity, all] : answers.told) {
-    const Truthed& of = truthed(*quantity);
+  for (const auto& [quantity, all] : answers.values) {
+    const ReferenceQuantity& of = reference_of(*quantity);
     const std::string_view message = hear_of(*answers.mapping, quantity).of.message->name;
     const estimators::Answering answering{.longest_wait_us = estimators::longest_wait_us(seen, message),
                                           .answers_end_us = truth.duration_us};
     Track track = answering.track(*quantity, std::string(quantity->meaning));
     track.estimate_title = std::string(quantity->name);
     track.estimate_unit = quantity->unit;
-    track.told = errors_of(of, all, truth);
-    if (!track.told.empty()) give(std::move(track));
+    track.points = errors_of(of, all, truth);
+    if (!track.points.empty()) give(std::move(track));
   }
 }
 
@@ -77,16 +79,16 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   if (answers.mapping == nullptr) return {};
   const Mapping& mapping = *answers.mapping;
   std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
-  for (std::size_t i = 0; i < mapping.told.size(); ++i) {
-    const auto told = answers.told.find(mapping.told[i]);
-    if (told == answers.told.end()) continue;
-    for (const Told& one : errors_of(truthed(*mapping.told[i]), told->second, truth))
+  for (std::size_t i = 0; i < mapping.quantities.size(); ++i) {
+    const auto told = answers.values.find(mapping.quantities[i]);
+    if (told == answers.values.end()) continue;
+    for (const TrackPoint& one : errors_of(reference_of(*mapping.quantities[i]), told->second, truth))
       by_time[one.t_us][i] = one.value;
   }
   quantities::Samples samples(*mapping.layout);
-  std::vector<std::optional<double>> last(mapping.told.size());
+  std::vector<std::optional<double>> last(mapping.quantities.size());
   for (const auto& [t_us, values] : by_time) {
-    for (const auto& [place, value] : values) last[place] = value;
+    for (const auto& [index, value] : values) last[index] = value;
     if (std::ranges::any_of(last, [](const auto& value) { return !value; })) continue;
     std::vector<double> all;
     for (const auto& value : last) all.push_back(*value);
@@ -104,7 +106,7 @@ std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
     const Hear& hear =
         *std::ranges::find(answers.mapping->hears, message,
                            [](const Hear& one) -> std::string_view { return one.of.message->name; });
-    if (!hear.answers && hear.tellings.empty()) continue;
+    if (!hear.answers && hear.reported_signals.empty()) continue;
     for (const std::int64_t t_us : times) all.t_us.push_back(t_us);
     marks.push_back({.name = message, .t_us = times});
   }
@@ -120,7 +122,7 @@ std::vector<estimators::ResultLine> results_of(const checks::Observations& seen,
   tracks_of(seen, truth, [&](const Track& track) {
     const quantities::Quantity& quantity = *track.quantity;
     const std::string name(quantity.name);
-    const double last = track.told.back().value;
+    const double last = track.points.back().value;
     end.add(name, last, fmt::format("{} {:+.3f} {}", name, last / quantity.unit.factor, quantity.unit.name));
     const auto delay = checks::delay_of(track, {.from_us = 0, .to_us = truth.duration_us});
     delays.add(
@@ -139,7 +141,7 @@ estimators::Estimator estimator_of(const Mapping& mapping) {
   return {.name = mapping.name,
           .facts = {.start = scenario::Start::nothing},
           .layout = *mapping.layout,
-          .of_runs = mapping.told,
+          .of_runs = mapping.quantities,
           .reception = nullptr,
           .samples = samples_of,
           .tracks = tracks_of,

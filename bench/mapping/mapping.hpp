@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "bench/checks/estimator.hpp"
+#include "bench/mapping/reference_quantities.hpp"
 #include "bench/mapping/stimuli.hpp"
-#include "bench/mapping/truths.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/foreign.hpp"
 #include "dbc/parser/database.hpp"
@@ -34,7 +34,7 @@ struct Mapped {
 
   const dbc::Message* message;
   dbc::MessagePlan plan;
-  std::size_t place = 0;
+  std::size_t index = 0;
   std::optional<protection::Protection> protection{};
 
   /// The number of one of the message's signals.
@@ -68,9 +68,9 @@ struct Play {
 };
 
 /// What a signal of the target tells.
-struct Telling {
+struct ReportedSignal {
   const dbc::Signal* signal = nullptr;
-  const Truthed* quantity = nullptr;
+  const ReferenceQuantity* quantity = nullptr;
   bool sigma = false;                      ///< of the quantity, in place of its value
   double factor = 1;                       ///< from the signal's unit to SI
   std::optional<std::uint64_t> invalid{};  ///< raw value that tells nothing
@@ -85,7 +85,7 @@ struct Echo {
 
 struct Hear {
   Mapped of;
-  std::vector<Telling> tellings;
+  std::vector<ReportedSignal> reported_signals;
   std::optional<std::size_t> answers{};  ///< a play; none: it comes by itself
   std::optional<Echo> echo{};            ///< none: it answers the latest before it
 };
@@ -100,7 +100,7 @@ struct Mapping final : scenario::Foreign {
 
   // What Foreign::messages and Foreign::estimator are made of.
   std::deque<std::string_view> groups;
-  std::vector<const quantities::Quantity*> told;  ///< each once
+  std::vector<const quantities::Quantity*> quantities;  ///< each once
   const quantities::Layout* layout = nullptr;
   std::vector<std::string_view> closing;
   std::optional<estimators::Estimator> own;
@@ -125,8 +125,8 @@ class Places {
   explicit Places(const Mapping& mapping) : by_id_(mapping.messages), by_group_(mapping.by_group) {}
   /// MessagePlaces::nowhere: none of the mapping.
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
-    const std::size_t place = by_id_(frame);
-    if (place != MessagePlaces::nowhere || !frame.extended || frame.error) return place;
+    const std::size_t index = by_id_(frame);
+    if (index != MessagePlaces::nowhere || !frame.extended || frame.error) return index;
     const auto found = by_group_.find(j1939_group(frame.id));
     return found == by_group_.end() ? MessagePlaces::nowhere : found->second;
   }
@@ -150,7 +150,8 @@ estimators::Estimator estimator_of(const Mapping& mapping);
 
 /// The contract by which a scenario is read: the project's, or that of the mapping that its [target] names,
 /// relative to the scenario's file. Error: one line; a text that is no TOML is left to who reads it.
-Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
-                                       const scenario::Contract& own, const ReadText& read = read_from_disk);
+Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
+                                            const scenario::DbcVocabulary& own,
+                                            const ReadText& read = read_from_disk);
 
 }  // namespace canhil::mapping

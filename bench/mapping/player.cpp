@@ -143,15 +143,15 @@ double Player::value_of(std::size_t play, const Source& source, std::int64_t val
   return 0;
 }
 
-Sent Player::put_together(std::size_t place, const Played& played, std::int64_t due_us) {
+Sent Player::put_together(std::size_t index, const Played& played, std::int64_t due_us) {
   Sent sent{.valid_us = played.valid_us, .due_us = due_us, .frames = {}};
-  for (const PlayedMessage& one : conversation_.mapping.plays[place].messages) {
+  for (const PlayedMessage& one : conversation_.mapping.plays[index].messages) {
     const dbc::Message& message = *one.of.message;
     std::vector<double> values(one.of.plan.signals(), 0.0);
     for (const Source& source : one.sources) {
       const bool constant = source.stimulus == nullptr && !source.time;
       double& value = values[one.of.number(*source.signal)];
-      value = constant ? source.value : value_of(place, source, played.valid_us) * source.factor;
+      value = constant ? source.value : value_of(index, source, played.valid_us) * source.factor;
       if (!dbc::holds(*source.signal, value))
         ++conversation_.clipped[message.name + "." + source.signal->name];
     }
@@ -163,8 +163,8 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
     static_cast<void>(one.of.plan.encode(values, {frame.data.data(), frame.size}));  // of the message's size
     for (const Source& source : one.sources) {
       const auto says_invalid = [](const auto& kept) { return !kept.second.valid; };
-      const bool invalid = source.stimulus != nullptr ? !values_[place][source.stimulus].valid
-                                                      : std::ranges::any_of(values_[place], says_invalid);
+      const bool invalid = source.stimulus != nullptr ? !values_[index][source.stimulus].valid
+                                                      : std::ranges::any_of(values_[index], says_invalid);
       if (source.invalid && invalid)
         dbc::put_raw_bits(*source.signal, *source.invalid, {frame.data.data(), frame.size});
     }
@@ -176,7 +176,7 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
     }
     sent.frames.push_back(frame);
   }
-  for (auto& [stimulus, value] : values_[place]) value = {.newest = value.newest};
+  for (auto& [stimulus, value] : values_[index]) value = {.newest = value.newest};
   return sent;
 }
 

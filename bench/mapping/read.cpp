@@ -150,7 +150,7 @@ class Reader {
         .sender = of_target ? messages::TargetHeartbeat::info.sender : messages::Sync::info.sender};
     all.push_back(info);
     Mapped mapped(message);
-    mapped.place = all.size() - 1;
+    mapped.index = all.size() - 1;
     if (const auto own = protections_.find(&message); own != protections_.end())
       mapped.protection = own->second;
     return mapped;
@@ -253,12 +253,12 @@ class Reader {
   void read_hear(Section& section) {
     const dbc::Message* of = message(section, "message", section.text("message"));
     if (of == nullptr) return;
-    Hear hear{.of = mapped(section, "message", *of, true), .tellings = {}};
+    Hear hear{.of = mapped(section, "message", *of, true), .reported_signals = {}};
     if (section.flag("any_source")) {
       if (!of->extended)
         section.reject("any_source", "is of J1939, whose ids have 29 bits",
                        fmt::format("another message than {}", of->name));
-      mapping_->by_group[j1939_group(of->id)] = hear.of.place;
+      mapping_->by_group[j1939_group(of->id)] = hear.of.index;
     }
     if (section.has("answers")) {
       const std::string name = section.one_of("answers", names_of(mapping_->plays, &Play::name));
@@ -303,18 +303,19 @@ class Reader {
     const dbc::Signal* one = signal(section, key, hear.of.message, key);
     std::string word = section.text(key);
     if (one == nullptr || word.empty()) return;
-    Telling telling{.signal = one};
+    ReportedSignal telling{.signal = one};
     const double sign = word.starts_with('-') ? -1 : 1;
     if (sign < 0) word.erase(0, 1);
     telling.sigma = word.ends_with(sigma);
     if (telling.sigma) word.erase(word.size() - sigma.size());
-    telling.quantity = find_truth(word);
+    telling.quantity = find_reference_quantity(word);
     if (telling.quantity == nullptr) {
       section.reject(
           key, fmt::format("'{}' is no quantity that has a truth", word),
-          fmt::format(
-              "one of: {}, or one with '.sigma'",
-              fmt::join(names_of(truths(), [](const Truthed& t) { return t.quantity->name; }), ", ")));
+          fmt::format("one of: {}, or one with '.sigma'",
+                      fmt::join(names_of(reference_quantities(),
+                                         [](const ReferenceQuantity& t) { return t.quantity->name; }),
+                                ", ")));
       return;
     }
     telling.factor = sign * factor(section, key, *hear.of.message, *one, telling.quantity->si, word);
@@ -322,7 +323,7 @@ class Reader {
       telling.invalid = static_cast<std::uint64_t>(invalid->integer(key, 0));
       expect_bits(*invalid, key, *one, *telling.invalid);
     }
-    hear.tellings.push_back(telling);
+    hear.reported_signals.push_back(telling);
   }
 
   // What follows from all of it. Why it is no mapping; none: it is.
@@ -339,29 +340,29 @@ class Reader {
     }
     for (const Play& play : mapping.plays) {
       const std::string_view group = mapping.groups.emplace_back(play.name);
-      for (const PlayedMessage& one : play.messages) mapping.messages[one.of.place].sample_group = group;
+      for (const PlayedMessage& one : play.messages) mapping.messages[one.of.index].sample_group = group;
     }
     for (const Hear& hear : mapping.hears) {
-      MessageInfo& info = mapping.messages[hear.of.place];
+      MessageInfo& info = mapping.messages[hear.of.index];
       info.sample_group = hear.of.message->name;
       mapping.answers_by_name = mapping.answers_by_name || hear.echo;
       if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
       if (hear.answers) mapping.closing.push_back(hear.of.message->name);
-      for (const Telling& telling : hear.tellings) {
-        const auto same = [&](const Telling& other) {
+      for (const ReportedSignal& telling : hear.reported_signals) {
+        const auto same = [&](const ReportedSignal& other) {
           return !other.sigma && other.quantity == telling.quantity;
         };
-        if (telling.sigma && std::ranges::none_of(hear.tellings, same))
+        if (telling.sigma && std::ranges::none_of(hear.reported_signals, same))
           return wrong(fmt::format("{} tells the sigma of {} without it, expected both in one message",
                                    hear.of.message->name, telling.quantity->quantity->name));
         if (!telling.sigma &&
-            std::ranges::find(mapping.told, telling.quantity->quantity) != mapping.told.end())
+            std::ranges::find(mapping.quantities, telling.quantity->quantity) != mapping.quantities.end())
           return wrong(fmt::format("{} is told twice, expected once", telling.quantity->quantity->name));
-        if (!telling.sigma) mapping.told.push_back(telling.quantity->quantity);
+        if (!telling.sigma) mapping.quantities.push_back(telling.quantity->quantity);
       }
     }
     std::string columns;
-    for (const quantities::Quantity* one : mapping.told)
+    for (const quantities::Quantity* one : mapping.quantities)
       columns += (columns.empty() ? "" : " ") + std::string(one->name);
     mapping.layout = find_layout(columns);
     mapping.own.emplace(estimator_of(mapping));

@@ -31,7 +31,7 @@ struct RecordedSamples {
 struct RecordedFrames {
   struct At {
     std::int64_t due_us = 0;
-    std::size_t place = 0;  ///< in the log: those of several nodes keep their order
+    std::size_t index = 0;  ///< in the log: those of several nodes keep their order
     Frame frame;
   };
   std::vector<At> frames{};

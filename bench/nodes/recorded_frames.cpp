@@ -41,11 +41,11 @@ class Reading {
   }
 
   Result<void> take(const LogEntry& entry) {
-    const std::size_t place = place_++;
+    const std::size_t index = index_++;
     if (is_whole<Sync>(entry.frame)) return synchronise(entry);
     if (entry.frame.extended || entry.frame.error || std::ranges::find(ids_, entry.frame.id) == ids_.end())
       return {};
-    group_.frames.frames.push_back({.due_us = entry.t_ns, .place = place, .frame = entry.frame});
+    group_.frames.frames.push_back({.due_us = entry.t_ns, .index = index, .frame = entry.frame});
     if (is_closing_whole(entry.frame)) valid_us_.push_back(valid_us(entry.frame));
     return {};
   }
@@ -113,7 +113,7 @@ class Reading {
   std::vector<std::uint32_t> ids_;
   LoggedGroup group_;
   std::vector<std::int64_t> valid_us_;  // of whole samples
-  std::size_t place_ = 0;
+  std::size_t index_ = 0;
   std::size_t placed_ = 0;  // frames whose time is known
   TimeMark last_;
   bool synchronised_ = false;
@@ -126,7 +126,7 @@ class Frames final : public Node {
       : end_us_(run.flight.end_us()) {
     for (const RecordedFrames* own : of_one_log)
       frames_.insert(frames_.end(), own->frames.begin(), own->frames.end());
-    std::ranges::sort(frames_, {}, &RecordedFrames::At::place);
+    std::ranges::sort(frames_, {}, &RecordedFrames::At::index);
   }
 
   [[nodiscard]] std::int64_t due_us() const override {

@@ -96,14 +96,14 @@ Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int
 /// A value of a row in the unit of its signal.
 Result<double> value_of(const Source& source, const Table& table, std::size_t row, double interval) {
   if (!source.column && !source.rate) return source.constant;
-  const std::size_t place = source.column ? *source.column : *source.rate;
-  double value = table.value(row, place) * (source.rate ? interval : 1);
+  const std::size_t index = source.column ? *source.column : *source.rate;
+  double value = table.value(row, index) * (source.rate ? interval : 1);
   const SignalInfo& signal = source.signal;
   if (signal.unit == "deg" && signal.minimum == -180 && signal.maximum == 180)
     value = std::remainder(value, 360);
   if (value < signal.minimum || value > signal.maximum)
     return tl::unexpected(
-        table.about(row, place,
+        table.about(row, index,
                     fmt::format("{:g} {} does not fit into signal {}, expected {:g} to {:g}", value,
                                 signal.unit, signal.name, signal.minimum, signal.maximum)));
   return value;
@@ -135,11 +135,11 @@ class Samples final : public Node {
     return due_us > end_us_ ? never_us : due_us;
   }
   void transmit(Transmission& out) override {
-    std::size_t place = 0;  // of the signal in the sample
+    std::size_t index = 0;  // of the signal in the sample
     each_message(closes_, [&]<class Message>() {
       Message message{};
       Message::visit(message, [&](const SignalInfo& signal, auto& member) {
-        assign(member, signal, place++, out.rounding());
+        assign(member, signal, index++, out.rounding());
       });
       out.send(message);
     });
@@ -148,9 +148,9 @@ class Samples final : public Node {
 
  private:
   template <class Member>
-  void assign(Member& member, const SignalInfo& signal, std::size_t place, Rounding rounding) {
+  void assign(Member& member, const SignalInfo& signal, std::size_t index, Rounding rounding) {
     const Role role = role_of(signal, false);
-    double value = samples_->values[next_ * samples_->signals + place];
+    double value = samples_->values[next_ * samples_->signals + index];
     if (role == Role::time_of_validity) {
       // What travels in 16 bits of 10 us is scaled; in 32 bits of 1 us it is whole.
       const std::int64_t t_us = samples_->valid_us[next_];
@@ -159,7 +159,7 @@ class Samples final : public Node {
       value = static_cast<double>(samples_->interval_us[next_]);
     } else if (signal.carries_remainder) {
       value = round_increment(value, rounding == Rounding::none ? 0 : wire::lsb(signal), signal,
-                              remainders_[place]);
+                              remainders_[index]);
     }
     if constexpr (std::is_floating_point_v<Member>) {
       member = static_cast<Member>(value);

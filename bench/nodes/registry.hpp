@@ -12,7 +12,7 @@ namespace canhil::nodes {
 /// All of them, in the order in which tables are read and reports tell of them.
 std::span<const Kind* const> all();
 
-/// Their tables, for scenario::Contract.
+/// Their tables, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();
 
 /// One of them, emulated or recorded, by itself.

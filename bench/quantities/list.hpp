@@ -47,7 +47,7 @@ inline constexpr Quantity heading_nees{
     .meaning = "error of the heading over the sigma that the target tells, squared",
     .unit = plain,
     .degrees_of_freedom = 1,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "heading_nees"};
 
 /// Velocity of the body over the earth, NED.
@@ -65,7 +65,7 @@ inline constexpr Quantity innovation_nis{
     .unit = plain,
     .degrees_of_freedom = 3,
     .white = true,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "nis"};
 
 /// Of the errors of a velocity update, NED.

@@ -27,7 +27,7 @@ struct Quantity {
   Unit unit{};                 ///< that reports use
   int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: it is none
   bool white = false;          ///< an innovation, or its square: independent from one to the next
-  bool may_be_untold = false;  ///< NaN tells of nothing wrong: the sample was not asked for it
+  bool nan_allowed = false;    ///< NaN tells of nothing wrong: the sample was not asked for it
   bool of_whole_run = false;   ///< the same in all samples: it does not age
   std::string_view once{};     ///< the name that it had in files before; empty: none
   /// It is these together, each with a track of its own; empty: itself.

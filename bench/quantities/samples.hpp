@@ -18,7 +18,7 @@ class Samples;
 /// A quantity that follows from those that are kept.
 struct Derived {
   const Quantity* quantity = nullptr;
-  double (*of)(const Samples& samples, std::size_t place) = nullptr;
+  double (*of)(const Samples& samples, std::size_t index) = nullptr;
 };
 
 /// What the samples of an estimator hold. Errors are signed (estimated - true), in SI. Any may be NaN or
@@ -53,9 +53,9 @@ class Samples {
   [[nodiscard]] bool empty() const { return t_us_.empty(); }
   [[nodiscard]] std::span<const std::int64_t> times() const { return t_us_; }
   /// Of a sample, by its place; NaN: the layout does not tell it.
-  [[nodiscard]] double value(std::size_t place, const Quantity& quantity) const;
+  [[nodiscard]] double value(std::size_t index, const Quantity& quantity) const;
   /// The numbers kept of a sample.
-  [[nodiscard]] std::span<const double> values(std::size_t place) const;
+  [[nodiscard]] std::span<const double> values(std::size_t index) const;
 
  private:
   static constexpr Layout nothing{};
@@ -66,7 +66,7 @@ class Samples {
 
 /// A normalised error squared that was told: infinite where it is no number, so that NaN is left to what was
 /// not told.
-double told(double normalised);
+double infinite_if_nan(double normalised);
 
 /// Samples as bytes: doubles, little endian: t in s and what is kept, sample by sample.
 std::vector<std::uint8_t> encode(const Samples& samples);

@@ -16,7 +16,7 @@
 namespace canhil::quantities {
 
 /// Of one answer, at the time of validity of its cause. SI.
-struct Told {
+struct TrackPoint {
   std::int64_t t_us = 0;
   double value = 0;                  ///< the error (estimated - true); of a statistic or an innovation itself
   std::optional<double> sigma{};     ///< of the error, told in time
@@ -34,7 +34,7 @@ struct Track {
   std::string estimate_title{};  ///< of a picture of estimate and truth; empty: none is drawn
   Unit estimate_unit{};          ///< that this picture has
   bool only_if_judged = false;   ///< the values are of no interest without a bar
-  Spool<Told> told{};            ///< in order of time
+  Spool<TrackPoint> points{};    ///< in order of time
   /// Where answers that were owed are missing from one time to another, ends included [us], in words; empty:
   /// nowhere. Not set: wherever one waits longer than longest_wait_us.
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};

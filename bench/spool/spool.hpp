@@ -74,7 +74,7 @@ class Spool {
     using reference = const T&;
 
     Iterator() = default;
-    Iterator(const Spool* of, std::ptrdiff_t place) : of_(of), place_(place) {}
+    Iterator(const Spool* of, std::ptrdiff_t index) : of_(of), place_(index) {}
     reference operator*() const { return (*of_)[static_cast<std::size_t>(place_)]; }
     pointer operator->() const { return &**this; }
     reference operator[](std::ptrdiff_t n) const { return *(*this + n); }
@@ -117,12 +117,12 @@ class Spool {
 
   [[nodiscard]] std::size_t size() const { return few_.size() + filed_; }
   [[nodiscard]] bool empty() const { return size() == 0; }
-  const T& operator[](std::size_t place) const {
-    if (place < few_.size()) return few_[place];
-    file_->touch((place - few_.size()) * sizeof(T));
-    return static_cast<const T*>(file_->data())[place - few_.size()];
+  const T& operator[](std::size_t index) const {
+    if (index < few_.size()) return few_[index];
+    file_->touch((index - few_.size()) * sizeof(T));
+    return static_cast<const T*>(file_->data())[index - few_.size()];
   }
-  T& operator[](std::size_t place) { return const_cast<T&>(std::as_const(*this)[place]); }
+  T& operator[](std::size_t index) { return const_cast<T&>(std::as_const(*this)[index]); }
   [[nodiscard]] const T& front() const { return (*this)[0]; }
   [[nodiscard]] const T& back() const { return (*this)[size() - 1]; }
   T& back() { return (*this)[size() - 1]; }

@@ -7,12 +7,12 @@ namespace canhil::checks {
 
 struct Answering {
   static constexpr std::string_view kind = "answering";
-  std::vector<Subject> of;  ///< what is told with every answer
+  std::vector<Subject> judged;  ///< what is told with every answer
   /// In these answers may be missing: faults of the scenario, which may leave nothing to be answered.
   std::vector<scenario::Window> excused;
 
   static Answering read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::vector<Subject> subjects() const { return of; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return judged; }
   [[nodiscard]] std::vector<std::string> held_against_truth() const { return {}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };

@@ -40,7 +40,7 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
 }
 
 std::string BusLoad::subject() const {
-  return fmt::format("at {}", words({.nominal = bitrate, .data = data_bitrate}));
+  return fmt::format("at {}", to_text({.nominal = bitrate, .data = data_bitrate}));
 }
 
 Finding BusLoad::judge(const Evidence& evidence) const {
@@ -54,11 +54,11 @@ Finding BusLoad::judge(const Evidence& evidence) const {
     const Load load = bus_load(seen, rates);
     if (!(load.busiest > 0 && load.busiest < below)) finding.outcome = Outcome::fail;
     if (!finding.measured.empty())
-      finding.measured += fmt::format("; at the {} of this run's bus ", words(rates));
+      finding.measured += fmt::format("; at the {} of this run's bus ", to_text(rates));
     finding.measured += fmt::format("{:.1f} % in the busiest second, {:.1f} % in the mean",
                                     load.busiest * 100, load.mean * 100);
   }
-  finding.expected = fmt::format("< {:g} % of {}", below * 100, words(buses.front()));
+  finding.expected = fmt::format("< {:g} % of {}", below * 100, to_text(buses.front()));
   if (buses.size() > 1) finding.expected += ", and of this run's bus";
   return finding;
 }

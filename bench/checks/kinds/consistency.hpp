@@ -21,13 +21,13 @@ struct Probability {
 
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
-  Subject of;
+  Subject judged;
   scenario::Window window;
   std::variant<MeanBetween, Probability> bound;
 
   static Consistency read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.words; }
-  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::string subject() const { return judged.text; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

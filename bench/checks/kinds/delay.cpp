@@ -11,7 +11,7 @@ namespace canhil::checks {
 
 DelayBelow DelayBelow::read(scenario::Section& section, const scenario::CheckContext& context) {
   DelayBelow rule;
-  rule.of = read_subject(section, context, [](const quantities::Quantity& quantity) {
+  rule.judged = read_subject(section, context, [](const quantities::Quantity& quantity) {
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
   rule.window = scenario::read_window(section, context.duration_us);
@@ -22,7 +22,7 @@ DelayBelow DelayBelow::read(scenario::Section& section, const scenario::CheckCon
 Finding DelayBelow::judge(const Evidence& evidence) const {
   const double bar_s = 1e-6 * static_cast<double>(below_us);
   const std::string expected = fmt::format("told less than {:g} ms late {}", bar_s * 1e3, seconds(window));
-  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
+  const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
   const auto delay = delay_of(*tracks.front(), window);
   if (!delay)

@@ -7,12 +7,12 @@ namespace canhil::checks {
 
 struct DetectedWithin {
   static constexpr std::string_view kind = "detected_within";
-  Disturbance of;
+  Disturbance disturbance;
   std::int64_t within_us = 0;
   std::vector<std::string> by;  ///< names of signs; empty: any that is new
 
   static DetectedWithin read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.fault; }
+  [[nodiscard]] std::string subject() const { return disturbance.fault; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -11,7 +11,7 @@
 
 namespace canhil::checks {
 
-std::string Disturbance::words() const {
+std::string Disturbance::to_text() const {
   if (!fault.empty()) return fmt::format("fault '{}'", fault);
   return fmt::format("{:g} s", static_cast<double>(window.from_us) * 1e-6);
 }
@@ -78,13 +78,13 @@ std::vector<const estimators::Estimator*> running(const scenario::CheckContext& 
   return running;
 }
 
-std::vector<Subject> told_always(const estimators::Estimator& estimator) {
+std::vector<Subject> always_reported(const estimators::Estimator& estimator) {
   std::vector<Subject> subjects;
   for (const quantities::Quantity* quantity : estimator.of_runs) {
     if (quantity->degrees_of_freedom == 0 && !quantity->white && quantity->parts.empty())
       subjects.push_back({.estimator = std::string(estimator.name),
                           .quantity = quantity,
-                          .words = std::string(quantity->name)});
+                          .text = std::string(quantity->name)});
   }
   return subjects;
 }
@@ -98,7 +98,7 @@ std::string silence_of(const Evidence& evidence, const std::vector<Subject>& sub
       if (static_cast<double>(stretch.window.to_us - stretch.window.from_us) <= track->longest_wait_us)
         continue;
       if (std::string gap = silence(*track, stretch, inside(*track, stretch)); !gap.empty())
-        return fmt::format("{}: {}", subject.words, gap);
+        return fmt::format("{}: {}", subject.text, gap);
     }
   }
   return {};

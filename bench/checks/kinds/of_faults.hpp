@@ -18,7 +18,7 @@ struct Disturbance {
   scenario::Window window;  ///< by time of transmission
   /// The first time of validity that it can befall: nodes send later than they measure.
   std::int64_t valid_from_us = 0;
-  [[nodiscard]] std::string words() const;  ///< "fault 'NAME'", "10 s"
+  [[nodiscard]] std::string to_text() const;  ///< "fault 'NAME'", "10 s"
 };
 
 /// The fault of the scenario that `fault` names; none: the key is not there. Error: an unknown name, with
@@ -44,7 +44,7 @@ std::vector<const estimators::Estimator*> running(const scenario::CheckContext& 
 
 /// The quantities whose tracks tell whether an estimator still answers: errors, as they are told with every
 /// answer.
-std::vector<Subject> told_always(const estimators::Estimator& estimator);
+std::vector<Subject> always_reported(const estimators::Estimator& estimator);
 
 /// What is silent, and when, in a stretch; empty: nothing is. A stretch that is no longer than any wait for
 /// an answer has no silence.

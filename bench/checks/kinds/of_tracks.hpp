@@ -39,7 +39,7 @@ std::vector<const quantities::Quantity*> parts_of(const quantities::Quantity& qu
 int digits_of(const quantities::Unit& unit);
 
 /// "from 1 to 2 s", "from 3 to 2 s to go".
-std::string words(const Stretch& stretch);
+std::string to_text(const Stretch& stretch);
 
 /// Where in what a track told.
 using Places = Spool<std::size_t>;

@@ -8,7 +8,7 @@ namespace canhil::checks {
 
 struct RecoversWithin {
   static constexpr std::string_view kind = "recovers_within";
-  Disturbance of;
+  Disturbance disturbance;
   std::int64_t within_us = 0;
   std::vector<std::string> by;     ///< names of signs; empty: any that was not there before the fault
   std::optional<Subject> error{};  ///< whose error is to be below again

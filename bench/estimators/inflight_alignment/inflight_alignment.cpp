@@ -37,8 +37,8 @@ constexpr auto of_runs = and_alignment_told(
                                     &position_norm, &position_innovation_north, &position_innovation_east,
                                     &position_innovation_down, &innovation_nis, &heading_nees});
 
-double velocity_down_over_its_sigma(const Samples& samples, std::size_t place) {
-  return samples.value(place, velocity_down) / samples.value(place, velocity_down_sigma);
+double velocity_down_over_its_sigma(const Samples& samples, std::size_t index) {
+  return samples.value(index, velocity_down) / samples.value(index, velocity_down_sigma);
 }
 
 constexpr std::array derived{
@@ -56,11 +56,13 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
     const world::Vector3 p = position_error(update, truth.flight);
-    const double nis = used(update.outcome) ? told(update.nis) : std::numeric_limits<double>::quiet_NaN();
-    const double trusted = update.degraded ? 0
-                                           : std::max({told(over_sigma(phi, update.attitude_sigma)),
-                                                       told(over_sigma(v, update.velocity_sigma)),
-                                                       told(over_sigma(p, update.position_sigma))});
+    const double nis =
+        used(update.outcome) ? infinite_if_nan(update.nis) : std::numeric_limits<double>::quiet_NaN();
+    const double trusted = update.degraded
+                               ? 0
+                               : std::max({infinite_if_nan(over_sigma(phi, update.attitude_sigma)),
+                                           infinite_if_nan(over_sigma(v, update.velocity_sigma)),
+                                           infinite_if_nan(over_sigma(p, update.position_sigma))});
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -106,11 +108,11 @@ double wait_for_fixes_us(const InflightAnswers& answers) {
 
 void give_positions(const InflightAnswers& answers, const Answering& filters, const Truth& truth,
                     const TrackSink& give) {
-  const auto fill = [&](Track track, auto told) {
+  const auto fill = [&](Track track, auto point_of) {
     for (const FixAnswer& fix : answers.fixes) {
       if (!tells_of_its_time(fix, truth.flight)) continue;
-      track.told.push_back(told(fix, position_error(fix, truth.flight)));
-      track.told.back().t_us = fix.cause_us;
+      track.points.push_back(point_of(fix, position_error(fix, truth.flight)));
+      track.points.back().t_us = fix.cause_us;
     }
     give(std::move(track));
   };
@@ -118,13 +120,13 @@ void give_positions(const InflightAnswers& answers, const Answering& filters, co
             [&](const Quantity& quantity, const std::string& name, int axis) {
               fill(filters.track(quantity, "position error " + name),
                    [=](const FixAnswer& fix, const world::Vector3& error) {
-                     return Told{.value = error(axis), .sigma = fix.position_sigma(axis)};
+                     return TrackPoint{.value = error(axis), .sigma = fix.position_sigma(axis)};
                    });
             });
   fill(judged(filters.track(position_horizontal, "position error horizontal")),
-       [](const auto&, const world::Vector3& error) { return Told{.value = error.head<2>().norm()}; });
+       [](const auto&, const world::Vector3& error) { return TrackPoint{.value = error.head<2>().norm()}; });
   fill(judged(filters.track(position_norm, "position error norm")),
-       [](const auto&, const world::Vector3& error) { return Told{.value = error.norm()}; });
+       [](const auto&, const world::Vector3& error) { return TrackPoint{.value = error.norm()}; });
 }
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
@@ -142,7 +144,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
       .navigates = {longest_wait_us(seen, messages::FixVelocityD::info.name), truth.duration_us},
       .filters = {wait_for_fixes_us(answers), truth.duration_us, unanswered}};
   give_alignment(alignment, answers.fixes, give);
-  Spool<Told> nis, of_heading;
+  Spool<TrackPoint> nis, of_heading;
   for (const FixAnswer& answer : answers.fixes) {
     if (!used(answer.outcome)) continue;
     nis.push_back({.t_us = answer.cause_us, .value = answer.nis});

@@ -47,7 +47,7 @@ struct LosError {
 Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
 
 /// NIS (2 degrees of freedom) of each answer that was an update.
-Spool<quantities::Told> nis_of(const LosAnswers& answers);
+Spool<quantities::TrackPoint> nis_of(const LosAnswers& answers);
 
 /// Root of the mean square, over both planes, of the errors with time to go in [least, most); none: no errors
 /// there.

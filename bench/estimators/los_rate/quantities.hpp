@@ -39,7 +39,7 @@ inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",
     .meaning = "mean NIS of the updates (2 degrees of freedom each) in 20 ms of the time to go",
     .unit = plain,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "los_nis"};
 /// As the start's axes divide it; NaN: the target was not passed.
 inline constexpr Quantity miss_pitch{.name = "miss.pitch",
@@ -64,6 +64,6 @@ inline constexpr Quantity los_nis{.name = "los.nis",
                                   .unit = plain,
                                   .degrees_of_freedom = 2,
                                   .white = true,
-                                  .may_be_untold = true};
+                                  .nan_allowed = true};
 
 }  // namespace canhil::quantities

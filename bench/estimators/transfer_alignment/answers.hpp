@@ -27,7 +27,8 @@ struct TransferAnswers {
 };
 
 /// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of phi from first_after().
-Spool<quantities::Told> nees_of(const Spool<FilterAnswer>& filter, const Spool<NavigationError>& errors);
+Spool<quantities::TrackPoint> nees_of(const Spool<FilterAnswer>& filter,
+                                      const Spool<NavigationError>& errors);
 
 std::unique_ptr<Reception> transfer_reception();
 

@@ -11,7 +11,7 @@ inline constexpr Quantity attitude_nees{
     .meaning = "normalised error squared of the misalignment, with sigmas and correlations as told",
     .unit = plain,
     .degrees_of_freedom = 3,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "attitude_nees"};
 
 /// Of a velocity update, NED.

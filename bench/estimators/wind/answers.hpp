@@ -43,9 +43,9 @@ struct WindError {
 Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide);
 
 /// NIS (9 degrees of freedom) of each update.
-Spool<quantities::Told> nis_of(const WindAnswers& answers);
+Spool<quantities::TrackPoint> nis_of(const WindAnswers& answers);
 /// NEES of the wind (3 degrees of freedom), with the covariance that the bus carries.
-Spool<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
+Spool<quantities::TrackPoint> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
 
 std::unique_ptr<Reception> wind_reception();
 

@@ -27,7 +27,7 @@ inline constexpr Quantity wind_nis{.name = "wind.nis",
                                    .unit = plain,
                                    .degrees_of_freedom = 9,
                                    .white = true,
-                                   .may_be_untold = true,
+                                   .nan_allowed = true,
                                    .once = "wind_nis"};
 inline constexpr Quantity wind_nees{
     .name = "wind.nees",

@@ -27,13 +27,13 @@ std::string needs_vcan(const Place& place) {
 class ReportedErrors final : public Repeated {
  public:
   ReportedErrors(const ErrorFrames& kind, const InRun& run)
-      : Repeated(kind.when, kind.period_us, run), hands_(run.hands) {}
+      : Repeated(kind.when, kind.period_us, run), rig_(run.hands) {}
 
  private:
   void strike(std::vector<Frame>& /*out*/) override {
-    hands_->report_error(error_frame({.seen = SeenError::stuff}));
+    rig_->report_error(error_frame({.seen = SeenError::stuff}));
   }
-  Hands* hands_;
+  RigControl* rig_;
 };
 
 // A state of the controller, and what it comes back to.
@@ -43,8 +43,8 @@ class ReportedState final : public Switched {
       : Switched(when, run), begin_(error_frame(begin)), end_(error_frame(end)) {}
 
  private:
-  void on(std::int64_t /*for_us*/) override { hands_->report_error(begin_); }
-  void off() override { hands_->report_error(end_); }
+  void on(std::int64_t /*for_us*/) override { rig_->report_error(begin_); }
+  void off() override { rig_->report_error(end_); }
   Frame begin_, end_;
 };
 
@@ -53,8 +53,8 @@ class Downs final : public Switched {
   using Switched::Switched;
 
  private:
-  void on(std::int64_t for_us) override { hands_->interface_down(for_us); }
-  void off() override { hands_->interface_up(); }
+  void on(std::int64_t for_us) override { rig_->interface_down(for_us); }
+  void off() override { rig_->interface_up(); }
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ struct Frames {
   static constexpr Stage stage = Stage::bus;
   OfMessages of{};
   When when{};
-  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::string subject() const { return of.text; }
 };
 
 /// A kind that changes each frame by itself: `Kind::change`.

@@ -90,7 +90,7 @@ Swapped Swapped::read(scenario::Section& section, const scenario::FaultContext& 
   if (one == other || one->si != other->si || one->node != other->node || one->over != other->over)
     section.reject("with", fmt::format("'{}' is not like '{}'", other->name, one->name),
                    "another quantity of the same node and unit");
-  kind.one = {.all = {measured(*one)}, .words = one->name + " " + other->name};
+  kind.one = {.all = {measured(*one)}, .text = one->name + " " + other->name};
   kind.other = measured(*other);
   return kind;
 }
@@ -110,7 +110,7 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
     section.refuse("quantity", "is given beside node", "one of the two");
     const scenario::NodeTable* node = read_node(section, context);
     if (node != nullptr) {
-      kind.words = node->key;
+      kind.text = node->key;
       for (const MessageInfo& message : messages::all_messages) {
         if (!sends(*node, message)) continue;
         const auto more = flags_of(message);
@@ -120,7 +120,7 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
   } else {
     section.optional("node");
     if (const mapping::Stimulus* stimulus = read_quantity(section, context, key); stimulus != nullptr) {
-      kind.words = stimulus->name;
+      kind.text = stimulus->name;
       kind.flags = flags_for(*stimulus->message);
     }
   }

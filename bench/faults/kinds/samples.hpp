@@ -14,7 +14,7 @@ struct Swapped {
   Measured other{};
   When when{};
   static Swapped read(scenario::Section& section, const scenario::FaultContext& context);
-  [[nodiscard]] std::string subject() const { return one.words; }
+  [[nodiscard]] std::string subject() const { return one.text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const;
@@ -25,10 +25,10 @@ struct Invalid {
   static constexpr std::string_view kind = "invalid";
   static constexpr Stage stage = Stage::sensor;
   std::vector<Measured> flags{};
-  std::string words{};
+  std::string text{};
   When when{};
   static Invalid read(scenario::Section& section, const scenario::FaultContext& context);
-  [[nodiscard]] std::string subject() const { return words; }
+  [[nodiscard]] std::string subject() const { return text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const;

@@ -41,7 +41,7 @@ struct EachValue {
     if constexpr (requires { kind.check(section); }) kind.check(section);
     return kind;
   }
-  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::string subject() const { return of.text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const {

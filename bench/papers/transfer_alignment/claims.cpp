@@ -139,7 +139,7 @@ bool add_guards(Names& names, const Results& results) {
       return std::isfinite(value) ? fmt::format("{:.1f} {}", value, unit) : "never";
     };
     all = all && h2 >= kf;
-    names["guard_" + name] = [cells = fmt::format("KF {}, H2 {} | {}", words(kf), words(h2),
+    names["guard_" + name] = [cells = fmt::format("KF {}, H2 {} | {}", to_text(kf), to_text(h2),
                                                   h2 >= kf ? "[yes] pass" : "[no] FAIL")](Words&) {
       return cells;
     };

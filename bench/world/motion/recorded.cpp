@@ -98,13 +98,13 @@ void RecordedPath::correct(std::span<const RecordedState> states) {
   std::vector<Vector3> sums(count, Vector3::Zero());
   std::vector<double> weights(count, 0), middles;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto place = std::min(count - 1, static_cast<std::size_t>((times[i] - times.front()) / stretch));
-    sums[place] += displacement_n(positions_[i], *states[i].position);
-    ++weights[place];
+    const auto index = std::min(count - 1, static_cast<std::size_t>((times[i] - times.front()) / stretch));
+    sums[index] += displacement_n(positions_[i], *states[i].position);
+    ++weights[index];
   }
-  for (std::size_t place = 0; place < count; ++place) {
-    middles.push_back(times.front() + (static_cast<double>(place) + 0.5) * stretch);
-    sums[place] = sums[place] / weights[place] + correction_.at(middles.back()).value;
+  for (std::size_t index = 0; index < count; ++index) {
+    middles.push_back(times.front() + (static_cast<double>(index) + 0.5) * stretch);
+    sums[index] = sums[index] / weights[index] + correction_.at(middles.back()).value;
   }
   const Vector3 before = correction_.at(times.front()).value;
   correction_ = CubicSpline<3>(std::move(middles), std::move(sums));

@@ -147,7 +147,7 @@ TEST_F(Judged, VelocityErrorByAxisOrNorm) {
   seen_.of<TransferAnswers>().navigation[300].v_eb_n = {0.3, 0, -0.4};
   Error rule = error(quantities::velocity_norm, 0.45);
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule.of.quantity = &quantities::velocity_down;
+  rule.judged.quantity = &quantities::velocity_down;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   rule.below = 0.4;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "the bar itself is not below it";

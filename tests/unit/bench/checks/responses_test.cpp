@@ -95,7 +95,7 @@ TEST_F(Disturbed, DetectedByHeartbeatOrCounterToo) {
 
 TEST_F(Disturbed, RecoversWhenTheSignsAreGoneForGood) {
   const RecoversWithin rule{
-      .of = fault_, .within_us = second_us, .by = {}, .answering = told_always(transfer_alignment)};
+      .of = fault_, .within_us = second_us, .by = {}, .answering = always_reported(transfer_alignment)};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   degraded(8.5, 10.6);
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
@@ -110,10 +110,10 @@ TEST_F(Disturbed, RecoversWithASmallErrorAndNotBySilence) {
                       .by = {},
                       .error = Subject{.estimator = "transfer_alignment",
                                        .quantity = &quantities::velocity_north,
-                                       .words = "velocity.north"},
+                                       .text = "velocity.north"},
                       .below = 0.1,
                       .unit = quantities::mps,
-                      .answering = told_always(transfer_alignment)};
+                      .answering = always_reported(transfer_alignment)};
   answers().navigation[place(10.5)].v_eb_n = {0.3, 0, 0};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   EXPECT_THAT(judge(rule).measured, HasSubstr("below from 0.500 s after"));
@@ -162,7 +162,7 @@ TEST_F(Disturbed, HonestUnlessSureAndWrong) {
 }
 
 TEST_F(Disturbed, AnsweringWithNumbersAndWithoutAGap) {
-  const Answering rule{.of = told_always(transfer_alignment), .excused = {faulty}};
+  const Answering rule{.of = always_reported(transfer_alignment), .excused = {faulty}};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   const Observations sound = seen_;
   std::erase_if(*test::Edited(answers().navigation),

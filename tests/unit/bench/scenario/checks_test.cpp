@@ -61,8 +61,8 @@ TEST(ScenarioChecks, NamesByDefaultSayWhatIsLookedAt) {
 
 TEST(ScenarioChecks, Error) {
   const auto rule = rule_of<checks::Error>(of_pitch("from_s = 19.0\nto_s = 19.5\nbelow_mrad = 5"));
-  EXPECT_EQ(rule.of.quantity, &quantities::attitude_pitch);
-  EXPECT_EQ(rule.of.estimator, "transfer_alignment");
+  EXPECT_EQ(rule.judged.quantity, &quantities::attitude_pitch);
+  EXPECT_EQ(rule.judged.estimator, "transfer_alignment");
   EXPECT_EQ(rule.statistic, checks::Error::Statistic::max);
   EXPECT_EQ(rule.stretch.window.from_us, 19'000'000);
   EXPECT_EQ(rule.stretch.window.to_us, 19'500'000);
@@ -84,7 +84,7 @@ TEST(ScenarioChecks, AWindowIsByDefaultTheRun) {
 TEST(ScenarioChecks, Convergence) {
   const auto rule = rule_of<checks::Convergence>(
       "kind = 'convergence'\nquantity = 'attitude.heading'\nwithin_mrad = 3\nbefore_s = 14");
-  EXPECT_EQ(rule.of.quantity, &quantities::attitude_heading);
+  EXPECT_EQ(rule.judged.quantity, &quantities::attitude_heading);
   EXPECT_DOUBLE_EQ(rule.within, 3e-3);
   EXPECT_EQ(rule.before_us, 14'000'000);
   EXPECT_EQ(rule.end_us, 20'000'000);

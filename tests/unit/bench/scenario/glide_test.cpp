@@ -16,15 +16,15 @@ namespace {
 using world::glide::ErrorKind;
 using world::units::deg;
 
-const Contract glider_contract{.estimators = {"transfer_alignment", "wind"},
-                               .algorithms = {"ekf", "h_infinity"},
-                               .parameters = {"theta_per_s"},
-                               .messages = {"WindVector"},
-                               .answers = {"WindVector"},
-                               .check_kinds = checks::kinds(estimators::all()),
-                               .known = estimators::all(),
-                               .facts = estimators::facts(),
-                               .nodes = nodes::tables()};
+const DbcVocabulary glider_contract{.estimators = {"transfer_alignment", "wind"},
+                                    .algorithms = {"ekf", "h_infinity"},
+                                    .parameters = {"theta_per_s"},
+                                    .messages = {"WindVector"},
+                                    .answers = {"WindVector"},
+                                    .check_kinds = checks::kinds(estimators::all()),
+                                    .known = estimators::all(),
+                                    .facts = estimators::facts(),
+                                    .nodes = nodes::tables()};
 
 constexpr std::string_view glider = R"(title = "A glider"
 duration_s = 20.0

@@ -10,7 +10,7 @@
 
 namespace canhil::mapping {
 
-struct Truthed {
+struct ReferenceQuantity {
   const quantities::Quantity* quantity = nullptr;
   std::string_view si;  ///< its unit
   bool turns = false;   ///< a whole turn more is the same
@@ -19,8 +19,8 @@ struct Truthed {
 };
 
 /// All of them.
-std::span<const Truthed> truths();
+std::span<const ReferenceQuantity> reference_quantities();
 /// None: null.
-const Truthed* find_truth(std::string_view quantity);
+const ReferenceQuantity* find_reference_quantity(std::string_view quantity);
 
 }  // namespace canhil::mapping
