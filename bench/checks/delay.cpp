@@ -16,8 +16,8 @@ double seconds(std::int64_t t_us) { return 1e-6 * static_cast<double>(t_us); }
 // The truth between answers: the cubic through the four about it, and its slope.
 class Curve {
  public:
-  explicit Curve(const Spool<TrackPoint>& told) {
-    for (const TrackPoint& one : told) {
+  explicit Curve(const Spool<TrackPoint>& points) {
+    for (const TrackPoint& one : points) {
       if (!one.truth || (!t_.empty() && seconds(one.t_us) <= t_.back())) continue;
       t_.push_back(seconds(one.t_us));
       x_.push_back(*one.truth);

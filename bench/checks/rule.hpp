@@ -32,7 +32,7 @@ struct Evidence;
 struct Subject {
   std::string estimator;
   const quantities::Quantity* quantity = nullptr;
-  std::string words{};  ///< "attitude.heading", and whose it is where several tell it
+  std::string text{};  ///< "attitude.heading", and whose it is where several tell it
 };
 
 /// Part of a run, by time of validity or, where the flight has an end that it goes to, by the time to go.

@@ -19,7 +19,7 @@ using report::escaped;
 using Kind = Response::Kind;
 
 // A line for each cell of a kind.
-std::vector<std::string> told(const Results& results, Kind kind, const std::string& folder) {
+std::vector<std::string> lines_of(const Results& results, Kind kind, const std::string& folder) {
   std::vector<std::string> lines;
   for (const auto& [index, cell] : results.cells) {
     if (cell.response.kind != kind) continue;
@@ -103,7 +103,7 @@ std::string text(const Results& results, const std::string& folder) {
   for (const auto& [kind, title] :
        {std::pair(Kind::not_measured, "Not measured"),
         std::pair(Kind::violated, "Violated, each with the least that shows it")}) {
-    const auto lines = told(results, kind, folder);
+    const auto lines = lines_of(results, kind, folder);
     if (!lines.empty()) out += fmt::format("\n{}\n  {}\n", title, fmt::join(lines, "\n  "));
   }
   return out + fmt::format("\n{}: {}\n", checks::name(outcome_of(results)), counts(results));
@@ -182,7 +182,7 @@ std::string html(const Results& results, const std::string& folder) {
   }
   for (const auto& [kind, title] :
        {std::pair(Kind::not_measured, "Not measured"), std::pair(Kind::violated, "Violated")}) {
-    const auto lines = told(results, kind, folder);
+    const auto lines = lines_of(results, kind, folder);
     if (!lines.empty())
       body += fmt::format("<section><h2>{}</h2>\n<pre style=\"white-space:pre-wrap\">{}</pre></section>\n",
                           title, escaped_lines(lines));

@@ -99,10 +99,10 @@ class Remarks {
 
   void on(const Hear& hear) {
     for (const dbc::Signal& signal : hear.of.message->signals) {
-      const bool told = std::ranges::find(hear.reported_signals, &signal, &ReportedSignal::signal) !=
-                        hear.reported_signals.end();
+      const bool reported = std::ranges::find(hear.reported_signals, &signal, &ReportedSignal::signal) !=
+                            hear.reported_signals.end();
       const bool echo = hear.echo && hear.echo->repeated == &signal;
-      if (!told && !echo && !is_protection(hear.of, signal))
+      if (!reported && !echo && !is_protection(hear.of, signal))
         add(Grade::note, "unheard", name(hear.of, signal), "tells the bench nothing");
     }
     if (!hear.of.protection)

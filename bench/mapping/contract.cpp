@@ -24,7 +24,7 @@ Result<std::string> read_from_disk(const std::string& file) {
 
 const quantities::Layout* find_layout(std::string_view columns) {
   struct Own {
-    std::vector<const quantities::Quantity*> told;
+    std::vector<const quantities::Quantity*> reported;
     quantities::Layout layout;
   };
   static std::mutex mutex;
@@ -36,11 +36,11 @@ const quantities::Layout* find_layout(std::string_view columns) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
     const ReferenceQuantity* one = find_reference_quantity(rest.substr(0, end));
     if (one == nullptr) return nullptr;
-    own.told.push_back(one->quantity);
+    own.reported.push_back(one->quantity);
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   Own& kept = known.emplace(columns, std::move(own)).first->second;
-  kept.layout = {.kept = kept.told};
+  kept.layout = {.kept = kept.reported};
   return &kept.layout;
 }
 

@@ -80,9 +80,9 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   const Mapping& mapping = *answers.mapping;
   std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
   for (std::size_t i = 0; i < mapping.quantities.size(); ++i) {
-    const auto told = answers.values.find(mapping.quantities[i]);
-    if (told == answers.values.end()) continue;
-    for (const TrackPoint& one : errors_of(reference_of(*mapping.quantities[i]), told->second, truth))
+    const auto values = answers.values.find(mapping.quantities[i]);
+    if (values == answers.values.end()) continue;
+    for (const TrackPoint& one : errors_of(reference_of(*mapping.quantities[i]), values->second, truth))
       by_time[one.t_us][i] = one.value;
   }
   quantities::Samples samples(*mapping.layout);

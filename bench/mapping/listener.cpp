@@ -123,11 +123,11 @@ void Listener::hear(const Hear& hear, const Received& received) {
   for (const ReportedSignal& telling : hear.reported_signals) {
     const auto value = value_of(telling);
     if (telling.sigma || !value) continue;
-    TimedValue told{.t_us = t_us, .value = *value};
+    TimedValue reported{.t_us = t_us, .value = *value};
     for (const ReportedSignal& other : hear.reported_signals) {
-      if (other.sigma && other.quantity == telling.quantity) told.sigma = value_of(other);
+      if (other.sigma && other.quantity == telling.quantity) reported.sigma = value_of(other);
     }
-    answers.values[telling.quantity->quantity].push_back(told);
+    answers.values[telling.quantity->quantity].push_back(reported);
   }
 }
 

@@ -110,8 +110,8 @@ class Reader {
   // From the signal's unit to SI; `si`: of the quantity.
   double factor(Section& section, std::string_view key, const dbc::Message& of, const dbc::Signal& one,
                 std::string_view si, std::string_view quantity) {
-    const auto told = units_.find(&one);
-    const std::string& text = told == units_.end() ? one.unit : told->second;
+    const auto given = units_.find(&one);
+    const std::string& text = given == units_.end() ? one.unit : given->second;
     const auto unit = wire_unit(text);
     if (!unit && !si.empty())
       section.reject(

@@ -75,10 +75,10 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
                   const world::FlightRecord& /*flight*/) {
   const world::EngagementPlan& engagement = *scenario.engagement;
   const std::int64_t interval_us = node.period_us();
-  if (auto told = check_interval("key 'seeker.period_ms': seeker interval", interval_us, SeekerAngles::info,
-                                 SeekerAngles::signals());
-      !told)
-    return told;
+  if (auto checked = check_interval("key 'seeker.period_ms': seeker interval", interval_us,
+                                    SeekerAngles::info, SeekerAngles::signals());
+      !checked)
+    return checked;
   const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
   const SignalInfo& signal = SeekerAntenna::signals()[0];
   if (roll > signal.maximum) return failure(misfit("roll increment", roll, SeekerAntenna::info, signal));

@@ -105,10 +105,10 @@ std::string check_triad(const Names& names, const world::TriadErrorModel& model,
 
 Result<void> fits(const NodeSettings& node, const scenario::Scenario& /*scenario*/,
                   const world::FlightRecord& flight) {
-  if (auto told = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
-                                 SlaveImuStatus::signals());
-      !told)
-    return told;
+  if (auto checked = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
+                                    SlaveImuStatus::signals());
+      !checked)
+    return checked;
   const world::ImuErrorModel& imu = node.own<SlaveImuSettings>()->errors;
   std::string wrong =
       check_triad<SlaveImuDeltaTheta>(gyro_parts, imu.gyro, flight, &world::ImuIncrement::delta_theta);

@@ -26,7 +26,7 @@ double number_at(std::span<const std::uint8_t> bytes, std::size_t index) {
 
 }  // namespace
 
-bool tells(const Layout& layout, const Quantity& quantity) {
+bool has(const Layout& layout, const Quantity& quantity) {
   return std::ranges::find(layout.kept, &quantity) != layout.kept.end() ||
          std::ranges::find(layout.derived, &quantity, &Derived::quantity) != layout.derived.end();
 }

@@ -34,7 +34,7 @@ struct Layout {
 };
 
 /// Whether samples of a layout tell a quantity.
-bool tells(const Layout& layout, const Quantity& quantity);
+bool has(const Layout& layout, const Quantity& quantity);
 
 /// Of those that are kept, in their order: "wind.along wind.cross ...".
 std::string names(const Layout& layout);

@@ -37,12 +37,12 @@ std::vector<BreakdownPart> parts(const checks::TimingRecord& timing) {
   const auto compute = mean_s(breakdown.target_compute_ns, breakdown.accounted);
   std::optional<double> rest = mean_s(breakdown.latency_ns, breakdown.stimuli);
   if (rest) *rest -= queue.value_or(0) + compute.value_or(0) + bus.reply.mean_s.value_or(0);
-  const auto told = [](bool clipped) { return clipped ? Bound::at_least : Bound::exact; };
+  const auto bound_of = [](bool clipped) { return clipped ? Bound::at_least : Bound::exact; };
   const bool clipped = breakdown.queue_clipped || breakdown.compute_clipped;
   return {bus.wait,
           bus.stimulus,
-          {"target_queue", "target: from its stamp to its turn", queue, told(breakdown.queue_clipped)},
-          {"target_compute", "target: computing", compute, told(breakdown.compute_clipped)},
+          {"target_queue", "target: from its stamp to its turn", queue, bound_of(breakdown.queue_clipped)},
+          {"target_compute", "target: computing", compute, bound_of(breakdown.compute_clipped)},
           bus.reply,
           {"not_explained", "not explained: drivers, sending, wait for the bus", rest,
            clipped ? Bound::at_most : Bound::exact}};

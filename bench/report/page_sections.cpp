@@ -108,7 +108,7 @@ std::string split_table(const Json& report) {
   out += group_table(breakdown);
   if (!split.contains("slowest")) return out;
   const Json& slowest = split.at("slowest");
-  const auto told = [&](const char* key) {
+  const auto reported = [&](const char* key) {
     const auto us = slowest.at(key).get<std::int64_t>();
     return fmt::format("{} us{}", us, us < checks::most_reported_us ? "" : " or more");
   };
@@ -117,7 +117,8 @@ std::string split_table(const Json& report) {
              "<p class=\"note\">The slowest answer, {} at {:.3f} s, took {:.3f} ms; in that 0.1 s the target "
              "told of a longest wait of {} and a longest computing of {}.</p>\n",
              text_in(slowest.at("message")), slowest.at("t_s").get<double>(),
-             slowest.at("latency_s").get<double>() * 1e3, told("queue_max_us"), told("compute_max_us"));
+             slowest.at("latency_s").get<double>() * 1e3, reported("queue_max_us"),
+             reported("compute_max_us"));
 }
 
 // Each message's longest time over the bus beside its bound.

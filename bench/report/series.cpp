@@ -83,7 +83,7 @@ std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
   if (track.kind != Track::Kind::error) return bars;
   for (const scenario::Check& check : scenario.checks) {
     const std::optional<checks::Bar> bar = check.rule->bar();
-    if (!bar || std::ranges::none_of(bar->of, [&](const checks::Subject& subject) {
+    if (!bar || std::ranges::none_of(bar->judged, [&](const checks::Subject& subject) {
           return subject.estimator == estimator && subject.quantity == track.quantity;
         }))
       continue;

@@ -39,10 +39,10 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
     }
     estimators::ResultLine answers{.name = "answers", .what = "answers by what they say"};
     for (const estimators::Mark& mark : one->marks(run.seen)) {
-      const bool told = !mark.t_us.empty() || mark.name == "answers";  // programs are told of none, too
+      const bool known = !mark.t_us.empty() || mark.name == "answers";  // programs are told of none, too
       answers.figures.push_back({.name = std::string(mark.name),
                                  .value = static_cast<double>(mark.t_us.size()),
-                                 .text = told ? fmt::format("{} {}", mark.name, mark.t_us.size()) : ""});
+                                 .text = known ? fmt::format("{} {}", mark.name, mark.t_us.size()) : ""});
     }
     own.lines.push_back(std::move(answers));
     all.push_back(std::move(own));

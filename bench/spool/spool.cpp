@@ -23,8 +23,8 @@ int open_in(const std::string& folder) {
 
 // -1: nowhere. With its blocks, as a page that the disk has no room for would end the program.
 int open_file(std::size_t bytes) {
-  const char* told = std::getenv("TMPDIR");
-  const int file = open_in(told != nullptr && *told != '\0' ? told : "/var/tmp");
+  const char* folder = std::getenv("TMPDIR");
+  const int file = open_in(folder != nullptr && *folder != '\0' ? folder : "/var/tmp");
   if (file < 0 || posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0) return file;
   close(file);
   return -1;

@@ -21,7 +21,7 @@ Convergence Convergence::read(scenario::Section& section, const scenario::CheckC
 }
 
 std::optional<Bar> Convergence::bar() const {
-  return Bar{.of = {judged},
+  return Bar{.judged = {judged},
              .stretch = {.window = {.from_us = before_us, .to_us = end_us}},
              .below = within,
              .statistic = "max"};

@@ -43,9 +43,9 @@ std::string Error::subject() const {
 }
 
 std::optional<Bar> Error::bar() const {
-  Bar bar{.of = {}, .stretch = stretch, .below = below, .statistic = name(statistic)};
+  Bar bar{.judged = {}, .stretch = stretch, .below = below, .statistic = name(statistic)};
   for (const quantities::Quantity* part : parts_of(*judged.quantity))
-    bar.of.push_back({.estimator = judged.estimator, .quantity = part});
+    bar.judged.push_back({.estimator = judged.estimator, .quantity = part});
   return bar;
 }
 

@@ -161,8 +161,8 @@ class WrongClock final : public BefallenNode {
           interval(frame, value);
         } else if (signal.name.starts_with("time_of_validity")) {
           const double turn = std::ldexp(signal.scale, static_cast<int>(signal.length));
-          const double told = value.value + off_us;
-          set(frame, signal.name, told - turn * std::floor(told / turn));
+          const double sent = value.value + off_us;
+          set(frame, signal.name, sent - turn * std::floor(sent / turn));
           ++tally().count;
           ++tally().changed;
           ++tally().changed_times;
@@ -174,9 +174,9 @@ class WrongClock final : public BefallenNode {
     if (rate_ == 0) return;
     const double wanted = value.value * (1 + rate_) + remainder_us_;
     const double step = wire::lsb(*value.signal);
-    const double told = std::nearbyint(wanted / step) * step;
-    remainder_us_ = wanted - told;
-    set(frame, value.signal->name, told);
+    const double sent = std::nearbyint(wanted / step) * step;
+    remainder_us_ = wanted - sent;
+    set(frame, value.signal->name, sent);
   }
   When when_;
   std::int64_t by_us_;

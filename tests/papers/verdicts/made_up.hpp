@@ -131,9 +131,9 @@ class MadeUp {
     if (!content) throw std::runtime_error(content.error().message);
     return std::move(*content);
   }
-  [[nodiscard]] bool bars_met() const { return told().bars_met; }
+  [[nodiscard]] bool bars_met() const { return content().bars_met; }
   [[nodiscard]] bool holds(std::string_view claim) const {
-    const PageContent all = told();
+    const PageContent all = content();
     Words none("");
     return std::get<bool>(all.names.find(claim)->second(none));
   }

@@ -57,7 +57,7 @@ Error position(double below = 1, const scenario::Window& window = whole) {
   return error_of(estimator, quantities::position_norm, window, below);
 }
 Consistency consistency(const quantities::Quantity& quantity, double low, double high) {
-  return {.of = {.estimator = estimator, .quantity = &quantity},
+  return {.judged = {.estimator = estimator, .quantity = &quantity},
           .window = whole,
           .bound = MeanBetween{low, high}};
 }

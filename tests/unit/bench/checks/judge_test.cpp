@@ -123,11 +123,12 @@ const Error attitude =
     error(quantities::attitude_pitch, 0.01, {.from_us = 2 * second_us, .to_us = duration_us});
 
 Consistency consistency(const quantities::Quantity& quantity, std::variant<MeanBetween, Probability> bound) {
-  return {.of = {.estimator = "transfer_alignment", .quantity = &quantity}, .window = whole, .bound = bound};
+  return {
+      .judged = {.estimator = "transfer_alignment", .quantity = &quantity}, .window = whole, .bound = bound};
 }
 
 Convergence convergence(double within, std::int64_t before_us) {
-  return {.of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+  return {.judged = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
           .within = within,
           .unit = quantities::mrad,
           .before_us = before_us,

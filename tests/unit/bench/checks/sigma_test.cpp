@@ -28,7 +28,7 @@ class SigmaCheck : public testing::Test {
     static const world::FlightRecord rest{{.start = {}, .motion = world::Rest{}}, 4 * second_us, 10'000};
     const Observations seen;
     const Evidence evidence{.seen = seen, .truth = {.flight = rest}, .tracks = {{"one", track_}}};
-    return Sigma{.of = {.estimator = "one", .quantity = &quantities::attitude_heading},
+    return Sigma{.judged = {.estimator = "one", .quantity = &quantities::attitude_heading},
                  .stretch = {.window = {.from_us = from_us, .to_us = 4 * second_us}},
                  .low = low_mrad * 1e-3,
                  .high = high_mrad * 1e-3,
