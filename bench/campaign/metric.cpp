@@ -48,7 +48,7 @@ template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
     if (!is_sampled(one)) return "is of single runs, which campaigns do not keep";
-    return wanted(one) ? "" : "is none that this kind asks for";
+    return wanted(one) ? "" : "cannot be used with this kind";
   });
 }
 
@@ -161,7 +161,7 @@ Paired read(Section& section, const Context& context, Paired rule) {
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   if (section.has("statistic"))
-    section.reject("statistic", "is a key of before", "quantity = the name of a normalised error squared");
+    section.reject("statistic", "is a former key", "quantity = the name of a normalised error squared");
   rule.quantity = read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom > 0; });
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;

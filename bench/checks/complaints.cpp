@@ -9,12 +9,12 @@ namespace {
 
 constexpr std::string_view error = "error_", e2e = "e2e_";
 
-// The name of an error bit without what all have in common; empty: it is none.
+// The name of an error bit without the common prefix; empty: the signal is not an error bit.
 std::string_view error_in(const SignalInfo& signal) {
   return signal.name.starts_with(error) ? signal.name.substr(error.size()) : std::string_view();
 }
 
-// Every signal that is set in one message, beside its value in another.
+// Visits every signal that is set in one message, with its value in another.
 template <class Message, class Visit>
 void compare(const Message& now, const Message& before, Visit visit) {
   std::vector<double> then;

@@ -1,4 +1,4 @@
-// What people and programs are told of a run, apart from its checks: lines of figures.
+// Results of a run for people and programs besides the checks: lines of figures.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@ namespace canhil::estimators {
 
 struct Figure {
   std::string name;               ///< for programs: "heading"
-  std::optional<double> value{};  ///< [SI]; none: there is none
-  std::string text;               ///< for people, with its unit: "heading +1.234 mrad"; empty: not for them
+  std::optional<double> value{};  ///< [SI]; none: no value
+  std::string text;               ///< for people, with its unit: "heading +1.234 mrad"; empty: not shown
 };
 
 struct ResultLine {

@@ -1,4 +1,4 @@
-// Frames of a log of this contract, and the node that sends them again.
+// The frames of a log with canhil's DBC, and the node that sends them again.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@ using messages::Sync;
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 
-/// A Sync of the log: the bench's time, and the log's.
+/// A Sync of the log: the bench's time and the log's stamp.
 struct TimeMark {
   std::int64_t t_us = 0;
   std::int64_t stamp_ns = 0;
 };
 
-/// Frames between two Syncs were sent between their times, in proportion to their stamps. After the earlier
-/// one: at its very time they would go before it.
+/// Frames between two Syncs are due between the Syncs' times, interpolated by their stamps. They are due
+/// strictly after the earlier Sync: at the same time they would be sent before it.
 std::int64_t due_us(const TimeMark& before, const TimeMark& after, std::int64_t stamp_ns) {
   const auto whole = static_cast<double>(after.stamp_ns - before.stamp_ns);
   const double share = whole > 0 ? static_cast<double>(stamp_ns - before.stamp_ns) / whole : 1;
@@ -53,7 +53,7 @@ class Reading {
   Result<LoggedGroup> finish(std::int64_t end_us) && {
     if (!synchronised_)
       return failure(fmt::format("{}: has no Sync, expected the log of a run, which has a time base", log_));
-    group_.frames.frames.resize(placed_);  // after the last Sync nobody can say when
+    group_.frames.frames.resize(placed_);  // after the last Sync the time is unknown
     if (valid_us_.size() < 2)
       return failure(fmt::format("{}: has {} samples of {}, expected those of a run", log_, valid_us_.size(),
                                  closes_.sample_group.empty() ? closes_.name : closes_.sample_group));
@@ -89,7 +89,7 @@ class Reading {
     return whole;
   }
 
-  /// In full, from the one before on.
+  /// The full time of validity, continued from the previous one.
   std::int64_t valid_us(const Frame& frame) {
     std::int64_t t_us = 0;
     each_message(closes_, [&]<class Message>() {
@@ -112,14 +112,14 @@ class Reading {
   std::string log_;
   std::vector<std::uint32_t> ids_;
   LoggedGroup group_;
-  std::vector<std::int64_t> valid_us_;  // of whole samples
+  std::vector<std::int64_t> valid_us_;  // of complete samples
   std::size_t index_ = 0;
-  std::size_t placed_ = 0;  // frames whose time is known
+  std::size_t placed_ = 0;  // frames whose due time is known
   TimeMark last_;
   bool synchronised_ = false;
 };
 
-/// Of the nodes of one log, which share one player: so their frames keep their order.
+/// All recorded nodes of one log share one player, so their frames keep their order.
 class Frames final : public Node {
  public:
   Frames(const std::vector<const RecordedFrames*>& of_one_log, const Run& run)

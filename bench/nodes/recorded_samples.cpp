@@ -20,12 +20,12 @@ constexpr std::size_t time_column = 0;
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 
-/// Where a signal's value comes from.
+/// The source of a signal's value.
 struct Source {
   SignalInfo signal;
   Role role = Role::value;
-  std::optional<std::size_t> column{};  ///< of the table's names; none: constant
-  std::optional<std::size_t> rate{};    ///< the same, times the interval
+  std::optional<std::size_t> column{};  ///< index in the table's names; none: constant
+  std::optional<std::size_t> rate{};    ///< the same, multiplied by the interval
   double constant = 0;
 };
 
@@ -71,7 +71,7 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
   return sources;
 }
 
-/// Rows valid within the run, after its start. Error: too long without one.
+/// The rows valid within the run, after its start. Error: a gap is too long.
 Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int64_t>& t_us,
                                   std::int64_t gap_us, std::int64_t end_us) {
   scenario::Rows rows;
@@ -109,8 +109,8 @@ Result<double> value_of(const Source& source, const Table& table, std::size_t ro
   return value;
 }
 
-/// The interval of each sample reaches back to the one before, in steps of its signal, so that no rounding
-/// adds up; where samples are missing it is a period, and the target sees the gap.
+/// The interval of a sample reaches back to the previous sample, in steps of its signal, so rounding errors
+/// do not accumulate. Where samples are missing it is one period, and the target sees the gap.
 std::int64_t interval_of(const std::vector<std::int64_t>& t_us, std::size_t row, std::int64_t period_us,
                          double step_us) {
   if (row == 0 || 2 * (t_us[row] - t_us[row - 1]) > 3 * period_us) return period_us;
@@ -152,7 +152,7 @@ class Samples final : public Node {
     const Role role = role_of(signal, false);
     double value = samples_->values[next_ * samples_->signals + index];
     if (role == Role::time_of_validity) {
-      // What travels in 16 bits of 10 us is scaled; in 32 bits of 1 us it is whole.
+      // The 16-bit time signal has a resolution of 10 us, the 32-bit one of 1 us.
       const std::int64_t t_us = samples_->valid_us[next_];
       value = static_cast<double>(std::is_floating_point_v<Member> ? wrap_short_us(t_us) : wrap_us(t_us));
     } else if (role == Role::interval) {
@@ -172,7 +172,7 @@ class Samples final : public Node {
   std::shared_ptr<const RecordedSamples> samples_;
   std::int64_t latency_us_;
   std::int64_t end_us_;
-  std::vector<double> remainders_;  // of each signal of a sample
+  std::vector<double> remainders_;  // for each signal of a sample
   std::size_t next_ = 0;
 };
 

@@ -13,13 +13,13 @@ namespace {
 
 std::string at(std::int64_t t_us) { return fmt::format("{:g} s", static_cast<double>(t_us) * 1e-6); }
 
-// The first value or sigma that is no number; empty: there is none.
+// The first value or sigma that is not a number; empty: there is none.
 std::string no_number(const Evidence& evidence, const std::vector<Subject>& subjects) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
       for (const quantities::TrackPoint& point : track->points) {
         if (!std::isfinite(point.value) || !std::isfinite(point.sigma.value_or(0)))
-          return fmt::format("{} at {} is no number", subject.text, at(point.t_us));
+          return fmt::format("{} at {} is not a number", subject.text, at(point.t_us));
       }
     }
   }
@@ -48,7 +48,7 @@ Answering Answering::read(scenario::Section& /*section*/, const scenario::CheckC
     const std::vector<Subject> reported = always_reported(*one);
     rule.judged.insert(rule.judged.end(), reported.begin(), reported.end());
   }
-  // A sample that was measured before a fault may be sent in it.
+  // A sample measured before a fault may be transmitted during it.
   for (const scenario::FaultWindow& fault : context.faults)
     rule.excused.push_back(
         {.from_us = fault.window.from_us - context.latency_us, .to_us = fault.window.to_us});

@@ -33,7 +33,7 @@ Answers Answers::read(scenario::Section& section, const scenario::CheckContext& 
     if (count.at_least || count.at_most || count.before_us) rule.counts.push_back(std::move(count));
   }
   if (rule.counts.empty())
-    section.reject("answers_at_least", "is missing, as are all its like", "at least one limit");
+    section.reject("answers_at_least", "is missing, as are all other limits", "at least one limit");
   return rule;
 }
 

@@ -11,7 +11,7 @@
 namespace canhil::checks {
 namespace {
 
-// A data rate counts where FD frames were sent; without one they are as fast as the nominal.
+// The data rate matters only if FD frames were sent; without it they use the nominal rate.
 bool equally_fast(const wire::BitRates& a, const wire::BitRates& b, const Observations& seen) {
   const auto data = [](const wire::BitRates& rates) { return rates.data > 0 ? rates.data : rates.nominal; };
   const bool fd = std::ranges::any_of(seen.length_by_second,
@@ -46,7 +46,7 @@ std::string BusLoad::subject() const {
 Finding BusLoad::judge(const Evidence& evidence) const {
   const Observations& seen = evidence.seen;
   std::vector<wire::BitRates> buses{{.nominal = bitrate, .data = data_bitrate}};
-  // A wire slower than the bus that the rule is about may be full where that bus would not be.
+  // If the run's own bus is slower than the rule's, it may be full although the rule's bus would not be.
   if (seen.bit_rates.nominal > 0 && !equally_fast(seen.bit_rates, buses.front(), seen))
     buses.push_back(seen.bit_rates);
   Finding finding{.outcome = Outcome::pass, .measured = {}, .expected = {}};

@@ -1,5 +1,4 @@
-// The mean of a normalised error squared (NEES, NIS) over a window lies where that of a consistent filter
-// does.
+// The mean of a normalised error squared (NEES, NIS) over a window lies in the range of a consistent filter.
 #pragma once
 
 #include <variant>
@@ -14,7 +13,7 @@ struct MeanBetween {
   double low = 0;
   double high = 0;
 };
-/// The mean lies in the central chi-square interval that holds this probability: for white statistics (NIS).
+/// The mean lies in the central chi-square interval of this probability: for white statistics (NIS).
 struct Probability {
   double value = 0;
 };

@@ -10,7 +10,7 @@ namespace canhil::checks {
 
 Convergence Convergence::read(scenario::Section& section, const scenario::CheckContext& context) {
   Convergence rule;
-  section.refuse("axis", "is a key of before", "quantity, such as 'attitude.heading'");
+  section.refuse("axis", "is a former key", "quantity, such as 'attitude.heading'");
   rule.judged = read_subject(section, context, [](const quantities::Quantity& quantity) {
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
@@ -31,7 +31,7 @@ Finding Convergence::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("within {:g} {} for good before {:g} s", within / unit.factor,
                                            unit.name, static_cast<double>(before_us) * 1e-6);
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   const quantities::Track& track = *tracks.front();
   const Stretch to_the_end{.window = {before_us, evidence.truth.duration_us}};
   if (auto gap = silence(track, to_the_end, inside(track, to_the_end)); !gap.empty())

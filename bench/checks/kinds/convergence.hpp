@@ -1,4 +1,4 @@
-// The error of a quantity enters a band before a time, and stays there to the end of the run.
+// The error of a quantity enters a band before a given time and stays in it to the end of the run.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -11,7 +11,7 @@
 namespace canhil::checks {
 namespace {
 
-// The counts stay at their end.
+// The counters saturate at this value.
 std::uint64_t largest() {
   const auto signals = messages::TargetCounters::signals();
   return static_cast<std::uint64_t>(std::ranges::max_element(signals, {}, &SignalInfo::maximum)->maximum);
@@ -62,7 +62,7 @@ Finding CountsMatch::judge(const Evidence& evidence) const {
     if (one.reported < one.least || one.reported > one.most) finding.outcome = Outcome::fail;
   }
   finding.expected += ", as the bench withheld and damaged";
-  // What the bus lost the bench did not withhold.
+  // Frames lost on the bus were not withheld by the bench.
   const std::uint64_t outages = seen.bus.downs + seen.bus.errors.bus_off;
   if (finding.outcome == Outcome::fail && outages > 0) {
     finding.outcome = Outcome::not_measured;

@@ -1,4 +1,4 @@
-// How late a quantity is told, by the truth.
+// The delay of a reported quantity, measured against the truth.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> statistics{"max", "rms", "mean", "final"};
 
-// In the order of the enumeration: what is below the bar, and how the figure is called.
+// In the order of the enumeration: the figure that is compared with the bar.
 constexpr std::array<std::string_view, 4> asked{"|error|", "RMS", "mean |error|",
                                                 "|error| of the last answer"};
 
@@ -53,7 +53,7 @@ Finding Error::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("{} < {:g} {} {}", asked[static_cast<std::size_t>(statistic)],
                                            below / unit.factor, unit.name, to_text(stretch));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   const Places part = inside(*tracks.front(), stretch);
   if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};

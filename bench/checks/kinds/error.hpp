@@ -9,7 +9,7 @@ namespace canhil::checks {
 struct Error {
   static constexpr std::string_view kind = "error";
   enum class Statistic : std::uint8_t { max, rms, mean, final };
-  Subject judged;  ///< of a quantity that has parts, those together
+  Subject judged;  ///< if the quantity has parts, the norm of the parts
   Statistic statistic = Statistic::max;
   Stretch stretch;
   double below = 0;  ///< [SI]

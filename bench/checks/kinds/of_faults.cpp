@@ -22,14 +22,15 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
   std::vector<std::string> names;
   for (const scenario::FaultWindow& fault : context.faults) names.push_back(fault.name);
   if (names.empty()) {
-    section.reject("fault", "names one, and the scenario has none", "a [[fault]] beside it, or times");
+    section.reject("fault", "names a fault, but the scenario has none", "a [[fault]] beside it, or times");
     return Disturbance{};
   }
   const std::string name = section.one_of("fault", names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
-    section.reject("fault", fmt::format("'{}' begins after the end of the run", name), "one that flies");
+    section.reject("fault", fmt::format("'{}' begins after the end of the run", name),
+                   "one that begins before it");
   return Disturbance{.fault = name,
                      .window = found->window,
                      .valid_from_us = std::max<std::int64_t>(found->window.from_us - context.latency_us, 0)};
@@ -93,7 +94,7 @@ std::string silence_of(const Evidence& evidence, const std::vector<Subject>& sub
                        const scenario::Window& window) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
-      // Before the end of the flight, after which nobody answers.
+      // Up to the end of the flight: no answers are expected after it.
       const Stretch stretch{.window = {window.from_us, std::min(window.to_us, track->answers_end_us)}};
       if (static_cast<double>(stretch.window.to_us - stretch.window.from_us) <= track->longest_wait_us)
         continue;

@@ -31,7 +31,7 @@ bool lies_in(const std::pair<double, double>& to_go_s, double value) {
   return value >= to_go_s.first && value < to_go_s.second;
 }
 
-// The unit that the key has which begins with the stem.
+// The unit of the key that begins with the stem.
 quantities::Unit read_unit(scenario::Section& section, std::string_view stem, const Quantity& quantity) {
   if (quantity.unit.name != quantities::mrad.name) return quantity.unit;
   const std::string mrad = key_of(stem, quantities::mrad), degrees = key_of(stem, quantities::degrees);
@@ -46,7 +46,7 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
   if (candidates.size() == 1) return section.one_of("estimator", candidates, candidates.front());
-  // Said before the keys that are of this estimator or that.
+  // Reported before the keys that depend on the estimator.
   if (!section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
   return section.one_of("estimator", candidates);
@@ -63,8 +63,8 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
   };
   const Quantity* quantity = read_quantity(
       section, estimators::quantities_of(context.contract.known), [&](const Quantity& one) -> std::string {
-        if (!wanted(one)) return "is none that this kind asks for";
-        return reported_by(one).empty() ? "is told by no estimator of this scenario" : "";
+        if (!wanted(one)) return "cannot be used with this kind";
+        return reported_by(one).empty() ? "is reported by no estimator of this scenario" : "";
       });
   const std::vector<std::string> names = reported_by(*quantity);
   Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names),
@@ -82,7 +82,7 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
     return {.window = scenario::read_window(section, context.duration_us)};
   }
   if (estimator != nullptr && estimator->layout.to_go_stretch_us == 0)
-    section.reject("time_to_go_s", "is of flights that go to a target", "from_s and to_s");
+    section.reject("time_to_go_s", "is for flights that go to a target", "from_s and to_s");
   for (const std::string_view key : {"from_s", "to_s"})
     section.refuse(key, "has no effect beside time_to_go_s", "one of the two");
   return {.window = {.from_us = 0, .to_us = context.duration_us},

@@ -13,12 +13,12 @@ OwnTimes OwnTimes::read(scenario::Section& /*section*/, const scenario::CheckCon
 }
 
 Finding OwnTimes::judge(const Evidence& evidence) const {
-  const std::string expected = "TargetTiming tells of times above 0 and no longer than the latencies";
+  const std::string expected = "TargetTiming reports times above 0 and no longer than the latencies";
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   if (!evidence.seen.target_timing_seen) return {Outcome::fail, "no TargetTiming", expected};
   const LatencyBreakdown& breakdown = evidence.seen.timing.breakdown;
   if (breakdown.stimuli == 0) return {Outcome::fail, "no answers", expected};
-  if (breakdown.accounted == 0) return {Outcome::fail, "TargetTiming tells of no stimulus", expected};
+  if (breakdown.accounted == 0) return {Outcome::fail, "TargetTiming accounts for no stimulus", expected};
   const auto mean_us = [](std::int64_t sum_ns, std::uint64_t count) {
     return 1e-3 * static_cast<double>(sum_ns) / static_cast<double>(count);
   };

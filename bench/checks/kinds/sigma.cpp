@@ -26,7 +26,7 @@ Finding Sigma::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("sigma between {:g} and {:g} {} {}", low / unit.factor,
                                            high / unit.factor, unit.name, to_text(stretch));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   const quantities::Track& track = *tracks.front();
   const Places part = inside(track, stretch);
   if (auto gap = silence(track, stretch, part); !gap.empty())
@@ -40,7 +40,7 @@ Finding Sigma::judge(const Evidence& evidence) const {
       ++without;
       continue;
     }
-    within = within && *sigma >= low && *sigma <= high;  // what is no number is not within
+    within = within && *sigma >= low && *sigma <= high;  // NaN is outside
     least = std::min(least, *sigma);
     most = std::max(most, *sigma);
   }

@@ -1,5 +1,5 @@
-// The sigma that a target tells beside a quantity lies where it should. A filter's covariance hardly depends
-// on the noise that it saw, so one run tells what the mean of its squared errors tells only over many.
+// The reported sigma of a quantity lies in a range. A filter's covariance hardly depends on the noise of one
+// run, so a single run suffices; the mean of squared errors needs many runs.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -30,8 +30,8 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
       fmt::format("sigma grows to more than {:g} times {}", by,
                   fault.empty() ? seconds(window) : fmt::format("through fault '{}'", fault));
   const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
-  // The last that was told before the window began is what it grows from.
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  // The reference is the last sigma before the window.
   std::optional<double> first, last;
   std::size_t inside = 0;
   for (const quantities::TrackPoint& point : tracks.front()->points) {
@@ -40,10 +40,10 @@ Finding SigmaGrows::judge(const Evidence& evidence) const {
     last = point.sigma;
     if (point.t_us > window.from_us) ++inside;
   }
-  if (inside == 0) return {Outcome::fail, "no sigma is told in it", expected};
+  if (inside == 0) return {Outcome::fail, "no sigma is reported in it", expected};
   const quantities::Unit& unit = judged.quantity->unit;
   const int digits = digits_of(unit);
-  return {pass_if(*last > by * *first),  // what is no number is not larger
+  return {pass_if(*last > by * *first),  // NaN is not larger
           fmt::format("{:.{}f} to {:.{}f} {}", *first / unit.factor, digits, *last / unit.factor, digits,
                       unit.name),
           expected};

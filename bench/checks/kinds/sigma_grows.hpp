@@ -1,4 +1,4 @@
-// The sigma that a target tells grows while it has nothing to go by: through a fault, or a window.
+// The reported sigma grows while the target lacks information: during a fault, or in a window.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -10,7 +10,7 @@ struct SigmaGrows {
   Subject judged;
   std::string fault;  ///< empty: the check gives the window
   scenario::Window window;
-  double by = 1;  ///< more than so many times
+  double by = 1;  ///< the factor that it must exceed
 
   static SigmaGrows read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return judged.text; }

@@ -86,8 +86,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   return samples;
 }
 
-// The longest time that is no silence between answers to fixes: so many in a row may go unanswered. By the
-// median, as the bench may keep fixes back on purpose; of two sources the slower one counts.
+// The longest time between answers to fixes that does not count as silence: several fixes in a row may go
+// unanswered. From the median interval, because the bench may withhold fixes on purpose; with two sources the
+// slower one counts.
 double wait_for_fixes_us(const InflightAnswers& answers) {
   double period_us = 0;
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {
@@ -132,7 +133,7 @@ void give_positions(const InflightAnswers& answers, const Answering& filters, co
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const InflightAnswers& answers = seen.of<InflightAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
-  // The bench may keep fixes back on purpose: those that it did not send need no answer.
+  // Fixes that the bench withheld on purpose need no answer.
   const auto unanswered = [&answers](std::int64_t from_us, std::int64_t to_us) {
     return unanswered_fixes(answers, {.from_us = from_us, .to_us = to_us});
   };
@@ -157,8 +158,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   give_positions(answers, filters, truth, give);
 }
 
-// Navigation answers that bridged lost input; fixes by what became of them, whose answers after which the
-// covariance had been repaired, and those after which the heading was resolved and fed back.
+// Navigation answers that bridged lost input; fixes by outcome; fixes after which the covariance had been
+// repaired; fixes after which the heading was resolved and fed back.
 std::vector<Mark> marks_of(const checks::Observations& seen) {
   const InflightAnswers& answers = seen.of<InflightAnswers>();
   std::vector<Mark> marks{
@@ -193,14 +194,14 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   }
   const double heading_sigma_deg = last.attitude_sigma.z() / degrees.factor;
   filter.add("heading_sigma", last.attitude_sigma.z(),
-             fmt::format("heading sigma told at the end {:.3f} deg", heading_sigma_deg));
+             fmt::format("heading sigma reported at the end {:.3f} deg", heading_sigma_deg));
   lines.push_back(std::move(filter));
   return lines;
 }
 
 constexpr std::array closing{messages::FixVelocityD::info.name, messages::FixUpdate::info.name};
 
-// Where there are two sources, that which is heard least: the filter may use it alone.
+// With two sources, the slower one: the filter may depend on it alone.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
   for (const scenario::NodeSettings& node : scenario.nodes) {

@@ -45,7 +45,7 @@ constexpr std::array<const Quantity*, 4> of_runs{&los_rate_pitch, &los_rate_yaw,
 constexpr Layout layout{
     .kept = kept, .derived = derived, .to_go_stretch_us = stretch_us, .end_known_by = &miss_distance};
 
-/// What falls into one stretch.
+/// The sums of one stretch.
 struct Stretch {
   double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
   double variances = 0, over_variances = 0, trusted = 0;
@@ -106,7 +106,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   const LosAnswers& answers = seen.of<LosAnswers>();
   const world::EngagementRecord& engagement = *truth.engagement;
   const auto errors = los_errors(answers, engagement);
-  // In the last moments before the passage the rate itself grows beyond any picture.
+  // In the last moments before the passage the rate grows too large to draw.
   constexpr double least_to_go_s = 0.08;
   const auto last = std::find_if(errors.rbegin(), errors.rend(),
                                  [](const LosError& e) { return e.time_to_go >= least_to_go_s; });

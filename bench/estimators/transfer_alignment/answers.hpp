@@ -1,4 +1,4 @@
-// What a transfer alignment answers: its navigation, and its filter after each velocity update.
+// Answers of a transfer alignment: its navigation, and its filter after each velocity update.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct FilterAnswer {
   world::Vector3 velocity_sigma = world::Vector3::Zero();
   world::Vector3 gyro_bias = world::Vector3::Zero();   ///< body
   world::Vector3 accel_bias = world::Vector3::Zero();  ///< body
-  bool degraded = false;                               ///< it says that its sigmas do not hold
+  bool degraded = false;                               ///< the target reports that its sigmas are not valid
 };
 
 struct TransferAnswers {

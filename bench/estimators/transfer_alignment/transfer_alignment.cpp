@@ -32,15 +32,15 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const TransferAnswers& answers = seen.of<TransferAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
-  // One value an update, in order, up to the last one that a navigation answer follows.
+  // One value per update, in order, up to the last update that a navigation answer follows.
   const Spool<TrackPoint> nees = nees_of(answers.filter, errors);
   for (std::size_t i = 0; i < nees.size(); ++i) {
     const FilterAnswer& update = answers.filter[i];
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
-    // Of the attitude alone: the velocity's sigma is of the cause's time, and until the answer after it a
-    // turned heading and 1 g make more of an error than that.
+    // Attitude only: the velocity's sigma holds at the cause's time; before the next answer, acceleration of
+    // 1 g with a heading error causes larger velocity errors.
     const double trusted = update.degraded ? 0 : over_sigma(phi, update.attitude_sigma);
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),

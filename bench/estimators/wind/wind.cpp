@@ -138,7 +138,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   add("along_track", "along track", [](const WindError& error) { return error.along_track; });
   add("cross_track", "across", [](const WindError& error) { return error.cross_track; });
   add("down", "down", [](const WindError& error) { return error.error_n.z(); });
-  ResultLine at_end{.name = "told", .what = "told at the end"};
+  ResultLine at_end{.name = "told", .what = "reported at the end"};
   if (!seen.of<WindAnswers>().empty()) {
     const double sigma = seen.of<WindAnswers>().back().along_track_sigma;
     at_end.add("along_track_sigma", sigma, fmt::format("sigma along track {:.3f} m/s", sigma));
@@ -148,7 +148,7 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
 
 constexpr std::array closing{messages::WindUpdate::info.name};
 
-// The filter may answer less often than it is told of the navigation.
+// The filter may answer less often than it receives navigation groups.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   const scenario::NodeSettings* navigation = scenario.node("glider_nav");
   if (navigation == nullptr) return {};

@@ -25,7 +25,7 @@ CubicSpline<3> velocity_of(std::span<const RecordedState> states) {
   return {times_of(states), std::move(values)};
 }
 
-// A rotation has two quaternions: of each the one on the side of that before.
+// q and -q are the same rotation: each quaternion gets the sign that continues the previous one.
 CubicSpline<4> quaternion_of(std::span<const RecordedState> states) {
   std::vector<Vector4> values;
   values.reserve(states.size());
@@ -46,7 +46,7 @@ RecordedPath::RecordedPath(std::span<const RecordedState> states, const Position
   const bool has_positions = states.front().position.has_value();
   integrate(has_positions ? *states.front().position : start);
   if (!has_positions) return;
-  // Once more for what the first correction leaves, as NED axes turn along the way.
+  // A second pass for the residual of the first: NED axes rotate along the way.
   for (int pass = 0; pass < 2; ++pass) correct(states);
   find_contradiction(states);
 }
@@ -89,7 +89,7 @@ void RecordedPath::integrate(const Position& start) {
     positions_.push_back(advanced_from(positions_.back(), times[i - 1], times[i]));
 }
 
-// Means of what is left, over equal stretches, at their middles.
+// Means of the residual over equal stretches, at their middles.
 void RecordedPath::correct(std::span<const RecordedState> states) {
   const auto& times = velocity_.times();
   const double length = times.back() - times.front();

@@ -147,7 +147,7 @@ TEST_F(Disturbed, SigmaGrowsThroughTheFault) {
   };
   std::erase_if(*test::Edited(answers().filter), in_it);
   std::erase_if(*test::Edited(answers().navigation), in_it);
-  EXPECT_EQ(judge(rule).measured, "no sigma is told in it");
+  EXPECT_EQ(judge(rule).measured, "no sigma is reported in it");
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
@@ -180,7 +180,7 @@ TEST_F(Disturbed, AnsweringWithNumbersAndWithoutAGap) {
   EXPECT_THAT(judge(rule).measured, HasSubstr("no answers"));
   seen_ = sound;
   answers().navigation[place(5)].v_eb_n.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judge(rule).measured, "velocity.north at 5 s is no number");
+  EXPECT_EQ(judge(rule).measured, "velocity.north at 5 s is not a number");
   seen_ = sound;
   seen_.target_bad_crc = 1;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);

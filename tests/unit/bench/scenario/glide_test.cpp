@@ -181,9 +181,10 @@ TEST(GlideSections, WrongOnesGiveOneLine) {
             ": key 'airframe.markov_time_s': has no effect here, expected coefficient_error = \"markov\" "
             "beside it");
   }
-  EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"answers\"\n[[check]]"),
-            "g.toml:16: key 'check[1].answers_at_least': is missing, as are all its like, expected at least "
-            "one limit");
+  EXPECT_EQ(
+      complaint("[[check]]", "[[check]]\nkind = \"answers\"\n[[check]]"),
+      "g.toml:16: key 'check[1].answers_at_least': is missing, as are all other limits, expected at least "
+      "one limit");
 }
 
 }  // namespace
