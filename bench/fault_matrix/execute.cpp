@@ -26,7 +26,7 @@ struct Flown {
   drive::Run run;
 };
 
-// One matrix being flown.
+// The flights of one matrix.
 class Flights {
  public:
   Flights(const Plan& plan, const Options& options, const std::atomic<bool>& stop)
@@ -52,7 +52,7 @@ class Flights {
   }
 
  private:
-  // On all cores. Error: the first.
+  // Uses all cores. Error: the first one.
   Result<void> each(std::size_t count, const std::function<Result<void>(std::size_t)>& fly_one) {
     std::atomic<std::size_t> next = 0;
     std::optional<Error> error;
@@ -112,7 +112,7 @@ class Flights {
     return options_.finished(std::move(finished));
   }
 
-  // The least scenario that violates the same, and its log.
+  // Saves the minimal scenario with the same violation, and its log.
   Result<void> keep(const Cell& cell, const Undisturbed& before, const drive::Run& run,
                     Finished& finished) const {
     const Column& column = plan_.columns[cell.column];
@@ -121,7 +121,7 @@ class Flights {
     const auto shows = [&](const std::vector<FaultText>& faults, std::int64_t duration_us) {
       const auto flown = fly(column, cell.run, faults, duration_us);
       if (!flown || stop_) return false;
-      // By a check it shows where the check is judged: a run that ends early is not.
+      // A violated check must be judged: in a run that ends early it is not.
       if (by_a_check && flown->run.ending.kind != drive::Ending::Kind::completed) return false;
       const Response response =
           response_of(flown->scenario, flown->run, cell.faults.empty() ? nullptr : &before);
@@ -131,11 +131,11 @@ class Flights {
     const fs::path file = options_.folder / fmt::format("violation-{}.toml", finished.cell);
     fs::path log = file;
     log.replace_extension(".log");
-    // What no check judges ends the run, or is implied: a scenario has a check.
+    // A violation without an explicit check ends the run or is implied; a scenario needs at least one check.
     const std::string text =
         text_of(column, cell.run, least.faults, least.duration_us,
                 std::ranges::find(judged_by, check) == judged_by.end() ? "answering" : check,
-                fmt::format("# The least of '{}' that violates {}: hil-bench faults --seed {}.\n",
+                fmt::format("# The minimal form of '{}' that violates {}: hil-bench faults --seed {}.\n",
                             plan_.rows[cell.row].name(), check, plan_.seed));
     if (auto written = report::write_file(file.string(), text); !written) return written;
     auto scenario = drive::read_scenario(file.string());

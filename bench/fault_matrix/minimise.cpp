@@ -25,7 +25,7 @@ std::string seconds(std::int64_t t_us) { return fmt::format("{:.3f}", static_cas
 
 Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, const Shows& shows) {
   Minimised least{.faults = faults};
-  // A flight that ended early is cut before its end, so that its checks are judged.
+  // A flight that ended early is shortened to before its end, so that its checks are judged.
   const std::int64_t whole_us = flown_us / flight_step_us * flight_step_us;
   if (!shows(faults, 0)) {
     for (std::int64_t back_us = 0; back_us < 5 * flight_step_us && least.duration_us == 0;
@@ -33,7 +33,7 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       const std::int64_t cut_us = whole_us - back_us;
       if (cut_us > 0 && shows(faults, cut_us)) least.duration_us = cut_us;
     }
-    if (least.duration_us == 0) return least;  // it shows in no flight that goes to its end
+    if (least.duration_us == 0) return least;  // no complete flight shows it
   }
   least.faults = least_of<FaultText>(
       faults, [&](const std::vector<FaultText>& some) { return shows(some, least.duration_us); });
@@ -76,7 +76,7 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       if (!shows(with(sparser), least.duration_us)) break;
       least.faults[index] = std::move(sparser);
     }
-    if (every >= most_sparse) least.faults[index] = dense;  // the first frame alone, which the window has
+    if (every >= most_sparse) least.faults[index] = dense;  // the window still contains the first frame
   }
   return least;
 }

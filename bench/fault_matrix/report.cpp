@@ -18,7 +18,7 @@ using checks::Outcome;
 using report::escaped;
 using Kind = Response::Kind;
 
-// A line for each cell of a kind.
+// One line for each cell of a kind.
 std::vector<std::string> lines_of(const Results& results, Kind kind, const std::string& folder) {
   std::vector<std::string> lines;
   for (const auto& [index, cell] : results.cells) {
@@ -64,7 +64,7 @@ std::string target_words(const Identity& identity) {
   return identity.target.empty() ? "the target's own code, in process" : identity.target;
 }
 
-// The same with the sign and the colour of the worst.
+// The same with sign and colour of the worst response.
 std::string marked_summary(const Cells& cells) {
   if (cells.empty()) return summary(cells);
   const auto any = [&](Kind kind) {
@@ -91,7 +91,7 @@ std::string text(const Results& results, const std::string& folder) {
   for (const Row& row : identity.rows) widest = std::max(widest, row.name().size());
   std::string out = fmt::format("Faults and responses, seed {}, {} run{} a cell, against {}\n", identity.seed,
                                 identity.runs, identity.runs == 1 ? "" : "s", target_words(identity));
-  // A scenario after the other: cells say more than fits beside one another on a terminal.
+  // One scenario after another: cells are too wide for columns on a terminal.
   for (std::size_t column = 0; column < identity.columns.size(); ++column) {
     out += fmt::format("\n{} ({})\n", head_of(identity.columns[column]), identity.columns[column].estimators);
     for (std::size_t row = 0; row < identity.rows.size(); ++row) {
@@ -102,7 +102,7 @@ std::string text(const Results& results, const std::string& folder) {
   }
   for (const auto& [kind, title] :
        {std::pair(Kind::not_measured, "Not measured"),
-        std::pair(Kind::violated, "Violated, each with the least that shows it")}) {
+        std::pair(Kind::violated, "Violated, each with the smallest scenario that shows it")}) {
     const auto lines = lines_of(results, kind, folder);
     if (!lines.empty()) out += fmt::format("\n{}\n  {}\n", title, fmt::join(lines, "\n  "));
   }

@@ -1,4 +1,4 @@
-// The faults of a scenario in one run of it.
+// The faults of a scenario in one run.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace canhil::faults {
 
-/// What a report tells of a fault.
+/// The report of a fault.
 struct FaultReport {
   std::string name, kind;
   Stage stage = Stage::bus;
@@ -33,11 +33,11 @@ class Faults final : public nodes::Befalling {
 
   std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                         const scenario::NodeSettings& settings) override;
-  /// Those between nodes and bus, in the order of the scenario.
+  /// The faults between nodes and bus, in the order of the scenario.
   [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }
 
   [[nodiscard]] std::vector<FaultReport> reports() const;
-  /// Of all of them.
+  /// The sum over all faults.
   [[nodiscard]] Tally tally() const;
 
  private:
@@ -48,7 +48,7 @@ class Faults final : public nodes::Befalling {
   std::span<const MessageInfo> messages_;
   Place place_;
   RigControl* rig_;
-  std::vector<Tally> tallies_;  // of each fault
+  std::vector<Tally> tallies_;  // one for each fault
   std::vector<std::unique_ptr<Injector>> injectors_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 using scenario::FaultContext;
 using scenario::Section;
 
-// Of a quantity in SI, the endings that its keys may have.
+// The suffixes that keys of a quantity may have, by SI unit.
 constexpr std::array<std::pair<std::string_view, std::array<std::string_view, 3>>, 6> endings{
     {{"rad/s", {"degps", "mradps", "degph"}},
      {"rad", {"deg", "mrad", ""}},
@@ -140,7 +140,7 @@ OfValues read_values(Section& section, const FaultContext& context) {
   for (const MessageInfo* message : messages) {
     if (context.contract.foreign != nullptr) {
       section.reject("messages",
-                     fmt::format("{} is of the mapping's: '{}' is of canhil's own messages", message->name,
+                     fmt::format("{} is from a mapping: '{}' is for canhil's own messages", message->name,
                                  section.text("kind", "")),
                      "another kind, or a quantity");
       continue;

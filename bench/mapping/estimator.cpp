@@ -1,4 +1,4 @@
-// A mapped target as the bench knows estimators: tracks, samples, marks and lines of what it told.
+// A mapped target presented as an estimator of the bench: its tracks, samples, marks and result lines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ double difference(const ReferenceQuantity& of, double a, double b) {
   return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
 }
 
-// What came out of its order is sorted in memory.
+// Points out of order are sorted in memory.
 template <class Value, class TimeOf>
 Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   if (std::ranges::is_sorted(values, {}, time_of)) return values;
@@ -35,14 +35,14 @@ Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   return Spool<Value>(sorted);
 }
 
-// In order of time: a cause that was told later may be earlier.
+// Sorted by time: a cause that is answered later may be earlier.
 Spool<TrackPoint> errors_of(const ReferenceQuantity& of, const Spool<TimedValue>& all, const Truth& truth) {
   Spool<TrackPoint> errors;
   for (const TimedValue& one : all) {
     const auto at = of.truth(truth, one.t_us);
     if (!at || one.t_us > truth.duration_us) continue;
     const double error = difference(of, one.value, *at);
-    // Beside the truth without a jump.
+    // Unwrapped to the same turn as the truth.
     errors.push_back(
         {.t_us = one.t_us, .value = error, .sigma = one.sigma, .estimate = *at + error, .truth = *at});
   }
@@ -72,8 +72,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const quant
   }
 }
 
-// A sample is a time at which something was told, with what was last told of all: a target may tell its
-// quantities in turn.
+// A sample is taken at each time at which a quantity was reported, with the last value of every quantity: a
+// target may report its quantities in turn.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();
   if (answers.mapping == nullptr) return {};
@@ -97,7 +97,8 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   return samples;
 }
 
-// All answers, then those of each message. What neither answers nor tells a quantity is none.
+// All answers, then those of each message. A message that neither answers anything nor carries a quantity has
+// no mark.
 std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
   const Answers& answers = seen.of<Answers>();
   estimators::Mark all{.name = "answers"};
@@ -118,7 +119,7 @@ std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
 std::vector<estimators::ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                                std::string_view /*algorithm*/) {
   estimators::ResultLine end{.name = "final_error", .what = "error at the end"},
-      delays{.name = "delay", .what = "delay by the truth"};
+      delays{.name = "delay", .what = "delay against the truth"};
   tracks_of(seen, truth, [&](const Track& track) {
     const quantities::Quantity& quantity = *track.quantity;
     const std::string name(quantity.name);

@@ -14,19 +14,19 @@ namespace {
 using estimators::Truth;
 using Value = std::optional<double>;
 
-// Of the navigation's truth, at any time of the run.
+// From the truth of the navigation, at any time of the run.
 template <class Of>
 Value flown(const Truth& truth, std::int64_t t_us, Of of) {
   if (t_us < 0 || t_us > truth.flight.end_us()) return std::nullopt;
   return of(truth.flight.at(t_us));
 }
-// Of the glider's truth, at the step before.
+// From the truth of the glider, at the previous step.
 template <class Of>
 Value glided(const Truth& truth, std::int64_t t_us, Of of) {
   if (truth.glide == nullptr || t_us < 0 || t_us > truth.glide->end_us()) return std::nullopt;
   return of(truth.glide->at(t_us));
 }
-// What a glider has of its own, others of the navigation.
+// From the truth of the glider if there is one, otherwise of the navigation.
 template <class Of>
 Value moved(const Truth& truth, std::int64_t t_us, Of of) {
   return truth.glide != nullptr ? glided(truth, t_us, of) : flown(truth, t_us, of);
@@ -56,7 +56,7 @@ template <int axis>
 Value wind(const Truth& truth, std::int64_t t_us) {
   return glided(truth, t_us, [](const world::GlideTruth& at) { return at.wind_n[axis]; });
 }
-// At a sample of the seeker.
+// From the truth at a sample of the seeker.
 template <double world::Planes<double>::*plane>
 Value los_rate(const Truth& truth, std::int64_t t_us) {
   const world::EngagementTruth* epoch = truth.engagement == nullptr ? nullptr : truth.engagement->at(t_us);

@@ -1,4 +1,4 @@
-// Quantities that a mapped target may tell, and their truth.
+// The quantities that a mapped target may report, and their truth.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace canhil::mapping {
 struct ReferenceQuantity {
   const quantities::Quantity* quantity = nullptr;
   std::string_view si;  ///< its unit
-  bool turns = false;   ///< a whole turn more is the same
-  /// At a time [us] of the run [SI]; none: there is no truth.
+  bool turns = false;   ///< an angle: multiples of a turn are equal
+  /// The truth at a time [us] of the run, in SI; none: there is no truth.
   std::optional<double> (*truth)(const estimators::Truth& truth, std::int64_t t_us) = nullptr;
 };
 
-/// All of them.
+/// All these quantities.
 std::span<const ReferenceQuantity> reference_quantities();
-/// None: null.
+/// Null if there is none.
 const ReferenceQuantity* find_reference_quantity(std::string_view quantity);
 
 }  // namespace canhil::mapping

@@ -10,14 +10,15 @@ namespace {
 
 constexpr int passive_from = 128;  // ISO 11898-1, fault confinement
 
-// A driver writes error frames itself: only where there is none may somebody else.
+// A controller's driver writes error frames itself; only vcan accepts them from others.
 std::string needs_vcan(const Place& place) {
   switch (place.interface) {
     case Place::Interface::virtual_can:
       return {};
     case Place::Interface::controller:
-      return fmt::format("is for a controller's driver to tell, which '{}' has, expected a vcan interface",
-                         place.bus);
+      return fmt::format(
+          "can only be reported by a controller's driver, which '{}' has, expected a vcan interface",
+          place.bus);
     case Place::Interface::none:
       break;
   }
@@ -36,7 +37,7 @@ class ReportedErrors final : public Repeated {
   RigControl* rig_;
 };
 
-// A state of the controller, and what it comes back to.
+// A state of the controller, and the state to which it returns.
 class ReportedState final : public Switched {
  public:
   ReportedState(const When& when, const InRun& run, const ControllerNews& begin, const ControllerNews& end)

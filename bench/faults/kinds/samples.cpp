@@ -67,7 +67,7 @@ std::vector<Measured> flags_of(const MessageInfo& message) {
   return flags;
 }
 
-// By the message of a quantity, or by what else there is in its sample.
+// In the message of the quantity, or else in another message of its sample.
 std::vector<Measured> flags_for(const MessageInfo& message) {
   std::vector<Measured> flags = flags_of(message);
   if (!flags.empty()) return flags;
@@ -124,8 +124,7 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
       kind.flags = flags_for(*stimulus->message);
     }
   }
-  if (kind.flags.empty())
-    section.reject(key, "has no flag by which its sensor vouches for a sample", "one that has");
+  if (kind.flags.empty()) section.reject(key, "has no validity flag", "one that has");
   kind.when = read_when(section, context, Repeats::each);
   return kind;
 }
