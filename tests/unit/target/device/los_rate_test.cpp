@@ -1,4 +1,4 @@
-// The LOS rate behind the bus: the frames of an engagement in, the estimator's own figures out.
+// The LOS rate through the device: frames of an engagement go in, and the estimator's own values come out.
 #include <gmock/gmock.h>
 
 #include <array>

@@ -1,5 +1,5 @@
-// The closed gains: against the Kalman filter and the integrated Riccati equation, their statistics, their
-// start-up.
+// The closed-form gains against the Kalman filter and the integrated Riccati equation; their statistics and
+// their start-up.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-// The bank of filters: its weights and its mixture against their definition, and what it follows.
+// The bank of filters: its weights and its mixture against their definition, and its response to changes.
 #include "target/estimators/wind/bank.hpp"
 
 #include <gtest/gtest.h>
