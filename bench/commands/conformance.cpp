@@ -25,15 +25,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
-  std::string estimator;  // empty: what the target says, or takes
-  std::string scenario;   // empty: the quick flight of the estimator
+  std::string estimator;  // empty: the one that the target reports or accepts
+  std::string scenario;   // empty: the estimator's short flight
   std::string json, junit;
 };
 
-// The quick flights of the project: one an estimator.
+// The project's short flights: one for each estimator.
 Result<std::vector<scenario::Scenario>> quick_flights() {
   std::vector<fs::path> files;
   std::error_code error;

@@ -274,7 +274,7 @@ TEST_F(Altered, WhatAMappingLeavesOutIsListed) {
   const Ended fine = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", folder));
   EXPECT_EQ(fine.code, 0) << fine.err;
   EXPECT_THAT(fine.out, HasSubstr("note unheard: ECU_Status.STS_State is not used by the bench"));
-  EXPECT_THAT(fine.out, HasSubstr("3 messages played, 2 heard, 2 quantities told; bus load"));
+  EXPECT_THAT(fine.out, HasSubstr("3 messages played, 2 heard, 2 quantities reported; bus load"));
   static_cast<void>(
       run_with("own_ecu.mapping.toml", "\"IMU_TX1.TX1_AccY\" = \"-imu.specific_force.y\"", "#"));
   const Ended ended = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", scratch("altered")));

@@ -59,10 +59,10 @@ TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
   EXPECT_EQ(split.at("at_least"), Json::array({"target_queue"}));
   EXPECT_EQ(split.at("at_most"), Json::array({"not_explained"}));
   EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td data-label=\"ms\">&ge; 0.100</td>"),
-                                  HasSubstr("tells no times beyond 8191 us")));
+                                  HasSubstr("reports no times beyond 8191 us")));
   EXPECT_THAT(
       text(scenario_of(), run),
-      AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target tells no more)"),
+      AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target reports no more)"),
             HasSubstr("wait for the bus (at most)")));
 }
 
