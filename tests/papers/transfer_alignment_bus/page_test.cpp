@@ -23,7 +23,7 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
   for (const char* bar : {"bar 4", "bar 5", "bar 6", "bar 7", "bar 8", "bar 9"})
     EXPECT_THAT(html, HasSubstr(bar));
   EXPECT_THAT(html, HasSubstr(">paper H2<")) << "what is known of the paper's own curve";
-  EXPECT_THAT(html, HasSubstr("2 runs a curve, seed 20010101, frames quantised as on the bus"));
+  EXPECT_THAT(html, HasSubstr("2 runs per curve, seed 20010101, frames quantised as on the bus"));
   EXPECT_THAT(html, HasSubstr("each through the codec with frames quantised as on the bus."));
   EXPECT_THAT(html, Not(HasSubstr("rounding (--unrounded)")));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
