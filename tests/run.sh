@@ -7,9 +7,9 @@
 #   bash tests/run.sh --analyse       with either of the first two: also clang's static analyser on every source, about an hour
 #   bash tests/run.sh --soak          with either of the first two: also five minutes of random flights against one target (tests/soak)
 #   bash tests/run.sh --package       with --full: also the Debian package, installed and flown in a fresh Debian (root, network; tests/package)
-#   bash tests/run.sh --only REGEX    with any: of its CTest cases those whose name matches, in every configuration
+#   bash tests/run.sh --only REGEX    with any mode: only the CTest cases whose name matches, in every configuration
 # Counted: each CTest case in each configuration, each static check, and each build that fails.
-# What a mode did not run it says at its end. JUnit files and logs: build/results/.
+# At its end it lists what this mode did not run. JUnit files and logs: build/results/.
 set -uo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
@@ -41,7 +41,7 @@ done
 if [[ $mode == coverage && $tidy$analyse$soak != nonono ]]; then usage "--coverage excludes --tidy, --analyse and --soak"; fi
 if [[ $package == yes && $mode != full ]]; then usage "--package: packs a whole build, expected --full beside it"; fi
 
-# The same result from any shell: Debian's tools first, one locale, no settings of the caller's builds.
+# The result must not depend on the caller's shell: Debian's tools first, a fixed locale, no build settings from the environment.
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
 unset CXXFLAGS CPPFLAGS LDFLAGS CXX CC CMAKE_GENERATOR MAKEFLAGS DESTDIR LD_PRELOAD CDPATH
 unset "${!GTEST_@}" "${!CTEST_@}" "${!GCOV_@}"
@@ -96,7 +96,7 @@ logged() { # logged WHAT LOG COMMAND...: its exit code; what it says goes to the
   return "$code"
 }
 
-# All at once, where clang-tidy does not want to see each source by itself; in a tree that is edited it would cost each time.
+# Eight sources compile as one, unless clang-tidy needs each source separately. In a tree that is being edited, this would cost time at each build.
 together=(-DCANHIL_TOGETHER=OFF)
 if [[ $mode == full && $tidy$analyse == nono ]]; then together=(-DCANHIL_TOGETHER=ON); fi
 build() { # build PRESET [TARGET...]
@@ -104,7 +104,7 @@ build() { # build PRESET [TARGET...]
   shift
   { cmake --preset "$preset" "${together[@]}" || cmake --fresh --preset "$preset" "${together[@]}"; } >"$log" 2>&1 ||
     { tail -n 20 "$log"; failure "configuring $preset"; return 1; }
-  # -k 0: what still builds is still tested.
+  # -k 0: after an error, build and test everything else.
   if ! logged "building $preset" "$log" ninja -C "build/$preset" -j "$jobs" -k 0 "$@"; then
     progress_rest "$log"
     failure "building $preset"
@@ -114,7 +114,7 @@ build() { # build PRESET [TARGET...]
 run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
   local preset=$1 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
   shift
-  # One more than there are cores: many tests fly in real time or wait for a guest, and leave theirs idle.
+  # One more job than cores: many tests fly in real time or wait for a guest, and leave their core idle.
   logged "testing $preset" "$log" "${personality[@]}" ctest --test-dir "build/$preset" -j $((jobs + 1)) --timeout 300 \
     --output-on-failure --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" || code=$?
   progress_rest "$log"
@@ -126,13 +126,13 @@ run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
 }
 personality=()
 
-# Labels are joined by a plus sign (tests/CMakeLists.txt): "unit+threads" is of unit and of threads, "vcan-full" not of vcan.
+# A plus sign joins labels (tests/CMakeLists.txt): "unit+threads" has the labels unit and threads; "vcan-full" does not have the label vcan.
 labelled() { echo "(^|[+])($1)([+]|$)"; }
 
 optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default -L "$(labelled 'static|unit|processes|vcan')"; }
 optimised_all() { build default && run_ctest default; }
 
-# Whether the sanitizers run here: some need fixed addresses (setarch -R), the leak checker needs ptrace.
+# Tests whether the sanitizers work here: some need fixed addresses (setarch -R), the leak checker needs ptrace.
 probe_sanitizers() {
   local dir=$root/build/probe
   mkdir -p "$dir"
@@ -153,7 +153,7 @@ probe_sanitizers() {
 
 address_sanitizer() {
   echo "address, leak and undefined-behaviour sanitizers on: what reads input from outside, and both programs; docs/ci.md says what not"
-  # In a copy of the tree with one more estimator: what adds one breaks nothing, and costs no build of its own.
+  # In a copy of the tree with a fifth estimator: this tests adding an estimator without a separate build.
   local copy=$root/build/with_fifth
   echo "built with a fifth estimator in it (tests/fifth_estimator), in build/with_fifth"
   if ! python3 tests/fifth_estimator/add.py "$copy"; then failure "making $copy"; return; fi
@@ -161,9 +161,8 @@ address_sanitizer() {
   local dbcgen=build/asan/dbc/codegen/dbcgen kit=docs/examples/kit/canhil_messages
   { build asan dbcgen && "$dbcgen" dbc/canhil.dbc --fd -o dbc/canhil-fd.dbc && "$dbcgen" dbc/canhil.dbc --c -o $kit.h &&
     "$dbcgen" dbc/canhil.dbc --python -o $kit.py; } || failure "the contract of $copy"
-  # What the documentation shows of the contract is of the project's own. That each rule of conformance names its defect, that each
-  # shipped scenario is valid, and that a campaign may be killed at any time is no matter of memory; the latter two take a minute each.
-  # Long flights in real time run the code of the quick ones, and wait.
+  # Left out are tests that cannot find memory errors: the documentation tests, the test that each conformance rule detects its defect, the validity of
+  # the shipped scenarios, and killed campaigns (the last two take a minute each). Long flights in real time run the same code as the quick ones.
   build asan tests_input tests_processes tests_fuzz tests_fifth_estimator &&
     run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed|Bits[.]A|ThePapersFlight|Ecu[.]PassesInRealTime|DefectiveEcu|Faults[.]WhatIsKnown'
   cd "$root" || exit 2
@@ -177,8 +176,8 @@ thread_sanitizer() {
 coverage() {
   find build/coverage -name '*.gcda' -delete 2>/dev/null # the counts of an earlier run
   export GCOV_ERROR_FILE=/dev/null # a process without the right to write its counts says so, where a test expects one line
-  # Left out: two tests in which the program may not write files, and so not its counts.
-  # Half optimised, and counting, a long test takes twice its time.
+  # Without two tests in which the program may not write files: it could not write its counts.
+  # Less optimised and with counters, a long test takes twice its time.
   build coverage tests_unit tests_processes tests_pages &&
     run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
     python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"
