@@ -1,11 +1,13 @@
-"""Flies random scenarios with random faults, one after the other, against one target that lives all the while.
+"""Flies random scenarios with random faults, one after the other, against one target that runs all the time.
 
     python3 tests/soak/soak.py PROGRAMS [--minutes 60] [--seed 1] [--target COMMAND]
 
-PROGRAMS is the folder of hil-bench and hil-target. Each run is a bench of its own on an embedded bus that stands all the
-while (hil-bench bus), in lockstep and in real time by turns. What a run says of its estimator does not count here: faults make checks fail. What counts is that every run comes to
-its end, and that nothing grows with their number: memory and descriptors of the target and of the bus, those of the bench (its peaks), and files
-of either, whose folders for such things are this program's own. Ends with 0 only then.
+PROGRAMS is the folder of hil-bench and hil-target. Each run is a new bench process on one permanent embedded bus (hil-bench bus). Lockstep and real
+time alternate. The verdicts of the checks do not count, because faults make checks fail. Exit code 0 means that
+
+* every run came to its end;
+* memory and descriptors of the target, of the bus and of the bench (its peaks) do not grow with the number of runs;
+* neither do the files that the programs leave. Their folders for temporary files belong to this program alone.
 """
 
 import argparse
