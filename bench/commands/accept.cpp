@@ -49,7 +49,7 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
   }
   for (const std::string& name : arguments.families) {
     if (std::ranges::find(accept::families, name) == accept::families.end())
-      return failure(fmt::format("--family '{}': is none, expected one of: {}", name,
+      return failure(fmt::format("--family '{}': is unknown, expected one of: {}", name,
                                  fmt::join(accept::families, ", ")));
   }
   for (const std::string& name : arguments.estimators) {

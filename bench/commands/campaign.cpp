@@ -225,7 +225,7 @@ ExitCode replay(const ReplayArguments& arguments) {
     variant = &*found;
   }
   if (*arguments.run >= campaign->runs) {
-    return complain({fmt::format("{}: run {} is none of the campaign's, expected 0 to {}", arguments.file,
+    return complain({fmt::format("{}: run {} is not in the campaign, expected 0 to {}", arguments.file,
                                  *arguments.run, campaign->runs - 1)});
   }
   drive::Options options;

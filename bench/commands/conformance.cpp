@@ -136,7 +136,7 @@ void add_conformance(command_line::Command app, int& code) {
       "--estimator", arguments->estimator,
       "as which it is talked to (default: what its heartbeat names, else the first that it takes)");
   command.add_option("--scenario", arguments->scenario,
-                     "what it hears in flight (default: the quick flight of the estimator)");
+                     "its inputs in flight (default: the quick flight of the estimator)");
   command.add_option("--json", arguments->json,
                      "write the report as JSON to a file; -: to stdout, in place of the text");
   command.add_option("--junit", arguments->junit,

@@ -67,7 +67,7 @@ ExitCode record(const Arguments& arguments) {
     if (!read) return complain(read.error());
     if (read->recordings_hash != 0)
       return complain(
-          {fmt::format("{}: flies recordings, which are not kept beside it, expected a scenario "
+          {fmt::format("{}: uses recordings, which are not kept with it, expected a scenario "
                        "without 'recorded'",
                        scenario)});
     std::error_code unknown;

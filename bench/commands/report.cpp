@@ -26,8 +26,8 @@ Result<void> has_room_for_a_page(const std::string& path) {
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);
   if (std::filesystem::is_other(status))
-    return failure(
-        fmt::format("file '{}': is no regular file, expected one, as its page is to stand beside it", path));
+    return failure(fmt::format(
+        "file '{}': is not a regular file, expected one, as its page is to stand beside it", path));
   return report::check_writable(page_path(path));
 }
 

@@ -55,8 +55,7 @@ std::string refuses_another_estimator(Subject& subject) {
       subject.talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
   return beat && beat->state == TargetState::idle
              ? ""
-             : "a reset with an estimator that nobody has: " + described(beat) +
-                   ", expected idle and error_command";
+             : "a reset with an unknown estimator: " + described(beat) + ", expected idle and error_command";
 }
 
 std::string refuses_an_unknown_command(Subject& subject) {

@@ -16,7 +16,7 @@ using messages::TargetHeartbeat;
 Line target_line(const std::optional<TargetHeartbeat>& beat) {
   if (!beat)
     return {
-        Grade::weak, "target", "no heartbeat heard",
+        Grade::weak, "target", "no heartbeat received",
         "start it (`hil-target --bus ...`), or let the bench start one; then look at wiring and bit rate"};
   const std::string found =
       fmt::format("{}, DBC hash {:06x}", messages::name_of(beat->state), beat->dbc_hash);

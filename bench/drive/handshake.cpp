@@ -57,7 +57,7 @@ std::string refusal(const ParamAck& ack, Estimator estimator) {
     case ParameterStatus::accepted:
       break;
   }
-  return fmt::format("status {}, which is none of the DBC's", static_cast<int>(ack.status));
+  return fmt::format("status {}, which is not in the DBC", static_cast<int>(ack.status));
 }
 
 Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenario::Parameter& wanted) {

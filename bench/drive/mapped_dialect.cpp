@@ -91,13 +91,13 @@ class Strangers final : public observe::Observer {
       ids_.insert(received.frame.id);
   }
   [[nodiscard]] std::string to_text() const {
-    if (ids_.empty()) return "nothing was heard";
+    if (ids_.empty()) return "nothing was received";
     constexpr std::size_t most = 8;
     std::vector<std::string> some;
     for (const std::uint32_t id : ids_) {
       if (some.size() < most) some.push_back(fmt::format("{:X}", id));
     }
-    return fmt::format("only frames of other ids were heard: {}{}", fmt::join(some, ", "),
+    return fmt::format("only frames of other ids were received: {}{}", fmt::join(some, ", "),
                        ids_.size() > most ? ", ..." : "");
   }
 

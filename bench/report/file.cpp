@@ -60,7 +60,7 @@ Result<void> check_writable(const std::string& path) {
   // The finished file is renamed to this name, which would destroy a device, a pipe or a link.
   const fs::file_status there = fs::symlink_status(path, unknown);
   if (fs::exists(there) && !fs::is_regular_file(there)) {
-    return failure(fmt::format("file '{}': is no regular file, expected one or a new name", path));
+    return failure(fmt::format("file '{}': is not a regular file, expected one or a new name", path));
   }
   // Only creating a file proves that it is possible: root has write permission in /proc, but cannot create
   // files there.

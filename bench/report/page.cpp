@@ -113,10 +113,10 @@ Result<Json> read_document(const std::string& path) {
   }
   // The parser ends at a NUL, even if more text follows.
   if (document.is_discarded() || text->find('\0') != std::string::npos)
-    return failure(fmt::format("file '{}': is no JSON, expected a report of hil-bench run --json", path));
+    return failure(fmt::format("file '{}': is not JSON, expected a report of hil-bench run --json", path));
   if (!document.is_object() || !document.contains("schema") || document.at("schema") != schema)
     return failure(
-        fmt::format("file '{}': is no report, expected one with \"schema\": \"{}\"", path, schema));
+        fmt::format("file '{}': is not a report, expected one with \"schema\": \"{}\"", path, schema));
   if (const std::string why = why_not_whole(document); !why.empty())
     return failure(fmt::format("file '{}': {}", path, why));
   return document;

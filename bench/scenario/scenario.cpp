@@ -118,7 +118,7 @@ void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& con
   }
   root.optional("truth");
   for (const std::string_view key : keys_of(TruthOf::navigation, contract, {"initial_error"})) {
-    if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
+    if (root.has(key)) root.reject(key, "depends on a truth", "a table [truth] beside it");
   }
 }
 

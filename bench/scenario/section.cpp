@@ -294,7 +294,7 @@ std::vector<std::string> Section::some_of(std::string_view key, std::span<const 
   for (const toml::node& element : state_->elements(key, state_->ask(key), expected)) {
     const auto* name = element.as_string();
     if (name == nullptr) {
-      reject(key, "holds what is no name", expected);
+      reject(key, "contains a value that is not a name", expected);
     } else if (std::ranges::find(names, name->get()) == names.end()) {
       reject(key, fmt::format("'{}' is unknown", name->get()), expected_instead(name->get(), names));
     } else {
@@ -311,7 +311,7 @@ std::vector<std::string> Section::texts(std::string_view key) {
     if (const auto* text = element.as_string(); text != nullptr && !text->get().empty())
       all.push_back(text->get());
     else
-      reject(key, "holds what is no text", expected);
+      reject(key, "contains a value that is not text", expected);
   }
   return all;
 }
@@ -323,7 +323,7 @@ std::vector<std::int64_t> Section::integers(std::string_view key, std::int64_t l
     if (const auto* number = element.as_integer(); number != nullptr && number->get() >= least)
       all.push_back(number->get());
     else
-      reject(key, "holds what is none", expected);
+      reject(key, "contains a value that is not one", expected);
   }
   return all;
 }

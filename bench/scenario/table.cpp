@@ -91,7 +91,7 @@ Result<std::optional<Column>> find(std::string_view name, std::span<const std::s
     for (std::size_t index = 0; index < header.size(); ++index) {
       if (header[index] != candidate) continue;
       if (column)
-        return failure(fmt::format("{}:1: column '{}': is there beside '{}', expected one of the two", file,
+        return failure(fmt::format("{}:1: column '{}': is given beside '{}', expected one of the two", file,
                                    candidate, header[column->index]));
       column = Column{.index = index, .factor = factor_of(candidate) / factor_of(name)};
     }
@@ -142,7 +142,7 @@ Result<Table> read_table(std::string_view text, std::string_view file, std::span
       if (!value)
         return tl::unexpected(
             table.about(table.rows() - 1, index,
-                        fmt::format("'{}' is no number, expected one", shown(fields[column->index]))));
+                        fmt::format("'{}' is not a number, expected one", shown(fields[column->index]))));
       table.values.push_back(column ? *value * column->factor : 0);
     }
   }
@@ -157,7 +157,7 @@ Result<std::vector<std::int64_t>> times_of(const Table& table, std::size_t index
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double t_s = table.value(row, index);
     if (std::abs(t_s) > most_s)
-      return tl::unexpected(table.about(row, index, fmt::format("{:g} s is no time, expected one", t_s)));
+      return tl::unexpected(table.about(row, index, fmt::format("{:g} s is not a time, expected one", t_s)));
     t_us.push_back(std::llround(t_s * 1e6) - from_us);
     if (row > 0 && t_us[row] <= t_us[row - 1])
       return tl::unexpected(table.about(row, index,

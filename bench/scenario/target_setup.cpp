@@ -65,7 +65,7 @@ TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
 TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   if (contract.foreign != nullptr) return read_own_start(section, contract);
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
-    section.refuse(key, "is of a target with a mapping", "the key 'mapping' beside it");
+    section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
   target.estimator = section.one_of("estimator", contract.estimators);
   target.algorithm = section.one_of("algorithm", contract.algorithms);

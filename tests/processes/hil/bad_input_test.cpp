@@ -118,7 +118,7 @@ TEST(BadInput, AnEngagementThatCannotBeFlown) {
   expect_one_line(with("period_ms = 5\nthermal", "period_ms = 4.005\nthermal"),
                   "seeker interval 4005 us does not fit into SeekerAngles.interval_us");
   expect_one_line(with("[seeker]", "[gps]\n[seeker]"),
-                  "key 'gps': has nothing to go by, expected a table [truth] beside it");
+                  "key 'gps': depends on a truth, expected a table [truth] beside it");
 }
 
 TEST(BadInput, UnknownOption) {

@@ -294,7 +294,7 @@ TEST_F(Altered, VirtualTimeNeedsAnswersThatSayWhatTheyAnswer) {
 TEST(OwnEcu, ThatIsNotThereIsNamed) {
   const Ended ended = hil_bench(fmt::format("run {} --target none --bus local:{}", own_ecu,
                                             fs::path(scratch("x")).parent_path().filename().string()));
-  expect_one_line(ended, "none of ECU_Status within 5 s; nothing was heard");
+  expect_one_line(ended, "none of ECU_Status within 5 s; nothing was received");
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(RecordedImu, WhatIsWrongIsOneLine) {
             "'delta_theta_y_mrad', "
             "or 'rate_y_radps', its rate");
   EXPECT_EQ(error_of(samples_of(slave_imu, imu_rows(names + ",rate_z_radps", "0,0,0,0,0,0,0"))),
-            "x.csv:1: column 'rate_z_radps': is there beside 'delta_theta_z_rad', expected one of the two");
+            "x.csv:1: column 'rate_z_radps': is given beside 'delta_theta_z_rad', expected one of the two");
   EXPECT_EQ(error_of(samples_of(slave_imu, imu_rows(names, "0,0,0.2,0,0,0"))),
             "x.csv:3: column 'delta_theta_z_rad': 0.2 rad does not fit into signal delta_theta_z_rad, "
             "expected -0.131 to "
