@@ -60,8 +60,8 @@ TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
-// The same where a scenario's faults have the bench do it; what a controller's own driver tells is not made
-// up.
+// The same with faults that the scenario injects. Error frames cannot be injected here, because they come
+// from the controller's own driver.
 TEST(Interface, IsSetDownAndUpByAFaultOfTheScenario) {
   set_up_on_wire();
   const auto with_fault = [](const std::string& kind) {
@@ -106,7 +106,7 @@ TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndTold) {
       << "nobody acknowledged the bench's frames meanwhile";
 }
 
-// With nobody to acknowledge, the bench's controller tries its first frame for ever and its queue fills.
+// Without an acknowledgement, the bench's controller repeats its first frame endlessly, and its queue fills.
 TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
   set_up_on_wire();
   const Outcome outcome = run_with([] { set_interface("can0", false); });
@@ -146,7 +146,8 @@ TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndTold) {
       << "the frame that failed is lost, and counted";
 }
 
-// The bench knows why nobody is heard for longer than a target may be silent; the target has lost its input.
+// The bench reports why it received nothing for longer than a target may be silent; the target reports that
+// it has lost its input.
 TEST(BusOff, OnTheBenchsSideForLongEndsWithTheTargetsFaultNotItsSilence) {
   set_up_on_wire("", "restart-ms 700");
   const Outcome outcome = run_with([] {

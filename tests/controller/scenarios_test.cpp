@@ -43,8 +43,8 @@ TEST(LockstepAlso, TransferAlignmentPassesAt500kbps) {
   expect_pass_in_lockstep("transfer_alignment_quick");
 }
 
-// Whatever the emulated clock does to timing, which is the verdict's business. A machine that keeps the whole
-// guest waiting makes its programs miss each other: such a run is tried again.
+// The emulated clock can disturb the timing, but not the outputs. If the machine suspends the whole guest,
+// its programs miss each other; such a run is repeated.
 TEST(RealTime, TransferAlignmentPasses) {
   set_up("bitrate 1000000", "bitrate 1000000");
   const std::string name = "transfer_alignment_quick", report = scratch("report.json"),

@@ -27,7 +27,7 @@ TEST(VerticalChannel, DivergesWithoutAidAsGravitySays) {
   EXPECT_NEAR(channel.nav().height / 100, growth, 0.01);
 }
 
-// Told of a bias by what heights do: the sign and the size of all three errors.
+// The filter finds the bias from the heights: sign and size of all three errors.
 TEST(VerticalChannel, FindsTheBias) {
   VerticalChannel channel;
   const Settings settings{

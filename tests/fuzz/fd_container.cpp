@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (kind == fd) std::fill(frame.data.begin() + container.count * 8, frame.data.end(), std::uint8_t{0});
     if (!canhil::can_carry(frame, true)) continue;
     if (frame.fd) wire.push_back(frame);
-    if (is_empty(frame)) continue;  // an empty slot is a message that is not there
+    if (is_empty(frame)) continue;  // an empty slot: the message is not in the container
     if (!frame.fd) classic.push_back(frame);
     if (kind == fd) containers.push_back(frame);
   }

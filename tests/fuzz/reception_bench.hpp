@@ -162,7 +162,7 @@ class Bench {
   void seeker(const Spoil& spoil, std::int64_t interval_us) {
     using namespace messages;
     constexpr double closing = 900, first_range = 5000;
-    const double flown = closing * us * static_cast<double>(t_us % 5'000'000);  // then a target anew
+    const double flown = closing * us * static_cast<double>(t_us % 5'000'000);  // then a new target
     send(spoil, SeekerAntenna{.antenna_increment_yaw_rad = 1e-5, .antenna_validity = valid},
          SeekerAngles{.error_pitch_rad = 1e-3,
                       .interval_us = static_cast<double>(interval_us),

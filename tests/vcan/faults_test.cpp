@@ -114,8 +114,8 @@ TEST(SocketCan, AWaitWithoutDeadlineSeesTheReturn) {
   }
 }
 
-/// An interface that is removed and made anew has another index, and the sockets that were bound to it
-/// nothing.
+/// An interface that is removed and created anew has another index, and the sockets that were bound to the
+/// old one receive nothing.
 TEST(SocketCan, BindsToAnInterfaceThatWasMadeAnew) {
   const Interface interface("canhil7", 72);
   const auto a = open("canhil7", {.fd = true, .own_echo = true});

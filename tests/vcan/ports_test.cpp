@@ -72,7 +72,7 @@ TEST(SocketCan, CarriesFdFramesOfEverySize) {
 TEST(SocketCan, GivesTheKernelsStamps) {
   const auto a = open("vcan0");
   const auto b = open("vcan0");
-  bool stamping = false;  // the kernel turns it on a moment after it was asked for
+  bool stamping = false;  // the kernel enables it a moment after the request
   for (const std::int64_t deadline = in_seconds(5); !stamping && clock_ns(CLOCK_MONOTONIC) < deadline;) {
     a->send(frame_of(1));
     stamping = next_frame(*b)->source == StampSource::kernel;

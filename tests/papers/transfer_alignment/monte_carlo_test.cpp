@@ -53,8 +53,8 @@ TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
   EXPECT_GE(share_ahead(kalman, h2, 12), 0.88);
 }
 
-// P0 1 deg with fading memory is as good as H2; reference 12.0 / 12.4 / 13.6 for P scaled by exp(2 a dt), a =
-// 0.1 /s. Scaled by exp(a dt) it gives 13.1 / 13.9 / 16.5.
+// P0 1 deg with fading memory equals H2. Reference 12.0 / 12.4 / 13.6 for P scaled by exp(2 a dt), a = 0.1
+// /s. Scaled by exp(a dt) it gives 13.1 / 13.9 / 16.5.
 TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   Settings fading = kalman_1;
   fading.fading_per_s = 0.1;
@@ -64,7 +64,7 @@ TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   EXPECT_NEAR(convergence_time(runs, k1mrad), 13.6, 0.8);
 }
 
-// With master noise; H2 told the truth (P0 5 deg) diverges in some runs and is recorded, not judged.
+// With master noise. H2 with the true P0 (5 deg) diverges in some runs; it is recorded, not judged.
 TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
   Truth truth;
   truth.master_noise_sigma = 0.05;

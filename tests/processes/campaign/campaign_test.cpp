@@ -277,8 +277,8 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
-// In process: against the program it is the same to the last bit, and takes ten times as long. Under a
-// sanitizer two runs are enough to look at memory; the bars are for as many as the file says.
+// In process: the results are bit for bit those of the program, which takes ten times as long. With a
+// sanitizer, two runs are enough to test memory; the limits are for the number of runs in the file.
 TEST(Acceptance, TheTargetIsWithinTheBarsOfEveryCampaign) {
 #ifdef CANHIL_SANITIZED
   constexpr int runs = 2, worst_code = 1;
@@ -315,7 +315,7 @@ TEST(CampaignBadInput, IsOneLine) {
   expect_one_line(campaign("--shard 0/2 --json x.json --out " + at), "a shard has no report");
   expect_one_line(campaign("--json /no/such/x.json --out " + at), "/no/such/x.json");
   expect_one_line(campaign("--out /dev/full"), "/dev/full");
-  expect_one_line(campaign("--out /proc/none"), "/proc/none");  // where nobody may write
+  expect_one_line(campaign("--out /proc/none"), "/proc/none");  // a folder without write permission
   expect_one_line(campaign("--out /proc/none.sqlite"), "/proc/none.sqlite");
   expect_one_line(hil_bench(fmt::format("campaign merge {}/out.db {}", at, file)), "is no SQLite file");
   expect_one_line(hil_bench("campaign report " + file), "is no SQLite file");
@@ -380,7 +380,8 @@ TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {
   EXPECT_TRUE(merged(at) == undisturbed());
 }
 
-/// hil-bench as a user who may not write everywhere, as root may; copied to where that user may read it.
+/// Runs hil-bench as a user with limited write permission (root has all). The program is copied to a place
+/// that the user can read.
 std::string hil_bench_of_nobody() {
   if (geteuid() != 0) return HIL_BENCH;
   fs::permissions(scratch(""), fs::perms{0755});

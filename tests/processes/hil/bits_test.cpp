@@ -19,7 +19,7 @@ std::string record(const std::string& name, const std::string& options,
   return log;
 }
 
-// A record in real time that is whole: the property says nothing of another.
+// A complete recording in real time: the property does not apply to an incomplete one.
 std::string record_in_real_time(const std::string& name, const std::string& file = "transfer_alignment_quick",
                                 Ended* how = nullptr) {
   const std::string report = scratch(name + ".json");

@@ -73,7 +73,7 @@ TEST(Fd, RealTimeGivesTheSameFrames) {
   ADD_FAILURE() << "none of four runs was whole";
 }
 
-/// What is on an FD bus while it lives; hosts the bus if it is a local one.
+/// Records the frames on an FD bus during its lifetime; hosts the bus if it is local.
 class Wiretap {
  public:
   explicit Wiretap(const std::string& bus) {

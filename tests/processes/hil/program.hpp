@@ -21,10 +21,10 @@ Ended shell(const std::string& command);
 Ended hil_bench(const std::string& arguments);
 Ended hil_target(const std::string& arguments);
 
-/// The bus that these tests run over: "local:", or what CANHIL_TEST_BUS says.
+/// The bus of these tests: "local:", or the value of CANHIL_TEST_BUS.
 std::string bus();
 std::string scenario(const std::string& name);
-/// A file name in a folder of this test program alone.
+/// A file name in a folder that only this test program uses.
 std::string scratch(const std::string& name);
 std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
@@ -33,8 +33,8 @@ double figure(const nlohmann::json& report, const char* estimator, const char* l
 /// Here for all: a parser costs each unit that makes one over a second.
 nlohmann::json json_of(const std::string& text);
 
-/// The target's frames in a log, in order, from the first Sync on, without those that speak of the host or of
-/// the step.
+/// The target's frames in a log, in order, from the first Sync on, without the frames that report on the host
+/// or the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
 /// A run in real time of which counts and bits can be asked: a host that keeps a program waiting for half a
@@ -50,7 +50,7 @@ double largest_lateness_s(const nlohmann::json& report);
 /// most; the last one. A configuration that is refused is not tried again.
 Ended hil_bench_whole(const std::string& arguments, const std::string& report);
 
-/// Bad input: exit code 2, one line on stderr that says `what`, nothing on stdout.
+/// Bad input: exit code 2, one line on stderr that contains `what`, nothing on stdout.
 void expect_one_line(const Ended& ended, const std::string& what);
 
 /// Why the outputs of a run did not all pass, in words; empty: they did. Outputs are judged on any host; what

@@ -129,7 +129,7 @@ TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
   EXPECT_EQ(compared.code, 0) << compared.out;
 }
 
-// One scenario on the bus of each contract, with the check of the bounds.
+// One scenario on the bus of each format, with the check of the bounds.
 nlohmann::json with_bounds(const std::string& options) {
   std::ofstream(scratch("bounds.toml"))
       << read(scenario("los_quick")) << "\n[[check]]\nkind = \"wire_response\"\n";
@@ -161,7 +161,7 @@ std::string with_interval(const std::string& name, const std::string& message, i
   return path;
 }
 
-// An interval of the scenario is the period of the answers that keep it, whatever the cycle time in the DBC.
+// The interval in the scenario is the expected period of the answers, not the cycle time in the DBC.
 TEST(SimulatedWire, ThePeriodOfAnswersIsTheIntervalThatTheScenarioSets) {
   for (const auto& [name, message] :
        {std::pair("transfer_alignment_quick", "AlignAttitude"), std::pair("inflight_ssbl", "FixVelocityD"),
@@ -201,7 +201,7 @@ TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplai
   EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
 }
 
-// In real time, with the target's own account; how long a host takes is not judged.
+// In real time, with the target's own report of its times. The duration on the host is not judged.
 TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   const std::string report = scratch("fd.json");
   const Ended ended = hil_bench(

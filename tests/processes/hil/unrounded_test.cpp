@@ -37,7 +37,7 @@ TEST(Unrounded, TheRunPassesAndItsErrorsDifferByALittle) {
   EXPECT_EQ(exact["provenance"]["bus"], "in-process?unrounded") << "a report says how its frames travelled";
 }
 
-// Such frames exist in one process only: nothing that leaves it is said to hold them.
+// Such frames exist only within one process; output files do not claim to contain them.
 TEST(Unrounded, NoLogAndNoOtherBusCarriesThem) {
   const std::string run = fmt::format("{} run {} --bus ", HIL_BENCH, scenario("transfer_alignment_quick"));
   const Ended logged = shell(run + "'in-process?unrounded' --log " + scratch("unrounded.log"));

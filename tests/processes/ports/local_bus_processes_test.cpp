@@ -68,8 +68,8 @@ class Process {
 class LocalBusProcesses : public ::testing::Test {
  protected:
   void SetUp() override {
-    // These tests are about a bus that waits, on a machine of any speed, or one that stands still for
-    // minutes: what never comes is CTest's to end.
+    // These tests are for a bus that waits, on a machine of any speed that may stall for minutes. If a frame
+    // never comes, CTest ends the test.
     auto hub = host_local_bus(bus_, {.fd = true}, {.reading_limit_ns = 600'000'000'000});
     ASSERT_TRUE(hub) << hub.error().message;
     hub_ = std::move(*hub);

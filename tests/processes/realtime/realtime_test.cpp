@@ -40,7 +40,8 @@ constexpr bool memory_is_locked = false;
 constexpr bool memory_is_locked = true;
 #endif
 
-// Whether SCHED_FIFO is permitted is asked of another program. A user without root also needs the memory.
+// Another program tests whether SCHED_FIFO is permitted. A user other than root also needs a sufficient
+// memory limit.
 bool permitted() {
   return shell("chrt -f 40 true").code == 0 && (geteuid() == 0 || shell("ulimit -l").out == "unlimited\n");
 }
@@ -73,7 +74,7 @@ TEST(Realtime, IsNotInForceUnlessAskedFor) {
   EXPECT_EQ(process["locked_kib"], 0);
 }
 
-// What /proc says of the started target halfway through a run, and how many page faults the bench had
+// The state of the started target in /proc in the middle of a run, and the number of page faults of the bench
 // meanwhile.
 std::string started_target(const std::string& options) {
   const Ended seen = shell(fmt::format(

@@ -85,8 +85,8 @@ std::string frames_in_words(const std::string& log) {
   return text;
 }
 
-// Frames of every kind that the formats have in common. The first has whole milliseconds: python-can gives
-// the start of an ASC no more.
+// Frames of every kind that all formats support. The first has a time in whole milliseconds, because
+// python-can writes the start time of an ASC file with that resolution.
 std::string all_kinds() {
   return file("kinds.log",
               "(1790000000.123000) can0 7FF#0011223344556677 T\n(1790000000.123001) can1 101#00 R\n"

@@ -123,7 +123,7 @@ TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
   EXPECT_EQ(evaluation->outcome(), checks::Outcome::fail);
 }
 
-/// No file of this process grows beyond a limit, as on a disk that is full there; until the end of its scope.
+/// Limits the file size of this process, like a full disk, until the end of its scope.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

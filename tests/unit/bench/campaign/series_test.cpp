@@ -100,7 +100,7 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
     flown.seen.of<estimators::LosAnswers>().push_back(answer);
   }
   flown.seen.of<estimators::LosAnswers>()[0].outcome =
-      messages::LosRateOutcome::coasting;  // told, but no update
+      messages::LosRateOutcome::coasting;  // sent, but not from an update
   flown.seen.of<estimators::LosAnswers>()[1].outcome = messages::LosRateOutcome::waiting;
   flown.seen.of<estimators::LosAnswers>()[8].rate.pitch = 1;
   flown.seen.of<estimators::LosAnswers>()[8].blind = true;

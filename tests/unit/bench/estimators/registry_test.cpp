@@ -37,7 +37,7 @@ TEST(Registry, KnowsTheEstimatorsOfTheContract) {
   EXPECT_EQ(telling("height"), nullptr);
 }
 
-// What a misspelt parameter may mean: those that this target has.
+// Suggestions for a misspelt parameter: only parameters of this target.
 TEST(Registry, TheParametersAreThoseOfTheTarget) {
   const target::Device device;
   for (const auto estimator : messages::enumerators<messages::Estimator>) {

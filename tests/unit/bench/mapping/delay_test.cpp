@@ -13,7 +13,7 @@ namespace {
 
 constexpr scenario::Window whole{.from_us = 0, .to_us = 20'000'000};
 
-// A roll of 15 deg in 3 s, told every 10 ms `delay` late, with noise and an offset.
+// A roll of 15 deg in 3 s, sent every 10 ms with the delay `delay`, with noise and an offset.
 quantities::Track track(double delay, double noise, double offset, unsigned seed, double amplitude = 0.26) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;

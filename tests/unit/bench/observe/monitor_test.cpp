@@ -21,7 +21,7 @@ std::array<std::int64_t, 2> both(const checks::Histogram& histogram) {
   return {histogram.min_ns(), histogram.max_ns()};
 }
 
-// Both sides of the bus, as a monitor sees them.
+// Both sides of the bus, as the monitor sees them.
 class Watched : public testing::Test {
  protected:
   void sync(std::int64_t t_us) { transmit(Sync{.time_us = static_cast<std::uint64_t>(t_us)}, 0); }
@@ -412,7 +412,7 @@ TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
   EXPECT_EQ(latency<AlignVelocityD>().count(), 1U);
 }
 
-// At 1 Mbit/s a bit takes 1 us: what a frame takes is its length in bits.
+// At 1 Mbit/s a bit takes 1 us, so the duration of a frame in us is its length in bits.
 class OnAWire : public Watched {
  protected:
   OnAWire() : monitor_at_rate_(Asked{.wire = {.rates = {.nominal = 1'000'000}}}) {}

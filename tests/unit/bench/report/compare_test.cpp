@@ -207,7 +207,7 @@ TEST(Compare, ACheckThatFailsNowIsWorse) {
   EXPECT_EQ(compared(bad, bad).outcome, Comparison::no_worse);
 }
 
-// The check that no scenario asks for: it is there when the bus went off.
+// The implied check, which no scenario contains: it appears if the bus went off.
 Json with_bus_errors(Json report) {
   report["checks"].push_back(
       {{"name", "bus_errors"}, {"kind", "bus_errors"}, {"outcome", "fail"}, {"measured", "bus off 1"}});

@@ -92,7 +92,7 @@ TEST(PageSections, ShowsEachMessageBesideItsBound) {
   EXPECT_THAT(text(scenario_of(), run_on_a_wire()), Not(HasSubstr("bus load at 1000 kbit/s")));
 }
 
-// What the text tells of the estimators stands on the page too, drawn from the JSON.
+// The page shows the same results of the estimators as the text report, drawn from the JSON.
 TEST(PageSections, ShowsTheResultsOfAnAlignment) {
   const std::string page = page_of(run_of());
   EXPECT_THAT(page, AllOf(HasSubstr("<h2>Results</h2>"), HasSubstr("href=\"#results\""),

@@ -82,7 +82,7 @@ inline std::string error_of(std::string_view text) {
   return result ? "no error" : result.error().message;
 }
 
-/// What a scenario says of a node that is on its bus.
+/// The text of a scenario about a node on its bus.
 template <class Settings>
 Settings node_of(const Scenario& scenario) {
   for (const NodeSettings& node : scenario.nodes) {

@@ -44,7 +44,7 @@ TEST(Simulation, NeverExceedsTheAnalysis) {
   }
 }
 
-// The same for frames of any content, which the analysis knows by their size alone.
+// The same for frames of any content; the analysis knows only their size.
 TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   for (std::uint64_t seed = 0; seed < sets / 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -84,7 +84,7 @@ TEST(Simulation, NeverExceedsTheAnalysisOfQueuesInOrder) {
     const auto bounds = fifo_responses(set.streams, set.bus.rates);
     const auto by_priority = responses(set.streams, set.bus);
     auto dues = random_dues(set, 15 * longest_period(set), dice);
-    if (seed % 2 == 0) {  // all at once: what the bench does at the beginning of each step
+    if (seed % 2 == 0) {  // all at once, like the bench at the beginning of each step
       std::erase_if(dues, [&](const Due& due) { return due.due_ns < 2 * longest_period(set); });
       for (std::size_t i = set.streams.size(); i-- > 0;) dues.push_back({.stream = i});
     }
@@ -176,7 +176,8 @@ TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
   EXPECT_GT(beyond_the_first, 20);  // sets on which the analysis of 1994 is wrong are among them
 }
 
-// Errors no closer than the model says, each at any bit of a frame and with a flag of any length.
+// Errors with at least the distance of the model, each at any bit of a frame and with an error flag of any
+// length.
 TEST(Simulation, NeverExceedsTheAnalysisWithErrors) {
   std::uint64_t errors_seen = 0;
   for (std::uint64_t seed = 0; seed < sets / 2; ++seed) {

@@ -145,8 +145,8 @@ Inertial navigate(const FlightRecord& record) {
   return state;
 }
 
-// At 1 kHz the two-sample algorithms err by less than the bars: (rate * h)^4 with rates of 1 rad/s; the
-// trapezoid of position errs by h^2/12 times the change of acceleration, 1e-6 m.
+// At 1 kHz the errors of the two-sample algorithms are below the limits: (rate * h)^4 with rates of 1 rad/s;
+// the trapezoid rule for the position has an error of h^2/12 times the change of acceleration, 1e-6 m.
 class IndependentNavigator : public testing::TestWithParam<Flight> {};
 
 TEST_P(IndependentNavigator, FliesTheIncrementsBackToTheTruth) {

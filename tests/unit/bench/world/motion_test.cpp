@@ -75,7 +75,7 @@ TEST(Motion, TheLevelFlightCruisesThenAccelerates) {
 }
 
 TEST(Motion, TheWeaveIsCoordinated) {
-  // Without coning, the lateral specific force that roll leaves is the small part from the climb rate alone.
+  // Without coning, roll causes only the small lateral specific force of the climb rate.
   Weave smooth = weave;
   smooth.coning_amplitude = 0;
   smooth.pitch_amplitude = 0;

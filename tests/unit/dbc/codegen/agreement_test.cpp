@@ -95,7 +95,7 @@ struct Collect {
   }
 };
 
-/// Leaves integers that doubles hold exactly: the run-time codec takes doubles.
+/// Keeps integers that doubles represent exactly, because the run-time codec uses doubles.
 struct MakeExactAsDouble {
   template <class Member>
   void operator()(const SignalInfo& /*info*/, Member& member) const {

@@ -107,7 +107,7 @@ Message any_message() {
     }
     message.signals.push_back(std::move(signal));
   }
-  std::ranges::reverse(message.signals);  // a multiplexor may stand behind what it decides
+  std::ranges::reverse(message.signals);  // a multiplexor may come after the signals that it selects
   return message;
 }
 
@@ -162,7 +162,7 @@ RC_GTEST_PROP(PlanProperty, EncodesAsBitByBit, (double any)) {
   RC_ASSERT(data == expected);
 }
 
-// Up to 48 bits: doubles hold what the scale and the offset make of them.
+// Up to 48 bits, because doubles represent these values exactly with scale and offset.
 RC_GTEST_PROP(PlanProperty, RawValuesComeBack, (std::uint64_t any)) {
   Signal signal = any_signal(8, 0);
   RC_PRE(!signal.is_float() && signal.length <= 48);

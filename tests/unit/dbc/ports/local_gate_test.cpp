@@ -28,7 +28,7 @@ using ::testing::IsEmpty;
 constexpr uid_t nobody = 65534;
 constexpr std::int64_t ns_per_ms = 1'000'000;
 
-/// Runs in a process of uid `nobody`; what it returns.
+/// Runs a function in a process of the user `nobody` and returns its result.
 int as_nobody(const std::function<int()>& what) {
   const pid_t pid = ::fork();
   if (pid == 0) ::_exit(::setgid(nobody) == 0 && ::setuid(nobody) == 0 ? what() : 99);
@@ -37,7 +37,7 @@ int as_nobody(const std::function<int()>& what) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Buses of this test alone.
+/// Buses that only this test uses.
 class LocalGate : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -163,7 +163,7 @@ class AnotherUser : public LocalGate {
     for (const std::string& path : {runtime_, directory(), directory() + "/x.classic"})
       ::chmod(path.c_str(), 0777);
   }
-  /// Connects past all looks at the host, says Hello and sends a frame; 0, or errno.
+  /// Connects without the checks of the host, sends Hello and a frame. Returns 0 or errno.
   [[nodiscard]] int intrude() const {
     const Descriptor socket = local::connect_to(directory(), "x", Place::classic);
     if (!socket) return errno;

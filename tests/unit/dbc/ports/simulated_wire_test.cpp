@@ -192,7 +192,7 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   EXPECT_EQ(wire.state(0), NodeState::error_active);
 }
 
-/// What a controller told, in order: event, counters, time.
+/// The reports of a controller, in order: event, counters, time.
 struct Told {
   std::optional<BusEvent> event;
   int tx = 0, rx = 0;
@@ -249,7 +249,7 @@ TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
   EXPECT_EQ(errors.tx_counter_max, 0);
 }
 
-// 12 errors are a warning; one frame that is through ends it, and another frame is no news.
+// 12 errors cause a warning. One successful frame ends it; a further frame is not reported.
 TEST(SimulatedWire, TheWayBackIsToldAfterTheFrameThatLedThere) {
   SimulatedWire wire(rates, {{.told = true}, {}}, failing(0x123, 12));
   for (int i = 0; i < 2; ++i) wire.queue(0, frame(0x123), 0);

@@ -14,7 +14,7 @@ using namespace messages;
 constexpr double metres_per_degree = 110'977;  // of latitude at 37 deg [m]
 constexpr double latitude_deg = 37, longitude_deg = 127, height_m = 1000;
 
-// At rest, heading north, told so with the sigmas of an unknown heading.
+// At rest, heading north. The initial state is true, with the sigmas of an unknown heading.
 class Vehicle : public BenchSide {
  public:
   explicit Vehicle(float aiding, Algorithm algorithm = Algorithm::sin_cos,
@@ -154,7 +154,7 @@ struct BadFix {
 
 class BadFixes : public testing::TestWithParam<BadFix> {};
 
-// Each is answered with its reason and counted, and leaves no trace in what the target estimates.
+// Each is answered with its reason and counted, and does not change the estimate.
 TEST_P(BadFixes, AreAnsweredWithTheirReasonAndLeaveNoTrace) {
   for (const Algorithm algorithm : {Algorithm::ekf, Algorithm::ukf, Algorithm::sin_cos}) {
     const auto flight = [&](bool bad) {
@@ -216,7 +216,7 @@ TEST(InflightAlignment, AFixOlderThanTheHistoryIsLate) {
   EXPECT_EQ(bench.last<TargetCounters>()->late, 1);
 }
 
-// What an encoder that knows no limits makes of a NaN.
+// The frame of an encoder that does not check for NaN.
 TEST(InflightAlignment, TheRawMinimumIsNoRelativePosition) {
   Vehicle bench(by_ssbl);
   bench.imu_until(1'000'000);

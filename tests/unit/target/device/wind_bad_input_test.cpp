@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(
             }}),
     [](const auto& which) { return which.param.name; });
 
-// What an encoder that knows no limits makes of a NaN.
+// The frame of an encoder that does not check for NaN.
 TEST(Wind, TheRawMinimumIsNoAngle) {
   Glider bench;
   bench.fly(0, 10);

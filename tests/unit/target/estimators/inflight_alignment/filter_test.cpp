@@ -114,8 +114,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnywhere) {
   }
 }
 
-// Tilts of 40 deg, told as 30 deg: the first sample levels the INS, so that heading and sigma are those of a
-// level start. Not levelled by it one of them ends 3.4 sigma off.
+// Tilts of 40 deg with a configured sigma of 30 deg: the first sample levels the INS, so that heading and
+// sigma are those of a level start. Without this levelling, one filter ends 3.4 sigma off.
 TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   for (const double tilt_deg : {-40.0, 8.0, 40.0}) {
     RecordedRun from = inputs(Aiding::ssbl);
@@ -210,7 +210,8 @@ TEST(InflightFilter, AFixBeyondTheGateIsRefusedUntilTooManyAre) {
   }
 }
 
-// z = dR - rho: a fix to the north says that the INS is south, or that the fix is biased to the north.
+// z = dR - rho: a fix to the north means that the INS is too far south, or that the fix is biased to the
+// north.
 TEST(InflightFilter, AFixMovesPositionAndBiasTowardsItself) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);

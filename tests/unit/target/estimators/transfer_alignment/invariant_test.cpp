@@ -146,8 +146,8 @@ TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
   }
 }
 
-// H2 told 15 deg: its own covariance runs away in the cruise. Guarded it keeps to what the start told, and
-// says so.
+// H2 with an initial sigma of 15 deg: without a guard its covariance diverges in the cruise. With the guard
+// it stays below the initial one, and the filter reports it.
 TEST(InvariantLoop, GuardsH2AgainstItsOwnCovariance) {
   const Vector3d phi = Vector3d(5, -5, 15) * rad_per_deg;
   const Settings settings = told(Algorithm::robust_h2, Loop::invariant, 5, 15);
