@@ -30,7 +30,7 @@ struct Outcome {
   }
 };
 
-/// A run in real time; once it is under way, the trouble.
+/// A run in real time; the fault begins when the run is under way.
 Outcome run_with(const std::function<void()>& trouble, const std::string& name = "transfer_alignment_quick") {
   const std::string json = scratch("fault.json");
   Outcome outcome;
@@ -111,7 +111,7 @@ TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
   set_up_on_wire();
   const Outcome outcome = run_with([] { set_interface("can0", false); });
   EXPECT_FALSE(outcome.report["ending"]["completed"]);
-  // Silent since its last frame, which came just before the queue was full.
+  // Silent since its last frame, which it sent just before the queue was full.
   EXPECT_THAT(outcome.ended.out, testing::ContainsRegex("fail: .*the bus took no frame since t="));
   EXPECT_THAT(outcome.incidents(), Contains("error passive"));
   EXPECT_EQ(outcome.ended.code, 1);

@@ -10,8 +10,8 @@ namespace canhil::test {
 /// Sets both interfaces down and up again, as with `ip link set can0 up type can OPTIONS`.
 void set_up(const std::string& can0_options, const std::string& can1_options);
 
-/// Loads the wire that can fail, if it is not, and sets up both interfaces at 1 Mbit/s.
-/// Options of can0, of can1: besides the bit rate.
+/// Loads the kernel module of the wire, if it is not loaded, and sets up both interfaces at 1 Mbit/s. The
+/// arguments are further options of can0 and of can1.
 void set_up_on_wire(const std::string& can0_options = "", const std::string& can1_options = "");
 
 /// Sets the interface up or down at once, as `ip link set INTERFACE up` does.
@@ -44,10 +44,10 @@ class Target {
   std::string pid_;
 };
 
-/// hil-bench run ARGUMENTS on can1, given up after two minutes (exit code 124).
+/// Runs hil-bench run ARGUMENTS on can1. Ends it after two minutes (exit code 124).
 Ended bench_run(const std::string& arguments);
 
-/// The outcome of the checks of this kind in a report; "no such check".
+/// The outcome of the checks of this kind in a report, or "no such check".
 std::string outcome_of(const nlohmann::json& report, const std::string& kind);
 
 }  // namespace canhil::test

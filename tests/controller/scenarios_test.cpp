@@ -8,7 +8,7 @@
 namespace canhil::test {
 namespace {
 
-// In process on the same (emulated) processor: another one may take other instructions for a sine.
+// In process on the same (emulated) processor, because another one may compute a sine by other instructions.
 std::vector<Frame> frames_in_process(const std::string& name) {
   const std::string log = scratch("in_process.log");
   EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process --log {}", scenario(name), log)).code, 3);

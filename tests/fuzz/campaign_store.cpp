@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t runs = 2;
 
-// Every kind of metric, so that runs which may be anything reach them all.
+// Every kind of metric, so that arbitrary runs reach all of them.
 constexpr std::string_view asked = R"(title = "Two"
 runs = 2
 seed = 3
@@ -54,7 +54,7 @@ kind = "consistency"
 quantity = "innovation.nis"
 mean_between = [2.6, 3.4]
 )";
-// A folder of this process, in memory where there is one.
+// A folder of this process, in memory if possible.
 class Folder {
  public:
   Folder() { fs::create_directories(path_); }

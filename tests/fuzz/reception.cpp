@@ -75,7 +75,7 @@ class Answers {
   [[nodiscard]] const std::vector<Frame>& all() const { return all_; }
 
  private:
-  // Of a NaN packing makes the least angle that the message carries, -180 deg.
+  // Packing converts NaN to the smallest angle of the message, -180 deg.
   static void expect_pitch(double pitch_deg) { expect(std::abs(pitch_deg) < 90.01); }
   // All messages of a group are sent equally often; they are adjacent in the directory.
   void expect_whole_groups() const {

@@ -17,7 +17,7 @@
 
 namespace canhil::fuzz {
 
-/// What happens to the messages of one group on their way.
+/// Changes of the messages of one group on their way.
 struct Spoil {
   enum Flag : std::uint8_t { lose_one = 1, wrong_crc = 2, twice = 4, late = 8 };
 
@@ -79,7 +79,8 @@ class Bench {
     send(spoil, messages::TargetInitRate{}, messages::TargetInitAirVelocity{.air_velocity_x_mps = speed});
   }
 
-  /// What drives an estimator at its rate: a sample valid at t_us, `interval_us` after the one before.
+  /// The sensor that drives an estimator at its rate: a sample valid at t_us, `interval_us` after the one
+  /// before.
   void drive(messages::Estimator estimator, const Spoil& spoil, std::int64_t interval_us) {
     switch (estimator) {
       case messages::Estimator::transfer_alignment:

@@ -130,7 +130,7 @@ class Changes {
   std::span<const std::uint8_t> rest_;
 };
 
-// What `hil-bench report` and `hil-bench compare` do.
+// The operations of `hil-bench report` and `hil-bench compare`.
 void use(const std::string& text, const report::Reports& whole) {
   static const int file = ::memfd_create("report", 0);
   static const std::string path = "/proc/self/fd/" + std::to_string(file);

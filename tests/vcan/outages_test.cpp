@@ -35,7 +35,7 @@ struct Outcome {
   }
 };
 
-/// A run over vcan0 in real time; once it is under way, the trouble.
+/// A run over vcan0 in real time; the fault begins when the run is under way.
 Outcome run_with(const std::string& trouble, const std::string& more_checks = "") {
   std::ofstream(scratch("outage.toml")) << read(scenario("transfer_alignment_quick")) << more_checks;
   const std::string json = scratch("outage.json");

@@ -43,7 +43,7 @@ TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
   EXPECT_GE(share_ahead(h2, kalman, 12), 0.90);
 }
 
-// Keeps the H2 result from being sold as better than a correctly initialised Kalman filter.
+// A correctly initialised Kalman filter is better than H2.
 TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
   const auto results = monte_carlo({kalman_5, h2_filter}, {}, run_count, first_seed);
   const auto &kalman = results[0], &h2 = results[1];
@@ -76,8 +76,8 @@ TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
                  std::to_string(1e3 * heading_rms(results[1], update_count - 1)));
 }
 
-// P0, Q and R all true: the innovations are consistent, NIS 3. 300 runs x 200 updates of chi-square 3:
-// standard error 0.01; 5 deg squared (linearisation) is seen by the first updates only.
+// With true P0, Q and R the innovations are consistent: NIS 3. The standard error for 300 runs x 200 updates
+// of chi-square 3 is 0.01. The square of 5 deg (linearisation) only affects the first updates.
 TEST(TransferAlignmentPaper, HonestKalmanFilterIsConsistent) {
   Truth truth;
   truth.master_noise_sigma = std::sqrt(kalman_5.velocity_noise_density / update_interval);

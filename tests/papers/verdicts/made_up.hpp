@@ -49,7 +49,7 @@ inline campaign::Campaign read(const Paper& paper, const report::EmbeddedFile& f
   return std::move(*campaign);
 }
 
-/// A run in which every quantity has the same value all the time, in the unit that reports have.
+/// A run in which every quantity is constant, in the unit of the reports.
 inline campaign::RunSeries run_at(const campaign::Variant& variant, std::uint64_t run, double value) {
   const quantities::Layout& layout = estimators::of(variant.scenario).layout;
   campaign::RunSeries series{.run = run, .ending = {}, .samples = quantities::Samples(layout)};

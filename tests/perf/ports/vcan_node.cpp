@@ -78,7 +78,7 @@ class PortLine final : public Line {
   std::unique_ptr<Port> port_;
 };
 
-/// The least that a program can do: blocking read() and write(), no stamps, no check of anything.
+/// The minimum that a program can do: blocking read() and write(), without stamps and checks.
 class RawLine final : public Line {
  public:
   explicit RawLine(const std::string& interface) : socket_(::socket(AF_CAN, SOCK_RAW, CAN_RAW)) {

@@ -59,7 +59,7 @@ int complain(const std::string& what) {
   return 2;
 }
 
-/// How the echo reads and writes: by one blocking call each, and nothing else.
+/// The echo reads and writes by one blocking call each, and does nothing else.
 struct Bare {
   std::function<void()> read;
   std::function<void(const Frame&)> write;

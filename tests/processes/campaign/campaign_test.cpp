@@ -67,7 +67,7 @@ std::string merged(const std::string& in, const std::string& arguments = "*.sqli
   return read(out);
 }
 
-/// The merged bytes of a campaign that nothing disturbed, on one thread.
+/// The merged bytes of an undisturbed campaign on one thread.
 const std::string& undisturbed() {
   static const std::string bytes = [] {
     const std::string at = folder("undisturbed");
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(ShardsAndThreads, Divided,
                          testing::Values(std::pair{1, 1}, std::pair{1, 2}, std::pair{3, 1}, std::pair{3, 2},
                                          std::pair{7, 1}, std::pair{7, 2}));
 
-/// Starts hil-bench campaign, and kills it after a while unless it has ended. Whether it was killed.
+/// Starts hil-bench campaign and kills it after a while unless it has ended. Returns whether it was killed.
 bool start_and_kill(const std::string& file, const std::string& out, std::chrono::milliseconds after) {
   const pid_t child = fork();
   if (child == 0) {
@@ -115,7 +115,7 @@ TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
   expect_done(hil_bench(fmt::format("campaign {} --out {}", file, calm)));
   const auto whole = std::chrono::steady_clock::now() - start;
 
-  // Moments spread over the whole campaign, starts and commits included.
+  // Times of kills spread over the whole campaign, including starts and commits.
   std::mt19937_64 random(20010101);
   int killed = 0;
   for (int i = 0; i < kills; ++i) {
@@ -167,8 +167,8 @@ TEST(Export, IsATableOfWhatTheRunsTold) {
   expect_done(ended);
   EXPECT_THAT(ended.out,
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
-  // 30 runs of four variants with 12 quantities an update: two have 29, and two, whose updates come 150 ms
-  // late, 28.
+  // 30 runs of four variants with 12 quantities per update: two variants have 29 updates, and two, whose
+  // updates are 150 ms late, have 28.
   EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
@@ -367,7 +367,7 @@ TEST(CampaignBadInput, WhatHasNoEffectOnAPaper) {
 
 TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {
   const std::string at = folder("full");
-  // No file may grow beyond 100 KiB: a write that fails, as when a disk is full.
+  // No file may exceed 100 KiB: a write fails as on a full disk.
   const auto while_full = [&](const std::string& more) {
     return shell(
         fmt::format("ulimit -f 100; {} campaign {} --out {} {}", HIL_BENCH, campaign_file(), at, more));
@@ -392,7 +392,7 @@ std::string hil_bench_of_nobody() {
   return "setpriv --reuid=65534 --regid=65534 --clear-groups " + scratch("hil-bench");
 }
 
-// It is a program of its own, which need not be built.
+// It is a separate program, which may not be built.
 TEST(CampaignBadInput, WithoutItsProgramIsOneLineThatSaysHowItIsMade) {
   const std::string alone = folder("alone") + "/hil-bench";
   fs::copy_file(HIL_BENCH, alone);

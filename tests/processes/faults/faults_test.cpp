@@ -93,7 +93,7 @@ to_s = 2.3
               HasSubstr("| angles away | detected in"));
 }
 
-// The seeded defect: a signal that its sensor did not measure, which the target believes and is sure of.
+// The seeded defect: the target uses a signal that its sensor did not measure, and reports small sigmas.
 TEST(Faults, AViolationIsMadeSmallAndShowsAgain) {
   const std::string storm = file("storm.toml", R"(
 [[fault]]
@@ -161,7 +161,7 @@ TEST(Faults, ShardsAndAKillGiveTheSameBytes) {
   EXPECT_GT(json_in(whole).size(), 1000U);
   EXPECT_TRUE(json_in(whole) == json_in(shards));
 
-  // Killed when it has some cells, and cut in the middle of a line.
+  // Killed when it has some cells; the file is then truncated in the middle of a line.
   const std::string cells = killed + "/faults.jsonl";
   const pid_t child = fork();
   if (child == 0) {

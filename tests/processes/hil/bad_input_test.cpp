@@ -75,7 +75,7 @@ TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
 }
 
 TEST(BadInput, AMisspeltParameterIsOneOfItsEstimator) {
-  // Of all parameters gyro_bias_sigma_degph of the alignments would be the nearest.
+  // Among all parameters, gyro_bias_sigma_degph of the alignments would be the nearest.
   std::string text = read(scenario("wind_quick"));
   const std::string table = "[target.parameters]\n";
   const auto at = text.find(table);
@@ -357,7 +357,7 @@ TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
   EXPECT_FALSE(std::filesystem::exists(report));
 }
 
-// A target of another DBC: the test hosts the bus and beats with another hash.
+// A target with another DBC: the test hosts the bus and sends heartbeats with another hash.
 TEST(BadInput, TargetBuiltFromAnotherDbc) {
   const std::string bus = "local:other-dbc";
   auto hub = host_local_bus(bus, {});

@@ -25,7 +25,7 @@ using namespace canhil::messages;
 // Changes a frame, or returns that it is not sent.
 using Lie = std::function<bool(Frame&)>;
 
-// The message with other values under the same counter, if the frame is one.
+// The message with other values under the same counter, if the frame carries this message.
 template <class Message, class Change>
 void change(Frame& frame, const Change& values) {
   if (frame.id != Message::info.id) return;

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A run in virtual time, where timing is not measured, and what its report would be in other circumstances.
+// A run in virtual time, where timing is not measured, and its report as it would be in other circumstances.
 class OutputComplaints : public testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -43,7 +43,7 @@ std::optional<double> timing_bar_s(const nlohmann::json& check) {
   return bar->first == "output_period" ? value * std::stod(found[3]) / 100 : value;
 }
 
-/// By how much the bench was late for its own deadlines; 0 in lockstep, which has none.
+/// How late the bench was for its own deadlines; 0 in lockstep, which has none.
 }  // namespace
 
 double largest_lateness_s(const nlohmann::json& report) {

@@ -16,7 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// The text with other lines in place of those of a table; its header may have a comment.
+/// The text with the lines of a table replaced; the header of the table may have a comment.
 std::string with_table(const std::string& text, const std::string& table, const std::string& lines) {
   const std::size_t at = text.find("\n[" + table + "]") + 1;
   const std::size_t header_end = text.find('\n', at), end = text.find("\n[", header_end);
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, LogFlownAgain,
                                                "glider_nav", "fins"}}),
                          [](const auto& one) { return one.param.scenario; });
 
-/// The samples of a log's IMU and of its master, as a user would have them in files.
+/// The IMU and master samples of a log, as a user would have them in files.
 struct Csv {
   std::string imu =
       "t_s,delta_theta_x_rad,delta_theta_y_rad,delta_theta_z_rad,delta_v_x_mps,delta_v_y_mps,"

@@ -65,7 +65,7 @@ TEST(Run, ATargetKilledInMidRunIsNamed) {
                                             scenario("transfer_alignment"), bus(), mortal, report));
   EXPECT_EQ(ended.code, 1) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("fail: target silent since t="));
-  // Not at the end of the 20 s, but when the silence was noticed.
+  // The run ends when the silence is detected, not at the end of the 20 s.
   EXPECT_LT(read_json(report)["wall_s"].get<double>(), 15.0);
   EXPECT_LT(read_json(report)["ending"]["t_s"].get<double>(), 15.0);
 }
@@ -146,7 +146,8 @@ nlohmann::json with_bounds(const std::string& options) {
   return page;
 }
 
-/// A scenario with a line after that of a table, and a check of the period of a message behind it.
+/// A scenario with an additional line after the header of a table, and a check of the period of a message at
+/// the end.
 std::string with_interval(const std::string& name, const std::string& message, int within_percent) {
   constexpr std::string_view table = "[target.parameters]\n";
   std::string text = read(scenario(name));
@@ -307,7 +308,7 @@ TEST(Run, JsonToStdoutIsAloneThere) {
   EXPECT_THAT(ended.err, HasSubstr("a target says hello"));
 }
 
-// Every program looks at its standard output when it ends.
+// Every program checks its standard output when it ends.
 TEST(Output, ThatIsLostIsSaid) {
   const std::string log = scratch("lost.log");
   ASSERT_THAT(

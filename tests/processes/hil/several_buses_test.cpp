@@ -68,8 +68,9 @@ struct Flown {
   Counts main, aiding;
 };
 
-// The quick transfer alignment with the master INS on a bus of its own; `command` starts bench and target, of
-// the bench's words, the bus of all others and that of the master. Flown again where the host spoilt it.
+// The quick transfer alignment with the master INS on a separate bus. `command` starts bench and target; its
+// arguments are the words of the bench, the bus of all others and the bus of the master. Repeated if the host
+// disturbed the run.
 template <class Command>
 Flown fly(const Command& command) {
   Flown flown;

@@ -212,7 +212,7 @@ counter = {{ signal = "Count" }}
   EXPECT_THAT(ended.out, HasSubstr("CAN FD")) << ended.out;
 }
 
-// A copy of the example with a text in place of another.
+// A copy of the example with one text replaced.
 class Altered : public testing::Test {
  protected:
   Ended run_with(const std::string& file, const std::string& text, const std::string& instead) {

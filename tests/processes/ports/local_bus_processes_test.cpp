@@ -12,7 +12,7 @@
 namespace canhil {
 namespace {
 
-/// A process of the program node; killed with this if it has not ended.
+/// A process of the program node; the destructor kills it if it has not ended.
 class Process {
  public:
   Process(const std::string& role, const std::string& bus, int sender, std::uint64_t count) {
@@ -140,7 +140,7 @@ TEST_F(LocalBusProcesses, ThreeNodesAndTheHostSeeOneOrder) {
   }
 }
 
-/// Sends the stream of sender 0 from frame `from` on, waiting for room; how often there was none.
+/// Sends the stream of sender 0 from frame `from` on and waits for room. Returns how often there was none.
 int send_stream(Port& port, std::uint64_t from, std::uint64_t count) {
   int full = 0;
   for (std::uint64_t sent = from; sent < count;) {

@@ -37,7 +37,7 @@ void wait_for(Port& port, WaitFor what) {
   wait(port, what, no_deadline);
 }
 
-/// Sends its stream while it receives that of sender 0, which begins.
+/// Sends its stream while it receives the stream of sender 0, which starts first.
 void exchange(const Task& task) {
   const auto port = join(task, false);
   wait_for(*port, WaitFor::frame);

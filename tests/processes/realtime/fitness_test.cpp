@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 int some_cpu() { return std::stoi(shell("taskset -cp $$ | sed 's/.*[ ,-]//'").out); }
 bool may_have_priority(int priority) { return shell(fmt::format("chrt -f {} true", priority)).code == 0; }
 
-// The quick run with another quantile of the latency below 3 ms: by the median a few answers may be late, as
-// on a machine that others use too.
+// The quick run with another quantile of the latency limit of 3 ms: with the median, a few answers may be
+// late, as on a shared machine.
 std::string judged_by(const std::string& quantile) {
   const std::string path = scratch(fmt::format("quantile_{}.toml", quantile));
   const Ended edited = shell(fmt::format(
@@ -134,8 +134,8 @@ TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
   expect_not_measured(ended, read_json(report));
 }
 
-// Too seldom to take the CPU away for a share of the run worth speaking of, but for longer than the 10 ms
-// between two stimuli.
+// The interruptions are too rare to take a noticeable share of CPU time, but longer than the 10 ms between
+// two stimuli.
 TEST(CpuHog, OfAHigherPriorityLeavesTheWorstLatencyNotMeasured) {
   if (!may_have_priority(41)) {
     std::cerr << "SCHED_FIFO 41 is not permitted here: only the hog of the bench's own priority is tried\n";

@@ -13,7 +13,7 @@ namespace {
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-// A command with neither the limits nor the capabilities; root loses them by the bounding set.
+// Runs a command with neither the limits nor the capabilities; root loses them by the bounding set.
 Ended without_rights(const std::string& command) {
   const std::string drop = geteuid() == 0 ? "setpriv --bounding-set -sys_nice,-ipc_lock " : "";
   return shell(fmt::format("prlimit --rtprio=0 --memlock=65536 {}{}", drop, command));
@@ -33,7 +33,8 @@ TEST(Realtime, IsRefusedWithTheRemedyByBothPrograms) {
                   fmt::format(fmt::runtime(remedy), user, HIL_BENCH));
 }
 
-// The sanitizers' own mlockall does nothing: they cannot have the terabytes of their shadow locked.
+// The sanitizers replace mlockall by a function that does nothing, because the terabytes of their shadow
+// memory cannot be locked.
 #ifdef CANHIL_SANITIZED
 constexpr bool memory_is_locked = false;
 #else

@@ -53,7 +53,7 @@ inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
   return series;
 }
 
-/// The same, of a run that ended early: with its last value.
+/// The same for a run that ended early, at its last value.
 inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values,
                             const Quantity& quantity = quantities::attitude_heading) {
   RunSeries series = run_with(run, values, quantity);
@@ -63,7 +63,7 @@ inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values
   return series;
 }
 
-/// Values up to 3 s, the end of the quick flight: after those given the last of them.
+/// Values up to 3 s, the end of the quick flight: the given values, then the last of them repeated.
 inline std::vector<double> held(std::vector<double> values) {
   constexpr std::size_t updates = 30;
   values.resize(updates, values.back());

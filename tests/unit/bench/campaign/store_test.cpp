@@ -61,7 +61,7 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 
 class Damaged : public testing::Test {
  protected:
-  /// The error of what was damaged; "": the same report comes of it. Another report is a failure.
+  /// The error of a damaged file; "" if it gives the same report. Another report is a failure.
   std::string complaint_of(const std::string& bytes) {
     write(copy_, bytes);
     const auto report = report_on(copy_);
@@ -73,7 +73,7 @@ class Damaged : public testing::Test {
     EXPECT_EQ(*report, whole_) << "another report from damaged results";
     return "";
   }
-  /// The error after a change that leaves the file a sound database.
+  /// The error after a change that leaves a valid database.
   std::string complaint_after(const std::string& sql) {
     write(copy_, bytes_);
     SQLite::Database(copy_, SQLite::OPEN_READWRITE).exec(sql);

@@ -41,7 +41,7 @@ struct Came {
   std::optional<std::uint8_t> counter{};
 };
 
-// A run of 4 s at rest with perfect answers; tests spoil it.
+// A run of 4 s at rest with perfect answers; tests change it.
 class Judged : public testing::Test {
  protected:
   Judged() {
@@ -291,7 +291,8 @@ TEST_F(Judged, CountersByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
-// Stalled for 5 of 400 stimuli: as many late frames pass its p99, and the answers' periods would not.
+// Stalled for 5 of 400 stimuli: the p99 of lateness tolerates this number of late frames, the periods of the
+// answers would not.
 TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   const OutputPeriod period{.message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
   ASSERT_EQ(judge(period).outcome, Outcome::pass);

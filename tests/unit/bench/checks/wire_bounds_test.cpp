@@ -94,8 +94,8 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   EXPECT_TRUE(wire_bounds(seen_).empty());
 }
 
-// Three messages each way in a container of 24 bytes: 20 + 12 bits at the nominal rate, 246 + 33 at that of
-// the data; of the heartbeat's 8 bytes 86 + 28.
+// Three messages each way in a container of 24 bytes: 20 + 12 bits at the nominal bit rate, 246 + 33 at the
+// data bit rate; 86 + 28 for the 8 bytes of the heartbeat.
 TEST_F(OnTheWire, OnCanFdTheBoundIsThatOfTheContainer) {
   constexpr std::int64_t container_ns = 32'000 + 69'750, heartbeat_ns = 32'000 + 28'500;
   seen_.timing.wire = {.rates = {.nominal = 1'000'000, .data = 4'000'000}, .fd = true};

@@ -267,8 +267,8 @@ TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   EXPECT_GT(run->seen.bus.late_in_queue, 0U);
 }
 
-// Every attempt fails at its first bit, at 1 kbit/s: heartbeats that are due while the device is off the bus
-// wait for its return, and are tried then, not when the next one is due.
+// Every attempt fails at its first bit, at 1 kbit/s. Heartbeats that are due while the device is bus-off wait
+// for its return and are sent then, not when the next one is due.
 TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
   const WireSettings noisy{.rates = {.nominal = 1'000}, .bit_error_rate = 1};
   InProcessWire port("noisy", noisy, BusFormat::classic);
@@ -281,8 +281,8 @@ TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
     }
   }
   ASSERT_GT(at_ns.size(), 64U);
-  // From the flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of the next
-  // try.
+  // From the error flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of the
+  // next attempt.
   EXPECT_EQ(at_ns[32] - at_ns[31], (12 + 11 + 128 * 11 + 1) * 1'000'000);
 }
 

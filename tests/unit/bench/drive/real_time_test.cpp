@@ -39,8 +39,8 @@ TEST_F(RealTime, SendsTheWholeSchedule) {
   EXPECT_EQ(port_.sent.size(), 6U);
 }
 
-// FakePort has no descriptor: without a spin the link does not sleep either, so a port with one that stays
-// silent.
+// FakePort has no descriptor, so the link does not sleep even without a spin. Therefore this port has a
+// descriptor that stays silent.
 class SilentPort final : public FakePort {
  public:
   SilentPort() { EXPECT_EQ(::pipe(ends_.data()), 0); }

@@ -54,7 +54,7 @@ TEST(Registry, TheParametersAreThoseOfTheTarget) {
   }
 }
 
-// The table of docs/quantities.md, as the code has it.
+// The table of docs/quantities.md, generated from the code.
 std::string table() {
   std::string rows;
   std::vector<const Quantity*> by_name(every_quantity().begin(), every_quantity().end());

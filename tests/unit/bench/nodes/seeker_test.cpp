@@ -44,7 +44,7 @@ class Bench {
                                                    .glide = nullptr,
                                                    .engagement = &record_})) {}
 
-  /// The next sample; none: it was lost, or the engagement is over.
+  /// The next sample; none if it was lost or the engagement is over.
   std::optional<Sample> next() {
     out_.clear();
     const std::int64_t due_us = node_->due_us();
@@ -66,7 +66,7 @@ class Bench {
     return samples;
   }
 
-  /// The target's answer to a sample, as the bus brings it.
+  /// The target's answer to a sample, as received from the bus.
   void answer(std::int64_t cause_us, world::Planes<double> rate,
               LosRateOutcome outcome = LosRateOutcome::updated, bool blind = false, bool spoilt = false,
               world::Planes<double> target = {}) {

@@ -114,7 +114,7 @@ Json report_of(const std::vector<int>& sample_us) {
 Compared compared(const Json& a, const Json& b) { return compare({a}, {b}).value(); }
 Compared compared(const Reports& a, const Reports& b) { return compare(a, b).value(); }
 
-// Runs of one target on one host: the median of each is a little elsewhere.
+// Runs of one target on one host: the median differs slightly from run to run.
 Reports runs_about(const std::vector<double>& medians_us, unsigned seed) {
   Reports runs;
   for (const double median_us : medians_us) runs.push_back(report_of(latencies_us(seed++, median_us)));

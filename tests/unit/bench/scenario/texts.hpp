@@ -56,7 +56,7 @@ inline std::string with(std::string_view from, std::string_view to, std::string_
   return changed.replace(at, from.size(), to);
 }
 
-/// `valid` with lines put after its table header [section].
+/// `valid` with lines inserted after its table header [section].
 inline std::string inside(std::string_view section, std::string_view lines) {
   return with(section, std::string(section) + "\n" + std::string(lines));
 }

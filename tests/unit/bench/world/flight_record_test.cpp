@@ -51,8 +51,8 @@ TEST(FlightRecord, AtRestTheAccelerometersFeelMinusGravityAndTheGyrosTheEarth) {
   const double gravity = surface * (1 - 2 * (1 + f + m - 2 * f * s2) * x + 3 * x * x);
   const Vector3 omega_ie(earth_rate * std::cos(seoul.latitude), 0, -earth_rate * std::sin(seoul.latitude));
   for (const Truth& truth : record.epochs()) {
-    // Normal gravity at height leans north by some 8e-6 m/s^2 a kilometre: that part is checked by the other
-    // tests.
+    // Normal gravity at height leans north by about 8e-6 m/s^2 per kilometre; the other tests check this
+    // part.
     EXPECT_NEAR((truth.C_bn * truth.f_ib_b).z(), -gravity, 1e-6);
     EXPECT_LT((truth.C_bn * truth.f_ib_b).head<2>().norm(), 1e-5);
     EXPECT_LT((truth.omega_ib_b - C_nb * omega_ie).norm(), 1e-18);

@@ -34,7 +34,7 @@ class LocalBus : public ::testing::Test {
     const auto node = open_port(bus_, options);
     return node ? "joined" : node.error().message;
   }
-  /// Sends numbered frames until the port has no room; how many it took.
+  /// Sends numbered frames until the port has no room. Returns their number.
   static std::uint32_t fill(Port& port, std::uint32_t id) {
     std::uint32_t n = 0;
     while (port.send(numbered(id, n)) == SendOutcome::sent) ++n;

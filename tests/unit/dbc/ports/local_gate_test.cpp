@@ -60,7 +60,7 @@ class LocalGate : public ::testing::Test {
     for (int twice = 0; twice < 2; ++twice) EXPECT_FALSE(hub.receive());
     return node ? std::move(*node) : nullptr;
   }
-  /// Lets the hub work, as its host does, until `done`, or 10 s have gone by: false.
+  /// Runs the hub like its host does until `done`; false after 10 s.
   static bool serve(Port& hub, const std::function<bool()>& done) {
     const std::int64_t deadline = in_seconds(10);
     while (!done()) {
@@ -158,7 +158,7 @@ class AnotherUser : public LocalGate {
   void TearDown() override {
     if (::geteuid() == 0) LocalGate::TearDown();
   }
-  /// As if nothing but the credentials kept others away.
+  /// As if only the credentials kept other users away.
   void open_to_all() const {
     for (const std::string& path : {runtime_, directory(), directory() + "/x.classic"})
       ::chmod(path.c_str(), 0777);
@@ -321,7 +321,7 @@ TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
   EXPECT_THAT(hub->nodes(), ElementsAre("node"));
 }
 
-// Three nodes have more waiting than the hub may take at once.
+// Three nodes have more frames waiting than the hub takes at once.
 TEST_F(LocalGate, FramesThatTheHostDoesNotWantKeepItNoLongerThanOthers) {
   const auto hub = host_local_bus("local:x", {.only_ids = {1}}).value();
   std::vector<std::unique_ptr<Port>> senders;

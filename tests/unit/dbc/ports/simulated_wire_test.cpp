@@ -184,7 +184,8 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   SimulatedWire wire(rates, {{}, {.depth = 200}, {}}, failing(0x100, 32));
   wire.queue(0, frame(0x100), 0);
   for (int i = 0; i < 200; ++i) wire.queue(1, frame(0x700), bit_ns);
-  // The other node's frames go where the passive sender is silent, and all the time once it is off.
+  // The other node's frames are sent while the passive sender is silent, and continuously while it is
+  // bus-off.
   while (wire.state(0) != NodeState::bus_off) ASSERT_TRUE(wire.next(long_enough));
   for (int i = 0; i < 126; ++i) ASSERT_TRUE(wire.next(long_enough));
   EXPECT_EQ(wire.state(0), NodeState::bus_off);

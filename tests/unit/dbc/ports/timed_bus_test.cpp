@@ -76,7 +76,7 @@ TEST_F(TimedBus, TheHostHearsItsOwnFrameWhenItIsOver) {
   EXPECT_EQ(hub->counters().sent, 1U);
 }
 
-// The untimed bus would take the nodes in turn, the one that joined first before the other.
+// The untimed bus would serve the nodes in turn, in the order in which they joined.
 TEST_F(TimedBus, TheLowestIdOfThoseThatWaitIsNext) {
   const auto hub = host("?bitrate=1000");
   const auto first = join(*hub), second = join(*hub);
@@ -142,7 +142,7 @@ TEST_F(TimedBus, CarriesFdAtTwoBitRates) {
   EXPECT_EQ(next_frame(*hub)->t_ns - first_ns, duration_ns(fd, rates));
 }
 
-// About one attempt in 20 is hit: warnings, perhaps error passive, but no bus-off.
+// About one attempt in 20 is disturbed: warnings, perhaps error passive, but no bus-off.
 TEST_F(TimedBus, ADisturbedBusLosesNothing) {
   const auto hub = host("?bitrate=1000000&bit-error-rate=5e-4&seed=2");
   const auto node = join(*hub);

@@ -95,7 +95,8 @@ TEST(InflightAlignment, AnSsblFixIsTheShipsPositionPlusTheRelative) {
   EXPECT_GT(bench.last<FixBiasSigma>()->fix_bias_sigma_north_m, 2);
 }
 
-// The parameters say 2 m: a fix that states more is weighed by that, one that states less by the parameters.
+// The parameters state 2 m. A fix with a larger sigma is weighted by its own sigma, a fix with a smaller one
+// by the parameters.
 TEST(InflightAlignment, AFixThatStatesALargerSigmaWeighsLess) {
   const auto sigmas = [](float aiding, double stated_m) {
     Vehicle bench(aiding);
@@ -257,7 +258,7 @@ TEST(InflightAlignment, WithoutAGateEveryFixIsTaken) {
   EXPECT_TRUE(bench.device().running());
 }
 
-// Velocities after fixes that come `late` [us] after their validity.
+// Velocities after fixes that arrive `late` [us] after their validity.
 double north_after(std::int64_t late_us, float late_fixes) {
   Vehicle bench(by_gps, Algorithm::sin_cos, {{.parameter = Parameter::late_fixes, .value = late_fixes}});
   for (std::int64_t t = 100'000; t <= 8'000'000; t += 100'000) {

@@ -204,7 +204,7 @@ std::vector<Parameter> own_parameters() {
   return own;
 }
 
-// A value that no limit hinders: the default lies inside of every range.
+// A value without a limit of its own: the default is inside of every range.
 TEST(LosRateParameters, AreReadBackRefusedOutsideTheirRangeAndWhileRunning) {
   ASSERT_EQ(own_parameters().size(), 25U);
   for (const Parameter parameter : own_parameters()) {
@@ -272,7 +272,7 @@ TEST(LosRateParameters, SettingsReachTheEstimator) {
             2 * slow.sigma.los_rate_sigma_pitch_radps);
 }
 
-// At the ends of the ranges, in random company, no design and no gain leaves the numbers.
+// At the ends of the ranges, in random combinations, all designs and gains stay finite.
 TEST(LosRateParameters, TheEndsOfTheRangesKeepTheEstimatorWhole) {
   std::mt19937_64 engine(1);
   // Largest and smallest accepted of a rough scan.

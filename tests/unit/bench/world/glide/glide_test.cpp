@@ -87,7 +87,8 @@ TEST(Glide, MomentumFollowsForceAndMoment) {
   }
 }
 
-// The estimator's equations, which have the air velocity as a state, hold along a truth that does not.
+// The equations of the estimator, which has the air velocity as a state, hold along the truth, which does not
+// have it.
 TEST(Glide, ObeysTheTargetsEquations) {
   const GlideRecord record = flown(in_steady_wind({20, 40, 0}), 10);
   const wind::Design design = wind::make_design({});

@@ -133,8 +133,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   }
 }
 
-// The vehicle's acceleration of 1 m/s^2 tilts what the first sample levels by 6 deg: a start that is known
-// better is left as it is.
+// The vehicle's acceleration of 1 m/s^2 tilts the levelling of the first sample by 6 deg, so a start that is
+// better known is not levelled.
 TEST(InflightFilter, OnlyAnUnknownTiltIsLevelled) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::ssbl);
   const RecordedRun& from = inputs(Aiding::ssbl);
@@ -275,7 +275,7 @@ TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   }
 }
 
-// Fixes that come `late` samples late, through a history; the last ones before the run ends.
+// Fixes that arrive `late` samples late, through a history; the last ones arrive before the run ends.
 template <class Late>
 State run_late(const Settings& settings, Late late) {
   const RecordedRun& from = inputs(settings.aiding);

@@ -120,7 +120,7 @@ TEST(ClosedGain, TablesAreWithinTheirInterpolationErrorOfTheClosedForms) {
   }
 }
 
-// Below the crossing the thermal gain is far too high: the mistake the switch is there for.
+// Closer than the crossing range the thermal gain is far too high: the switch prevents this mistake.
 TEST(ClosedGain, ThermalGainBelowTheCrossingIsCaught) {
   const Settings settings;
   const double Ts = settings.sample_period, psd = 1e-20 * Ts;
@@ -154,7 +154,8 @@ TEST(Statistics, NisAndSigmasAreConsistent) {
   }
 }
 
-// The paper forgets the transient: from the start on, Kalman filter first is no worse than half again.
+// The paper ignores the transient. From the start on, the error is at most 1.5 times that of the Kalman
+// filter.
 TEST(StartUp, KalmanFilterFirstThenTheClosedGain) {
   EngagementSetup setup = setup_of(Algorithm::combined);
   int start_up = 0, updated = 0;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
                                 Algorithm::low_pass};
 
-// The next sample that arrives, after `lost` that do not.
+// The next sample that arrives after `lost` lost ones.
 Measurement next_after(Engagement& engagement, int lost) {
   for (int k = 0; k < lost; ++k) engagement.next();
   Measurement m = engagement.next();
@@ -27,7 +27,7 @@ struct Flown {
   State state = initial();
 };
 
-// Every sample arrived until so many seconds are left.
+// Every sample arrives until this time to go [s].
 Flown flown(Algorithm algorithm, double time_to_go) {
   Flown now{.setup = setup_of(algorithm)};
   while (now.engagement.truth().range == 0 || now.engagement.truth().time_to_go > time_to_go)

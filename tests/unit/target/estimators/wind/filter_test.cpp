@@ -133,7 +133,7 @@ TEST(WindFilter, UsesTheFinsThatActedOverTheStep) {
   EXPECT_LT(on_time, 0.8 * late);
 }
 
-// Nothing known of the wind: it is found all the same.
+// Without initial knowledge of the wind, the filter still finds it.
 TEST(WindFilter, StartsWithoutKnowledgeOfTheWind) {
   const RecordedRun run;
   const Design design = make_design(Settings());
