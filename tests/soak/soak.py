@@ -99,6 +99,8 @@ class Contract:
             "stranger": {"period_ms": round(draw.uniform(0.5, 20), 2)},
             "flood": {"period_us": draw.randint(200, 1000)},
         }.get(kind, {"messages": [name] if draw.random() < 0.5 else sorted(messages)})
+        if kind == "invalid" and all((least, most) != (0, 1) for signals in messages.values() for _, least, most in signals):
+            kind = "silent"  # no signal of this node is a flag
         return {"kind": kind} | keys
 
 

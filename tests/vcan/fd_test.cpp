@@ -20,7 +20,7 @@ TEST(Fd, AClassicInterfaceIsRefusedWithTheRemedy) {
       remedy);
 }
 
-/// A target on vcan0 while it lives; what it said.
+/// A target on vcan0 during its lifetime, and its output.
 std::string with_target(const std::string& options, const std::string& then) {
   const std::string said = scratch("target.err");
   const Ended ended = shell(

@@ -13,7 +13,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
-// Where the names of curves end in a wide sans-serif, in every drawing of a part of the page.
+// The right ends of the curves' names in a wide sans-serif font, in every drawing of a part of the page.
 void expect_names_within(const std::string& html, const std::string& name) {
   const std::regex drawing("viewBox=\"0 0 ([0-9]+) [0-9]+\"");
   const std::regex label(

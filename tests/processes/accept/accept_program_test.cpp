@@ -71,7 +71,7 @@ class Accept : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_ + "/small");
     std::ofstream(folder_ + "/small/suite.toml") << suite;
-    // Three seconds without bars: what it is judged by here is the suite's.
+    // A flight of three seconds without limits: the suite judges it.
     std::string flight = read(scenario("transfer_alignment_quick"));
     flight.resize(flight.find("[[check]]"));
     std::ofstream(folder_ + "/small/flight.toml")
@@ -114,7 +114,7 @@ TEST_F(Accept, ATargetThatMeetsEveryRequirementPasses) {
 TEST_F(Accept, AnAnswerThatIsNotTheReferencesIsNamed) {
   ASSERT_EQ(accept("--record").code, 0);
   change("flight.toml", "accel_noise_ugprthz = 50",
-         "accel_noise_ugprthz = 80");  // the target is told another noise
+         "accel_noise_ugprthz = 80");  // the target gets a wrong noise parameter
   const Ended ended = accept("--family algorithms");
   EXPECT_EQ(ended.code, 1) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("FAIL          S-2"));
@@ -169,7 +169,7 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }
 
-// Each suite without what takes minutes: that the target passes as it is.
+// Each suite without its long parts: the unchanged target passes.
 TEST(Suites, ProtocolAndStatesOfTheTargetPass) {
   const Ended ended = hil_bench("accept --family protocol --family parameters --estimator los_rate");
   EXPECT_EQ(ended.code, 0) << ended.out;

@@ -52,7 +52,8 @@ TEST_P(Shipped, EveryMetricAsksForARequirement) {
   }
 }
 
-// The suite's own table, so that a target is held to what is published and not to this program.
+// The suite has a table of its own, so that a target is compared with the published values and not with this
+// program.
 class OfOneEstimator : public Shipped {};
 
 TEST_P(OfOneEstimator, RangesAreThoseOfTheTarget) {

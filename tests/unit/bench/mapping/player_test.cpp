@@ -98,7 +98,7 @@ std::string mapping_with(const std::string& text, const std::string& instead) {
   return mapping.replace(at, text.size(), instead);
 }
 
-// What a run plays, until it is over.
+// The frames that a run plays until its end.
 struct Flown {
   explicit Flown(const scenario::Scenario& scenario)
       : mapping(dynamic_cast<const Mapping&>(*scenario.foreign)),

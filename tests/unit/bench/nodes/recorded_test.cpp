@@ -138,7 +138,7 @@ TEST(RecordedGps, TakesItsSignalsByNameAndWrapsAngles) {
   EXPECT_EQ(from_frame<GpsTime>(frames[2]).time_of_validity_us, 500'000U);
 }
 
-// A table of every kind can be read from columns of its signals: nobody is left out.
+// The table of every kind of node can be read from columns of its signals.
 TEST(Recorded, EveryKindOfNodeHasColumns) {
   for (const Kind* kind : all()) {
     const auto columns = columns_of(kind->table);

@@ -56,7 +56,7 @@ Result<Scenario> read(const std::string& csv, const std::string& keys = "from_s 
   return parse(text, "s.toml", contract, {}, folder());
 }
 
-/// What is said of the file, after "s.toml:10: key 'truth.file': FOLDER/".
+/// The error about the file, after "s.toml:10: key 'truth.file': FOLDER/".
 std::string complaint(const std::function<void(std::vector<Row>&)>& change,
                       const std::string& keys = "from_s = 5") {
   std::vector<Row> all = rows();
