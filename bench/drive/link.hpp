@@ -44,9 +44,9 @@ class Link {
   /// Now on the clock of all deadlines here: Port::monotonic_ns().
   [[nodiscard]] std::int64_t now_ns() const { return port_.monotonic_ns(); }
 
-  /// Port::tell_time(), and the observers.
+  /// Port::set_time(), and the observers.
   void tell_time(std::int64_t t_ns) {
-    port_.tell_time(t_ns);
+    port_.set_time(t_ns);
     for (observe::Observer* observer : observers_) observer->time_told(t_ns);
   }
 

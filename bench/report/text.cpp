@@ -34,7 +34,8 @@ std::string words(const estimators::ResultLine& line) {
 std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
   constexpr std::size_t shown = 20;
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
-  if (const std::string said = canhil::words(bus.errors); !said.empty()) lines += fmt::format(" ({})", said);
+  if (const std::string said = canhil::to_text(bus.errors); !said.empty())
+    lines += fmt::format(" ({})", said);
   lines += fmt::format("; interface down {} times; late in transmit queue {} frames", bus.downs,
                        bus.late_in_queue);
   if (bus.foreign > 0) lines += fmt::format("; {} frames in the format that it is not to have", bus.foreign);
@@ -166,7 +167,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
   if (run.host) {
     page +=
-        fmt::format("  bench {}{}\n", realtime::words(*run.host),
+        fmt::format("  bench {}{}\n", realtime::to_text(*run.host),
                     run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
   }
   for (const std::string& line : period_overrides(scenario)) page += fmt::format("  {}\n", line);

@@ -52,7 +52,7 @@ struct Standing {
 Standing standing();
 
 /// One line: "SCHED_FIFO 40, CPU 1, 71 MiB locked, timer slack 1 ns, governor performance, PREEMPT_RT".
-std::string words(const Standing& standing);
+std::string to_text(const Standing& standing);
 
 /// A warning line if the frequency of the CPUs follows the load; else empty.
 std::string frequency_warning(const Standing& standing);
