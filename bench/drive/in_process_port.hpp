@@ -42,11 +42,11 @@ class InProcessPort final : public Port {
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
   [[nodiscard]] Capabilities capabilities() const override {
-    return {.in_process = true, .time = BusTime::told, .rounding = rounding_};
+    return {.in_process = true, .time = BusTime::set, .rounding = rounding_};
   }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] std::int64_t now_ns() const override { return now_ns_; }
-  void tell_time(std::int64_t t_ns) override { now_ns_ = t_ns; }
+  void set_time(std::int64_t t_ns) override { now_ns_ = t_ns; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:

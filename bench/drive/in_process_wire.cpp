@@ -18,7 +18,8 @@ InProcessWire::InProcessWire(std::string name, const WireSettings& settings, Bus
       fd_(format == BusFormat::fd),
       facts_(settings.facts()),
       wire_(settings.rates,
-            {{.order = settings.order, .told = true}, {.order = settings.order, .told = true}},
+            {{.order = settings.order, .reports_errors = true},
+             {.order = settings.order, .reports_errors = true}},
             disturbance(settings)) {}
 
 SendOutcome InProcessWire::send(const Frame& frame) {

@@ -46,7 +46,7 @@ class Link {
 
   /// Passes the virtual time to the port and the observers.
   void tell_time(std::int64_t t_ns) {
-    port_.tell_time(t_ns);
+    port_.set_time(t_ns);
     for (observe::Observer* observer : observers_) observer->time_told(t_ns);
   }
 

@@ -307,7 +307,7 @@ BusFormat format_of(const scenario::Scenario& scenario) {
 
 ClockKind clock_of(BusTime time, bool lockstep) {
   if (time == BusTime::waits) return ClockKind::simulated_wire;
-  return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
+  return lockstep || time == BusTime::set ? ClockKind::lockstep : ClockKind::real_time;
 }
 
 Options in_lockstep_against(std::string command) {

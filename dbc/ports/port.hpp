@@ -73,7 +73,7 @@ struct WireFacts {
 /// The time that passes on a bus.
 enum class BusTime : std::uint8_t {
   host,  ///< real time
-  told,  ///< virtual: the time that Port::tell_time() set last
+  set,   ///< virtual: the time that Port::set_time() set last
   waits  ///< virtual: it advances while a caller waits
 };
 
@@ -118,8 +118,8 @@ class Port {
   /// The current time of the clock of deadlines [ns]: CLOCK_MONOTONIC, unless the port simulates time that
   /// advances by waiting.
   [[nodiscard]] virtual std::int64_t monotonic_ns() const { return clock_ns(CLOCK_MONOTONIC); }
-  /// Sets the virtual time since the start of the run, for ports with BusTime::told. Others ignore it.
-  virtual void tell_time(std::int64_t /*t_ns*/) {}
+  /// Sets the virtual time since the start of the run, for ports with BusTime::set. Others ignore it.
+  virtual void set_time(std::int64_t /*t_ns*/) {}
   /// As given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// For several buses behind one port: the name of one, and the one to which send() passes a frame.

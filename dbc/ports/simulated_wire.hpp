@@ -29,8 +29,8 @@ enum class NodeState : std::uint8_t { error_active, error_passive, bus_off };
 
 struct WireNode {
   QueueOrder order = QueueOrder::priority;
-  std::size_t depth = 64;  ///< of the queue, in frames, including the one on the wire
-  bool told = false;       ///< its controller reports errors, see SimulatedWire::report()
+  std::size_t depth = 64;       ///< of the queue, in frames, including the one on the wire
+  bool reports_errors = false;  ///< its controller reports errors, see SimulatedWire::report()
 };
 
 /// One attempt to send a frame.
@@ -95,8 +95,8 @@ class SimulatedWire {
   /// due before until_ns must be queued first.
   std::optional<Carried> next(std::int64_t until_ns);
 
-  /// The next report of a node with `told`, in order of time. Reports that exist when next() returns a frame
-  /// are later than that frame.
+  /// The next report of a node with reports_errors, in order of time. Reports that exist when next() returns
+  /// a frame are later than that frame.
   std::optional<WireReport> report();
   [[nodiscard]] bool has_report() const { return !reports_.empty(); }
 
@@ -149,7 +149,7 @@ class SimulatedWire {
   Carried succeed();
   void fail();
   void go_off(Node& node);
-  void tell(std::size_t node, std::int64_t t_ns, SeenError seen);
+  void report_to_host(std::size_t node, std::int64_t t_ns, SeenError seen);
   void finish();
   void idle_until(std::int64_t t_ns);
   void see_recessive(std::int64_t runs, std::int64_t last_ns);

@@ -47,11 +47,12 @@ TEST(Fd, ATargetOfTheOtherContractIsNamedBeforeTheBenchGivesUp) {
 TEST(Fd, ATargetTellsThatItHearsTheOtherContract) {
   EXPECT_EQ(
       with_target("", "cansend vcan0 0A0##10011223344556677"),
-      "0\nhil-target: vcan0: hears CAN FD frames (canhil-fd), 1 since the start, expected classic frames "
+      "0\nhil-target: vcan0: received CAN FD frames (canhil-fd), 1 since the start, expected classic frames "
       "(canhil)\n");
-  EXPECT_EQ(with_target("--dbc canhil-fd", "cansend vcan0 0A0#0011223344556677"),
-            "0\nhil-target: vcan0: hears classic frames (canhil), 1 since the start, expected CAN FD frames "
-            "(canhil-fd)\n");
+  EXPECT_EQ(
+      with_target("--dbc canhil-fd", "cansend vcan0 0A0#0011223344556677"),
+      "0\nhil-target: vcan0: received classic frames (canhil), 1 since the start, expected CAN FD frames "
+      "(canhil-fd)\n");
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST(BitErrors, BitsOfTheDataPhaseAreShorter) {
 // bus-off.
 TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    SimulatedWire wire(rates, {{.order = QueueOrder::fifo}, {.told = true}, {}},
+    SimulatedWire wire(rates, {{.order = QueueOrder::fifo}, {.reports_errors = true}, {}},
                        BitErrors(2e-4, rates, seed));
     constexpr std::uint32_t rounds = 300;
     std::array<std::uint32_t, 3> arrived{};

@@ -214,7 +214,7 @@ std::vector<Told> events(std::vector<Told> told) {
 }
 
 TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
-  SimulatedWire wire(rates, {{.told = true}, {}}, failing(0x100, 1000));
+  SimulatedWire wire(rates, {{.reports_errors = true}, {}}, failing(0x100, 1000));
   wire.queue(0, frame(0x100), 0);
   BusErrors errors;
   std::vector<Told> told;
@@ -239,7 +239,8 @@ TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
 }
 
 TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
-  SimulatedWire wire(rates, {{}, {.told = true}}, failing(0x123, 3, {.after_ns = 20 * bit_ns, .at = 1}));
+  SimulatedWire wire(rates, {{}, {.reports_errors = true}},
+                     failing(0x123, 3, {.after_ns = 20 * bit_ns, .at = 1}));
   wire.queue(0, frame(0x123), 0);
   while (!wire.next(long_enough)) ASSERT_TRUE(wire.has_report());
   BusErrors errors;
@@ -252,7 +253,7 @@ TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
 
 // 12 errors cause a warning. One successful frame ends it; a further frame is not reported.
 TEST(SimulatedWire, TheWayBackIsToldAfterTheFrameThatLedThere) {
-  SimulatedWire wire(rates, {{.told = true}, {}}, failing(0x123, 12));
+  SimulatedWire wire(rates, {{.reports_errors = true}, {}}, failing(0x123, 12));
   for (int i = 0; i < 2; ++i) wire.queue(0, frame(0x123), 0);
   BusErrors errors;
   std::vector<Told> told;
@@ -271,7 +272,7 @@ TEST(SimulatedWire, TheWayBackIsToldAfterTheFrameThatLedThere) {
 }
 
 TEST(SimulatedWire, WhatNobodyHearsIsNotAcknowledged) {
-  SimulatedWire wire(rates, {{.told = true}});
+  SimulatedWire wire(rates, {{.reports_errors = true}});
   wire.queue(0, frame(0x100), 0);
   EXPECT_FALSE(wire.next(1'000'000));
   BusErrors errors;
