@@ -120,7 +120,7 @@ Frame error_frame(const ControllerNews& news) {
   return frame;
 }
 
-std::string words(const BusErrors& errors) {
+std::string to_text(const BusErrors& errors) {
   const std::array<std::pair<std::string_view, std::uint64_t>, 13> said{
       {{"bus off", errors.bus_off},
        {"restarted", errors.restarted},

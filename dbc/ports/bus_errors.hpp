@@ -66,6 +66,6 @@ Frame error_frame(const ControllerNews& news);
 
 /// "bus off 1, restarted 1, no acknowledgement 12; error counters at most tx 136, rx 0"; empty without error
 /// frames.
-std::string words(const BusErrors& errors);
+std::string to_text(const BusErrors& errors);
 
 }  // namespace canhil

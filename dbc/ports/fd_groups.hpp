@@ -26,7 +26,7 @@ constexpr std::string_view name_of(BusFormat format) {
   return format == BusFormat::fd ? "canhil-fd" : "canhil";
 }
 /// "CAN FD (canhil-fd)".
-constexpr std::string_view words(BusFormat format) {
+constexpr std::string_view to_text(BusFormat format) {
   return format == BusFormat::fd          ? "CAN FD frames (canhil-fd)"
          : format == BusFormat::fd_frames ? "CAN FD frames"
                                           : "classic frames (canhil)";

@@ -39,11 +39,11 @@ Gate::Admission Gate::admit(std::vector<Peer>& peers) {
   if (!socket) return Admission::none;
   const Process process = process_behind(socket.get());
   if (!is_of_this_user(process)) {
-    tell(fmt::format("a process ({})", words(process)), "is another user's and was refused");
+    tell(fmt::format("a process ({})", to_text(process)), "is another user's and was refused");
     return Admission::refused;
   }
   if (peers.size() >= rules_.most_nodes) {
-    tell(fmt::format("a process ({})", words(process)),
+    tell(fmt::format("a process ({})", to_text(process)),
          fmt::format("was refused: the bus has {} nodes, its most", peers.size()));
     return Admission::refused;
   }
@@ -70,7 +70,7 @@ void Gate::drop_silent(std::vector<Peer>& peers, bool fd_bus) {
     Frame no_frame;
     const Reading last = read(peer, fd_bus, none, no_frame);
     if (last == Reading::joined) return false;  // it had spoken; it was the host that did not look
-    if (last == Reading::nothing) tell(words(peer), "never said who it is and was dropped");
+    if (last == Reading::nothing) tell(to_text(peer), "never said who it is and was dropped");
     if (last == Reading::nonsense) tell_of_nonsense(peer);
     return true;
   });
@@ -82,12 +82,12 @@ bool Gate::has_waited_enough(const Peer& peer, std::int64_t now_ns) const {
 }
 
 void Gate::tell_of_dropped_reader(const Peer& peer) {
-  tell(words(peer), "did not read what the bus brought and was dropped");
+  tell(to_text(peer), "did not read what the bus brought and was dropped");
 }
 
 void Gate::tell_of_nonsense(const Peer& peer) {
-  tell(words(peer), peer.joined ? "sent what is no frame of this bus and was dropped"
-                                : "did not join as a node of this version does and was dropped");
+  tell(to_text(peer), peer.joined ? "sent what is no frame of this bus and was dropped"
+                                  : "did not join as a node of this version does and was dropped");
 }
 
 void Gate::set_alarm(const std::vector<Peer>& peers) {

@@ -109,7 +109,7 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   if (!socket) return failure(why_not_joined(bus, *directory, name->name, options.fd, errno));
   if (const local::Process host = local::process_behind(socket.get()); !local::is_of_this_user(host)) {
     return failure(fmt::format("bus '{}': its host is {}, expected a process of uid {}", bus,
-                               local::words(host), ::geteuid()));
+                               local::to_text(host), ::geteuid()));
   }
 
   local::Hello hello;

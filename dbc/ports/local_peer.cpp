@@ -30,9 +30,9 @@ Reading read_hello(Peer& peer) {
 
 }  // namespace
 
-std::string words(const Peer& peer) {
+std::string to_text(const Peer& peer) {
   return fmt::format("{} ({})", peer.joined ? fmt::format("node '{}'", peer.name) : "a process",
-                     words(peer.process));
+                     to_text(peer.process));
 }
 
 Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame) {

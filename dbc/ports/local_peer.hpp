@@ -34,7 +34,7 @@ struct Peer {
 constexpr std::int64_t worked_off_ns = 250'000;
 
 /// Who it is, for a person: "node 'hil-target' (pid 17 of uid 1000)".
-std::string words(const Peer& peer);
+std::string to_text(const Peer& peer);
 
 /// What came of reading from a node.
 enum class Reading : std::uint8_t { nothing, joined, frame, nonsense, gone };

@@ -132,7 +132,7 @@ Process process_behind(int socket) {
   return {.pid = credentials.pid, .uid = credentials.uid};
 }
 
-std::string words(const Process& process) {
+std::string to_text(const Process& process) {
   return fmt::format("pid {} of uid {}", process.pid, process.uid);
 }
 

@@ -54,7 +54,7 @@ struct Process {
 };
 Process process_behind(int socket);
 /// "pid 17 of uid 1000".
-std::string words(const Process& process);
+std::string to_text(const Process& process);
 /// Only processes of the same user share a bus, root not excepted.
 bool is_of_this_user(const Process& process);
 

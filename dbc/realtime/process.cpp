@@ -153,7 +153,7 @@ Standing standing() {
           .preemption = preemption()};
 }
 
-std::string words(const Standing& standing) {
+std::string to_text(const Standing& standing) {
   return fmt::format(
       "{}{}, CPU {}, {} MiB locked, timer slack {} ns, {}{}, {}", standing.policy,
       standing.priority > 0 ? fmt::format(" {}", standing.priority) : "", list(standing.cpus),

@@ -53,7 +53,7 @@ struct Standing {
 Standing standing();
 
 /// One line: "SCHED_FIFO 40, CPU 1, 71 MiB locked, timer slack 1 ns, governor performance, PREEMPT_RT".
-std::string words(const Standing& standing);
+std::string to_text(const Standing& standing);
 
 /// The line for a person when the frequency of the CPUs follows the load; else empty.
 std::string frequency_warning(const Standing& standing);

@@ -38,8 +38,8 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
   std::exit(1);
 }
 
-/// Anonymous memory alone: the pages of the program and its libraries come in when their code first runs, which
-/// is no leak.
+/// Anonymous memory alone: the pages of the program and its libraries come in when their code first runs,
+/// which is no leak.
 std::int64_t resident_kib() {
   std::ifstream file("/proc/self/statm");
   std::int64_t size = 0;
@@ -85,7 +85,7 @@ class Memory {
     most_kib_ = std::max(warm ? most_kib_ : 0, now_kib);
   }
   [[nodiscard]] bool flat() const { return most_kib_ - warm_kib_ <= flat_kib; }
-  [[nodiscard]] std::string words() const {
+  [[nodiscard]] std::string to_text() const {
     return fmt::format("{} KiB, at most {} KiB", warm_kib_, most_kib_);
   }
 
@@ -103,7 +103,7 @@ std::unique_ptr<Port> open(const std::string& interface, bool own_echo) {
 int verdict(std::string_view who, const Port& port, const Tally& tally, std::uint64_t sent,
             const Memory& memory) {
   fmt::print("{:<9} {} frames: {} lost, {} reordered, {} overflowed; resident {}\n", who, tally.received(),
-             tally.lost(sent), tally.reordered(), port.counters().overflowed, memory.words());
+             tally.lost(sent), tally.reordered(), port.counters().overflowed, memory.to_text());
   const bool good = sent > 0 && tally.lost(sent) == 0 && tally.reordered() == 0 && tally.received() == sent;
   return good && memory.flat() ? 0 : 1;
 }

@@ -66,7 +66,7 @@ inline Result<std::vector<Round>> record_flight(const std::string& file, const s
 
   RecordingPort port;
   drive::Link link(port);
-  drive::Schedule schedule = drive::make_schedule(*scenario, *truth, flight->own_truth, run_index, false);
+  drive::Schedule schedule = drive::make_schedule(*scenario, *truth, flight->per_run_truth, run_index, false);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
   auto ready = drive::configure(link, schedule.outbox(), scenario->targets, flight->initial, gone);
   if (!ready) return tl::unexpected(ready.error());

@@ -45,7 +45,7 @@ Flown fly(const std::vector<scenario::Setting>& settings = {}) {
   EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
   checks::Verdict verdict =
       checks::judge(*scenario, {.seen = flown->seen,
-                                .truth = truth_of(*truth, flown->own_truth, scenario->duration_us),
+                                .truth = truth_of(*truth, flown->per_run_truth, scenario->duration_us),
                                 .estimators = estimators::all(),
                                 .ended_early = flown->ending.detail,
                                 .timing_unfit = "virtual time"});

@@ -217,10 +217,9 @@ TEST(Mapping, SaysWhatIsWrongInOneLine) {
             "\"Answer.Roll\" beside it");
   EXPECT_EQ(refused("every_ms = 20", ""),
             "ecu.mapping.toml:5: key 'play[1].every_ms': is missing, expected a number above 0");
-  EXPECT_EQ(
-      refused("message = \"Answer\"", "message = \"Rates\""),
-      "ecu.mapping.toml:15: key 'hear[1].message': Rates is played or heard already, expected each message "
-      "once");
+  EXPECT_EQ(refused("message = \"Answer\"", "message = \"Rates\""),
+            "ecu.mapping.toml:15: key 'hear[1].message': Rates is already used, expected each message "
+            "once");
 }
 
 }  // namespace

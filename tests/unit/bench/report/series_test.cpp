@@ -73,7 +73,7 @@ TEST(Series, CarryTheBarsOfTheChecksThatJudgeThem) {
   EXPECT_EQ(find(series(scenario_of(), run), "heading error"), nullptr) << "nobody judges it";
   const scenario::Check convergence = checks::check_of(
       checks::Convergence{
-          .of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+          .judged = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
           .within = 0.003,
           .before_us = 5'000'000,
           .end_us = duration_us},
