@@ -1,5 +1,5 @@
-// Any text as a scenario: a Scenario, or one line that names the file. What was read goes on to where a run
-// begins, if that is short: its truth, its nodes and their first transmissions.
+// Any text as a scenario gives a Scenario, or one line that names the file. A short scenario is then prepared
+// as for a run: its truth, its nodes and their first transmissions.
 #include <cstdint>
 
 #include "bench/drive/contract.hpp"

@@ -1,6 +1,6 @@
-// The bench against a target that may say anything: handshake, run, verdict, reports and a campaign's samples
-// of what was heard. The input says what becomes of the answers of a sound device; most are left as they are,
-// so that a run goes on to its end and what is odd meets what is not.
+// The bench against a target that sends anything: handshake, run, verdict, reports, and the samples that a
+// campaign would store. The input changes the answers of a correct device. Most answers stay unchanged, so
+// that runs reach their end and changed answers meet unchanged ones.
 #include <atomic>
 #include <cstdint>
 #include <nlohmann/json.hpp>

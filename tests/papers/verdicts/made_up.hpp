@@ -1,4 +1,4 @@
-// What a paper's campaigns would have given, made up: every figure is as a test wants it, nothing is flown.
+// Artificial results of a paper's campaigns: a test sets every figure, and nothing is flown.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// A flight as questions and answers: what the target will say to every frame, known beforehand.
+// A flight as pairs of frames and answers: the target's answer to every frame, computed in advance.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Reading campaigns: variants, sweeps, and one line for every mistake.
+// Reading campaigns: variants, sweeps, and one error line for every mistake.
 #include "bench/campaign/campaign.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Runs made up for a test, and the texts of a short campaign.
+// Artificial runs for tests, and the text of a short campaign.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Campaigns of the wind: the mean error of a run, and what a run leaves behind.
+// Campaigns of the wind: the mean error of a run, and the stored samples of a run.
 #include <gmock/gmock.h>
 
 #include <cmath>

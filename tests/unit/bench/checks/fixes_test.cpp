@@ -1,4 +1,4 @@
-// Checks of what the target made of position fixes, and of what it bridged.
+// Checks of how the target used position fixes, and which gaps it bridged.
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Every kind of check: what passes, what fails, what cannot be measured, and that silence never passes.
+// Every kind of check: what passes, what fails, what cannot be measured. Silence never passes.
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 

@@ -1,4 +1,4 @@
-// Rules put to the judge without a file.
+// Judges rules that do not come from a file.
 #pragma once
 
 #include <memory>

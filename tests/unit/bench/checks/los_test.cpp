@@ -1,4 +1,4 @@
-// LOS rates, their consistency and the miss against an engagement.
+// LOS rates, their consistency and the miss distance, compared with an engagement.
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,4 @@
-// Checks of what a target owes when something goes wrong: what passes, what fails, and that silence does not
-// pass.
+// Checks of the required responses to faults: what passes and what fails. Silence does not pass.
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -1,4 +1,4 @@
-// The check of what a target says of its own errors.
+// The check of the sigmas that a target sends.
 #include "bench/checks/kinds/sigma.hpp"
 
 #include <gmock/gmock.h>

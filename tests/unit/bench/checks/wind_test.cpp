@@ -1,4 +1,4 @@
-// Wind answers against a glider's truth.
+// Wind answers compared with the truth of a glider.
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
-// What can be flown: what an IMU's errors may be before its increments leave their signals' ranges, and who
-// sends first.
+// Which flights are possible: the largest IMU errors whose increments fit into their signals, and the sending
+// order of nodes.
 #include "bench/drive/flight.hpp"
 
 #include <gmock/gmock.h>

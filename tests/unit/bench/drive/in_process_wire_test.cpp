@@ -1,4 +1,4 @@
-// Runs in virtual time over a simulated wire: exact, the same each time, and within what theory bounds.
+// Runs in virtual time over a simulated wire are exact, reproducible, and within the bounds of the analysis.
 #include "bench/drive/in_process_wire.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"

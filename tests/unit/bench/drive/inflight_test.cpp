@@ -1,5 +1,5 @@
-// In-flight alignment from the scenario's text to the checks, against the device in this process: its nodes,
-// their faults, and what the target makes of them.
+// In-flight alignment from the text of a scenario to its checks, with the device in this process: nodes,
+// faults, and the responses of the target.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// A bus that brings more frames than the bench can look at.
+// A bus that delivers more frames than the bench can process.
 #include "bench/drive/link.hpp"
 #include "bench/observe/contract_watch.hpp"
 

@@ -1,4 +1,4 @@
-// An engagement from the scenario's text to the checks, against the device in this process.
+// An engagement from the text of a scenario to its checks, with the device in this process.
 #include <gmock/gmock.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// The user's own data, flown in process: what it gives beside the flight that it was recorded of.
+// Runs in process with recorded data give the same results as the flight that was recorded.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// The glider from the scenario's text to the checks, against the device in this process.
+// The glider from the text of a scenario to its checks, with the device in this process.
 #include <gmock/gmock.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// What a flight with a fault is called, by what the target said and by its checks.
+// The name of a response to a fault, from the flags of the target and the checks of the flight.
 #include "bench/fault_matrix/response.hpp"
 
 #include <fmt/format.h>

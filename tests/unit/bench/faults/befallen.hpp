@@ -1,4 +1,4 @@
-// A quick flight with faults, struck by hand.
+// A quick flight whose faults a test applies directly.
 #pragma once
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// [[fault]] as it is read: what is wrong in one line, and the page that tells of the kinds.
+// Reading [[fault]]: one line per error; and docs/faults.md lists all kinds.
 #include <regex>
 
 #include "bench/faults/kinds.hpp"

@@ -1,4 +1,4 @@
-// The lag of what is told, by the truth.
+// The lag of estimates behind the truth.
 #include "bench/checks/delay.hpp"
 
 #include <gtest/gtest.h>

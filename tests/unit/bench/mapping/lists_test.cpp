@@ -1,4 +1,4 @@
-// The lists of docs/mapping.md, as the code has them.
+// The lists of docs/mapping.md are those of the code.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-// What goes out and what answers are paired with, by a mapping in a text.
+// The frames that a mapping plays, and the samples that answers are assigned to. The mapping is a text in the
+// test.
 #include "bench/mapping/player.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Times on CAN FD: of the containers that messages travel in.
+// Timing on CAN FD: the times of the containers that carry the messages.
 #include <gtest/gtest.h>
 
 #include <utility>

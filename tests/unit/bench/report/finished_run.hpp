@@ -1,4 +1,4 @@
-// A run as it is reported, for the tests of pages and JSON.
+// A finished run for the tests of pages and JSON.
 #pragma once
 
 #include "bench/estimators/transfer_alignment/answers.hpp"

@@ -1,4 +1,4 @@
-// What the sections of a page show: the timing, the results, the bus.
+// The content of the sections of a page: timing, results, bus.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Reports stay well-formed whatever the names in them are, and files are whole or not there.
+// Reports are well-formed for all names, and files are written completely or not at all.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
-// Courses over the run: what checks ask stands on what they judge, and what was not told is a gap.
+// Series over a run: limits of checks are drawn over the quantities that they judge, and missing values are
+// gaps.
 #include "bench/report/series.hpp"
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"

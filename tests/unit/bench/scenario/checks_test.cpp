@@ -1,4 +1,4 @@
-// Every kind of check: its fields and defaults.
+// Every kind of check: its keys and defaults.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

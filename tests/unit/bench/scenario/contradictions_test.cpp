@@ -1,4 +1,4 @@
-// Keys that are each right and contradict each other, or have no effect beside each other: one line.
+// Keys that are valid alone but contradict each other, or have no effect together: one error line.
 #include <gtest/gtest.h>
 
 #include "tests/unit/bench/scenario/texts.hpp"

@@ -1,4 +1,4 @@
-// [engagement] and [seeker]: values, defaults, and what is refused.
+// [engagement] and [seeker]: values, defaults, and errors.
 #include <gtest/gtest.h>
 
 #include "bench/checks/kinds/error.hpp"

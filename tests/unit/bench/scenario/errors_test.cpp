@@ -1,4 +1,4 @@
-// Every way a scenario can be wrong gives exactly one line: where, what, what was expected.
+// Every error of a scenario gives exactly one line: where, what, what was expected.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// The scenarios that come with the project are valid, with the names of the project's own DBC.
+// The scenarios of the project are valid with the project's own DBC.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,4 +1,4 @@
-// The sections of a glider: what they say in SI, and every way they can be wrong in one line.
+// The sections of a glider: their values in SI units, and one line per error.
 #include <gtest/gtest.h>
 
 #include "bench/checks/kinds/answers.hpp"

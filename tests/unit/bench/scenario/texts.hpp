@@ -1,4 +1,4 @@
-// A small valid scenario, and how tests change it.
+// A small valid scenario, and functions to change it.
 #pragma once
 
 #include <gtest/gtest.h>
