@@ -4,7 +4,7 @@
     hil-bench campaign --paper transfer --out paper-transfer     # transfer, wind and los: two minutes each; inflight: seven
     python3 docs/images/papers.py paper-*/*.html
 
-Each file gets a white ground, as pages may be read in the dark, and its figure's title.
+Only figures that docs/papers shows are written. Each gets a white ground, as pages may be read in the dark, and its title.
 """
 import re
 import sys
@@ -26,9 +26,13 @@ def main(pages):
     if not pages:
         sys.exit(__doc__)
     TO.mkdir(exist_ok=True)
+    shown = "".join(page.read_text() for page in (TO.parents[1] / "papers").glob("*.md"))
     for page in map(Path, pages):
         for name, title, svg in FIGURE.findall(page.read_text()):
             path = TO / f"{page.stem}_{name}.svg"
+            if path.name not in shown:
+                print(f"{path.name:28} not shown  {unescape(title)}")
+                continue
             path.write_text(standalone(svg, title))
             print(f"{path.name:28} {path.stat().st_size // 1000:4} kB  {unescape(title)}")
 
