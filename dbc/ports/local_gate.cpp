@@ -87,7 +87,7 @@ void Gate::tell_of_dropped_reader(const Peer& peer) {
 
 void Gate::tell_of_nonsense(const Peer& peer) {
   tell(to_text(peer), peer.joined ? "sent an invalid frame and was dropped"
-                                : "sent an invalid Hello (another version?) and was dropped");
+                                  : "sent an invalid Hello (another version?) and was dropped");
 }
 
 void Gate::set_alarm(const std::vector<Peer>& peers) {

@@ -57,7 +57,8 @@ std::string BusNotes::news(const Port& port, BusFormat format) {
   const std::uint64_t foreign = port.counters().foreign;
   if (foreign != told_.foreign && now_ns - told_.foreign_ns >= flood_period_ns) {
     const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
-    tell(fmt::format("received {}, {} since the start, expected {}", to_text(other), foreign, to_text(format)));
+    tell(fmt::format("received {}, {} since the start, expected {}", to_text(other), foreign,
+                     to_text(format)));
     told_.foreign = foreign;
     told_.foreign_ns = now_ns;
   }

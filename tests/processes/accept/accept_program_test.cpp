@@ -138,7 +138,7 @@ TEST_F(Accept, AFaultThatDoesNotComeFails) {
   EXPECT_EQ(ended.code, 1);
   EXPECT_THAT(
       ended.out,
-      HasSubstr("flight 'silent' ends: a flight to its end; expected a heartbeat that tells of a fault"));
+      HasSubstr("flight 'silent' ends: a flight to its end; expected a heartbeat that reports a fault"));
 }
 
 TEST_F(Accept, ARangeThatIsNotTheTargetsFails) {

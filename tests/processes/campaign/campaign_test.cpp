@@ -317,8 +317,8 @@ TEST(CampaignBadInput, IsOneLine) {
   expect_one_line(campaign("--out /dev/full"), "/dev/full");
   expect_one_line(campaign("--out /proc/none"), "/proc/none");  // where nobody may write
   expect_one_line(campaign("--out /proc/none.sqlite"), "/proc/none.sqlite");
-  expect_one_line(hil_bench(fmt::format("campaign merge {}/out.db {}", at, file)), "is no SQLite file");
-  expect_one_line(hil_bench("campaign report " + file), "is no SQLite file");
+  expect_one_line(hil_bench(fmt::format("campaign merge {}/out.db {}", at, file)), "is not an SQLite file");
+  expect_one_line(hil_bench("campaign report " + file), "is not an SQLite file");
 }
 
 TEST(CampaignBadInput, WhatIsReadIsNotWrittenOver) {

@@ -102,7 +102,7 @@ TEST(Conformance, BadInputIsOneLine) {
   expect_one_line(hil_bench("conformance --scenario none.toml"), "none.toml: cannot be read");
   expect_one_line(hil_bench("conformance --json /no/such/folder/x.json"), "/no/such/folder");
   expect_one_line(hil_bench(fmt::format("conformance --estimator wind --target {}", KIT_LOS_RATE)),
-                  "takes none of the estimators wind");
+                  "accepts none of the estimators wind");
 }
 
 TEST(Conformance, HasTheReportsOfOtherCommands) {

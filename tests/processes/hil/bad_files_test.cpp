@@ -97,7 +97,7 @@ TEST(BadFiles, DbcgenWritesWhatItIsToldOrSaysWhyNot) {
                   "expected one of --quantisation, --load, --json, --fd, --fd-header, --c and --python");
   std::ofstream(scratch("none.dbc")) << "BS_:\nBU_: A\n";
   expect_one_line(shell(fmt::format("{} {}", DBCGEN, scratch("none.dbc"))),
-                  "none.dbc: no messages in the DBC, expected one at least");
+                  "none.dbc: no messages in the DBC, expected at least one");
   expect_one_line(hil_bench(fmt::format("schedulability {} --bitrate 500000 >/dev/full", dbc)),
                   "hil-bench: standard output: cannot be written: No space left on device\n");
 }

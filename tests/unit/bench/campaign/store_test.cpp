@@ -150,7 +150,7 @@ TEST_F(Damaged, RowsAreRefusedByWhatIsWrong) {
   EXPECT_THAT(complaint_after("update run set ending = 0 where id = 2"),
               HasSubstr("row 2 has another hash than its content"));
   EXPECT_THAT(complaint_after("update run set columns = 'height' where id = 2"),
-              HasSubstr("row 2 has columns that no estimator tells"));
+              HasSubstr("row 2 has columns that no estimator reports"));
   EXPECT_THAT(complaint_after("update run set samples = substr(samples, 9) where id = 2"),
               HasSubstr("row 2 has another hash"));
   EXPECT_THAT(complaint_after("update run set detail = 'fine' where id = 2"), HasSubstr("another hash"));

@@ -89,7 +89,7 @@ TEST(Streams, FdWithoutItsBitRateIsAnErrorOfOneLine) {
 TEST(Streams, ADbcWithoutMessagesIsAnErrorOfOneLine) {
   const auto streams = streams_of({}, {}, rates);
   ASSERT_FALSE(streams);
-  EXPECT_EQ(streams.error().message, "no messages in the DBC, expected one at least");
+  EXPECT_EQ(streams.error().message, "no messages in the DBC, expected at least one");
 }
 
 TEST(Streams, ATimeThatIsNoneIsAnError) {
