@@ -1,4 +1,4 @@
-// hil-bench-campaign: what `hil-bench campaign`, `accept` and `faults` become.
+// hil-bench-campaign: the program for `hil-bench campaign`, `accept` and `faults`.
 #include <array>
 
 #include "bench/commands/campaign.hpp"

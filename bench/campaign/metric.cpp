@@ -16,26 +16,26 @@ namespace {
 using scenario::Limits;
 using scenario::Section;
 
-/// What the readers of all kinds need to know of the campaign.
+/// Facts about the campaign for the readers of all kinds.
 struct Context {
   const std::vector<std::string>& variants;
   std::int64_t duration_us;
 };
 
-/// Whether campaigns keep a quantity: some of single runs they do not.
+/// Whether campaigns store a quantity; some exist in single runs only.
 bool is_sampled(const Quantity& quantity) {
-  if (mapping::find_truth(quantity.name) != nullptr) return true;
+  if (mapping::find_reference_quantity(quantity.name) != nullptr) return true;
   return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
-    return quantities::tells(one->layout, quantity);
+    return quantities::has(one->layout, quantity);
   });
 }
 
-/// Those of the project's estimators, and those that a mapped target may tell.
+/// The quantities of the bench's estimators and those that a mapped target may report.
 std::span<const Quantity* const> every_quantity() {
   static const std::vector<const Quantity*> all = [] {
     const auto own = estimators::every_quantity();
     std::vector<const Quantity*> known(own.begin(), own.end());
-    for (const mapping::Truthed& one : mapping::truths()) {
+    for (const mapping::ReferenceQuantity& one : mapping::reference_quantities()) {
       if (std::ranges::find(known, one.quantity) == known.end()) known.push_back(one.quantity);
     }
     return known;
@@ -43,12 +43,12 @@ std::span<const Quantity* const> every_quantity() {
   return all;
 }
 
-/// The quantity that `quantity` names, of those that campaigns keep and that are wanted.
+/// The quantity that `quantity` names: one that campaigns store and that is wanted here.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
-    if (!is_sampled(one)) return "is of single runs, which campaigns do not keep";
-    return wanted(one) ? "" : "is none that this kind asks for";
+    if (!is_sampled(one)) return "exists in single runs only, not in campaigns";
+    return wanted(one) ? "" : "cannot be used with this kind";
   });
 }
 
@@ -62,8 +62,8 @@ std::optional<double> optional_number(Section& section, std::string_view key, Li
   return std::nullopt;
 }
 
-/// The bars STEM_at_least and STEM_at_most with what their keys end in; nothing could hold them in descending
-/// order.
+/// The bars STEM_at_least and STEM_at_most with their suffix. Bars in descending order are rejected: no value
+/// could meet both.
 template <class Value>
 void expect_bars_ordered(Section& section, std::string_view stem, std::string_view ending,
                          const std::optional<Value>& at_least, const std::optional<Value>& at_most) {
@@ -130,7 +130,7 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   expect_bars_ordered(section, "fraction_", "", rule.fraction_at_least, rule.fraction_at_most);
   if (!rule.below && (rule.fraction_at_least || rule.fraction_at_most)) {
     section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
-                   "is of no use without a bound", fmt::format("below{} beside it", rule.unit.ending));
+                   "has no effect without a bound", fmt::format("below{} beside it", rule.unit.ending));
   }
   rule.batch = section.optional_integer("batch", 2).value_or(rule.batch);
   return rule;
@@ -161,7 +161,7 @@ Paired read(Section& section, const Context& context, Paired rule) {
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   if (section.has("statistic"))
-    section.reject("statistic", "is a key of before", "quantity = the name of a normalised error squared");
+    section.reject("statistic", "is a former key", "quantity = the name of a normalised error squared");
   rule.quantity = read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom > 0; });
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
@@ -176,7 +176,8 @@ Consistency read(Section& section, const Context& context, Consistency rule) {
 Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.quantity = read_error(section);
   rule.beyond = section.number(checks::key_of("beyond", rule.quantity->unit), Limits::above(0));
-  rule.from_us = section.optional_time_us("from_s", Limits{});  // of samples by the time to go minus it
+  rule.from_us =
+      section.optional_time_us("from_s", Limits{});  // for samples by time to go, minus the time to go
   rule.at_most = section.optional_integer("at_most", 0);
   rule.at_least = section.optional_integer("at_least", 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
@@ -198,17 +199,17 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
-    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "is of no use alone",
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has no effect alone",
                    "other = a variant beside it");
   }
   return rule;
 }
 
 ToGo read(Section& section, const Context& context, ToGo rule) {
-  // Of a whole run there is no time to go.
+  // Quantities of a whole run have no time to go.
   rule.quantity = read_quantity(section, [](const Quantity& one) {
     return !one.of_whole_run && std::ranges::any_of(estimators::all(), [&](const auto* estimator) {
-      return estimator->layout.to_go_stretch_us > 0 && quantities::tells(estimator->layout, one);
+      return estimator->layout.to_go_stretch_us > 0 && quantities::has(estimator->layout, one);
     });
   });
   std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));
@@ -222,7 +223,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
-    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "compares with nothing",
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has nothing to compare with",
                    "other beside it");
   }
   return rule;
@@ -241,7 +242,7 @@ std::string in_unit(double value, const Quantity& quantity) {
   return fmt::format("{:g} {}", value / quantity.unit.factor, quantity.unit.name);
 }
 
-/// What tells a metric from others of its kind and quantity.
+/// Distinguishes metrics of the same kind and quantity.
 std::string subject(const RmsCurve& /*rule*/) { return {}; }
 std::string subject(const TimeWithin& rule) { return " " + in_unit(rule.within, *rule.quantity); }
 std::string subject(const Lead& rule) {
@@ -252,7 +253,7 @@ std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s",
 std::string subject(const Paired& rule) {
   return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
 }
-/// Of a rule with a window.
+/// For a rule with a window.
 template <class Windowed>
 std::string subject(const Windowed& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
@@ -267,7 +268,7 @@ std::string subject(const ToGo& rule) {
 }
 std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
 
-/// Whoever is compared with himself is as good, whatever he does.
+/// Comparing a variant with itself always passes.
 void expect_another(Section& section, const Metric& metric, const std::vector<std::string>& variants) {
   const std::string other = other_of(metric);
   if (other.empty()) return;

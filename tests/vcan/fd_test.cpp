@@ -1,4 +1,4 @@
-// CAN FD and classic programs on one interface, as a user sees it, and an interface that is classic.
+// CAN FD and classic programs on one interface, as a user sees it, and an interface that is classic only.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <linux/can.h>
@@ -20,7 +20,7 @@ TEST(Fd, AClassicInterfaceIsRefusedWithTheRemedy) {
       remedy);
 }
 
-/// A target on vcan0 while it lives; what it said.
+/// A target on vcan0 during its lifetime, and its output.
 std::string with_target(const std::string& options, const std::string& then) {
   const std::string said = scratch("target.err");
   const Ended ended = shell(

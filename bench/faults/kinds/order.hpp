@@ -1,11 +1,11 @@
-// Frames that come to the bus at another time than they were sent.
+// Frames that reach the bus later than they were sent.
 #pragma once
 
 #include "bench/faults/kinds/frames.hpp"
 
 namespace canhil::faults {
 
-/// Later by a time; frames that are not befallen overtake it.
+/// Delayed by a time; unaffected frames overtake it.
 struct Delayed : Frames {
   static constexpr std::string_view kind = "delayed";
   std::int64_t by_us = 0;
@@ -13,7 +13,7 @@ struct Delayed : Frames {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// After the next frame of its message.
+/// Sent after the next frame of its message.
 struct Reordered : Frames {
   static constexpr std::string_view kind = "reordered";
   static Reordered read(scenario::Section& section, const scenario::FaultContext& context);

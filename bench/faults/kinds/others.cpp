@@ -59,8 +59,8 @@ Stranger Stranger::read(scenario::Section& section, const scenario::FaultContext
   if (const auto id = section.optional_integer("id", 0)) {
     kind.id = static_cast<std::uint32_t>(std::min<std::int64_t>(*id, max_standard_id));
     if (*id > max_standard_id || is_known(context, kind.id))
-      section.reject("id", fmt::format("{} is of the contract, or of more than 11 bits", *id),
-                     "one that nobody has on this bus");
+      section.reject("id", fmt::format("{} is used by the DBC, or has more than 11 bits", *id),
+                     "an id that is not used on this bus");
   }
   return kind;
 }
@@ -78,7 +78,7 @@ Flood Flood::read(scenario::Section& section, const scenario::FaultContext& cont
   else
     kind.load = section.number("load_percent", Limits::above(0, 100));
   if (is_known(context, urgent.id))
-    section.reject("kind", "'flood' has the id of a message", "a contract without id 0");
+    section.reject("kind", "'flood' uses the id of a message", "a DBC without id 0");
   return kind;
 }
 

@@ -1,4 +1,4 @@
-// Every class of error frame, as linux/can/error.h has them.
+// Every class of error frame of linux/can/error.h.
 #include "dbc/ports/bus_errors.hpp"
 
 #include <gmock/gmock.h>

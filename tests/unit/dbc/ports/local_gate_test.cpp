@@ -1,4 +1,4 @@
-// Who may be on an embedded bus: its own user's processes, as long as they speak and read.
+// Access to an embedded bus: only processes of the same user, and only while they send and read.
 #include "dbc/ports/local_gate.hpp"
 
 #include <fcntl.h>
@@ -28,7 +28,7 @@ using ::testing::IsEmpty;
 constexpr uid_t nobody = 65534;
 constexpr std::int64_t ns_per_ms = 1'000'000;
 
-/// Runs in a process of uid `nobody`; what it returns.
+/// Runs a function in a process of the user `nobody` and returns its result.
 int as_nobody(const std::function<int()>& what) {
   const pid_t pid = ::fork();
   if (pid == 0) ::_exit(::setgid(nobody) == 0 && ::setuid(nobody) == 0 ? what() : 99);
@@ -37,7 +37,7 @@ int as_nobody(const std::function<int()>& what) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Buses of this test alone.
+/// Buses that only this test uses.
 class LocalGate : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -60,7 +60,7 @@ class LocalGate : public ::testing::Test {
     for (int twice = 0; twice < 2; ++twice) EXPECT_FALSE(hub.receive());
     return node ? std::move(*node) : nullptr;
   }
-  /// Lets the hub work, as its host does, until `done`, or 10 s have gone by: false.
+  /// Runs the hub like its host does until `done`; false after 10 s.
   static bool serve(Port& hub, const std::function<bool()>& done) {
     const std::int64_t deadline = in_seconds(10);
     while (!done()) {
@@ -158,12 +158,12 @@ class AnotherUser : public LocalGate {
   void TearDown() override {
     if (::geteuid() == 0) LocalGate::TearDown();
   }
-  /// As if nothing but the credentials kept others away.
+  /// As if only the credentials kept other users away.
   void open_to_all() const {
     for (const std::string& path : {runtime_, directory(), directory() + "/x.classic"})
       ::chmod(path.c_str(), 0777);
   }
-  /// Connects past all looks at the host, says Hello and sends a frame; 0, or errno.
+  /// Connects without the checks of the host, sends Hello and a frame. Returns 0 or errno.
   [[nodiscard]] int intrude() const {
     const Descriptor socket = local::connect_to(directory(), "x", Format::classic);
     if (!socket) return errno;
@@ -319,7 +319,7 @@ TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
   EXPECT_THAT(hub->nodes(), ElementsAre("node"));
 }
 
-// Three nodes have more waiting than the hub may take at once.
+// Three nodes have more frames waiting than the hub takes at once.
 TEST_F(LocalGate, FramesThatTheHostDoesNotWantKeepItNoLongerThanOthers) {
   const auto hub = host_local_bus("local:x", {.only_ids = {1}}).value();
   std::vector<std::unique_ptr<Port>> senders;
