@@ -60,18 +60,18 @@ std::string ms_or_none(const Json& seconds) {
 // "&ge; " or "&le; " if the part is known only as a bound.
 const char* bound_of(const Json& breakdown, const std::string& part) {
   const auto listed = [&](const char* key) {
-    return split.contains(key) &&
-           std::ranges::any_of(split.at(key), [&](const Json& one) { return one == part; });
+    return breakdown.contains(key) &&
+           std::ranges::any_of(breakdown.at(key), [&](const Json& one) { return one == part; });
   };
   return listed("at_least") ? "&ge; " : listed("at_most") ? "&le; " : "";
 }
 
 // The same by group of stimuli, because the mean over all hides groups that are answered rarely.
 std::string group_table(const Json& breakdown) {
-  if (!split.contains("groups") || split.at("groups").size() < 2) return "";
+  if (!breakdown.contains("groups") || breakdown.at("groups").size() < 2) return "";
   std::vector<std::string> head{"part, by stimulus"};
   Rows rows;
-  for (const auto& [group, one] : split.at("groups").items()) {
+  for (const auto& [group, one] : breakdown.at("groups").items()) {
     head.push_back(fmt::format("{} ms ({})", escaped(group), one.at("stimuli").dump()));
     std::size_t row = 0;
     const auto add = [&](const std::string& what, const std::string& value) {
@@ -90,25 +90,25 @@ std::string group_table(const Json& breakdown) {
 std::string split_table(const Json& report) {
   if (!report.contains("split")) return "";
   const Json& breakdown = report.at("split");
-  const double total_s = split.at("total_s").get<double>();
+  const double total_s = breakdown.at("total_s").get<double>();
   Rows rows;
-  for (const auto& [key, mean] : split.at("parts_s").items()) {
+  for (const auto& [key, mean] : breakdown.at("parts_s").items()) {
     const std::string share =
         mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
     rows.push_back({escaped(std::string(what_of(key))), bound_of(breakdown, key) + ms_or_none(mean), share});
   }
   rows.push_back({"<b>from the hand-over of the stimulus to the last frame of its answer</b>",
                   fmt::format("<b>{:.3f}</b>", total_s * 1e3), ""});
-  std::string out =
-      fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n", split.at("stimuli").dump());
+  std::string out = fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n",
+                                breakdown.at("stimuli").dump());
   out += table({"part", "ms", "share"}, rows, "figures");
-  if (split.contains("at_least"))
+  if (breakdown.contains("at_least"))
     out +=
         fmt::format("<p class=\"unknown\">? The target reports no times beyond {} us: it took longer.</p>\n",
                     checks::most_reported_us);
   out += group_table(breakdown);
-  if (!split.contains("slowest")) return out;
-  const Json& slowest = split.at("slowest");
+  if (!breakdown.contains("slowest")) return out;
+  const Json& slowest = breakdown.at("slowest");
   const auto reported = [&](const char* key) {
     const auto us = slowest.at(key).get<std::int64_t>();
     return fmt::format("{} us{}", us, us < checks::most_reported_us ? "" : " or more");
