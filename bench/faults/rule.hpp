@@ -1,6 +1,7 @@
 // A rule of a scenario: what a kind of fault is put together from.
 //
-// A kind is a struct with a constant `kind`, a constant `stage`, its fields, among them `When when`, and
+// A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), a constant `stage`,
+// its fields, among them `When when`, and
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
 //   std::string subject() const                  what it befalls: what tells one fault of the kind from
 //   another
@@ -93,6 +94,7 @@ struct Listed {
   Stage stage;
 };
 template <class Kind>
-inline constexpr Listed listed{.kind = {.name = Kind::kind, .read = read_rule<Kind>}, .stage = Kind::stage};
+inline constexpr Listed listed{
+    .kind = {.name = Kind::kind, .meaning = Kind::meaning, .read = read_rule<Kind>}, .stage = Kind::stage};
 
 }  // namespace canhil::faults

@@ -15,7 +15,7 @@ namespace canhil::scenario {
 /// The value whose name the key holds; `names` in the order of the enumeration. Error: another word, or,
 /// without a fallback, none.
 template <class Enum>
-Enum read_enum(Section& section, std::string_view key, std::span<const std::string_view> names,
+Enum read_enum(Section& section, const Key& key, std::span<const std::string_view> names,
                std::optional<Enum> fallback = {}) {
   const std::vector<std::string> words(names.begin(), names.end());
   std::optional<std::string> usual;

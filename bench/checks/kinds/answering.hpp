@@ -7,6 +7,9 @@ namespace canhil::checks {
 
 struct Answering {
   static constexpr std::string_view kind = "answering";
+  static constexpr std::string_view meaning =
+      "Passes when answers and heartbeats come without a gap, all values are numbers, and no frame of the "
+      "target is damaged.";
   std::vector<Subject> of;  ///< what is told with every answer
   /// In these answers may be missing: faults of the scenario, which may leave nothing to be answered.
   std::vector<scenario::Window> excused;

@@ -7,6 +7,7 @@ namespace canhil::checks {
 
 struct Honest {
   static constexpr std::string_view kind = "honest";
+  static constexpr std::string_view meaning = "Passes when no answer is sure and wrong (honesty.md).";
   std::vector<const estimators::Estimator*> estimators;
   std::string named;      ///< the estimator that the check names; empty: all that run
   double over_sigma = 5;  ///< the quantity trusted.over_sigma is to stay at or below it

@@ -25,11 +25,12 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
 
 /// A value as STEM and the ending of its unit, in SI, and that unit; angles in mrad or deg.
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
-                                             const quantities::Quantity& quantity);
+                                             std::string_view meaning, const quantities::Quantity& quantity);
 
 /// The same of two values, [low, high].
 std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Section& section,
                                                                   std::string_view stem,
+                                                                  std::string_view meaning,
                                                                   const quantities::Quantity& quantity);
 
 /// What a quantity is made of: its parts, or itself.

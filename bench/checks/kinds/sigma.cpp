@@ -16,7 +16,7 @@ Sigma Sigma::read(scenario::Section& section, const scenario::CheckContext& cont
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
   rule.stretch = read_stretch(section, context, rule.of);
-  const auto [range, unit] = read_range(section, "between", *rule.of.quantity);
+  const auto [range, unit] = read_range(section, "between", "Every sigma lies between.", *rule.of.quantity);
   std::tie(rule.low, rule.high) = range;
   rule.unit = unit;
   return rule;
