@@ -25,7 +25,7 @@ struct ReferenceMessage {
   std::vector<std::string> signals{};
   std::vector<double> rounding{}, mean{}, mean_rounding{};  ///< a number a signal
   struct Row {
-    std::size_t place = 0;  ///< among the answers of this message
+    std::size_t index = 0;  ///< among the answers of this message
     double t_s = 0;
     std::vector<double> values;
   };

@@ -143,9 +143,9 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
       // Named from the campaign's folder, and what it names from its own.
-      const fs::path place = fs::path(sources.file).parent_path() / one.scenario;
+      const fs::path index = fs::path(sources.file).parent_path() / one.scenario;
       auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings,
-                                        place.parent_path().string(), beside);
+                                        index.parent_path().string(), beside);
       const auto refused = [&](std::string_view why) {
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };
@@ -198,9 +198,9 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
 void refuse_untold(Section& root, const Campaign& campaign) {
   for (const Metric& metric : campaign.metrics) {
     const Quantity& quantity = quantity_of(metric);
-    for (const std::size_t place : variants_of(campaign, metric)) {
-      const Variant& variant = campaign.variants[place];
-      if (quantities::tells(estimators::of(variant.scenario).layout, quantity)) continue;
+    for (const std::size_t index : variants_of(campaign, metric)) {
+      const Variant& variant = campaign.variants[index];
+      if (quantities::has(estimators::of(variant.scenario).layout, quantity)) continue;
       root.reject("metric",
                   fmt::format("'{}' asks for {}, which variant '{}' does not tell", metric.name,
                               quantity.name, variant.name),

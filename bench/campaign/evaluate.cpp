@@ -14,7 +14,7 @@ bool finite(const quantities::Samples& samples) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t column = 0; column < columns.size(); ++column) {
       const double value = samples.values(i)[column];
-      if (!std::isfinite(value) && !(columns[column]->may_be_untold && std::isnan(value))) return false;
+      if (!std::isfinite(value) && !(columns[column]->nan_allowed && std::isnan(value))) return false;
     }
   }
   return true;

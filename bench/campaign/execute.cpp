@@ -73,9 +73,9 @@ Error in_variant(const Campaign& campaign, std::size_t variant, const Error& err
 
 void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
   while (!stop && !work.halt) {
-    const std::size_t place = work.next++;
-    if (place >= work.tasks.size()) break;
-    const auto [variant, run] = work.tasks[place];
+    const std::size_t index = work.next++;
+    if (index >= work.tasks.size()) break;
+    const auto [variant, run] = work.tasks[index];
     const world::FlightRecord& truth = *work.truths[variant];
     const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
     const auto flown = work.target.empty()

@@ -24,9 +24,9 @@ struct Context {
 
 /// Whether campaigns keep a quantity: some of single runs they do not.
 bool is_sampled(const Quantity& quantity) {
-  if (mapping::find_truth(quantity.name) != nullptr) return true;
+  if (mapping::find_reference_quantity(quantity.name) != nullptr) return true;
   return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
-    return quantities::tells(one->layout, quantity);
+    return quantities::has(one->layout, quantity);
   });
 }
 
@@ -35,7 +35,7 @@ std::span<const Quantity* const> every_quantity() {
   static const std::vector<const Quantity*> all = [] {
     const auto own = estimators::every_quantity();
     std::vector<const Quantity*> known(own.begin(), own.end());
-    for (const mapping::Truthed& one : mapping::truths()) {
+    for (const mapping::ReferenceQuantity& one : mapping::reference_quantities()) {
       if (std::ranges::find(known, one.quantity) == known.end()) known.push_back(one.quantity);
     }
     return known;
@@ -48,7 +48,7 @@ template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
     if (!is_sampled(one)) return "is of single runs, which campaigns do not keep";
-    return wanted(one) ? "" : "is none that this kind asks for";
+    return wanted(one) ? "" : "cannot be used with this kind";
   });
 }
 
@@ -185,7 +185,7 @@ Paired read(Section& section, const Context& context, Paired rule) {
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   if (section.has("statistic"))
-    section.reject("statistic", "is a key of before", "quantity = the name of a normalised error squared");
+    section.reject("statistic", "is a former key", "quantity = the name of a normalised error squared");
   rule.quantity = read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom > 0; });
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
@@ -245,7 +245,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
   // Of a whole run there is no time to go.
   rule.quantity = read_quantity(section, [](const Quantity& one) {
     return !one.of_whole_run && std::ranges::any_of(estimators::all(), [&](const auto* estimator) {
-      return estimator->layout.to_go_stretch_us > 0 && quantities::tells(estimator->layout, one);
+      return estimator->layout.to_go_stretch_us > 0 && quantities::has(estimator->layout, one);
     });
   });
   std::tie(rule.least, rule.most) =

@@ -238,10 +238,10 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
   std::size_t count = 0, inside = 0;
   for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
     double sum_here = 0;
-    std::size_t here = 0, untold = 0;
+    std::size_t here = 0, not_asked = 0;
     for (const RunSeries& run : runs) {
       if (is_untold(run, quantity, t_us, from_us)) {
-        ++untold;
+        ++not_asked;
         continue;
       }
       const double value = value_at(run, quantity, t_us);
@@ -249,7 +249,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
       sum_here += value;
       ++here;
     }
-    const std::size_t asked = runs.size() - untold;
+    const std::size_t asked = runs.size() - not_asked;
     if (asked == 0) continue;
     ++statistics.updates;
     statistics.missing += asked - here;

@@ -98,17 +98,17 @@ double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_u
 
 bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us) {
   const auto times = run.samples.times();
-  auto place = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
-  if (place == times.size() || times[place] != t_us) {
-    const std::int64_t heard_us = place == 0 ? from_us : std::max(from_us, times[place - 1]);
+  auto index = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
+  if (index == times.size() || times[index] != t_us) {
+    const std::int64_t heard_us = index == 0 ? from_us : std::max(from_us, times[index - 1]);
     return !had_ended(run, t_us) && !stale(run, quantity, heard_us, t_us);
   }
-  const auto untold = [&] { return std::isnan(run.samples.value(place, quantity)); };
-  if (!quantity.may_be_untold || !untold()) return false;
+  const auto not_asked = [&] { return std::isnan(run.samples.value(index, quantity)); };
+  if (!quantity.nan_allowed || !not_asked()) return false;
   // A filter that coasts on and on says nothing of its updates.
   if (run.samples.layout().answers_untold) return true;
-  while (place > 0 && t_us - times[--place] <= run.freshness.age_limit_us) {
-    if (!untold()) return true;
+  while (index > 0 && t_us - times[--index] <= run.freshness.age_limit_us) {
+    if (!not_asked()) return true;
   }
   return false;
 }

@@ -110,7 +110,7 @@ std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::
   text += fmt::format(
       "{}: {} messages played, {} heard, {} quantities told; bus load", mapping.file,
       std::ranges::count_if(mapping.messages, [](const MessageInfo& m) { return m.sender == "Bench"; }),
-      mapping.hears.size(), mapping.told.size());
+      mapping.hears.size(), mapping.quantities.size());
   std::string_view separator = "";
   for (const std::int64_t kbitps : {125, 250, 500, 1000}) {
     const double load = mapping::load_of(mapping, {.nominal = kbitps * 1000, .data = 4000 * kbitps});

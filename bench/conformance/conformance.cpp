@@ -18,7 +18,7 @@ std::optional<Algorithm> algorithm_of(Talk& talk) {
   candidates.insert(candidates.end(), enumerators<Algorithm>.begin(), enumerators<Algorithm>.end());
   for (const Algorithm algorithm : candidates) {
     reset.algorithm = algorithm;
-    talk.tell(reset);
+    talk.send(reset);
     const auto beat = talk.hear<TargetHeartbeat>([&](const auto& one) {
       return one.algorithm == algorithm && (one.estimator == reset.estimator || one.error_command != 0);
     });

@@ -36,9 +36,9 @@ Result<Seen> flown_with(Subject& subject, Spoil spoil) {
     if (begun != other.place + 1) return instead.push_back(frame);
     spoil(frame, static_cast<std::size_t>(place - ids.begin()), ids.size(), instead);
   });
-  const auto before = subject.talk.first_heard<TargetCounters>();
-  const auto after = subject.talk.last_heard<TargetCounters>();
-  const auto beat = subject.talk.last_heard<TargetHeartbeat>();
+  const auto before = subject.talk.first_received<TargetCounters>();
+  const auto after = subject.talk.last_received<TargetCounters>();
+  const auto beat = subject.talk.last_received<TargetHeartbeat>();
   if (!before || !after || !beat) return failure("no counters or no heartbeat in flight");
   const auto more = [](std::uint16_t now, std::uint16_t then) {
     return static_cast<std::uint16_t>(now - then);

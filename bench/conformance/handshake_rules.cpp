@@ -41,7 +41,7 @@ std::string refuses_another_contract(Subject& subject) {
   if (auto wrong = talk.make_ready(); !wrong.empty()) return wrong;
   TargetCommand start = talk.command(Command::start);
   start.dbc_hash ^= 1U;
-  talk.tell(start);
+  talk.send(start);
   const auto beat = talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_dbc_mismatch != 0; });
   if (!beat) return "start with another contract's hash: no heartbeat says dbc_mismatch";
   return beat->state == TargetState::running ? "runs: " + described(beat) : "";
@@ -50,7 +50,7 @@ std::string refuses_another_contract(Subject& subject) {
 std::string refuses_another_estimator(Subject& subject) {
   TargetCommand reset = subject.talk.command(Command::reset);
   reset.estimator = Estimator{0b111};  // the last one that the signal can name: the DBC has no such
-  subject.talk.tell(reset);
+  subject.talk.send(reset);
   const auto beat =
       subject.talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
   return beat && beat->state == TargetState::idle
@@ -62,7 +62,7 @@ std::string refuses_another_estimator(Subject& subject) {
 std::string refuses_an_unknown_command(Subject& subject) {
   Talk& talk = subject.talk;
   if (auto wrong = talk.make_ready(); !wrong.empty()) return wrong;
-  talk.tell(talk.command(Command{0b111}));
+  talk.send(talk.command(Command{0b111}));
   const auto beat = talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
   return beat && beat->state == TargetState::ready
              ? ""
@@ -71,7 +71,7 @@ std::string refuses_an_unknown_command(Subject& subject) {
 }
 
 std::string not_started(Talk& talk, const std::string& when) {
-  talk.tell(talk.command(Command::start));
+  talk.send(talk.command(Command::start));
   const auto beat = talk.hear<TargetHeartbeat>(
       [](const auto& one) { return one.error_not_initialised != 0 || one.state == TargetState::running; });
   if (beat && beat->state != TargetState::running) return "";
@@ -111,7 +111,7 @@ std::string is_quiet_before_the_start(Subject& subject) {
 
 std::string stops(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
-  subject.talk.tell(subject.talk.command(Command::stop));
+  subject.talk.send(subject.talk.command(Command::stop));
   if (!subject.talk.waits_for(TargetState::idle)) return "stop: its state does not become idle";
   const int answers = subject.talk.fly(2 * some_flight_us);
   return answers == 0 ? "" : fmt::format("{} answers after the stop", answers);
@@ -119,7 +119,7 @@ std::string stops(Subject& subject) {
 
 std::string starts_again(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
-  subject.talk.tell(subject.talk.command(Command::stop));
+  subject.talk.send(subject.talk.command(Command::stop));
   if (!subject.talk.waits_for(TargetState::idle)) return "stop: its state does not become idle";
   const std::string wrong = flies(subject);
   return wrong.empty() ? "" : "after a stop: " + wrong;
@@ -142,7 +142,7 @@ std::string forgets(Subject& subject) {
   subject.talk.fly(some_flight_us);
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
   const auto counted = subject.talk.hear_in_flight<TargetCounters>(some_flight_us);
-  const auto beat = subject.talk.last_heard<TargetHeartbeat>();
+  const auto beat = subject.talk.last_received<TargetHeartbeat>();
   if (!counted || !beat) return "no counters or no heartbeat in flight";
   if (counted->bad_crc != 0)
     return fmt::format("after a reset {} frames with a bad CRC are counted", counted->bad_crc);

@@ -24,7 +24,7 @@ struct Parameter {
 struct Undisturbed {
   std::vector<Frame> heard;
   std::string_view sample;  ///< the sample group that is answered most often
-  std::size_t place = 0;    ///< among its samples, of one in the middle that is answered
+  std::size_t index = 0;    ///< among its samples, of one in the middle that is answered
   double time_us = 0;       ///< of validity, of that one
 };
 

@@ -15,7 +15,7 @@
 #include "bench/drive/link.hpp"
 #include "bench/drive/schedule.hpp"
 #include "bench/drive/target_process.hpp"
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 #include "bench/observe/heartbeat_errors.hpp"
 
 namespace canhil::conformance {
@@ -31,8 +31,8 @@ class Talk {
   [[nodiscard]] messages::TargetCommand command(messages::Command what) const;
 
   template <class Message>
-  void tell(const Message& message) {
-    ear_.frames.clear();
+  void send(const Message& message) {
+    listener_.frames.clear();
     out_.clear();
     out_.send(message);
     send();
@@ -40,7 +40,7 @@ class Talk {
   /// A message with the counter of the last one of its kind.
   template <class Message>
   void repeat(const Message& message) {
-    ear_.frames.clear();
+    listener_.frames.clear();
     const Frame frame = to_frame(message, last_counter_);
     static_cast<void>(link_.send(frame, patience_ns));
   }
@@ -59,8 +59,8 @@ class Talk {
     const std::int64_t deadline_ns = link_.now_ns() + answer_ns;
     for (;;) {
       static_cast<void>(link_.drain());
-      for (; !ear_.frames.empty(); ear_.frames.pop_front()) {
-        const auto message = observe::heard<Message>(ear_.frames.front());
+      for (; !listener_.frames.empty(); listener_.frames.pop_front()) {
+        const auto message = observe::decode_from_target<Message>(listener_.frames.front());
         if (message && condition(*message)) return message;
       }
       if (link_.now_ns() >= deadline_ns) return std::nullopt;
@@ -71,7 +71,7 @@ class Talk {
   /// Hears for so long, and gives what came of a message, with its stamp.
   template <class Message>
   std::vector<std::pair<std::int64_t, Message>> hear_all(std::int64_t duration_ns) {
-    ear_.frames.clear();
+    listener_.frames.clear();
     const std::int64_t deadline_ns = link_.now_ns() + duration_ns;
     while (link_.now_ns() < deadline_ns) {
       static_cast<void>(link_.drain());
@@ -79,8 +79,9 @@ class Talk {
     }
     static_cast<void>(link_.drain());
     std::vector<std::pair<std::int64_t, Message>> all;
-    for (const Received& received : ear_.frames) {
-      if (const auto message = observe::heard<Message>(received)) all.emplace_back(received.t_ns, *message);
+    for (const Received& received : listener_.frames) {
+      if (const auto message = observe::decode_from_target<Message>(received))
+        all.emplace_back(received.t_ns, *message);
     }
     return all;
   }
@@ -107,24 +108,24 @@ class Talk {
   [[nodiscard]] std::vector<Frame> answers() const;
   /// The first and the last one that came while it flew on.
   template <class Message>
-  std::optional<Message> first_heard() const {
-    for (const Received& received : ear_.frames) {
-      if (const auto message = observe::heard<Message>(received)) return message;
+  std::optional<Message> first_received() const {
+    for (const Received& received : listener_.frames) {
+      if (const auto message = observe::decode_from_target<Message>(received)) return message;
     }
     return std::nullopt;
   }
   template <class Message>
-  std::optional<Message> last_heard() const {
+  std::optional<Message> last_received() const {
     std::optional<Message> last;
-    for (const Received& received : ear_.frames) {
-      if (const auto message = observe::heard<Message>(received)) last = message;
+    for (const Received& received : listener_.frames) {
+      if (const auto message = observe::decode_from_target<Message>(received)) last = message;
     }
     return last;
   }
   template <class Message>
   std::optional<Message> hear_in_flight(std::int64_t duration_us) {
     fly(duration_us);
-    return last_heard<Message>();
+    return last_received<Message>();
   }
 
   Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
@@ -134,7 +135,7 @@ class Talk {
   static constexpr std::int64_t answer_ns = 2'000'000'000, step_ns = 3'000'000'000,
                                 patience_ns = 5'000'000'000;
 
-  struct Ear final : observe::Observer {
+  struct NodeListener final : observe::Observer {
     void received(const Received& received) override {
       if (!received.own) frames.push_back(received);
     }
@@ -154,7 +155,7 @@ class Talk {
   drive::Link link_;
   drive::TargetProcess target_;
   nodes::Transmission out_;
-  Ear ear_;
+  NodeListener listener_;
   drive::Attached attached_;
   std::unique_ptr<drive::Schedule> schedule_;
   std::int64_t flown_us_ = 0, shift_us_ = 0;

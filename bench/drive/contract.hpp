@@ -13,7 +13,7 @@
 namespace canhil::drive {
 
 /// Value tables and messages of the built-in DBC.
-scenario::Contract contract();
+scenario::DbcVocabulary contract();
 
 /// Reads a scenario by the contract that it is of: that of the mapping which its [target] names, or the
 /// project's. As scenario::parse() and read_file().

@@ -18,7 +18,7 @@ class ContractDialect final : public Dialect {
   [[nodiscard]] std::span<const MessageInfo> messages() const override { return messages::all_messages; }
   std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) override {
     return std::unique_ptr<Schedule>(
-        new Schedule(make_schedule(of_.scenario, of_.truth, of_.flight.own_truth, of_.run_index,
+        new Schedule(make_schedule(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index,
                                    of_.virtual_time, of_.rounding, std::move(faults))));
   }
   std::unique_ptr<observe::Watcher> watcher() override {

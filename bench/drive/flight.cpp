@@ -32,11 +32,11 @@ InitialState state_at_release(const world::GlideTruth& truth, const scenario::Gl
 
 bool starts_by_own_truth(const scenario::TargetSetup& target) {
   const estimators::Estimator* estimator = estimators::find(target.estimator);
-  return estimator != nullptr && estimator->facts.start == scenario::Start::own_truth;
+  return estimator != nullptr && estimator->facts.start == scenario::Start::per_run_truth;
 }
 
-Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
-  OwnTruth own;
+Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
+  PerRunTruth own;
   if (scenario.glide) {
     const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
     own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
@@ -83,7 +83,8 @@ Result<void> check_density(const scenario::Scenario& scenario) {
 
 }  // namespace
 
-estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us) {
+estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
+                           std::int64_t duration_us) {
   return {.flight = flight,
           .duration_us = duration_us,
           .engagement = own.engagement ? &*own.engagement : nullptr,
@@ -110,10 +111,10 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
 
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index) {
-  auto own_truth = make_own_truth(scenario, run_index);
-  if (!own_truth) return tl::unexpected(own_truth.error());
-  Flight flight{.own_truth = std::move(*own_truth), .initial = {}};
-  flight.initial = initial_states(scenario, truth, flight.own_truth, run_index, 0);
+  auto per_run_truth = make_per_run_truth(scenario, run_index);
+  if (!per_run_truth) return tl::unexpected(per_run_truth.error());
+  Flight flight{.per_run_truth = std::move(*per_run_truth), .initial = {}};
+  flight.initial = initial_states(scenario, truth, flight.per_run_truth, run_index, 0);
   for (const InitialState& state : flight.initial) {
     if (auto fits = check_fits(state); !fits) return tl::unexpected(fits.error());
   }
@@ -121,10 +122,10 @@ Result<Flight> make_flight(const scenario::Scenario& scenario, const world::Flig
 }
 
 std::vector<InitialState> initial_states(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                         const OwnTruth& own_truth, std::uint64_t run_index,
+                                         const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us) {
   std::vector<InitialState> states;
-  const auto& glide = own_truth.glide;
+  const auto& glide = per_run_truth.glide;
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream stream(scenario.seed, run_index, "initial_error");
     const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
@@ -138,15 +139,15 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
 }
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep, Rounding rounding,
+                       PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep, Rounding rounding,
                        std::unique_ptr<faults::Faults> faults) {
   if (faults == nullptr)
     faults = std::make_unique<faults::Faults>(scenario, run_index, messages::all_messages);
   auto nodes = nodes::make({.scenario = scenario,
                             .index = run_index,
                             .flight = truth,
-                            .glide = own_truth.glide ? &*own_truth.glide : nullptr,
-                            .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr,
+                            .glide = per_run_truth.glide ? &*per_run_truth.glide : nullptr,
+                            .engagement = per_run_truth.engagement ? &*per_run_truth.engagement : nullptr,
                             .faults = faults.get()});
   return {std::move(nodes), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
           std::move(faults)};

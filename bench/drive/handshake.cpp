@@ -97,7 +97,7 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   if (!box.heartbeat) {
     const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
     return failure(
-        fmt::format("target on '{}': answers in {}, expected {}", bus, words(other), words(format)));
+        fmt::format("target on '{}': answers in {}, expected {}", bus, to_text(other), to_text(format)));
   }
   if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
   if (box.other_bench) {

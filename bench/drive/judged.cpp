@@ -21,7 +21,7 @@ checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::Flig
                            const Collected& flown, const std::string& timing_unfit) {
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
-                               .truth = truth_of(truth, flown.own_truth, scenario.duration_us),
+                               .truth = truth_of(truth, flown.per_run_truth, scenario.duration_us),
                                .estimators = estimators::in(scenario),
                                .ended_early = flown.ending.detail,
                                .timing_unfit = timing_unfit});

@@ -32,7 +32,7 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
       while_waiting_.emplace();
     }
     if (now_ns >= deadline_ns) {
-      crowd_ = while_waiting_->frames() == 0 ? "" : while_waiting_->words();
+      crowd_ = while_waiting_->frames() == 0 ? "" : while_waiting_->to_text();
       while_waiting_.reset();
       return may_return ? LinkState::down : LinkState::congested;
     }

@@ -35,7 +35,7 @@ class Link {
   LinkState drain();
   static constexpr int most_at_once = 256;  ///< a few of the target's groups; less than a millisecond's work
 
-  /// After `congested`: what came while there was no room, as observe::Shares::words(); empty: nothing.
+  /// After `congested`: what came while there was no room, as observe::Shares::to_text(); empty: nothing.
   [[nodiscard]] const std::string& crowd() const { return crowd_; }
 
   /// The longest time for which frames came faster than they could be looked at; none: they never did.

@@ -38,15 +38,15 @@ class MappedWatch final : public observe::TargetWatch {
       : conversation_(conversation), places_(conversation.mapping), passing_(conversation) {}
 
   void received(const Received& received) override {
-    const std::size_t place = places_(received.frame);
-    if (received.own || place == MessagePlaces::nowhere) return;
+    const std::size_t index = places_(received.frame);
+    if (received.own || index == MessagePlaces::nowhere) return;
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
-      if (hear.of.place != place) continue;
+      if (hear.of.index != index) continue;
       heard_ = true;
       if (received.frame.size != hear.of.message->size || !hear.echo || *hear.answers != awaited_play_)
         continue;
       const mapping::Sent* cause = mapping::cause_of(conversation_, hear, received.frame);
-      if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(place);
+      if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(index);
     }
   }
   bool heard() override { return std::exchange(heard_, false); }
@@ -57,7 +57,7 @@ class MappedWatch final : public observe::TargetWatch {
     if (!whole) return false;
     waits_for_.clear();
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
-      if (hear.echo && *hear.answers == whole->play) waits_for_.insert(hear.of.place);
+      if (hear.echo && *hear.answers == whole->play) waits_for_.insert(hear.of.index);
     }
     awaited_play_ = whole->play;
     awaited_us_ = whole->sent->valid_us;
@@ -89,7 +89,7 @@ class Strangers final : public observe::Observer {
     if (!received.own && !received.frame.error && places_(received.frame) == MessagePlaces::nowhere)
       ids_.insert(received.frame.id);
   }
-  [[nodiscard]] std::string words() const {
+  [[nodiscard]] std::string to_text() const {
     if (ids_.empty()) return "nothing was heard";
     constexpr std::size_t most = 8;
     std::vector<std::string> some;
@@ -128,13 +128,13 @@ class MappedDialect final : public Dialect {
     std::vector<std::unique_ptr<nodes::Node>> players;
     players.push_back(std::make_unique<mapping::Player>(
         conversation_,
-        nodes::Run{
-            .scenario = of_.scenario,
-            .index = of_.run_index,
-            .flight = of_.truth,
-            .glide = of_.flight.own_truth.glide ? &*of_.flight.own_truth.glide : nullptr,
-            .engagement = of_.flight.own_truth.engagement ? &*of_.flight.own_truth.engagement : nullptr,
-            .faults = faults.get()}));
+        nodes::Run{.scenario = of_.scenario,
+                   .index = of_.run_index,
+                   .flight = of_.truth,
+                   .glide = of_.flight.per_run_truth.glide ? &*of_.flight.per_run_truth.glide : nullptr,
+                   .engagement =
+                       of_.flight.per_run_truth.engagement ? &*of_.flight.per_run_truth.engagement : nullptr,
+                   .faults = faults.get()}));
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));
   }
@@ -191,7 +191,7 @@ class MappedDialect final : public Dialect {
       if (!hear.answers) names.push_back(hear.of.message->name);
     }
     return fmt::format("target on '{}': none of {} within 5 s; {}", link.port().name(),
-                       fmt::join(names, ", "), strangers.words());
+                       fmt::join(names, ", "), strangers.to_text());
   }
 
   Setting of_;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view unknown_lateness = "a recording does not say when its frames were due";
 
 // What was done to the target and to the interface shows in the recorded frames.
-class NoHands final : public faults::Hands {
+class NoRigControl final : public faults::RigControl {
  public:
   void pause_target() override {}
   void resume_target() override {}
@@ -99,7 +99,7 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
 }
 
 observe::LoadBy load_by(const scenario::Scenario& scenario, const Manner& manner) {
-  if (scenario.foreign != nullptr) return observe::LoadBy::told;
+  if (scenario.foreign != nullptr) return observe::LoadBy::virtual_time;
   return manner.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
 }
 
@@ -140,8 +140,8 @@ class Recording {
     seen.length_by_second = load_.lengths();
     return Collected{.ending = std::move(*ending),
                      .seen = std::move(seen),
-                     .own_truth = std::move(flight_.own_truth),
-                     .faults = schedule_->faults()->told()};
+                     .per_run_truth = std::move(flight_.per_run_truth),
+                     .faults = schedule_->faults()->reports()};
   }
   [[nodiscard]] double wall_s() const { return static_cast<double>(last_ns_ - first_ns_) / 1e9; }
   [[nodiscard]] std::int64_t started_s() const { return first_ns_ / 1'000'000'000; }
@@ -224,7 +224,7 @@ class Recording {
   Frames frames_;
   std::string log_;
   Manner manner_;
-  NoHands hands_;
+  NoRigControl hands_;
   std::unique_ptr<Dialect> dialect_;
   std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<observe::Watcher> watcher_;
@@ -259,7 +259,7 @@ Result<Run> judge_recording(const scenario::Scenario& scenario, const std::strin
              .ending = std::move(flown->ending),
              .seen = std::move(flown->seen),
              .truth = std::move(*truth),
-             .own_truth = std::move(flown->own_truth),
+             .per_run_truth = std::move(flown->per_run_truth),
              .faults = std::move(flown->faults),
              .options = std::move(options),
              .clock = manner->lockstep ? ClockKind::lockstep : ClockKind::real_time,

@@ -8,9 +8,9 @@
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/drive/dialect.hpp"
-#include "bench/drive/hands.hpp"
 #include "bench/drive/judged.hpp"
 #include "bench/drive/lockstep.hpp"
+#include "bench/drive/rig_control.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
@@ -33,7 +33,8 @@ Capabilities known_of(const Port& port, const WireFacts& controller) {
 }
 
 observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base) {
-  if (!time_base) return clock == ClockKind::lockstep ? observe::LoadBy::told : observe::LoadBy::stamps;
+  if (!time_base)
+    return clock == ClockKind::lockstep ? observe::LoadBy::virtual_time : observe::LoadBy::stamps;
   if (clock == ClockKind::lockstep)
     return bus.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
   return bus.wire.rates.nominal > 0 ? observe::LoadBy::stamps : observe::LoadBy::time_base;
@@ -141,8 +142,8 @@ class Session {
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
                      .seen = std::move(seen),
-                     .own_truth = std::move(flight_.own_truth),
-                     .faults = schedule_->faults()->told(),
+                     .per_run_truth = std::move(flight_.per_run_truth),
+                     .faults = schedule_->faults()->reports(),
                      .log_error = logged ? std::nullopt : std::optional(logged.error())};
   }
 
@@ -151,13 +152,13 @@ class Session {
   [[nodiscard]] const auto& target_files() const { return target_files_; }
   // What went wrong, and who flooded the bus, or was turned away from it: that may be why.
   [[nodiscard]] std::string explained(const std::string& what) const {
-    if (link_.flood()) return fmt::format("{}; {}", what, words(*link_.flood()));
+    if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
     return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
   }
   // Why no timing can be judged; empty: it can.
   [[nodiscard]] std::string timing_unfit(const checks::Observations& seen) const {
     if (clock_ == ClockKind::lockstep) return "virtual time";
-    return link_.flood() ? words(*link_.flood()) : checks::unfit_for_timing(seen);
+    return link_.flood() ? to_text(*link_.flood()) : checks::unfit_for_timing(seen);
   }
 
  private:
@@ -197,7 +198,7 @@ class Session {
     target_->kill_it();
     target_.reset();
     auto ready = start_target(target_cpus_);
-    flight_.initial = initial_states(scenario_, truth_, flight_.own_truth, options_.run_index, t_us);
+    flight_.initial = initial_states(scenario_, truth_, flight_.per_run_truth, options_.run_index, t_us);
     if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(false); });
     if (!ready) restart_error_ = "; restarted: " + ready.error().message;
     watcher_->target_restarted();
@@ -248,7 +249,7 @@ class Session {
     seen.bus.foreign = port_->counters().foreign;
     seen.bus.notes = *notes_;
     for (std::string& note : dialect_->notes()) seen.bus.notes.push_back(std::move(note));
-    if (link_.flood()) seen.bus.notes.push_back(words(*link_.flood()));
+    if (link_.flood()) seen.bus.notes.push_back(to_text(*link_.flood()));
     seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
   }
 
@@ -260,7 +261,7 @@ class Session {
   Capabilities bus_;
   ClockKind clock_;
   const world::FlightRecord& truth_;
-  RunHands hands_;
+  RunRigControl hands_;
   Link link_;
   std::unique_ptr<Dialect> dialect_;
   std::unique_ptr<Schedule> schedule_;
@@ -347,7 +348,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
              .ending = std::move(flown.ending),
              .seen = std::move(flown.seen),
              .truth = std::move(*truth),
-             .own_truth = std::move(flown.own_truth),
+             .per_run_truth = std::move(flown.per_run_truth),
              .faults = std::move(flown.faults),
              .options = options,
              .clock = clock,

@@ -52,9 +52,9 @@ Options in_lockstep_against(std::string command);
 struct Collected {
   Ending ending;
   checks::Observations seen;
-  OwnTruth own_truth{};
-  std::vector<faults::Told> faults{};  ///< in the order of the scenario
-  std::optional<Error> log_error{};    ///< why Options::log_path does not hold every frame
+  PerRunTruth per_run_truth{};
+  std::vector<faults::FaultReport> faults{};  ///< in the order of the scenario
+  std::optional<Error> log_error{};           ///< why Options::log_path does not hold every frame
 };
 
 /// A finished run.
@@ -63,8 +63,8 @@ struct Run {
   Ending ending;
   checks::Observations seen;
   world::FlightRecord truth;
-  OwnTruth own_truth{};
-  std::vector<faults::Told> faults{};  ///< in the order of the scenario
+  PerRunTruth per_run_truth{};
+  std::vector<faults::FaultReport> faults{};  ///< in the order of the scenario
   Options options;
   ClockKind clock = ClockKind::real_time;
   bool in_process = false;                   ///< the target was the bench's own device

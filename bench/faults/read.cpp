@@ -17,7 +17,7 @@ namespace {
 using scenario::FaultContext;
 using scenario::Section;
 
-// Of a quantity in SI, the endings that its keys may have.
+// The suffixes that keys of a quantity may have, by SI unit.
 constexpr std::array<std::pair<std::string_view, std::array<std::string_view, 3>>, 6> endings{
     {{"rad/s", {"degps", "mradps", "degph"}},
      {"rad", {"deg", "mrad", ""}},
@@ -92,7 +92,7 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
     section.optional("node");
     of.all = messages_by_name(section, context);
     if (of.all.empty()) section.missing("messages", "some that a node of the scenario sends, or node");
-    of.words = words_of(of.all);
+    of.text = words_of(of.all);
     return of;
   }
   section.refuse("messages", "is given beside node", "one of the two");
@@ -104,7 +104,7 @@ OfMessages read_messages(Section& section, const FaultContext& context) {
     if (message.sender == node->closes.sender && message.sample_group == node->closes.sample_group)
       of.all.push_back(&message);
   }
-  of.words = node->key;
+  of.text = node->key;
   return of;
 }
 
@@ -135,7 +135,7 @@ OfValues read_values(Section& section, const FaultContext& context) {
     const mapping::Stimulus* stimulus = read_quantity(section, context, "quantity");
     if (stimulus == nullptr) return of;
     of.all.push_back(measured(*stimulus));
-    of.words = stimulus->name;
+    of.text = stimulus->name;
     return of;
   }
   section.optional("quantity");
@@ -143,11 +143,11 @@ OfValues read_values(Section& section, const FaultContext& context) {
   if (messages.empty()) section.missing("quantity", "a quantity, or messages and signal");
   const std::string name =
       section.text({"signal", "Signal of the `messages` that it changes, in place of `quantity`."});
-  of.words = words_of(messages);
+  of.text = words_of(messages);
   for (const MessageInfo* message : messages) {
     if (context.contract.foreign != nullptr) {
       section.reject("messages",
-                     fmt::format("{} is of the mapping's: '{}' is of canhil's own messages", message->name,
+                     fmt::format("{} is from a mapping: '{}' is for canhil's own messages", message->name,
                                  section.text("kind", "")),
                      "another kind, or a quantity");
       continue;

@@ -7,7 +7,8 @@ namespace canhil::nodes {
 
 using scenario::Limits;
 
-// Together with the way of a ship and its errors within the range of SsblRelativeNE, which is the narrowest.
+// Together with the path of a ship and its errors this stays within the range of SsblRelativeNE, the
+// narrowest message.
 constexpr double largest_outlier_m = 50'000;
 
 FixFaults read_fix_faults(scenario::Section& section) {
@@ -21,7 +22,7 @@ FixFaults read_fix_faults(scenario::Section& section) {
       .outlier = section.number({"outlier_m", "Size of a jump, in a random horizontal direction."},
                                 Limits::between(0, largest_outlier_m), 0),
       .silence_us = {}};
-  // A share of 0 that is given stands at the beginning of a sweep.
+  // An explicit 0 % is allowed as the first value of a sweep.
   const bool size_alone = faults.outlier > 0 && !section.has("outlier_percent");
   if (size_alone || (faults.outlier_probability > 0 && faults.outlier <= 0)) {
     section.reject(faults.outlier > 0 ? "outlier_m" : "outlier_percent", "is given alone",

@@ -13,7 +13,7 @@ namespace {
 using world::Vector3;
 using world::units::deg;
 
-// Within the half turns that the bus carries.
+// In the range of the signal, -180 to 180 deg.
 double angle_deg(double angle) { return std::remainder(angle / deg, 360); }
 
 NodeSettings read(const NodeTable& table, Section& section) {
@@ -67,7 +67,7 @@ class GliderNav final : public Sampler<GliderNavSettings> {
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // of their own: they change no measurement
+  world::Stream losses_;  // a separate stream: losses do not change measurements
   double period_s_;
   world::CorrelatedNoise velocity_;
   world::CorrelatedNoise rates_;

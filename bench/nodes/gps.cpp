@@ -14,7 +14,7 @@ using messages::Validity;
 using world::Vector3;
 using world::units::deg;
 
-constexpr std::uint8_t satellites = 9;  // the error model knows no constellation
+constexpr std::uint8_t satellites = 9;  // the error model has no satellites
 constexpr std::array<scenario::Assumed, 1> assumed{{{"satellites", satellites}}};
 
 NodeSettings read(const NodeTable& table, Section& section) {
@@ -44,8 +44,8 @@ class Gps final : public Sampler<GpsSettings> {
     const Vector3 noise = config_.noise.cwiseProduct(stream_.normal3());
     const Fate fate = draw_fate(config_.faults, t_us, stream_);
     const bool valid = !fate.invalid && !(config_.lowest_height && truth.height < *config_.lowest_height);
-    const world::Position measured =
-        valid ? displaced(truth, bias_ + noise + fate.jump) : world::Position{};  // nothing to be had from it
+    const world::Position measured = valid ? displaced(truth, bias_ + noise + fate.jump)
+                                           : world::Position{};  // an invalid fix carries no information
     out.send(messages::GpsLatitude{.latitude_deg = measured.latitude / deg, .height_m = measured.height});
     out.send(messages::GpsLongitude{.longitude_deg = world::longitude_deg(measured),
                                     .satellites = valid ? satellites : std::uint8_t{0},

@@ -52,7 +52,7 @@ class MasterIns final : public Sampler<MasterInsSettings> {
   }
 
   world::Stream stream_;
-  world::Stream losses_;  // of their own: they change no measurement
+  world::Stream losses_;  // a separate stream: losses do not change measurements
 };
 
 }  // namespace

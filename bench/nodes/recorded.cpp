@@ -13,12 +13,12 @@
 namespace canhil::nodes {
 namespace {
 
-// An IMU's gap beyond it ends an alignment; of slower nodes two samples in a row may be missing.
+// A longer IMU gap ends an alignment; of slower nodes two samples in a row may be missing.
 std::int64_t usual_gap_us(std::int64_t period_us) { return std::max<std::int64_t>(200'000, 3 * period_us); }
 
 double ms(std::int64_t us) { return 1e-3 * static_cast<double>(us); }
 
-// A period is what silence, freshness and the grid of the truth are reckoned by.
+// Silence, freshness and the grid of the truth are computed from the period.
 Result<void> check_period(std::int64_t median_us, std::int64_t period_us, std::string_view file) {
   constexpr double tolerated = 0.1;
   const auto period = static_cast<double>(period_us);
@@ -88,7 +88,7 @@ NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_
   } else if (kind == ".log") {
     read = read_log(own, table, section, duration_us, period_us);
   } else {
-    section.reject("recorded", fmt::format("'{}' is of no known kind", name),
+    section.reject("recorded", fmt::format("'{}' is not of a known kind", name),
                    "FILE.csv, or FILE.log of candump or --log");
   }
   if (!read) section.reject("recorded", read.error());

@@ -32,7 +32,7 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
          outcome == LosRateOutcome::updated || outcome == LosRateOutcome::coasting;
 }
 
-// KEY and KEY with _sigma before the unit: a given value and what each run draws beside it.
+// KEY, and KEY with _sigma before the unit: a constant, and the sigma of the part drawn for each run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
                                  std::string_view of, double sigma) {
   return {
@@ -100,14 +100,14 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
                   const world::FlightRecord& /*flight*/) {
   const world::EngagementPlan& engagement = *scenario.engagement;
   const std::int64_t interval_us = node.period_us();
-  if (auto told = check_interval("key 'seeker.period_ms': seeker interval", interval_us, SeekerAngles::info,
-                                 SeekerAngles::signals());
-      !told)
-    return told;
+  if (auto checked = check_interval("key 'seeker.period_ms': seeker interval", interval_us,
+                                    SeekerAngles::info, SeekerAngles::signals());
+      !checked)
+    return checked;
   const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
   const SignalInfo& signal = SeekerAntenna::signals()[0];
   if (roll > signal.maximum) return failure(misfit("roll increment", roll, SeekerAntenna::info, signal));
-  // In lockstep answers take a cycle of Sync to be heard.
+  // In lockstep an answer reaches the bench one Sync cycle later.
   const std::int64_t least_us = Sync::info.cycle_time_us;
   if (engagement.guidance == world::Guidance::target && engagement.guidance_delay_us < least_us) {
     return failure(fmt::format(
@@ -118,8 +118,8 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
   return {};
 }
 
-// With guidance on the target's answers, that to a sample sent at t takes effect at t + the guidance delay,
-// however early it was heard: with a delay of a Sync cycle every bus and clock gives the same flight.
+// In closed loop the answer to a sample sent at t takes effect at t + the guidance delay, even if it arrives
+// earlier. So with a delay of at least a Sync cycle every bus and clock gives the same flight.
 class Seeker final : public Node {
  public:
   Seeker(const NodeSettings& node, const Run& run)
@@ -142,7 +142,7 @@ class Seeker final : public Node {
   void hear(const Frame& frame) override;
 
  private:
-  /// A sample whose answer may still come.
+  /// A sample that may still be answered.
   struct Sent {
     std::int64_t valid_us = 0;
     std::int64_t sent_us = 0;
@@ -161,7 +161,7 @@ class Seeker final : public Node {
   world::Engagement engagement_;
   world::ErroneousSeeker errors_;
   SeekerSettings config_;
-  world::Stream faults_;  // losses and jitter: they change no measurement
+  world::Stream faults_;  // losses and jitter, a separate stream: they do not change measurements
   bool guided_;
   std::int64_t period_us_;
   std::int64_t valid_us_ = 0;
@@ -171,7 +171,7 @@ class Seeker final : public Node {
   SampleGroup<LosRateEstimate, LosRateSigma, LosRateTarget> answer_;
 };
 
-// Sent in the order of sampling, whatever the jitter is.
+// Samples are sent in their order, whatever the jitter is.
 void Seeker::advance() {
   valid_us_ += period_us_;
   const double jitter_us = faults_.uniform() * static_cast<double>(config_.jitter_us);
@@ -213,7 +213,7 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
                          .antenna_increment_pitch_rad = antenna.y(),
                          .antenna_increment_yaw_rad = antenna.z(),
                          .antenna_validity = Validity::valid});
-  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // nothing to be had from it
+  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // not visible: no information
                         .error_yaw_rad = seen ? measured.error.yaw : 0,
                         .interval_us = static_cast<double>(measured.interval_us),
                         .error_validity = validity(seen)});
@@ -240,9 +240,10 @@ void Seeker::hear(const Frame& frame) {
   put(std::type_identity<LosRateTarget>{});
 }
 
-// The answered rate dt after its sample by what is answered beside it, the target's acceleration, and what
-// the missile measured itself: w' = (2 vc/r) w + (a - a_m)/r, vc and accelerations constant (Na and Lee, eq.
-// (1)), over at most half of the range, as it grows without bound. In the antenna's axes of the sample.
+// Extrapolates the answered rate to dt after its sample, from the answered target acceleration and the
+// missile's own measurements: w' = (2 vc/r) w + (a - a_m)/r with constant vc and accelerations (Na and Lee,
+// eq. (1)). Limited to half of the range, because it grows without bound. In the antenna's axes of the
+// sample.
 world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
                                    const LosRateTarget& target, double dt) {
   const double r0 = sample.range;
@@ -256,7 +257,7 @@ world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& es
               a * (target.target_acceleration_y_mps2 - sample.missile_acceleration.yaw)};
 }
 
-// The answer in the antenna's axes of its sample, with the closing speed of that sample.
+// The answer in the antenna's axes at its sample, with the closing speed of that sample.
 void Seeker::steer() {
   const auto& estimate = answer_.get<LosRateEstimate>();
   const auto& target = answer_.get<LosRateTarget>();
@@ -264,7 +265,7 @@ void Seeker::steer() {
   const std::int64_t cause_us = unwrap_us(target.cause_time_us, valid_us_);
   while (!sent_.empty() && sent_.front().valid_us < cause_us) sent_.pop_front();
   if (sent_.empty() || sent_.front().valid_us != cause_us) return;
-  if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // guidance holds its command
+  if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // the guidance holds its command
   const Sent& sample = sent_.front();
   const std::int64_t use_us = sample.sent_us + plan.guidance_delay_us;
   const double age = 1e-6 * static_cast<double>(use_us - cause_us + period_us_ / 2);

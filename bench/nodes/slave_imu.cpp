@@ -20,7 +20,7 @@ using messages::SlaveImuDeltaV;
 using messages::SlaveImuStatus;
 using messages::Validity;
 
-constexpr std::int8_t temperature_degc = 25;  // the error model knows no temperature
+constexpr std::int8_t temperature_degc = 25;  // the error model has no temperature
 constexpr std::array<scenario::Assumed, 1> assumed{{{"temperature_degc", temperature_degc}}};
 constexpr std::array<scenario::Increment, 6> increments{
     {{"delta_theta_x_rad", "rate_x_radps", "imu.rate.x"},
@@ -72,7 +72,7 @@ NodeSettings read(const NodeTable& table, Section& section) {
   return {table, node};
 }
 
-// What a sample of one axis is made of, in the order of `parts_of`: names for messages.
+// The summands of an axis's sample, in the order of `parts_of`: names for messages.
 using Names = std::array<std::string_view, 7>;
 constexpr Names gyro_parts{"the flight",
                            "'slave_imu.gyro_bias_degph'",
@@ -89,8 +89,8 @@ constexpr Names accel_parts{"the flight",
                             "'slave_imu.accel_scale_factor_sigma_ppm'",
                             "'slave_imu.accel_misalignment_sigma_mrad'"};
 
-// Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt), random ones at six sigma. A row of M has
-// two misalignments: the sigma of their sum is that of one, times the length of the other two components.
+// Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt); random terms at six sigma. A row of M has
+// two misalignments: the sigma of their sum is the sigma of one times the length of the other two components.
 std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world::Vector3& exact, int axis,
                                double dt) {
   constexpr double certain = 6;
@@ -105,7 +105,7 @@ std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world:
           certain * model.misalignment_sigma * across};
 }
 
-// The first three signals of a message of increments are its axes.
+// The first three signals of an increment message are the axes.
 template <class Message>
 std::string check_triad(const Names& names, const world::TriadErrorModel& model,
                         const world::FlightRecord& truth, world::Vector3 world::ImuIncrement::*delta) {
@@ -127,10 +127,10 @@ std::string check_triad(const Names& names, const world::TriadErrorModel& model,
 
 Result<void> fits(const NodeSettings& node, const scenario::Scenario& /*scenario*/,
                   const world::FlightRecord& flight) {
-  if (auto told = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
-                                 SlaveImuStatus::signals());
-      !told)
-    return told;
+  if (auto checked = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
+                                    SlaveImuStatus::signals());
+      !checked)
+    return checked;
   const world::ImuErrorModel& imu = node.own<SlaveImuSettings>()->errors;
   std::string wrong =
       check_triad<SlaveImuDeltaTheta>(gyro_parts, imu.gyro, flight, &world::ImuIncrement::delta_theta);
@@ -169,7 +169,7 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
   }
 
   world::ErroneousImu imu_;
-  world::Stream losses_;  // of their own: they change no measurement
+  world::Stream losses_;  // a separate stream: losses do not change measurements
   std::size_t next_ = 0;
   IncrementRounding theta_rounding_;
   IncrementRounding velocity_rounding_;

@@ -18,7 +18,7 @@ class Shares {
   void clear();
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
   /// "id 0C0: 900 of 1000 frames"; "error frames: ..."; where no id has half of them, also of how many ids.
-  [[nodiscard]] std::string words() const;
+  [[nodiscard]] std::string to_text() const;
 
  private:
   // Of all ids that a flood can have only so many are told apart: 2^29 would fill the memory.
@@ -31,11 +31,11 @@ class Shares {
 /// A time for which frames waited with hardly a break.
 struct Flood {
   std::int64_t duration_ns = 0;
-  std::string whose{};  ///< frames the bench looked at in it: Shares::words()
+  std::string whose{};  ///< frames the bench looked at in it: Shares::to_text()
 };
 
 /// "the bus was flooded by id 0C0: 900 of 1000 frames in 0.41 s".
-std::string words(const Flood& flood);
+std::string to_text(const Flood& flood);
 
 class Backlog {
  public:

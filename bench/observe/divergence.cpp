@@ -48,7 +48,7 @@ std::optional<std::string> departure(const Frame& a, const Frame& b, double step
     const bool equal = of_a[i].value == of_b[i].value;
     if (equal || (steps > 0 && std::abs(of_a[i].value - of_b[i].value) <= tolerance)) continue;
     return fmt::format("{}.{} is {} in one, {} in the other", message_of(a), of_a[i].signal->name,
-                       words(of_a[i]), words(of_b[i]));
+                       to_text(of_a[i]), to_text(of_b[i]));
   }
   return std::nullopt;
 }
@@ -94,7 +94,8 @@ std::string describe(const Frame& frame) {
   const std::string_view message = message_of(frame);
   if (message.empty()) return fmt::format("frame {:03X}, {} bytes", frame.id, frame.size);
   std::string text(message);
-  for (const Value& value : values_of(frame)) text += fmt::format(" {}={}", value.signal->name, words(value));
+  for (const Value& value : values_of(frame))
+    text += fmt::format(" {}={}", value.signal->name, to_text(value));
   return text;
 }
 

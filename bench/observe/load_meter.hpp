@@ -19,7 +19,7 @@ namespace canhil::observe {
 enum class LoadBy : std::uint8_t {
   time_base,        ///< the second of the last Sync: the same on every bus and in virtual time
   time_base_alone,  ///< the same without what only lockstep has, StepDone: as the run would load a bus
-  told,             ///< the second of virtual time, where nobody sends Sync
+  virtual_time,     ///< the second of virtual time, where nobody sends Sync
   stamps  ///< the second, from the first one on, in which it left the wire: a full queue is no load yet
 };
 
@@ -30,7 +30,7 @@ class LoadMeter final : public Observer {
   LoadMeter(BusFormat format, LoadBy by) : format_(format), by_(by) {}
   void transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) override {
     if (by_ == LoadBy::stamps) return;  // its echo counts
-    if (by_ != LoadBy::told && frame.id == messages::Sync::info.id)
+    if (by_ != LoadBy::virtual_time && frame.id == messages::Sync::info.id)
       second_ = static_cast<std::size_t>(from_frame<messages::Sync>(frame).time_us / 1'000'000);
     take(frame, own_);
   }
@@ -45,7 +45,7 @@ class LoadMeter final : public Observer {
     if (by_ == LoadBy::stamps || !received.own) take(received.frame, received.own ? own_ : others_);
   }
   void time_told(std::int64_t t_ns) override {
-    if (by_ == LoadBy::told) second_ = static_cast<std::size_t>(t_ns / 1'000'000'000);
+    if (by_ == LoadBy::virtual_time) second_ = static_cast<std::size_t>(t_ns / 1'000'000'000);
   }
   /// Of each second from time 0 on.
   [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }

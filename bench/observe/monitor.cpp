@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bench/estimators/registry.hpp"
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 #include "bench/observe/sightings.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/time_base.hpp"
@@ -158,7 +158,7 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     seen_.target_timing_seen = true;
     seen_.queue_max_us = std::max(seen_.queue_max_us, timing.queue_max_us);
     seen_.compute_max_us = std::max(seen_.compute_max_us, timing.compute_max_us);
-    if (stopwatch_) stopwatch_->told(timing);
+    if (stopwatch_) stopwatch_->on_target_timing(timing);
   }
 }
 

@@ -26,7 +26,7 @@ class Sightings final : public Observer {
   /// What was wrong with frames of the target: "TargetHeartbeat: 50 with a wrong CRC"; empty: nothing.
   [[nodiscard]] std::string faults() const;
   /// The same, what else the target sent, and other ids; "no frame" where none came.
-  [[nodiscard]] std::string words() const;
+  [[nodiscard]] std::string to_text() const;
 
  private:
   struct Other {

@@ -197,11 +197,12 @@ void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, 
   split(index, group, sent, wire_ns, latency_ns);
 }
 
-checks::LatencySplit& Stopwatch::split_of(std::string_view group) {
-  auto& all = record_.split_by_group;
-  const auto found = std::ranges::find(all, group, &checks::GroupSplit::group);
-  return found != all.end() ? found->split
-                            : all.emplace_back(checks::GroupSplit{.group = group, .split = {}}).split;
+checks::LatencyBreakdown& Stopwatch::split_of(std::string_view group) {
+  auto& all = record_.breakdown_by_group;
+  const auto found = std::ranges::find(all, group, &checks::GroupBreakdown::group);
+  return found != all.end()
+             ? found->breakdown
+             : all.emplace_back(checks::GroupBreakdown{.group = group, .breakdown = {}}).breakdown;
 }
 
 // A stimulus may have several answers: it has been answered with the last of them.
@@ -209,41 +210,41 @@ void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std
                       std::int64_t latency_ns) {
   sent.reply_wire_ns += wire_ns;
   record_.answers[index].reply_wire_ns += sent.reply_wire_ns;
-  for (checks::LatencySplit* split : {&record_.split, &split_of(group)}) {
-    split->reply_wire_ns += wire_ns;
-    split->latency_ns += latency_ns - sent.latency_ns;
+  for (checks::LatencyBreakdown* breakdown : {&record_.breakdown, &split_of(group)}) {
+    breakdown->reply_wire_ns += wire_ns;
+    breakdown->latency_ns += latency_ns - sent.latency_ns;
     if (sent.answered) continue;
-    ++split->stimuli;
+    ++breakdown->stimuli;
     if (!sent.to_echo_ns) continue;
-    ++split->echoed;
-    split->to_echo_ns += *sent.to_echo_ns;
-    split->stimulus_wire_ns += sent.wire_ns;
+    ++breakdown->echoed;
+    breakdown->to_echo_ns += *sent.to_echo_ns;
+    breakdown->stimulus_wire_ns += sent.wire_ns;
   }
   sent.latency_ns = latency_ns;
-  if (!sent.answered) ++untold_.stimuli;
+  if (!sent.answered) ++pending_window_.stimuli;
   sent.answered = true;
-  if (latency_ns <= untold_.slowest.latency_ns) return;
-  untold_.slowest = {.message = record_.messages[index].name,
-                     .t_ns = newest_[index].t_ns - first_ns_.value_or(0),
-                     .latency_ns = latency_ns,
-                     .reply_wire_ns = sent.reply_wire_ns};
+  if (latency_ns <= pending_window_.slowest.latency_ns) return;
+  pending_window_.slowest = {.message = record_.messages[index].name,
+                             .t_ns = newest_[index].t_ns - first_ns_.value_or(0),
+                             .latency_ns = latency_ns,
+                             .reply_wire_ns = sent.reply_wire_ns};
 }
 
-void Stopwatch::told(const messages::TargetTiming& timing) {
-  const auto stimuli = static_cast<std::int64_t>(untold_.stimuli);
-  record_.split.told += untold_.stimuli;
+void Stopwatch::on_target_timing(const messages::TargetTiming& timing) {
+  const auto stimuli = static_cast<std::int64_t>(pending_window_.stimuli);
+  record_.breakdown.accounted += pending_window_.stimuli;
   if (stimuli > 0) {
-    record_.split.queue_clipped |= timing.queue_mean_us >= checks::most_told_us;
-    record_.split.compute_clipped |= timing.compute_mean_us >= checks::most_told_us;
+    record_.breakdown.queue_clipped |= timing.queue_mean_us >= checks::most_reported_us;
+    record_.breakdown.compute_clipped |= timing.compute_mean_us >= checks::most_reported_us;
   }
-  record_.split.target_queue_ns += stimuli * timing.queue_mean_us * 1000;
-  record_.split.target_compute_ns += stimuli * timing.compute_mean_us * 1000;
-  if (untold_.slowest.latency_ns > record_.slowest.latency_ns) {
-    record_.slowest = untold_.slowest;
+  record_.breakdown.target_queue_ns += stimuli * timing.queue_mean_us * 1000;
+  record_.breakdown.target_compute_ns += stimuli * timing.compute_mean_us * 1000;
+  if (pending_window_.slowest.latency_ns > record_.slowest.latency_ns) {
+    record_.slowest = pending_window_.slowest;
     record_.slowest.queue_max_us = timing.queue_max_us;
     record_.slowest.compute_max_us = timing.compute_max_us;
   }
-  untold_ = {};
+  pending_window_ = {};
 }
 
 void Stopwatch::finish() {

@@ -45,7 +45,7 @@ class Stopwatch {
   void answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us,
                 std::optional<std::uint8_t> counter = std::nullopt);
   /// The target accounted for its time since it last did.
-  void told(const messages::TargetTiming& timing);
+  void on_target_timing(const messages::TargetTiming& timing);
   /// The run is over.
   void finish();
 
@@ -75,7 +75,7 @@ class Stopwatch {
     std::int64_t due_ns = 0;  // when what it answers was to be sent
   };
   // Since the target last told of its time.
-  struct Untold {
+  struct PendingWindow {
     std::uint64_t stimuli = 0;
     checks::SlowestAnswer slowest{};
   };
@@ -85,7 +85,7 @@ class Stopwatch {
   void forget_oldest(std::string_view name, Group& group);
   void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
                 std::int64_t cause_us);
-  checks::LatencySplit& split_of(std::string_view group);
+  checks::LatencyBreakdown& split_of(std::string_view group);
   void split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
              std::int64_t latency_ns);
   std::optional<Frame> closed_by(const Frame& message, FdPacker& packer) const;
@@ -105,7 +105,7 @@ class Stopwatch {
   std::vector<std::int64_t> wire_ns_;  // of what came, by Carrier::first
   std::vector<std::optional<Last>> last_;
   std::optional<std::int64_t> first_ns_;
-  Untold untold_;
+  PendingWindow pending_window_;
 };
 
 }  // namespace canhil::observe

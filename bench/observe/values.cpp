@@ -50,7 +50,7 @@ std::vector<Value> values_of(const Frame& frame) {
   return values;
 }
 
-std::string words(const Value& value) {
+std::string to_text(const Value& value) {
   // 12 digits resolve every signal, and hide what binary makes of a decimal fraction.
   return value.enumerator.empty() ? fmt::format("{:.12g}", value.value) : std::string(value.enumerator);
 }

@@ -17,7 +17,7 @@ struct Value {
 };
 
 /// For people: 12 digits, or the enumerator.
-std::string words(const Value& value);
+std::string to_text(const Value& value);
 
 /// The signals of a frame, without those of its protection, as the DBC orders them; empty: of no message.
 std::vector<Value> values_of(const Frame& frame);

@@ -35,7 +35,7 @@ Json object(const std::vector<estimators::ResultLine>& lines) {
       figures[figure.name] = {{"value", !figure.value ? Json(nullptr)
                                         : whole       ? Json(count)
                                                       : Json(*figure.value)},
-                              {"words", figure.words}};
+                              {"words", figure.text}};
     }
     json[line.name] = {{"what", line.what}, {"figures", std::move(figures)}};
   }
@@ -224,7 +224,7 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   page["ending"] = {{"completed", run.ending.kind == drive::Ending::Kind::completed},
                     {"t_s", static_cast<double>(run.ending.t_us) / 1e6},
                     {"detail", run.ending.detail}};
-  for (const faults::Told& fault : run.faults) {
+  for (const faults::FaultReport& fault : run.faults) {
     page["faults"].push_back({{"name", fault.name},
                               {"kind", fault.kind},
                               {"stage", faults::name(fault.stage)},

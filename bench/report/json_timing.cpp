@@ -6,7 +6,7 @@
 
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wire_bounds.hpp"
-#include "bench/report/split.hpp"
+#include "bench/report/latency_breakdown.hpp"
 #include "bench/report/summary.hpp"
 
 namespace canhil::report {
@@ -37,17 +37,19 @@ Json object(const checks::TimeLine& line) {
 }
 
 Json split_of(const checks::TimingRecord& timing) {
-  const checks::LatencySplit& split = timing.split;
-  Json json{{"stimuli", split.stimuli}, {"told_by_target", split.told}, {"total_s", total_s(split)}};
-  for (const SplitPart& part : parts(timing)) {
+  const checks::LatencyBreakdown& breakdown = timing.breakdown;
+  Json json{{"stimuli", breakdown.stimuli},
+            {"told_by_target", breakdown.accounted},
+            {"total_s", total_s(breakdown)}};
+  for (const BreakdownPart& part : parts(timing)) {
     json["parts_s"][std::string(part.key)] = or_null(part.mean_s);
     if (part.bound == Bound::at_least) json["at_least"].push_back(part.key);
     if (part.bound == Bound::at_most) json["at_most"].push_back(part.key);
   }
-  for (const auto& [group, of_group] : timing.split_by_group) {
+  for (const auto& [group, of_group] : timing.breakdown_by_group) {
     Json& one = json["groups"][std::string(group)];
     one = {{"stimuli", of_group.stimuli}, {"total_s", total_s(of_group)}};
-    for (const SplitPart& part : group_parts(timing, of_group))
+    for (const BreakdownPart& part : group_parts(timing, of_group))
       one["parts_s"][std::string(part.key)] = or_null(part.mean_s);
   }
   const checks::SlowestAnswer& slowest = timing.slowest;
@@ -106,7 +108,7 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run
     if (transmit.echoed.count() > 0) lateness["echoed"] = object(transmit.echoed);
     lateness["not_echoed"] = transmit.handed_over.count() - transmit.echoed.count();
   }
-  if (timing.split.stimuli > 0) page["split"] = split_of(timing);
+  if (timing.breakdown.stimuli > 0) page["split"] = split_of(timing);
   if (timing.wire.rates.nominal > 0) page["wire"] = wire_of(run.seen);
   page["bench_lateness_s"] = object(timing.lateness);
   page["bench_lateness_s"]["line"] = object(timing.lateness_line);

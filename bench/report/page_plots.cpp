@@ -136,15 +136,16 @@ std::string lines(const Json& series, LinePlot& plot) {
   if (series.contains("sigma")) {
     plot.limit = numbers(series.at("sigma"), size);
     for (double& sigma : plot.limit) sigma *= 3;
-    const bool told = std::ranges::any_of(plot.limit, [](double v) { return std::isfinite(v); });
-    if (!told) {
+    const bool any_sigma = std::ranges::any_of(plot.limit, [](double v) { return std::isfinite(v); });
+    if (!any_sigma) {
       plot.limit.clear();
       plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // as a norm is
     }
-    return told ? "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target tells it, with "
-                  "gaps "
-                  "where it told none in time or they lie beyond the picture"
-                : "solid: estimate less truth; the target tells no sigma of it";
+    return any_sigma
+               ? "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target tells it, with "
+                 "gaps "
+                 "where it told none in time or they lie beyond the picture"
+               : "solid: estimate less truth; the target tells no sigma of it";
   }
   if (series.contains("between_95_percent")) {
     plot.levels = numbers(series.at("between_95_percent"), series.at("between_95_percent").size());

@@ -8,7 +8,7 @@
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/timing_record.hpp"
-#include "bench/report/split.hpp"
+#include "bench/report/latency_breakdown.hpp"
 
 namespace canhil::report {
 namespace {
@@ -58,7 +58,7 @@ std::string ms_or_none(const Json& seconds) {
 }
 
 // "&ge; " or "&le; " where a part is known so far only.
-const char* bound_of(const Json& split, const std::string& part) {
+const char* bound_of(const Json& breakdown, const std::string& part) {
   const auto listed = [&](const char* key) {
     return split.contains(key) &&
            std::ranges::any_of(split.at(key), [&](const Json& one) { return one == part; });
@@ -67,7 +67,7 @@ const char* bound_of(const Json& split, const std::string& part) {
 }
 
 // The same way for each group of stimuli: one that is answered rarely is lost in the mean of all.
-std::string group_table(const Json& split) {
+std::string group_table(const Json& breakdown) {
   if (!split.contains("groups") || split.at("groups").size() < 2) return "";
   std::vector<std::string> head{"part, by stimulus"};
   Rows rows;
@@ -89,13 +89,13 @@ std::string group_table(const Json& split) {
 // The parts of the way from stimulus to answer.
 std::string split_table(const Json& report) {
   if (!report.contains("split")) return "";
-  const Json& split = report.at("split");
+  const Json& breakdown = report.at("split");
   const double total_s = split.at("total_s").get<double>();
   Rows rows;
   for (const auto& [key, mean] : split.at("parts_s").items()) {
     const std::string share =
         mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
-    rows.push_back({escaped(std::string(what_of(key))), bound_of(split, key) + ms_or_none(mean), share});
+    rows.push_back({escaped(std::string(what_of(key))), bound_of(breakdown, key) + ms_or_none(mean), share});
   }
   rows.push_back({"<b>from the hand-over of the stimulus to the last frame of its answer</b>",
                   fmt::format("<b>{:.3f}</b>", total_s * 1e3), ""});
@@ -104,20 +104,21 @@ std::string split_table(const Json& report) {
   out += table({"part", "ms", "share"}, rows, "figures");
   if (split.contains("at_least"))
     out += fmt::format("<p class=\"unknown\">? The target tells no times beyond {} us: it took longer.</p>\n",
-                       checks::most_told_us);
-  out += group_table(split);
+                       checks::most_reported_us);
+  out += group_table(breakdown);
   if (!split.contains("slowest")) return out;
   const Json& slowest = split.at("slowest");
-  const auto told = [&](const char* key) {
+  const auto reported = [&](const char* key) {
     const auto us = slowest.at(key).get<std::int64_t>();
-    return fmt::format("{} us{}", us, us < checks::most_told_us ? "" : " or more");
+    return fmt::format("{} us{}", us, us < checks::most_reported_us ? "" : " or more");
   };
   return out +
          fmt::format(
              "<p class=\"note\">The slowest answer, {} at {:.3f} s, took {:.3f} ms; in that 0.1 s the target "
              "told of a longest wait of {} and a longest computing of {}.</p>\n",
              text_in(slowest.at("message")), slowest.at("t_s").get<double>(),
-             slowest.at("latency_s").get<double>() * 1e3, told("queue_max_us"), told("compute_max_us"));
+             slowest.at("latency_s").get<double>() * 1e3, reported("queue_max_us"),
+             reported("compute_max_us"));
 }
 
 // Each message's longest time over the bus beside its bound.
@@ -126,7 +127,7 @@ std::string wire_table(const Json& report) {
   const Json& wire = report.at("wire");
   const canhil::wire::BitRates rates{.nominal = wire.at("bitrate_bitps").get<std::int64_t>(),
                                      .data = wire.value("data_bitrate_bitps", std::int64_t{0})};
-  std::string out = fmt::format("<h3>Over the bus at {}, beside the bound</h3>\n", checks::words(rates));
+  std::string out = fmt::format("<h3>Over the bus at {}, beside the bound</h3>\n", checks::to_text(rates));
   if (const std::string why = text_in(wire.at("no_bounds")); !why.empty())
     out += fmt::format("<p class=\"unknown\">? Bounds do not hold in this run: {}.</p>\n", why);
   Rows rows;

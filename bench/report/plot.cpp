@@ -29,7 +29,7 @@ std::string begin(const std::string& title) {
       width, height, escaped(title));
 }
 
-std::string words(double x, double y, std::string_view anchor, std::string_view label) {
+std::string text_at(double x, double y, std::string_view anchor, std::string_view label) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
                      escaped(label));
 }
@@ -207,14 +207,14 @@ std::string svg(const HistogramPlot& plot) {
   std::string out = begin(plot.title);
   for (const double value : decades(0, y.to)) {
     out += line("rule", left, y(std::log10(value)), right, y(std::log10(value)));
-    out += words(left - 6, y(std::log10(value)) + 4, "end", fmt::format("{:g}", value));
+    out += text_at(left - 6, y(std::log10(value)) + 4, "end", fmt::format("{:g}", value));
   }
   double last_label = -100;
   for (const double value : decades(x.from, x.to)) {
     const double at = x(std::log10(value));
     out += line("tick", at, bottom, at, bottom + 5);
     if (at - last_label < 46) continue;
-    out += words(std::min(at, right - 10), bottom + 19, "middle", time_of(value));
+    out += text_at(std::min(at, right - 10), bottom + 19, "middle", time_of(value));
     last_label = at;
   }
   const double step = (right - left) / static_cast<double>(column_count);
@@ -230,12 +230,12 @@ std::string svg(const HistogramPlot& plot) {
     const double at = x(std::log10(std::max(mark.at_us, 1.0)));
     out += line("mark", at, top - 4, at, bottom);
     if (at - last_mark <= 30) continue;
-    out += words(std::min(at, right - 8), top - 9, "middle", mark.label);
+    out += text_at(std::min(at, right - 8), top - 9, "middle", mark.label);
     last_mark = at;
   }
   out += frame();
-  out +=
-      words((left + right) / 2, bottom + 35, "middle", "time (logarithmic); height: how many (logarithmic)");
+  out += text_at((left + right) / 2, bottom + 35, "middle",
+                 "time (logarithmic); height: how many (logarithmic)");
   return out + "</svg>";
 }
 
@@ -251,13 +251,13 @@ std::string svg(const LinePlot& plot) {
   const std::vector<std::string> row_labels = mark_labels(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out += line(rows[i] == 0 ? "zero" : "rule", left, y(rows[i]), right, y(rows[i]));
-    out += words(left - 6, y(rows[i]) + 4, "end", row_labels[i]);
+    out += text_at(left - 6, y(rows[i]) + 4, "end", row_labels[i]);
   }
   const std::vector<double> columns = round_values(x.from, x.to, 6);
   const std::vector<std::string> column_labels = mark_labels(columns);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     out += line("tick", x(columns[i]), bottom, x(columns[i]), bottom + 5);
-    out += words(x(columns[i]), bottom + 19, "middle", column_labels[i]);
+    out += text_at(x(columns[i]), bottom + 19, "middle", column_labels[i]);
   }
   out += area(plot, x, y);
   if (plot.limit.size() == plot.t_s.size()) {
@@ -273,8 +273,8 @@ std::string svg(const LinePlot& plot) {
     if (y.from <= -bar.below) out += bar_line(bar, -bar.below, x, y);
   }
   out += frame();
-  out += words(left - 6, top - 9, "end", plot.unit);
-  out += words((left + right) / 2, bottom + 35, "middle", "s");
+  out += text_at(left - 6, top - 9, "end", plot.unit);
+  out += text_at((left + right) / 2, bottom + 35, "middle", "s");
   return out + "</svg>";
 }
 

@@ -11,8 +11,8 @@
 namespace canhil::report {
 namespace {
 
-using quantities::Told;
 using quantities::Track;
+using quantities::TrackPoint;
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
@@ -40,14 +40,14 @@ std::vector<Series::Point> thinned(const Track& track, std::int64_t duration_us,
     const double none = std::numeric_limits<double>::quiet_NaN();
     points.push_back({.t_s = seconds(from_us), .low = none, .high = none});
   };
-  for (const Told& told : track.told) {
-    if (told.t_us > track.drawn_until_us) continue;
-    const Series::Point point = point_of(told);
+  for (const TrackPoint& answer : track.points) {
+    if (answer.t_us > track.drawn_until_us) continue;
+    const Series::Point point = point_of(answer);
     if (!std::isfinite(point.low)) continue;
-    if (silent_until(told.t_us)) add_silence(last_us + 1);
-    const bool follows =
-        !points.empty() && told.t_us / stretch_us == last_us / stretch_us && std::isfinite(points.back().low);
-    last_us = told.t_us;
+    if (silent_until(answer.t_us)) add_silence(last_us + 1);
+    const bool follows = !points.empty() && answer.t_us / stretch_us == last_us / stretch_us &&
+                         std::isfinite(points.back().low);
+    last_us = answer.t_us;
     if (!follows) {
       points.push_back(point);
       continue;
@@ -83,7 +83,7 @@ std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
   if (track.kind != Track::Kind::error) return bars;
   for (const scenario::Check& check : scenario.checks) {
     const std::optional<checks::Bar> bar = check.rule->bar();
-    if (!bar || std::ranges::none_of(bar->of, [&](const checks::Subject& subject) {
+    if (!bar || std::ranges::none_of(bar->judged, [&](const checks::Subject& subject) {
           return subject.estimator == estimator && subject.quantity == track.quantity;
         }))
       continue;
@@ -107,10 +107,10 @@ Series series_of(std::string_view estimator, const Track& track, bool estimates,
                 .quantity = estimates ? track.estimate_title : track.title,
                 .unit = std::string(unit.name),
                 .kind = estimates ? Series::Kind::estimate : kind_of(track)};
-  series.points = thinned(track, scenario.duration_us, [&](const Told& told) {
-    const double value = (estimates ? told.estimate.value() : told.value) / unit.factor;
-    Series::Point point{.t_s = seconds(told.t_us), .low = value, .high = value};
-    (estimates ? point.truth : point.sigma) = in(unit, estimates ? told.truth : told.sigma);
+  series.points = thinned(track, scenario.duration_us, [&](const TrackPoint& answer) {
+    const double value = (estimates ? answer.estimate.value() : answer.value) / unit.factor;
+    Series::Point point{.t_s = seconds(answer.t_us), .low = value, .high = value};
+    (estimates ? point.truth : point.sigma) = in(unit, estimates ? answer.truth : answer.sigma);
     return point;
   });
   if (!estimates) series.bars = bars_of(estimator, track, scenario);
@@ -124,7 +124,7 @@ Series series_of(std::string_view estimator, const Track& track, bool estimates,
 }  // namespace
 
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give) {
-  const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
+  const estimators::Truth truth = drive::truth_of(run.truth, run.per_run_truth, scenario.duration_us);
   for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;
     estimators::give_tracks(*one, run.seen, truth, [&](const Track& track) { give(one->name, track); });

@@ -15,7 +15,7 @@ class Rule;
 namespace canhil::scenario {
 
 class Section;
-struct Contract;
+struct DbcVocabulary;
 
 /// Part of a run, ends included, by the time of validity an answer names as its cause.
 struct Window {
@@ -40,7 +40,7 @@ struct Check {
 /// What the readers of all kinds need to know of the scenario.
 struct CheckContext {
   std::int64_t duration_us = 0;
-  const Contract& contract;
+  const DbcVocabulary& contract;
   std::span<const std::string> estimators;  ///< that run
   std::span<const FaultWindow> faults{};    ///< up to the end of the run
   std::int64_t latency_us = 0;              ///< the longest from validity to transmission, of all nodes

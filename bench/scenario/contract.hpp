@@ -25,7 +25,7 @@ struct NodeTable;
 class NodeSettings;
 class Section;
 
-struct Contract {
+struct DbcVocabulary {
   std::vector<std::string> estimators;  ///< value table Estimator, without "none"
   std::vector<std::string> algorithms;  ///< value table Algorithm
   std::vector<std::string> parameters;  ///< value table Parameter
@@ -45,7 +45,7 @@ struct Contract {
 };
 
 /// Of an estimator; one that nobody knows is one that navigates.
-inline EstimatorFacts facts_of(const Contract& contract, std::string_view estimator) {
+inline EstimatorFacts facts_of(const DbcVocabulary& contract, std::string_view estimator) {
   const auto found = contract.facts.find(estimator);
   return found == contract.facts.end() ? EstimatorFacts{} : found->second;
 }

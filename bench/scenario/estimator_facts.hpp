@@ -12,9 +12,9 @@ namespace canhil::scenario {
 
 /// What the target is told of the start.
 enum class Start : std::uint8_t {
-  navigation,  ///< the carrier's state, with the errors of [initial_error]
-  own_truth,   ///< that of its own truth, which has errors of its own
-  nothing      ///< it makes nothing of what it is told
+  navigation,     ///< the carrier's state, with the errors of [initial_error]
+  per_run_truth,  ///< that of its own truth, which has errors of its own
+  nothing         ///< it makes nothing of what it is told
 };
 
 struct EstimatorFacts {

@@ -51,10 +51,10 @@ void read_faults(Section& root, const FaultContext& context, std::vector<Fault>&
     return;
   }
   std::vector<Section> sections = root.tables("fault");
-  for (std::size_t place = 0; place < sections.size(); ++place) {
-    if (some != nullptr && std::ranges::find(*some, place) == some->end()) continue;
-    if (some != nullptr) sections[place].optional("together");
-    faults.push_back(read_fault(sections[place], context, faults));
+  for (std::size_t index = 0; index < sections.size(); ++index) {
+    if (some != nullptr && std::ranges::find(*some, index) == some->end()) continue;
+    if (some != nullptr) sections[index].optional("together");
+    faults.push_back(read_fault(sections[index], context, faults));
   }
 }
 

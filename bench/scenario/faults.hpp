@@ -19,7 +19,7 @@ namespace canhil::scenario {
 
 class NodeSettings;
 class Section;
-struct Contract;
+struct DbcVocabulary;
 
 struct Fault {
   std::string name{};  ///< unique in the scenario; by default kind and what it befalls
@@ -32,7 +32,7 @@ struct Fault {
 /// What the readers of all kinds need to know of the scenario.
 struct FaultContext {
   std::int64_t duration_us = 0;
-  const Contract& contract;
+  const DbcVocabulary& contract;
   std::span<const NodeSettings> nodes;  ///< that are on the bus
 };
 

@@ -49,11 +49,11 @@ bool has_position(const Table& table) {
 
 /// Everything but the positions must be there, and of those all or none.
 Result<void> check_columns(const Table& table) {
-  for (std::size_t place = 0; place < quantities.size(); ++place) {
-    const bool of_position = place == latitude || place == longitude || place == height;
-    if (table.has(place) || (of_position && !has_position(table))) continue;
-    Error error = table.missing(place);
-    if (place == north || place == east || place == down)
+  for (std::size_t index = 0; index < quantities.size(); ++index) {
+    const bool of_position = index == latitude || index == longitude || index == height;
+    if (table.has(index) || (of_position && !has_position(table))) continue;
+    Error error = table.missing(index);
+    if (index == north || index == east || index == down)
       error.message += " (the velocity cannot be had from positions: their rounding would be accelerations)";
     return tl::unexpected(std::move(error));
   }
@@ -62,14 +62,14 @@ Result<void> check_columns(const Table& table) {
 
 Result<void> check_ranges(const Table& table) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (std::size_t place = 1; place < quantities.size(); ++place) {
-      const Limits& limits = quantities[place].limits;
-      const double value = table.value(row, place);
-      if (!table.has(place) || holds(limits, value)) continue;
+    for (std::size_t index = 1; index < quantities.size(); ++index) {
+      const Limits& limits = quantities[index].limits;
+      const double value = table.value(row, index);
+      if (!table.has(index) || holds(limits, value)) continue;
       return tl::unexpected(
-          table.about(row, place,
+          table.about(row, index,
                       fmt::format("{:g} {} is out of range, expected {:g} to {:g}", value,
-                                  quantities[place].name.substr(quantities[place].name.rfind('_') + 1),
+                                  quantities[index].name.substr(quantities[index].name.rfind('_') + 1),
                                   limits.least, limits.most)));
     }
   }
@@ -77,7 +77,7 @@ Result<void> check_ranges(const Table& table) {
 }
 
 world::RecordedState state_of(const Table& table, std::size_t row, std::int64_t t_us) {
-  const auto at = [&](Place place) { return table.value(row, place) * factor_of(quantities[place].name); };
+  const auto at = [&](Place index) { return table.value(row, index) * factor_of(quantities[index].name); };
   world::RecordedState state{
       .t_us = t_us,
       .v_eb_n = world::Vector3(at(north), at(east), at(down)),

@@ -15,7 +15,7 @@ namespace canhil::scenario {
 namespace {
 
 /// The keys of the nodes that sample a truth, after those of the truth itself.
-std::vector<std::string_view> keys_of(TruthOf truth, const Contract& contract,
+std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contract,
                                       std::vector<std::string_view> keys) {
   for (const NodeTable* node : contract.nodes) {
     if (node->samples == truth) keys.push_back(node->key);
@@ -25,19 +25,19 @@ std::vector<std::string_view> keys_of(TruthOf truth, const Contract& contract,
 
 /// Whether something holds of an estimator that the scenario runs.
 template <class Holds>
-bool any_runs(const Scenario& scenario, const Contract& contract, Holds holds) {
+bool any_runs(const Scenario& scenario, const DbcVocabulary& contract, Holds holds) {
   return std::ranges::any_of(scenario.targets, [&](const TargetSetup& target) {
     return holds(facts_of(contract, target.estimator));
   });
 }
 
 /// Reads the nodes that sample a truth.
-void read_nodes(Section& root, Scenario& scenario, const Contract& contract, TruthOf truth) {
-  const bool own_truth =
+void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract, TruthOf truth) {
+  const bool per_run_truth =
       (truth == TruthOf::glide && scenario.glide) || (truth == TruthOf::engagement && scenario.engagement);
   for (const NodeTable* node : contract.nodes) {
     if (node->samples != truth) continue;
-    const bool needed = own_truth || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
+    const bool needed = per_run_truth || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
                           return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
                         });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
@@ -54,7 +54,7 @@ void read_nodes(Section& root, Scenario& scenario, const Contract& contract, Tru
 }
 
 /// The glider's truth and nodes.
-void read_glider(Section& root, Scenario& scenario, const Contract& contract) {
+void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   const auto parts = keys_of(TruthOf::glide, contract, {glide_tables.begin(), glide_tables.end()});
   const bool wanted = any_runs(scenario, contract,
                                [](const EstimatorFacts& facts) { return facts.truth == TruthOf::glide; }) ||
@@ -85,7 +85,7 @@ std::vector<std::string> estimators_of(const Scenario& scenario) {
   return estimators;
 }
 
-std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Contract& contract) {
+std::vector<Check> read_checks(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const std::vector<std::string> estimators = estimators_of(scenario);
   std::vector<FaultWindow> faults;
   for (const Fault& fault : scenario.faults)
@@ -113,7 +113,7 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Co
 
 /// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
 /// may be.
-void read_navigation(Section& root, Scenario& scenario, const Contract& contract) {
+void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth, scenario.duration_us);
@@ -137,7 +137,7 @@ void refuse_errors_of_start(Section& root, const Scenario& scenario) {
 
 /// An estimator that is aided takes the fixes of one aid, the first unless its parameter says another, and
 /// refuses the others'; nobody else takes any.
-void expect_aid(Section& root, const Scenario& scenario, const Contract& contract) {
+void expect_aid(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const auto target = std::ranges::find_if(scenario.targets, [&](const TargetSetup& one) {
     return !facts_of(contract, one.estimator).aided_by.empty();
   });
@@ -199,7 +199,7 @@ std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) 
   return "";
 }
 
-Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
+Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVocabulary& contract,
                        std::span<const Setting> settings, std::optional<std::string> folder) {
   Section root = Section::parse(text, name, settings);
   if (folder) root.look_in(std::move(*folder));
@@ -242,7 +242,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
 }
 
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
-                        const Contract& contract, const FaultPlaces* some) {
+                        const DbcVocabulary& contract, const FaultPlaces* some) {
   Section root = Section::parse(text, name);
   if (!root.has("fault")) root.tables("fault");  // it has nothing else
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
@@ -253,7 +253,7 @@ Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_v
   return {};
 }
 
-Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract) {
+Result<Scenario> read_file(const std::filesystem::path& path, const DbcVocabulary& contract) {
   const auto text = read_text_file(path, "a scenario file", most_toml_bytes);
   if (!text) return tl::unexpected(text.error());
   return parse(*text, path.string(), contract);

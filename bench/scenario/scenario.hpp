@@ -63,16 +63,16 @@ struct Scenario {
 };
 
 /// Reads a scenario file. The error is one line.
-Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract);
+Result<Scenario> read_file(const std::filesystem::path& path, const DbcVocabulary& contract);
 
 /// Reads a scenario's text; `name` stands for the file in messages. Settings replace what the text says, and
 /// are read as strictly. Files that it names are in `folder`, by default that of `name`.
-Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
+Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVocabulary& contract,
                        std::span<const Setting> settings = {}, std::optional<std::string> folder = {});
 
 /// Appends the [[fault]] tables of another text, or some of them. The error is one line.
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
-                        const Contract& contract, const FaultPlaces* some = nullptr);
+                        const DbcVocabulary& contract, const FaultPlaces* some = nullptr);
 
 /// At most so much is read of a scenario or campaign file.
 inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;

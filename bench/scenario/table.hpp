@@ -25,21 +25,21 @@ struct Table {
   std::vector<std::size_t> lines;  ///< of the file, for each row
 
   [[nodiscard]] std::size_t rows() const { return lines.size(); }
-  [[nodiscard]] bool has(std::size_t place) const { return !found[place].empty(); }
-  [[nodiscard]] double value(std::size_t row, std::size_t place) const {
-    return values[row * asked.size() + place];
+  [[nodiscard]] bool has(std::size_t index) const { return !found[index].empty(); }
+  [[nodiscard]] double value(std::size_t row, std::size_t index) const {
+    return values[row * asked.size() + index];
   }
   /// "flight.csv:17: column 'roll_rad': WHAT".
-  [[nodiscard]] Error about(std::size_t row, std::size_t place, std::string_view what) const;
+  [[nodiscard]] Error about(std::size_t row, std::size_t index, std::string_view what) const;
   /// "flight.csv:1: column 'roll_deg': is missing, expected it, or 'roll_rad' ...".
-  [[nodiscard]] Error missing(std::size_t place) const;
+  [[nodiscard]] Error missing(std::size_t index) const;
 };
 
 /// Reads a CSV text. Error: one line with file, line and column.
 Result<Table> read_table(std::string_view text, std::string_view file, std::span<const std::string> names);
 
 /// Times of rows [us] after `from_us`, of a column in s. Error: they do not ascend.
-Result<std::vector<std::int64_t>> times_of(const Table& table, std::size_t place, std::int64_t from_us);
+Result<std::vector<std::int64_t>> times_of(const Table& table, std::size_t index, std::int64_t from_us);
 
 /// Rows of a table, one after the other.
 struct Rows {
@@ -48,7 +48,7 @@ struct Rows {
 
 /// The rows from the last one at or before 0 to the first one at or after end_us. Error: there is no such
 /// one, or from one of them to the next it is longer than gap_us.
-Result<Rows> covering(const Table& table, std::size_t place, std::span<const std::int64_t> t_us,
+Result<Rows> covering(const Table& table, std::size_t index, std::span<const std::int64_t> t_us,
                       std::int64_t end_us, std::int64_t gap_us);
 
 /// The middle one of the times from one of these to the next; they are two at least.

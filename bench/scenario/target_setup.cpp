@@ -31,7 +31,7 @@ InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
   return sigma;
 }
 
-std::vector<Parameter> read_parameters(Section section, const Contract& contract,
+std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& contract,
                                        const std::string& estimator) {
   const auto own = facts_of(contract, estimator).parameters;
   const auto may_be_meant = [&](const std::string& name) {
@@ -54,7 +54,7 @@ std::vector<Parameter> read_parameters(Section section, const Contract& contract
 }
 
 /// Without a handshake: nothing is told, so there is nothing to be set.
-TargetSetup read_own_start(Section& section, const Contract& contract) {
+TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
   static const std::vector<std::string> none{"none"};
   section.one_of({"handshake", "With `mapping`: the target gets no commands."}, none, none.front());
   section.text(
@@ -76,7 +76,7 @@ TargetSetup read_own_start(Section& section, const Contract& contract) {
   return target;
 }
 
-TargetSetup read_target(Section& section, const Contract& contract) {
+TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   if (contract.foreign != nullptr) return read_own_start(section, contract);
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
     section.refuse(key, "is of a target with a mapping", "the key 'mapping' beside it");
@@ -96,7 +96,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   }
   if (facts.start != Start::navigation) {
     section.refuse("initial_error", fmt::format("has no effect on '{}'", target.estimator),
-                   facts.start == Start::own_truth ? facts.start_errors : "no such table");
+                   facts.start == Start::per_run_truth ? facts.start_errors : "no such table");
   }
   if (auto initial_error = section.optional_table("initial_error"))
     target.initial_error = read_initial_error(*initial_error);
@@ -106,7 +106,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
 
 }  // namespace
 
-std::vector<TargetSetup> read_targets(Section& root, const Contract& contract) {
+std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract) {
   std::vector<TargetSetup> targets;
   for (Section& section : root.table_or_tables("target")) {
     TargetSetup target = read_target(section, contract);

@@ -46,6 +46,6 @@ struct TargetSetup {
 };
 
 /// Every estimator of the target, at least one, none of them twice.
-std::vector<TargetSetup> read_targets(Section& root, const Contract& contract);
+std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract);
 
 }  // namespace canhil::scenario

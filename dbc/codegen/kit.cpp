@@ -19,7 +19,7 @@ struct Group {
   std::vector<const Message*> messages;  // by id: the order of transmission
 };
 
-// By the id of their first message.
+// Sorted by the id of the first message.
 std::vector<Group> groups_of(const Database& database) {
   std::vector<const Message*> sorted;
   for (const Message& message : database.messages) sorted.push_back(&message);
@@ -51,7 +51,7 @@ std::string c_name(std::string_view of, std::string_view name) {
   return fmt::format("CANHIL_{}_{}", upper(of), upper(identifier(name)));
 }
 
-// Why the kit's tables cannot say it; empty: they can.
+// Why the kit's tables cannot describe the message; empty: they can.
 std::string unfit(const Message& message) {
   if (message.extended || message.fd || message.size > 8)
     return fmt::format("message {}: expected classic CAN of at most 8 bytes with an 11-bit id", message.name);
@@ -60,7 +60,7 @@ std::string unfit(const Message& message) {
 }
 std::string unfit(const Signal& signal, std::set<std::string>& names) {
   if (!names.insert(signal.name).second)
-    return fmt::format("signal {}: expected a name of its own in its sample group", signal.name);
+    return fmt::format("signal {}: expected a name that is unique in its sample group", signal.name);
   if (signal.byte_order != ByteOrder::little_endian || signal.multiplexor || !signal.multiplexed_by.empty() ||
       signal.type == RawType::float64 || (!signal.is_float() && !raw_range(signal)))
     return fmt::format("signal {}: expected little-endian, not multiplexed, no 64-bit float", signal.name);
@@ -110,7 +110,7 @@ Limits limits_of(const Signal& signal) {
   return {text(range.lowest), text(range.highest)};
 }
 
-// The place of a signal among the values of a group; -1: it has none of that name.
+// The index of a signal among the values of a group; -1: the group has no signal of that name.
 int place_of(const Group& group, std::string_view name) {
   int place = 0;
   for (const Message* message : group.messages) {
@@ -122,7 +122,7 @@ int place_of(const Group& group, std::string_view name) {
   return -1;
 }
 
-// The name of the value table that has just these values; empty: none.
+// The name of the value table with exactly the signal's values; empty: none.
 std::string table_of(const Database& database, const Signal& signal) {
   const auto table = std::ranges::find_if(database.value_tables, [&](const ValueTable& one) {
     return ascending(one.values) == ascending(signal.values);

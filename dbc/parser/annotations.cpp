@@ -1,4 +1,4 @@
-// The sections that say more about what is defined: named values, comments; and environment variables.
+// The sections for named values, comments and environment variables.
 #include <fmt/format.h>
 
 #include <set>

@@ -41,8 +41,8 @@ Descriptor new_socket() {
   return Descriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
 }
 
-// Whether the file that was opened still has its name: a host that ends takes its lock file along, and a lock
-// on a file that nobody else can find excludes nobody.
+// Whether the opened file still has its name: a host that ends removes its lock file, and a lock on a removed
+// file does not exclude other processes.
 bool still_named(const Descriptor& file, const std::string& path) {
   struct stat opened {
   }, named{};
@@ -74,7 +74,7 @@ Result<std::string> directory() {
   const std::string runtime = set == nullptr ? "" : set;
   struct stat entry {};
   std::string path = runtime + "/canhil";
-  // That of another user comes along with su and sudo; a long one has no room for a socket's name.
+  // su and sudo may keep another user's directory; a long path leaves no room for a socket's name.
   const bool fit = runtime.starts_with('/') && path.size() <= longest_directory &&
                    ::lstat(runtime.c_str(), &entry) == 0 && is_ours_alone(entry);
   if (!fit) path = fmt::format("/tmp/canhil-uid-{}", ::geteuid());
@@ -105,7 +105,7 @@ Result<Claim> Claim::take(std::string_view bus, const std::string& name) {
 Claim::~Claim() {
   if (!lock_) return;
   for (const Place place : {Place::classic, Place::fd}) ::unlink(socket_of(path_, place).c_str());
-  ::unlink(lock_of(path_).c_str());  // before the lock goes, see still_named()
+  ::unlink(lock_of(path_).c_str());  // before the lock is released, see still_named()
 }
 
 Descriptor Claim::listen(Place place, int backlog) const {
@@ -132,7 +132,7 @@ Process process_behind(int socket) {
   return {.pid = credentials.pid, .uid = credentials.uid};
 }
 
-std::string words(const Process& process) {
+std::string to_text(const Process& process) {
   return fmt::format("pid {} of uid {}", process.pid, process.uid);
 }
 

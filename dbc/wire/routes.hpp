@@ -1,4 +1,4 @@
-// From a frame's id to its message in one look-up.
+// Maps a frame's id to its message in one look-up.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace canhil {
 
-/// Which of the bus's messages a receiver listens to, by standard id.
+/// The messages that a receiver reads, by standard id.
 class Routes {
  public:
   static constexpr std::size_t nowhere = 0xFF;
 
-  /// Listens to the messages that `wanted(const MessageInfo&)` holds for.
+  /// Selects the messages for which `wanted(const MessageInfo&)` is true.
   template <class Wanted>
   consteval explicit Routes(Wanted wanted) {
     place_.fill(nowhere);
@@ -24,8 +24,8 @@ class Routes {
     }
   }
 
-  /// The place of a frame's message in all_messages, or nowhere: error frames, extended ids, ids not listened
-  /// to.
+  /// The index of a frame's message in all_messages; nowhere for error frames, extended ids and ids that are
+  /// not selected.
   [[nodiscard]] constexpr std::size_t operator()(const Frame& frame) const {
     return frame.error || frame.extended || frame.id >= place_.size() ? nowhere : place_[frame.id];
   }

@@ -1,4 +1,4 @@
-// What a bench may choose of in-flight alignment.
+// The parameters of in-flight alignment that a bench can set.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace canhil::target {
 
-/// What the parameters change.
+/// The values that the parameters set.
 struct InflightTuning {
   inflight_alignment::Settings filter;
-  double height_sigma = 0;  // 0: as that of the other coordinates
+  double height_sigma = 0;  // 0: the sigma of the other coordinates
   std::int64_t output_interval_us = 0;
 };
 
-/// In the unit of their name; defaults are those of Kang, Kim, Park 2006 with an SSBL.
+/// Parameters in the unit of their name; the defaults are those of Kang, Kim, Park 2006 with an SSBL.
 inline constexpr std::array inflight_alignment_parameters = [] {
   namespace ia = inflight_alignment;
   using Row = ParameterTable<InflightTuning>::Row;

@@ -1,4 +1,4 @@
-// LOS rate behind the bus: group Seeker in, group LosRate out. Every whole group is answered.
+// The adapter of the LOS rate estimator: group Seeker in, group LosRate out. Answers every complete group.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -17,11 +17,11 @@ namespace los = los_rate;
 using namespace messages;
 
 constexpr double us = 1e-6, ms = 1e-3;
-constexpr std::int64_t lead_limit_us = 100'000;  // a group valid further ahead of the time base is nonsense
-constexpr std::int64_t silence_limit_us = 500'000;  // a seeker that stays away this long is named
+constexpr std::int64_t lead_limit_us = 100'000;     // a group further ahead of the time base is rejected
+constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the seeker is an error
 
-// Parameters in the unit of their name; defaults are those of the estimator. The design is made of them at
-// the start, so none may change while it runs. Within the ranges every design and its gains are finite.
+// Parameters in the unit of their name; the defaults are those of the estimator. The design is computed from
+// them at the start, so none may change while it runs. Within the ranges all designs and gains are finite.
 using Tuning = los::Settings;
 using Row = ParameterTable<Tuning>::Row;
 constexpr bool whole = true;
@@ -86,7 +86,7 @@ constexpr std::array rows{
     Row{Parameter::range_unchanged_limit_ms, standard.range_unchanged_limit / ms, 0, 1e4, real, stopped_only,
         "A range that does not change for longer is stale.",
         [](Tuning& t, double v) { t.range_unchanged_limit = v * ms; }},
-    // Below the largest angle that the bus carries, so that an angle which saturates there is refused.
+    // Below the largest angle that the bus carries, so that a saturated angle is refused.
     Row{Parameter::field_of_view_rad, standard.field_of_view, 1e-3, 0.6, real, stopped_only,
         "Error angles beyond are refused.", [](Tuning& t, double v) { t.field_of_view = v; }},
     Row{Parameter::antenna_rate_sigma_radps, standard.antenna_rate_sigma, 0, 100, real, stopped_only,
@@ -146,7 +146,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return true;
   }
 
-  // The first usable sample starts the estimate; of the initial state only the time counts, for silence.
+  // The first usable sample starts the estimate. Only the time of the initial state is used, to detect
+  // silence.
   void start(const InitialState& initial) override {
     design_ = los::make_design(tuning_);
     acquire();
@@ -169,7 +170,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     }
   }
 
-  // No fault: whenever the seeker comes back, the target is acquired anew.
+  // Not a fault: when the seeker returns, the target is acquired anew.
   Health tick(Context context) override {
     if (context.now_us - now_us_ > silence_limit_us) context.errors.input_silent = true;
     return Health::good;
@@ -219,8 +220,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // A group whose interval begins later than the last one ended follows lost ones; one that begins earlier
-  // has increments that are not those of the step. The first one has no step before it.
+  // A group whose interval begins after the end of the last one follows lost groups. If it begins earlier,
+  // its increments do not match the step. The first group has no previous step.
   los::Measurement measured(std::int64_t t_us) const {
     const auto& antenna = group_.get<SeekerAntenna>();
     const auto& angles = group_.get<SeekerAngles>();
@@ -251,7 +252,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     monitor.observe(result.nis, std::array{nu.pitch / std::sqrt(S.pitch), nu.yaw / std::sqrt(S.yaw)});
   }
 
-  // Answers a group that does nothing with what is known.
+  // Answers an unused group with the current estimate.
   Health refuse(std::int64_t t_us, Context& context, los::Outcome why = los::Outcome::bad_step) {
     los::UpdateResult nothing;
     nothing.outcome = why;
@@ -271,7 +272,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
                                  .outcome = on_bus(result.outcome),
                                  .fault = on_bus(result.fault),
                                  .blind = static_cast<std::uint8_t>(result.blind)});
-    const los::Planes<los::Sigma> sigma = los::told_sigma(result, design_);
+    const los::Planes<los::Sigma> sigma = los::reported_sigma(result, design_);
     answers.send(LosRateSigma{.los_rate_sigma_pitch_radps = sigma.pitch.rate,
                               .los_rate_sigma_yaw_radps = sigma.yaw.rate,
                               .target_acceleration_sigma_y_mps2 = sigma.yaw.acceleration,
@@ -287,8 +288,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
   los::State state_;
   los::UpdateResult last_;
   SampleGroup<SeekerAntenna, SeekerAngles, SeekerMotion, SeekerRange> group_;
-  std::int64_t now_us_ = 0;  // validity of the last step, or the start
-  bool tracking_ = false;    // a step was made since
+  std::int64_t now_us_ = 0;  // time of validity of the last step, or the start
+  bool tracking_ = false;    // at least one step since the start
 };
 
 }  // namespace

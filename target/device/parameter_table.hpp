@@ -1,4 +1,4 @@
-// An estimator's parameters as a table: range, default, when it may change, and what it changes.
+// An estimator's parameters as a table: range, default, when a parameter may change, and what it sets.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +39,7 @@ class ParameterTable {
 
   constexpr explicit ParameterTable(std::span<const Row> rows) : rows_(rows) {}
 
-  /// Every parameter back to its default.
+  /// Sets every parameter to its default.
   void reset(Tuning& tuning) {
     for (std::size_t i = 0; i < rows_.size(); ++i) take(tuning, i, rows_[i].initial);
   }
@@ -76,7 +76,7 @@ class ParameterTable {
  private:
   static constexpr std::size_t capacity = 64;
 
-  // A value comes as a float, which for 1e-9 is less than 1e-9.
+  // The bus carries floats; the nearest float to 1e-9 is less than 1e-9.
   static double on_the_wire(double limit) { return static_cast<double>(static_cast<float>(limit)); }
 
   [[nodiscard]] std::optional<std::size_t> find(messages::Parameter parameter) const {

@@ -1,4 +1,4 @@
-// Transfer alignment behind the bus: groups SlaveImu and MasterIns in, groups AlignNav and AlignFilter out.
+// The adapter of transfer alignment: groups SlaveImu and MasterIns in, groups AlignNav and AlignFilter out.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -25,12 +25,12 @@ constexpr double degprth = deg / 60;
 constexpr double ug = 1e-6 * 9.80665;
 
 constexpr std::int64_t history_us = 500'000;
-constexpr std::size_t history_length = 512;          // of increments, which come each millisecond at the most
-constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
-constexpr std::size_t pending_limit = 8;             // fixes ahead of the INS that are kept
+constexpr std::size_t history_length = 512;          // increments; at most one arrives per millisecond
+constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of the INS is rejected
+constexpr std::size_t pending_limit = 8;             // of queued fixes ahead of the INS
 
-// Parameters in the unit of their name; defaults are the settings of the paper's reproduction, but for
-// the loop, which is the recommended one.
+// Parameters in the unit of their name. The defaults are the settings of the paper's reproduction, with the
+// recommended loop.
 struct Tuning {
   ta::Settings filter;
   std::int64_t output_interval_us = 0;
@@ -199,7 +199,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // In a closed loop the INS itself; in an open one it is corrected for each answer.
+  // The INS itself in a closed loop; in an open loop the INS corrected for each answer.
   const ta::Ins& best_estimate() {
     if (tuning_.filter.loop != ta::Loop::open) return state_.ins;
     corrected_ = ta::estimate(state_);

@@ -1,4 +1,4 @@
-// What a bench may choose of the wind estimator.
+// The parameters of the wind estimator that a bench can set.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace canhil::target {
 
-/// What the parameters change.
+/// The values that the parameters set.
 struct WindTuning {
   wind::Settings filter;
   std::int64_t output_interval_us = 0;
 };
 
-/// In the unit of their name; defaults are those of the filter (settings.hpp).
+/// Parameters in the unit of their name; the defaults are those of the filter (settings.hpp).
 inline constexpr std::array wind_parameters = [] {
   using Row = ParameterTable<WindTuning>::Row;
   using P = messages::Parameter;
@@ -79,7 +79,7 @@ inline constexpr std::array wind_parameters = [] {
       Row{P::fins_missing_ms, 100, 1, 1e4, real, any_time,
           "Age of the fins from which an answer says missing.",
           [](WindTuning& t, double v) { t.filter.fins_missing = v * ms; }},
-      // A gap is bridged within one frame, in parts of 25 ms: at most 400.
+      // A gap is bridged within one frame, in at most 400 parts of 25 ms.
       Row{P::glider_nav_coast_s, 2, 0, 10, real, any_time, "Longest gap of the navigation that is bridged.",
           [](WindTuning& t, double v) { t.filter.coast_limit = v; }},
       Row{P::glider_nav_stale_ms, 100, 1, 1e6, real, any_time,

@@ -33,7 +33,7 @@ std::string BusNotes::news(const Port& port, BusFormat format) {
   const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
   if (errors_ != told_.errors &&
       (state_changed(told_.errors, errors_) || now_ns - told_.errors_ns >= flood_period_ns)) {
-    tell(fmt::format("{} error frames ({})", errors_.frames, words(errors_)));
+    tell(fmt::format("{} error frames ({})", errors_.frames, to_text(errors_)));
     told_.errors = errors_;
     told_.errors_ns = now_ns;
   }
@@ -57,7 +57,8 @@ std::string BusNotes::news(const Port& port, BusFormat format) {
   const std::uint64_t foreign = port.counters().foreign;
   if (foreign != told_.foreign && now_ns - told_.foreign_ns >= flood_period_ns) {
     const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
-    tell(fmt::format("hears {}, {} since the start, expected {}", words(other), foreign, words(format)));
+    tell(fmt::format("received {}, {} since the start, expected {}", to_text(other), foreign,
+                     to_text(format)));
     told_.foreign = foreign;
     told_.foreign_ns = now_ns;
   }

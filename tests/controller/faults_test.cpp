@@ -1,6 +1,6 @@
-// What goes wrong on a wire, in a controller, with an interface: told, survived where it can be, never a
-// hang. The wire is that of wire/canhil_wire.c; the driver, the kernel and the programs do not know it from a
-// real one.
+// Faults of a wire, of a controller and of an interface: they are reported, the run continues if possible,
+// and nothing hangs. The wire is that of wire/canhil_wire.c; to the driver, the kernel and the programs it
+// looks like a real one.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

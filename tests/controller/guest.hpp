@@ -1,4 +1,4 @@
-// The guest that tests/controller/run.sh makes: can0, where the target is, and can1, where the bench is.
+// The guest that tests/controller/run.sh starts: can0 is the interface of the target, can1 that of the bench.
 #pragma once
 
 #include <string>

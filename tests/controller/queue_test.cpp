@@ -1,4 +1,4 @@
-// A transmit queue of 10 frames that is really full: the kernel says ENOBUFS, of which poll() knows nothing.
+// A transmit queue of 10 frames that is really full: the kernel returns ENOBUFS, which poll() cannot detect.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

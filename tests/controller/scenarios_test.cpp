@@ -1,5 +1,5 @@
-// The four estimators over the controllers and their driver: the outputs pass, and are the bits of a run in
-// process.
+// The four estimators over the controllers and their driver: the outputs pass, and are bit for bit those of a
+// run in process.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

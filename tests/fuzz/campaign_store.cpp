@@ -1,6 +1,6 @@
-// Any file as the results of a campaign: refused in one line, or the same report as before. The input changes
-// the bytes of a sound file; or it is runs of its own with samples that may be anything, written as they
-// should be: then a report must come of them.
+// Any file as the results of a campaign is rejected with one line, or gives the same report as before. The
+// input either changes bytes of a valid file, or defines runs with arbitrary samples that are written
+// correctly; these must give a report.
 #include <unistd.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Any text as a campaign, over a scenario of its own: a Campaign, or one line that names the file. With it
-// the settings that variants and sweeps put into a scenario.
+// Any text as a campaign, over a scenario of its own, gives a Campaign or one line that names the file. The
+// input also covers the settings that variants and sweeps put into a scenario.
 #include <cstdint>
 
 #include "bench/campaign/campaign.hpp"

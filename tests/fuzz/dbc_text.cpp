@@ -1,4 +1,5 @@
-// Any text: both readers end, with a Database that the codec can work with, or with one line that says where.
+// Any text as a DBC: both readers end with a Database that the codec can use, or with one line that contains
+// the place.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

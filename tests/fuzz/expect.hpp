@@ -1,4 +1,4 @@
-// What must hold of every input, and of every error.
+// Conditions that every input and every error must meet.
 #pragma once
 
 #include <algorithm>

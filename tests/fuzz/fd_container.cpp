@@ -1,5 +1,5 @@
-// Frames of an FD bus: what comes out of a container goes into the same one again, and classic frames come
-// out of the containers that they are packed into, in their order.
+// Frames of an FD bus: frames unpacked from a container give the same container when packed again. Classic
+// frames that are packed into containers come out in their order.
 #include <cstdint>
 #include <cstring>
 #include <span>

@@ -1,6 +1,6 @@
-// Peers of the embedded bus's hub that may say anything: the hub hands on what is a frame, byte by byte,
-// drops who sends what is none, and a good node hears no frame that nobody sent. Input: for each datagram one
-// byte that picks a peer and says what is wrong with it.
+// Peers of the embedded bus's hub that send anything. The hub forwards valid frames byte by byte and drops
+// peers that send anything else, and a correct node receives no frame that nobody sent. Input: for each
+// datagram, one byte that selects a peer and the fault of the datagram.
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// A bus whose other end is a target that may say anything: a Device, whose answers the input spoils, loses,
-// repeats, delays, or adds to. Time is simulated, and waiting moves it.
+// A bus with a target that sends anything: a Device whose answers the input damages, drops, repeats, delays
+// or extends. Time is simulated; waiting advances it.
 #pragma once
 
 #include <algorithm>

@@ -1,12 +1,13 @@
-// The device and its estimators under any input. The first bytes choose estimators, algorithm and parameters;
-// the harness plays the handshake and starts; each further step is time that passes with sensors on a
-// plausible flight, which the input delays, loses, repeats or changes bit by bit, or a frame of the input's
-// own making. So nothing stops at counters, CRCs and groups, and most bytes of an input mean something. A
-// custom mutator that repairs checksums would have to do the same after every mutation, and could not keep
-// the sensors of a hundred steps plausible.
+// The device and its estimators under any input. The first bytes select estimators, algorithm and parameters;
+// the harness plays the handshake and starts. Each further step either advances the time, with sensors on a
+// plausible flight whose frames the input delays, drops, repeats or changes bit by bit, or sends a frame that
+// the input defines. So inputs get past counters, CRCs and groups, and most of their bytes have an effect. A
+// custom mutator that repairs checksums would have to do so after every mutation, and could not keep the
+// sensors of a hundred steps plausible.
 //
-// What must hold: the device survives; answers with whole groups of its own frames, counted up one by one;
-// tells no attitude that is none; and after a reset gives the same answers to the same frames, bit for bit.
+// Conditions: the device survives; it answers with complete groups of its own frames, with consecutive
+// counters; its attitude is always a valid rotation; after a reset it gives the same answers to the same
+// frames, bit for bit.
 #include <cstdlib>
 #include <cstring>
 #include <string_view>

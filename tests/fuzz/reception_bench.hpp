@@ -1,5 +1,6 @@
 // The bench's side of the reception fuzzer: the handshake, and sensors on a plausible flight whose frames the
-// input may spoil. Frames are right by construction: packed, counted and protected by the project's own code.
+// input can change. The frames are correct by construction: the project's own code packs, counts and protects
+// them.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,6 @@
-// Any JSON as a report of a run: a page and a comparison are made of it, or one line says what it lacks. The
-// input is either the text of a file, or changes to the report of a run that is flown at the start: values
-// taken out, put elsewhere, or replaced. A report of 30 kB that is changed byte by byte is no JSON any more
-// after a few steps.
+// Any JSON as a report of a run gives a page and a comparison, or one line with the missing key. The input is
+// either the text of a file, or a list of changes to the report of a run that is flown at the start: values
+// removed, moved or replaced. Changing bytes of a report of 30 kB would soon give invalid JSON.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// A fuzzer's input as a list of things to do.
+// Interprets the input of a fuzzer as a list of actions.
 #pragma once
 
 #include <algorithm>

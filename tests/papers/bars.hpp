@@ -1,4 +1,4 @@
-// A campaign's bars as a test.
+// The acceptance limits ('bars') of a campaign as a test.
 #pragma once
 
 #include <gtest/gtest.h>

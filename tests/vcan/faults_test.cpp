@@ -1,5 +1,4 @@
-// What can go wrong on a SocketCAN interface, on a real kernel's vcan0 and vcan1 (tests/vcan/run.sh provides
-// them).
+// Faults of a SocketCAN interface, on vcan0 and vcan1 of a real kernel (tests/vcan/run.sh provides them).
 #include <gmock/gmock.h>
 #include <linux/can/error.h>
 #include <poll.h>

@@ -1,4 +1,4 @@
-// CAN FD and classic programs on one interface, as a user sees it, and an interface that is classic.
+// CAN FD and classic programs on one interface, as a user sees it, and an interface that is classic only.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <linux/can.h>

@@ -1,5 +1,5 @@
-// What goes wrong on the bus in mid-run, as a user sees it: the verdict, the reports, what the target says.
-// On vcan0, by error frames that an application writes and by the interface itself.
+// Faults of the bus during a run, as a user sees them: the verdict, the reports, the messages of the target.
+// They are produced on vcan0 by error frames that a program writes, and by the interface itself.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

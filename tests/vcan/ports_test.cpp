@@ -1,4 +1,4 @@
-// The SocketCAN port on a real kernel's vcan0 and vcan1 (tests/vcan/run.sh provides them), and beside
+// The SocketCAN port on vcan0 and vcan1 of a real kernel (tests/vcan/run.sh provides them), and together with
 // can-utils.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

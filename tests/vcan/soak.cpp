@@ -1,9 +1,9 @@
 // Hours of traffic through the port: two processes on one interface, every frame counted.
 //   soak INTERFACE SECONDS [FRAMES_PER_S]
-// The sender keeps its pace by absolute deadlines of a millisecond, which slip where the host stalls it, and
-// receives its own echo as the bench does; sender and receiver check that no number is missing or out of
-// order. Ten lines on the way, then the result; ends with 0 only if nothing was lost or mixed up and resident
-// anonymous memory stayed flat.
+// The sender keeps its rate with absolute deadlines of a millisecond; if the host stalls it, the deadlines
+// slip. It receives its own echo, as the bench does. Sender and receiver check that no number is missing or
+// out of order. The program prints ten lines on the way, then the result. It ends with 0 only if nothing was
+// lost or reordered and the resident anonymous memory did not grow.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -85,7 +85,7 @@ class Memory {
     most_kib_ = std::max(warm ? most_kib_ : 0, now_kib);
   }
   [[nodiscard]] bool flat() const { return most_kib_ - warm_kib_ <= flat_kib; }
-  [[nodiscard]] std::string words() const {
+  [[nodiscard]] std::string to_text() const {
     return fmt::format("{} KiB, at most {} KiB", warm_kib_, most_kib_);
   }
 
@@ -103,7 +103,7 @@ std::unique_ptr<Port> open(const std::string& interface, bool own_echo) {
 int verdict(std::string_view who, const Port& port, const Tally& tally, std::uint64_t sent,
             const Memory& memory) {
   fmt::print("{:<9} {} frames: {} lost, {} reordered, {} overflowed; resident {}\n", who, tally.received(),
-             tally.lost(sent), tally.reordered(), port.counters().overflowed, memory.words());
+             tally.lost(sent), tally.reordered(), port.counters().overflowed, memory.to_text());
   const bool good = sent > 0 && tally.lost(sent) == 0 && tally.reordered() == 0 && tally.received() == sent;
   return good && memory.flat() ? 0 : 1;
 }

@@ -36,7 +36,7 @@ Answers Answers::read(scenario::Section& section, const scenario::CheckContext& 
     if (count.at_least || count.at_most || count.before_us) rule.counts.push_back(std::move(count));
   }
   if (rule.counts.empty())
-    section.reject("answers_at_least", "is missing, as are all its like", "at least one limit");
+    section.reject("answers_at_least", "is missing, as are all other limits", "at least one limit");
   return rule;
 }
 
@@ -55,8 +55,9 @@ Finding Answers::judge(const Evidence& evidence) const {
     add(finding.expected, what);
     if (!holds) finding.outcome = Outcome::fail;
   };
-  const estimators::Estimator* told_by = estimators::find(evidence.estimators, estimator);
-  const auto marks = told_by == nullptr ? std::vector<estimators::Mark>() : told_by->marks(evidence.seen);
+  const estimators::Estimator* reported_by = estimators::find(evidence.estimators, estimator);
+  const auto marks =
+      reported_by == nullptr ? std::vector<estimators::Mark>() : reported_by->marks(evidence.seen);
   for (const Count& wanted : counts) {
     const auto mark = std::ranges::find(marks, std::string_view(wanted.mark), &estimators::Mark::name);
     static const Spool<std::int64_t> none;

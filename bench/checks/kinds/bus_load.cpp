@@ -11,7 +11,7 @@
 namespace canhil::checks {
 namespace {
 
-// A data rate counts where FD frames were sent; without one they are as fast as the nominal.
+// The data rate matters only if FD frames were sent; without it they use the nominal rate.
 bool equally_fast(const wire::BitRates& a, const wire::BitRates& b, const Observations& seen) {
   const auto data = [](const wire::BitRates& rates) { return rates.data > 0 ? rates.data : rates.nominal; };
   const bool fd = std::ranges::any_of(seen.length_by_second,
@@ -52,13 +52,13 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
 }
 
 std::string BusLoad::subject() const {
-  return fmt::format("at {}", words({.nominal = bitrate, .data = data_bitrate}));
+  return fmt::format("at {}", to_text({.nominal = bitrate, .data = data_bitrate}));
 }
 
 Finding BusLoad::judge(const Evidence& evidence) const {
   const Observations& seen = evidence.seen;
   std::vector<wire::BitRates> buses{{.nominal = bitrate, .data = data_bitrate}};
-  // A wire slower than the bus that the rule is about may be full where that bus would not be.
+  // If the run's own bus is slower than the rule's, it may be full although the rule's bus would not be.
   if (seen.bit_rates.nominal > 0 && !equally_fast(seen.bit_rates, buses.front(), seen))
     buses.push_back(seen.bit_rates);
   Finding finding{.outcome = Outcome::pass, .measured = {}, .expected = {}};
@@ -66,11 +66,11 @@ Finding BusLoad::judge(const Evidence& evidence) const {
     const Load load = bus_load(seen, rates);
     if (!(load.busiest > 0 && load.busiest < below)) finding.outcome = Outcome::fail;
     if (!finding.measured.empty())
-      finding.measured += fmt::format("; at the {} of this run's bus ", words(rates));
+      finding.measured += fmt::format("; at the {} of this run's bus ", to_text(rates));
     finding.measured += fmt::format("{:.1f} % in the busiest second, {:.1f} % in the mean",
                                     load.busiest * 100, load.mean * 100);
   }
-  finding.expected = fmt::format("< {:g} % of {}", below * 100, words(buses.front()));
+  finding.expected = fmt::format("< {:g} % of {}", below * 100, to_text(buses.front()));
   if (buses.size() > 1) finding.expected += ", and of this run's bus";
   return finding;
 }

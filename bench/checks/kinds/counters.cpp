@@ -20,7 +20,7 @@ Counters Counters::read(scenario::Section& section, const scenario::CheckContext
           section.optional_integer({"bad_group_at_most", "Groups that it counts as not whole."}, 0),
       .late_at_most = section.optional_integer({"late_at_most", "Groups that it counts as late."}, 0)};
   if (!rule.frames_lost_at_most && !rule.bad_crc_at_most && !rule.bad_group_at_most && !rule.late_at_most)
-    section.reject("frames_lost_at_most", "is missing, as are all its like", "at least one limit");
+    section.reject("frames_lost_at_most", "is missing, as are all other limits", "at least one limit");
   return rule;
 }
 

@@ -1,4 +1,4 @@
-// The target's own counters at the end (TargetCounters).
+// The target's own counters at the end of the run (TargetCounters).
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 
 namespace canhil::checks {
 
-/// Absent: not judged.
+/// Limits; an absent one is not judged.
 struct Counters {
   static constexpr std::string_view kind = "counters";
   static constexpr std::string_view meaning =
@@ -23,7 +23,7 @@ struct CountLimit {
   std::optional<std::int64_t> at_most;  ///< none: not judged
   std::uint64_t value = 0;
 };
-/// Passes if all are kept: "bad CRC 0, late 2", expected "bad CRC <= 0, late <= 3".
+/// Passes if all limits are kept: "bad CRC 0, late 2", expected "bad CRC <= 0, late <= 3".
 Finding within_limits(std::span<const CountLimit> limits);
 
 }  // namespace canhil::checks

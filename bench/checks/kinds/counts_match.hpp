@@ -1,11 +1,11 @@
-// The target's own counters (TargetCounters) beside what the bench withheld and damaged.
+// The target's own counters (TargetCounters) agree with what the bench withheld and damaged.
 #pragma once
 
 #include "bench/checks/rule.hpp"
 
 namespace canhil::checks {
 
-/// Each count lies between the limits of ExpectedCounts, give or take a slack.
+/// Each count lies between the limits of ExpectedCounts, widened by a slack.
 struct CountsMatch {
   static constexpr std::string_view kind = "counts_match";
   static constexpr std::string_view meaning =

@@ -44,7 +44,7 @@ Finding Latency::judge(const Evidence& evidence) const {
   if (auto why = unfit(evidence, quantile, bar_s); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
-  if (timed == nullptr) return {Outcome::not_measured, "no times were taken", expected};
+  if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
   if (timed->latency.count() == 0) return {Outcome::fail, "no answers", expected};
   const double value = timed->latency.quantile_ns(quantile) * 1e-9;
   return {pass_if(value < bar_s), fmt::format("{:.3f} ms of {}", value * 1e3, timed->latency.count()),

@@ -1,4 +1,4 @@
-// Timing: from the last frame of the stimulus to the message that answers it.
+// Timing: the time from the last frame of the stimulus to the message that answers it.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -20,7 +20,7 @@ struct Latency {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// The key "message": one that answers something and is sent in this scenario.
+/// The key "message": a message that answers something and is sent in this scenario.
 std::string read_answer(scenario::Section& section, const scenario::CheckContext& context);
 
 }  // namespace canhil::checks

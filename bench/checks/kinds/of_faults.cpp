@@ -11,7 +11,7 @@
 
 namespace canhil::checks {
 
-std::string Disturbance::words() const {
+std::string Disturbance::to_text() const {
   if (!fault.empty()) return fmt::format("fault '{}'", fault);
   return fmt::format("{:g} s", static_cast<double>(window.from_us) * 1e-6);
 }
@@ -22,7 +22,7 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
   std::vector<std::string> names;
   for (const scenario::FaultWindow& fault : context.faults) names.push_back(fault.name);
   if (names.empty()) {
-    section.reject("fault", "names one, and the scenario has none", "a [[fault]] beside it, or times");
+    section.reject("fault", "names a fault, but the scenario has none", "a [[fault]] beside it, or times");
     return Disturbance{};
   }
   const std::string name =
@@ -30,7 +30,8 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
-    section.reject("fault", fmt::format("'{}' begins after the end of the run", name), "one that flies");
+    section.reject("fault", fmt::format("'{}' begins after the end of the run", name),
+                   "one that begins before it");
   return Disturbance{.fault = name,
                      .window = found->window,
                      .valid_from_us = std::max<std::int64_t>(found->window.from_us - context.latency_us, 0)};
@@ -82,13 +83,13 @@ std::vector<const estimators::Estimator*> running(const scenario::CheckContext& 
   return running;
 }
 
-std::vector<Subject> told_always(const estimators::Estimator& estimator) {
+std::vector<Subject> always_reported(const estimators::Estimator& estimator) {
   std::vector<Subject> subjects;
   for (const quantities::Quantity* quantity : estimator.of_runs) {
     if (quantity->degrees_of_freedom == 0 && !quantity->white && quantity->parts.empty())
       subjects.push_back({.estimator = std::string(estimator.name),
                           .quantity = quantity,
-                          .words = std::string(quantity->name)});
+                          .text = std::string(quantity->name)});
   }
   return subjects;
 }
@@ -97,12 +98,12 @@ std::string silence_of(const Evidence& evidence, const std::vector<Subject>& sub
                        const scenario::Window& window) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
-      // Before the end of the flight, after which nobody answers.
+      // Up to the end of the flight: no answers are expected after it.
       const Stretch stretch{.window = {window.from_us, std::min(window.to_us, track->answers_end_us)}};
       if (static_cast<double>(stretch.window.to_us - stretch.window.from_us) <= track->longest_wait_us)
         continue;
       if (std::string gap = silence(*track, stretch, inside(*track, stretch)); !gap.empty())
-        return fmt::format("{}: {}", subject.words, gap);
+        return fmt::format("{}: {}", subject.text, gap);
     }
   }
   return {};

@@ -20,7 +20,7 @@ struct OutputPeriod {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// Rejects `message` where nobody that runs sends it: nothing is there to be timed.
+/// Rejects `message` if no running estimator sends it.
 void expect_sent(scenario::Section& section, const scenario::CheckContext& context,
                  const std::string& message);
 

@@ -1,11 +1,12 @@
-// Timing: what the target tells of its own times (TargetTiming) beside the latency that the bench measures.
+// Timing: the times that the target reports itself (TargetTiming), compared with the latency that the bench
+// measures.
 #pragma once
 
 #include "bench/checks/rule.hpp"
 
 namespace canhil::checks {
 
-/// The queueing and computing times told are of something, and no longer than the latencies.
+/// The reported queueing and computing times cover at least one stimulus and do not exceed the latencies.
 struct OwnTimes {
   static constexpr std::string_view kind = "own_times";
   static constexpr std::string_view meaning =

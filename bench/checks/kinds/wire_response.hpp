@@ -1,4 +1,4 @@
-// No frame takes longer over the bus than its worst case by theory; needs a bus whose bit rate is known.
+// No frame takes longer over the bus than its theoretical worst case; needs a bus of known bit rate.
 #pragma once
 
 #include "bench/checks/rule.hpp"

@@ -60,8 +60,8 @@ Stranger Stranger::read(scenario::Section& section, const scenario::FaultContext
           section.optional_integer({"id", "Id of the frames; by default the highest that nobody has."}, 0)) {
     kind.id = static_cast<std::uint32_t>(std::min<std::int64_t>(*id, max_standard_id));
     if (*id > max_standard_id || is_known(context, kind.id))
-      section.reject("id", fmt::format("{} is of the contract, or of more than 11 bits", *id),
-                     "one that nobody has on this bus");
+      section.reject("id", fmt::format("{} is used by the DBC, or has more than 11 bits", *id),
+                     "an id that is not used on this bus");
   }
   return kind;
 }
@@ -81,7 +81,7 @@ Flood Flood::read(scenario::Section& section, const scenario::FaultContext& cont
     kind.load = section.number({"load_percent", "Load that the frames make, of the bus's bit rate."},
                                Limits::above(0, 100));
   if (is_known(context, urgent.id))
-    section.reject("kind", "'flood' has the id of a message", "a contract without id 0");
+    section.reject("kind", "'flood' uses the id of a message", "a DBC without id 0");
   return kind;
 }
 

@@ -8,7 +8,7 @@
 namespace canhil::faults {
 namespace {
 
-// Of messages with the contract's own protection: of others it is not known where counter and CRC are.
+// Only for messages with canhil's own protection: for others the positions of counter and CRC are unknown.
 template <class Kind>
 Kind read_protected(scenario::Section& section, const scenario::FaultContext& context) {
   Kind kind;

@@ -27,26 +27,25 @@ class Pauses final : public Switched {
   using Switched::Switched;
 
  private:
-  void on(std::int64_t /*for_us*/) override { hands_->pause_target(); }
-  void off() override { hands_->resume_target(); }
+  void on(std::int64_t /*for_us*/) override { rig_->pause_target(); }
+  void off() override { rig_->resume_target(); }
   [[nodiscard]] bool silences() const override { return true; }
 };
 
-// With the Sync of its time: the first that the new target hears, as at the start of a run.
+// Together with the Sync of its time: the first Sync that the new target receives, as at the start of a run.
 class Restarts final : public Injector {
  public:
-  Restarts(const When& when, const InRun& run)
-      : hands_(run.hands), tally_(run.tally), from_us_(when.from_us) {}
+  Restarts(const When& when, const InRun& run) : rig_(run.hands), tally_(run.tally), from_us_(when.from_us) {}
   void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
     const bool tells_time = !frames.empty() && frames.front().id == messages::Sync::info.id;
     if (done_ || t_us < from_us_ || !tells_time) return;
     done_ = true;
     ++tally_.count;
-    hands_->restart_target(t_us);
+    rig_->restart_target(t_us);
   }
 
  private:
-  Hands* hands_;
+  RigControl* rig_;
   Tally& tally_;
   std::int64_t from_us_;
   bool done_ = false;

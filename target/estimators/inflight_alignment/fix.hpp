@@ -1,5 +1,5 @@
 #pragma once
-// What a fix does to the errors, and the errors to the INS.
+// Updates the errors by a fix, and corrects the INS by the errors.
 #include "target/estimators/inflight_alignment/filter.hpp"
 
 namespace canhil::inflight_alignment {
@@ -14,10 +14,10 @@ filtering::Correction<N, 3> correction(const Errors<N>& prior, const Eigen::Vect
 
 GeodeticPosition position_of(const strapdown::NavState& nav);
 
-/// The position less its errors [m].
+/// The position minus its errors [m].
 GeodeticPosition corrected(const GeodeticPosition& ins, const Eigen::Vector3d& dR);
 
-/// The INS less position [m] and velocity errors, and its attitude turned to the computer frame by C_pc.
+/// The INS minus position [m] and velocity errors, with its attitude turned to the computer frame by C_pc.
 strapdown::NavState corrected(const strapdown::NavState& nav, const Eigen::Vector3d& dR,
                               const Eigen::Vector3d& dV, const Eigen::Matrix3d& C_pc);
 

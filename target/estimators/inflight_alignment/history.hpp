@@ -1,5 +1,5 @@
 #pragma once
-// Fixes that arrive late, applied against the INS as it was at their time of validity.
+// Applies late fixes to the INS state at their time of validity.
 #include "target/estimators/filtering/history.hpp"
 #include "target/estimators/inflight_alignment/filter.hpp"
 
@@ -39,8 +39,8 @@ struct HistoryModel {
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 
-/// filtering::History of the in-flight alignment, about 0.4 kB an increment, and of the filter's own
-/// predictions within them.
+/// filtering::History of the in-flight alignment, with the filter's own predictions; about 0.4 kB per
+/// increment.
 template <std::size_t Capacity, std::size_t Predictions = 16>
 using History = filtering::History<HistoryModel, Capacity, Predictions>;
 

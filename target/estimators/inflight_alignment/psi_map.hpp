@@ -1,6 +1,6 @@
 #pragma once
-// The map of psi_angle.hpp about a state x: x's own image, the even and odd parts of x +- d, and its Jacobian
-// with respect to the biases. It reads the first 15 states, so that it is the same for 15 and 18.
+// The map of psi_angle.hpp about a state x: the image of x, the even and odd parts for x +- d, and the
+// Jacobian with respect to the biases. It reads only the first 15 states, so it serves 15 and 18 states.
 #include "target/estimators/filtering/unscented.hpp"
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
@@ -26,11 +26,11 @@ class PsiMap {
  public:
   PsiMap(const Vector<15>& x, const Interval& interval);
 
-  /// The image of x: what moved() takes.
+  /// The image of x, as arguments of moved().
   [[nodiscard]] Eigen::Vector3d force_increment() const { return interval_.delta_v_n - terms_.force; }
   [[nodiscard]] const Eigen::Vector3d& attitude_increment() const { return terms_.rates; }
 
-  /// Of x +- d; sin and cos of both points come from one set of them.
+  /// The even and odd parts for x +- d; both points share one evaluation of sin and cos.
   [[nodiscard]] filtering::Parts<9> parts(const Vector<15>& d) const;
 
   /// C_pc A and -E A: d(velocity+)/d(accelerometer bias) and d(attitude+)/d(gyro bias).

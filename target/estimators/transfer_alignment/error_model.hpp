@@ -27,7 +27,7 @@ inline constexpr std::array<filtering::Block, 5> kalman_blocks{{{0, 0}, {0, 1}, 
 inline constexpr std::array<filtering::Block, 7> h2_blocks{
     {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 3}, {2, 1}, {3, 1}}};
 
-/// G = A dt [12 x 12] of the interval: Phi = I + G.
+/// G = A dt [12 x 12] for the interval: Phi = I + G.
 Covariance transition_increment(const Interval& interval);
 
 /// The diagonal of Q dt: white noise of the accelerometers on dV and of the gyros on phi.

@@ -1,5 +1,5 @@
 #pragma once
-// Velocities of the master that arrive late, applied to the INS as it was at their time of validity.
+// Applies late velocities of the master to the INS state at their time of validity.
 #include "target/estimators/filtering/history.hpp"
 #include "target/estimators/transfer_alignment/filter.hpp"
 
@@ -26,7 +26,7 @@ struct HistoryModel {
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 
-/// filtering::History of the transfer alignment, about 0.4 kB an increment.
+/// filtering::History of the transfer alignment, about 0.4 kB per increment.
 template <std::size_t Capacity>
 using History = filtering::History<HistoryModel, Capacity>;
 

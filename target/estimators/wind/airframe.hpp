@@ -1,10 +1,10 @@
 #pragma once
-// The aerodynamic model's form; the figures are in airframe_table.hpp. Coefficients per rad; rates p b/2V, q
-// c/2V, r b/2V; body x forward, y right, z down; moments about the centre of gravity.
+// The form of the aerodynamic model; airframe_table.hpp has its values. Coefficients per rad; rates p b/2V,
+// q c/2V, r b/2V; body x forward, y right, z down; moments about the centre of gravity.
 
 namespace canhil::wind {
 
-/// Fin deflections [rad], of the signs of the control terms in the table.
+/// Fin deflections [rad], with the signs of the control terms in the table.
 struct Deflection {
   double elevator = 0, aileron = 0, rudder = 0;
   bool operator==(const Deflection&) const = default;
@@ -36,8 +36,8 @@ struct Airframe {
   Lateral side, roll, yaw;                    // CY, Cl, Cn
   Drag drag;                                  // CD
   double mach_squared = 0;                    // compressibility
-  Range alpha, beta;                          // [rad] beyond these and the next ones the model is held
-  Range speed;                                // at its end and the estimate flagged [m/s]
+  Range alpha, beta;                          // [rad]; beyond these ranges the model is clamped and
+  Range speed;                                // the estimate flagged [m/s]
   double mach_most = 0;
   Range altitude;              // [m], within the atmosphere's -2 to 20 km
   double pitch_most = 0;       // |pitch|, of the Euler angles [rad]

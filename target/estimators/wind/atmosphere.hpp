@@ -11,7 +11,7 @@ struct Air {
 };
 
 /// Density and speed of sound of the standard atmosphere at an altitude [m]: 6.5 K/km to 11 km, isothermal
-/// above; held at the ends of its range (ISO 2533).
+/// above; the altitude is clamped to the range (ISO 2533).
 Air standard_atmosphere(double altitude);
 
 }  // namespace canhil::wind

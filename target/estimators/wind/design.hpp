@@ -1,5 +1,5 @@
 #pragma once
-// Settings and airframe, and what follows from them once.
+// Settings and airframe, and constants derived from them.
 #include <Eigen/Core>
 
 #include "target/estimators/wind/airframe_table.hpp"

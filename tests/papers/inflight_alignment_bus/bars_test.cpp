@@ -1,4 +1,5 @@
-// Bars B and C of the paper on in-flight alignment over the bus, 40 runs. bars.toml says how the bars follow.
+// Acceptance limits ('bars') B and C of the paper on in-flight alignment over the bus, 40 runs. bars.toml
+// derives the limits.
 #include "tests/papers/bars.hpp"
 
 #include <algorithm>

@@ -1,7 +1,8 @@
-// What is claimed of the robust H2 filter against the Kalman filter (Yang, Shim, Park 2001), at the settings
+// The claims about the robust H2 filter against the Kalman filter (Yang, Shim, Park 2001), with the settings
 // that reproduce the paper's Table 2: P0 of the attitude 1 deg for true errors of 5 deg, R far above the
-// master's noise. 300 runs a test, a fixed seed; the bars are wider than five seeds x 300 runs and than ten
-// batches of 30 of the reference simulation, and were met by seeds 1, 1000, 2000, 5000 here.
+// master's noise. 300 runs per test, a fixed seed. The limits are wider than the scatter of five seeds x 300
+// runs and of ten batches of 30 runs of the reference simulation. Seeds 1, 1000, 2000 and 5000 passed them
+// here.
 #include <gtest/gtest.h>
 
 #include "tests/papers/transfer_alignment/monte_carlo.hpp"

@@ -1,4 +1,4 @@
-// The whole reproduction with two runs a variant: every campaign is read and flown, every figure drawn.
+// The complete reproduction with two runs per variant: every campaign is read and run, every figure is drawn.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

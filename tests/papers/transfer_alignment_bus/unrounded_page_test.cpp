@@ -1,4 +1,4 @@
-// The page of a reproduction without the rounding of the bus says so.
+// The page of a reproduction without the rounding of the bus states this.
 #include <gmock/gmock.h>
 
 #include "tests/papers/reproduced.hpp"

@@ -1,4 +1,5 @@
-// That a paper's bars can be missed: each, by figures just beyond it, fails its answer and the whole page.
+// A paper's acceptance limits ('bars') can be missed: a figure just beyond each limit fails its claim and the
+// whole page.
 #include <gmock/gmock.h>
 
 #include <string>

@@ -1,4 +1,5 @@
-// That what a page says of a paper's claims follows from the figures: to either side of where it changes.
+// The page's statements about a paper's claims follow from the figures: tested on both sides of each
+// threshold.
 #include <gmock/gmock.h>
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a paper's campaigns would have given, made up: every figure is as a test wants it, nothing is flown.
+// Artificial results of a paper's campaigns: a test sets every figure, and nothing is flown.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/estimators/registry.hpp"
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 #include "tests/own_folder.hpp"
 
 namespace canhil::papers {
@@ -23,13 +23,16 @@ namespace canhil::papers {
 struct Paper {
   std::string name;
   const report::EmbeddedFiles &campaigns, &scenarios;
-  Result<Told> (*tell)(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+  Result<PageContent> (*page_content)(const Results& results, const FlyOptions& options,
+                                      const std::filesystem::path& exact);
 };
 inline const std::vector<Paper> papers{
-    {"transfer", transfer_alignment::campaigns, transfer_alignment::scenarios, transfer_alignment::tell},
-    {"inflight", inflight_alignment::campaigns, inflight_alignment::scenarios, inflight_alignment::tell},
-    {"los", los_rate::campaigns, los_rate::scenarios, los_rate::tell},
-    {"wind", wind::campaigns, wind::scenarios, wind::tell}};
+    {"transfer", transfer_alignment::campaigns, transfer_alignment::scenarios,
+     transfer_alignment::page_content},
+    {"inflight", inflight_alignment::campaigns, inflight_alignment::scenarios,
+     inflight_alignment::page_content},
+    {"los", los_rate::campaigns, los_rate::scenarios, los_rate::page_content},
+    {"wind", wind::campaigns, wind::scenarios, wind::page_content}};
 
 inline constexpr std::uint64_t runs_of_each = 2;
 
@@ -123,14 +126,14 @@ class MadeUp {
     }
     throw std::runtime_error(fmt::format("no figure '{}'", figure));
   }
-  [[nodiscard]] Told told() const {
-    auto told = paper_.tell(results, options_, {});
-    if (!told) throw std::runtime_error(told.error().message);
-    return std::move(*told);
+  [[nodiscard]] PageContent content() const {
+    auto content = paper_.page_content(results, options_, {});
+    if (!content) throw std::runtime_error(content.error().message);
+    return std::move(*content);
   }
-  [[nodiscard]] bool bars_met() const { return told().bars_met; }
+  [[nodiscard]] bool bars_met() const { return content().bars_met; }
   [[nodiscard]] bool holds(std::string_view claim) const {
-    const Told all = told();
+    const PageContent all = content();
     Words none("");
     return std::get<bool>(all.names.find(claim)->second(none));
   }

@@ -1,4 +1,4 @@
-// Time of one step of each algorithm, both planes, roll included; of the parts that differ; of the start-up.
+// Time of one step of each algorithm (both planes, with roll), of the parts that differ, and of the start-up.
 #include <benchmark/benchmark.h>
 
 #include <memory>

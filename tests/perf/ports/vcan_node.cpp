@@ -1,11 +1,11 @@
-// One end of a measurement on a CAN interface, by the port or by a bare raw socket; vcan.py plays several
-// against can-utils and python-can.
+// One end of a measurement on a CAN interface, by the port or by a bare raw socket. vcan.py pairs such nodes
+// with each other, can-utils and python-can.
 //   vcan_node ROLE port|raw INTERFACE COUNT
-//   ping: for each line on stdin COUNT round trips, one at a time, to somebody who answers each frame; prints
-//   their times in ns on a line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send:
-//   COUNT numbered frames as fast as they go. receive: COUNT frames; prints how many were lost or out of
-//   order.
-// Waits without limit: vcan.py sees to that.
+//   ping: for each line on stdin, COUNT round trips, one at a time, to a node that answers each frame; prints
+//   their times in ns on one line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send:
+//   sends COUNT numbered frames as fast as possible. receive: receives COUNT frames; prints how many were
+//   lost or out of order.
+// Waits without a limit; vcan.py limits the time.
 #include <fmt/format.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>

@@ -1,4 +1,4 @@
-// A flight as questions and answers: what the target will say to every frame, known beforehand.
+// A flight as pairs of frames and answers: the target's answer to every frame, computed in advance.
 #pragma once
 
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ inline Result<std::vector<Round>> record_flight(const std::string& file, const s
 
   RecordingPort port;
   drive::Link link(port);
-  drive::Schedule schedule = drive::make_schedule(*scenario, *truth, flight->own_truth, run_index, false);
+  drive::Schedule schedule = drive::make_schedule(*scenario, *truth, flight->per_run_truth, run_index, false);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
   auto ready = drive::configure(link, schedule.outbox(), scenario->targets, flight->initial, gone);
   if (!ready) return tl::unexpected(ready.error());

@@ -1,5 +1,5 @@
-// Runs a second of the campaign engine, store included, with one thread and with two: alternated, so that
-// both meet the same neighbours on the machine.
+// Runs per second of the campaign engine, including the store, with one thread and with two. They alternate,
+// so that other load of the machine affects both equally.
 #include <unistd.h>
 
 #include <algorithm>

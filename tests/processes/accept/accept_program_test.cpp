@@ -1,4 +1,4 @@
-// hil-bench accept, as a user starts it: a small suite of its own, and those of the project.
+// hil-bench accept as a user starts it, with a small suite of its own and with those of the project.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,5 +1,4 @@
-// hil-bench campaign: the same merged bytes whatever threads, shards and kills did; one line for what cannot
-// be.
+// hil-bench campaign: threads, shards and kills do not change the merged bytes; one line per error.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>

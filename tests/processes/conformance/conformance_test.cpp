@@ -1,4 +1,4 @@
-// hil-bench conformance: who passes, and which rule names which defect.
+// hil-bench conformance: which targets pass, and which rule detects which defect.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

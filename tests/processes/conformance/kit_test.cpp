@@ -1,5 +1,4 @@
-// The kit for targets of one's own: both examples fly to a verdict, with the same bits, and its tables are
-// those of the DBC.
+// The kit for own targets: both examples reach a verdict with the same bits, and its tables match the DBC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// hil-bench dbc as a user meets it.
+// hil-bench dbc as a user starts it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

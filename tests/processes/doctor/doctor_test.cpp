@@ -1,4 +1,4 @@
-// hil-bench doctor as a user meets it.
+// hil-bench doctor as a user starts it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

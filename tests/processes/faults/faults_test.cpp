@@ -1,5 +1,5 @@
-// hil-bench faults: what the matrix says, the same bytes whatever kills and shards did, and a violation whose
-// least scenario shows it again.
+// hil-bench faults: the matrix, the same bytes after kills and with shards, and a reduced scenario that still
+// shows its violation.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// Files that cannot be read or written as they are named: one line, and nothing is lost.
+// Files that cannot be read or written: one error line, and no data is lost.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

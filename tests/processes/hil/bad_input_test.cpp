@@ -1,4 +1,4 @@
-// Bad input: one line (what, where, what was expected), exit code 2, nothing half written.
+// Bad input: one line (what, where, what was expected), exit code 2, no partial output.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
-// Property: the target's frames are a function of the bench's frames, on every bus, against every clock, and
-// in a replay.
+// Property: the target's frames depend only on the bench's frames, on every bus, with every clock, and in a
+// replay.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// Faults of every stage, as a user flies them: two processes over the embedded bus; what the report says.
+// Faults of every stage in a run of two processes over the embedded bus, and what the report shows.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

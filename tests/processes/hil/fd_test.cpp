@@ -1,4 +1,4 @@
-// The contract on CAN FD: the same runs, on the other bus.
+// The same runs on CAN FD.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// hil-bench golden: the first answer that is another.
+// hil-bench golden: the first answer that differs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,5 @@
-// A target that is right in everything but one, as its first word says: what a bench must not believe.
+// A target that is correct except for one fault, which its first argument selects: what the bench must
+// detect.
 //   lying_target LIE --bus BUS
 #include <array>
 #include <atomic>

@@ -1,4 +1,4 @@
-// Targets that are right in everything but one: the bench says what is wrong, and a run does not pass.
+// Targets that are correct except for one fault: the bench reports it, and the run does not pass.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// The memory of a run does not grow with it.
+// The memory of the bench does not grow with the length of a run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,5 @@
-// That the tests of runs cannot pass with outputs that failed: what they take for passed outputs.
+// The tests of runs cannot pass if outputs failed: tests the function that they use to recognise passed
+// outputs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

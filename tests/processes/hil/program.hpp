@@ -1,4 +1,4 @@
-// Running the project's programs as a user does.
+// Starts the project's programs as a user does.
 #pragma once
 
 #include <nlohmann/json.hpp>

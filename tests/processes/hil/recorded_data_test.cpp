@@ -1,4 +1,4 @@
-// The user's own data, as a user flies it: logs of runs flown again, CSV files, a flight without truth.
+// Recorded data as a user flies it: repeated logs of runs, CSV files, a flight without truth.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// What a run leaves behind: its log in virtual time, and what survives where not all of it can be written.
+// The log of a run in virtual time, and the part that remains if the log cannot be written completely.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

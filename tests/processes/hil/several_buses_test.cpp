@@ -1,4 +1,4 @@
-// Nodes on buses of their own.
+// Nodes on separate buses.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Two targets that both took the bus for their own.
+// Two targets on one bus, each started as if it were alone.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// The same run on frames that round nothing. The difference is the cost of the bus.
+// The same run with unrounded frames. The difference is the effect of the rounding on the bus.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

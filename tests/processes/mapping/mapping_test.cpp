@@ -237,16 +237,17 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
   expect_refused(mapping, "\"IMU_TX3\"]", "\"IMU_TX4\"]", "the DBC has no message 'IMU_TX4'");
   expect_refused(mapping, "TX1_YawRate\"", "TX1_Yaw\"",
                  "IMU_TX1 has no signal 'TX1_Yaw', expected one of: TX1_YawRate, TX1_AccY");
-  expect_refused(mapping, "-imu.rate.z", "-imu.rate.w", "'imu.rate.w' is no quantity that a node measures");
+  expect_refused(mapping, "-imu.rate.z", "-imu.rate.w",
+                 "'imu.rate.w' is not a quantity that a node measures");
   expect_refused(mapping, "-imu.rate.z", "imu.specific_force.z",
                  "is in '°/s', imu.specific_force.z is in m/s^2");
   expect_refused(mapping, "\"attitude.roll\"", "\"attitude.rol\"",
-                 "'attitude.rol' is no quantity that has a truth");
+                 "'attitude.rol' is not a quantity with a truth");
   expect_refused(mapping, "\"IMU_TX3.TX3_Counter\"", "\"ECU_Status.STS_State\"",
-                 "is not of the play that it answers");
+                 "is not part of the play that it answers");
   expect_refused(mapping, "CRC-8/SAE-J1850", "CRC-8/NOBODY", "CRC-8/NOBODY");
   expect_refused(mapping, "counter = { signal = \"TX1_Counter\" }", "countr = 3", "countr");
-  expect_refused("own_ecu.toml", "period_ms = 10", "period_ms = 3", "expected a whole share of it");
+  expect_refused("own_ecu.toml", "period_ms = 10", "period_ms = 3", "expected a whole fraction of it");
   expect_refused("own_ecu.toml", "handshake = \"none\"", "handshake = \"some\"", "handshake");
   expect_refused("own_ecu.toml", "quantity = \"attitude.roll\"", "quantity = \"velocity.north\"",
                  "'velocity.north' is unknown, expected one of: attitude.pitch, attitude.roll");
@@ -266,13 +267,13 @@ TEST_F(Altered, FaultsBefallWhatIsPlayed) {
   expect_refused(
       "own_ecu.toml", "[[check]]",
       "[[fault]]\nkind = \"changed\"\nsignal = \"x\"\nvalue = 1\nmessages = [\"IMU_TX1\"]\n[[check]]",
-      "'changed' is of canhil's own messages");
+      "'changed' is for canhil's own messages");
 }
 
 TEST_F(Altered, WhatAMappingLeavesOutIsListed) {
   const Ended fine = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", folder));
   EXPECT_EQ(fine.code, 0) << fine.err;
-  EXPECT_THAT(fine.out, HasSubstr("note unheard: ECU_Status.STS_State tells the bench nothing"));
+  EXPECT_THAT(fine.out, HasSubstr("note unheard: ECU_Status.STS_State is not used by the bench"));
   EXPECT_THAT(fine.out, HasSubstr("3 messages played, 2 heard, 2 quantities told; bus load"));
   static_cast<void>(
       run_with("own_ecu.mapping.toml", "\"IMU_TX1.TX1_AccY\" = \"-imu.specific_force.y\"", "#"));

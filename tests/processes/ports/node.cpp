@@ -1,5 +1,5 @@
 // A node (or host) of an embedded bus in a process of its own, for local_bus_processes_test.
-//   node ROLE BUS SENDER COUNT; ends with 0 if all went as it should, else says what did not.
+//   node ROLE BUS SENDER COUNT; ends with 0 on success, otherwise prints what failed.
 #include <fmt/format.h>
 #include <unistd.h>
 

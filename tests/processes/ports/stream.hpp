@@ -1,4 +1,5 @@
-// A reproducible stream of frames of random ids and sizes, and the order in which a process saw frames.
+// A reproducible stream of frames with random ids and sizes, and the order in which a process received
+// frames.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What a slow target and an unfit host make of the checks of timing.
+// The effect of a slow target and of an unfit host on timing checks.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <pthread.h>

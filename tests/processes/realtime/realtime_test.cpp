@@ -1,4 +1,4 @@
-// --realtime of both programs: what it sets, and what it says where it is not permitted.
+// --realtime of both programs: its settings, and its error if it is not permitted.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

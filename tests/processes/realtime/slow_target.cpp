@@ -1,6 +1,6 @@
-// hil-target, slowed: the objects of the delivered program, in which the linker (--wrap) puts a pause around
-// two of the calls. CANHIL_SLOW_COMPUTE_US: spent more on each frame that is answered. CANHIL_SLOW_QUEUE_US:
-// frames wait for so long before they are looked at.
+// hil-target with delays: the objects of the delivered program, in which the linker (--wrap) adds a pause to
+// two calls. CANHIL_SLOW_COMPUTE_US: additional computing time for each frame that is answered.
+// CANHIL_SLOW_QUEUE_US: time that frames wait before they are processed.
 #include <unistd.h>
 
 #include <cstdint>

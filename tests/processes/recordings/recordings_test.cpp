@@ -1,5 +1,5 @@
-// What can be done with recorded frames: judged again, in other formats that other programs read and write,
-// as values, sent again.
+// Recorded frames are judged again, converted to formats that other programs read and write, decoded, and
+// sent again.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// What a run collected, changed by a test: a Spool is only added to.
+// Lets a test change the data of a run: a Spool itself can only grow.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// How far a target may be from what the reference answered.
+// How far the answers of a target may differ from the reference.
 #include "bench/accept/reference.hpp"
 
 #include <gmock/gmock.h>

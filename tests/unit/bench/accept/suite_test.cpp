@@ -1,4 +1,4 @@
-// Suites: those of the project, and wrong ones.
+// Reading suites: those of the project, and wrong ones.
 #include "bench/accept/suite.hpp"
 
 #include <fmt/format.h>

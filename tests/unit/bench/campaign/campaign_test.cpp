@@ -1,4 +1,4 @@
-// Reading campaigns: variants, sweeps, and one line for every mistake.
+// Reading campaigns: variants, sweeps, and one error line for every mistake.
 #include "bench/campaign/campaign.hpp"
 
 #include <gmock/gmock.h>
@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"quantity of single runs", metric("kind = 'rms_curve'\nquantity = 'velocity.norm'\n"),
                 "'velocity.norm' is of single runs, which campaigns do not keep, expected one of: "},
         Mistake{"no degrees of freedom", metric("kind = 'consistency'\nquantity = 'attitude.heading'\n"),
-                "'attitude.heading' is none that this kind asks for, expected one of: "},
+                "'attitude.heading' cannot be used with this kind, expected one of: "},
         Mistake{"unknown quantity", metric("kind = 'rms_curve'\nquantity = 'attitude.heding'\n"),
                 "'attitude.heding' is unknown, expected 'attitude.heading'"},
         Mistake{"unknown variant",

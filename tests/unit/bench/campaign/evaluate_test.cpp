@@ -1,4 +1,4 @@
-// Bars, and what a missing run does to them.
+// Limits of metrics, and the effect of a missing run.
 #include "bench/campaign/evaluate.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The bytes of merged results depend on the results alone.
+// The bytes of merged results depend only on the results.
 #include "bench/campaign/merge.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Runs made up for a test, and the texts of a short campaign.
+// Artificial runs for tests, and the text of a short campaign.
 #pragma once
 
 #include <fmt/format.h>
@@ -37,10 +37,10 @@ inline void add(Samples& samples, std::int64_t t_us, const std::map<const Quanti
 
 /// The layout of a transfer alignment, or, if that does not tell a quantity, the first that does.
 inline const quantities::Layout& layout_with(const Quantity& quantity) {
-  if (quantities::tells(estimators::transfer_alignment.layout, quantity))
+  if (quantities::has(estimators::transfer_alignment.layout, quantity))
     return estimators::transfer_alignment.layout;
   const auto found = std::ranges::find_if(
-      estimators::all(), [&](const auto* one) { return quantities::tells(one->layout, quantity); });
+      estimators::all(), [&](const auto* one) { return quantities::has(one->layout, quantity); });
   return (*found)->layout;
 }
 

@@ -106,7 +106,7 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   flown.seen.of<estimators::LosAnswers>()[8].blind = true;
   flown.seen.of<estimators::LosAnswers>()[7].degraded = true;
   record.miss_n = world::Vector3(0, 0.3, -0.4);
-  flown.own_truth.engagement = record;
+  flown.per_run_truth.engagement = record;
   flown.seen.of<estimators::TransferAnswers>().navigation.push_back({});
   const RunSeries series = series_of(
       7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), estimators::los_rate);

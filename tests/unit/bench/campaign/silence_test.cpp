@@ -1,4 +1,4 @@
-// Whoever falls silent meets no bar: an estimate counts at a time only while it is not stale.
+// A target that falls silent meets no limit: an estimate counts only until it is stale.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Results that were damaged are refused: what is read is what was written.
+// Damaged results are rejected; the store returns exactly what was written.
 #include "bench/campaign/store.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Campaigns of the wind: the mean error of a run, and what a run leaves behind.
+// Campaigns of the wind: the mean error of a run, and the stored samples of a run.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -84,7 +84,7 @@ TEST(WindSeries, IsWhatTheChecksSee) {
   ASSERT_TRUE(flown) << flown.error().message;
   const RunSeries series = series_of(2, *flown, *truth, estimators::of(scenario));
   const auto errors =
-      estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *flown->own_truth.glide);
+      estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *flown->per_run_truth.glide);
   ASSERT_EQ(&series.samples.layout(), &estimators::wind.layout);
   EXPECT_TRUE(series_of(2, *flown, *truth, estimators::los_rate).samples.empty()) << "flew no engagement";
   ASSERT_EQ(series.samples.size(), errors.size());

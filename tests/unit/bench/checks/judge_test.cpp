@@ -1,4 +1,4 @@
-// Every kind of check: what passes, what fails, what cannot be measured, and that silence never passes.
+// Every kind of check: what passes, what fails, what cannot be measured. Silence never passes.
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 
@@ -123,11 +123,12 @@ const Error attitude =
     error(quantities::attitude_pitch, 0.01, {.from_us = 2 * second_us, .to_us = duration_us});
 
 Consistency consistency(const quantities::Quantity& quantity, std::variant<MeanBetween, Probability> bound) {
-  return {.of = {.estimator = "transfer_alignment", .quantity = &quantity}, .window = whole, .bound = bound};
+  return {
+      .judged = {.estimator = "transfer_alignment", .quantity = &quantity}, .window = whole, .bound = bound};
 }
 
 Convergence convergence(double within, std::int64_t before_us) {
-  return {.of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+  return {.judged = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
           .within = within,
           .unit = quantities::mrad,
           .before_us = before_us,
@@ -147,7 +148,7 @@ TEST_F(Judged, VelocityErrorByAxisOrNorm) {
   seen_.of<TransferAnswers>().navigation[300].v_eb_n = {0.3, 0, -0.4};
   Error rule = error(quantities::velocity_norm, 0.45);
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule.of.quantity = &quantities::velocity_down;
+  rule.judged.quantity = &quantities::velocity_down;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   rule.below = 0.4;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "the bar itself is not below it";

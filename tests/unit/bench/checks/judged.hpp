@@ -1,4 +1,4 @@
-// Rules put to the judge without a file.
+// Judges rules that do not come from a file.
 #pragma once
 
 #include <memory>
@@ -33,7 +33,7 @@ CheckResult judged(const Kind& rule, const Observations& seen, const estimators:
 inline Error error_of(std::string estimator, const quantities::Quantity& quantity,
                       const scenario::Window& window, double below,
                       Error::Statistic statistic = Error::Statistic::max) {
-  return {.of = {.estimator = std::move(estimator), .quantity = &quantity},
+  return {.judged = {.estimator = std::move(estimator), .quantity = &quantity},
           .statistic = statistic,
           .stretch = {.window = window},
           .below = below,

@@ -1,4 +1,4 @@
-// Wind answers against a glider's truth.
+// Wind answers compared with the truth of a glider.
 
 #include <gmock/gmock.h>
 
@@ -58,7 +58,7 @@ class Winds : public testing::Test {
   CheckResult consistency(const quantities::Quantity& quantity,
                           std::variant<MeanBetween, Probability> bound) {
     return judge(
-        Consistency{.of = {.estimator = "wind", .quantity = &quantity}, .window = whole, .bound = bound});
+        Consistency{.judged = {.estimator = "wind", .quantity = &quantity}, .window = whole, .bound = bound});
   }
 
   world::GlideRecord glide_{heading_east(), duration_us, world::Stream(1, 0, "c"), world::Stream(1, 0, "g")};

@@ -1,4 +1,4 @@
-// What frames took over the bus, beside the bound.
+// Measured times of frames on the bus, beside their bounds.
 #include "bench/checks/wire_bounds.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// A bus with a target that a test writes.
+// A bus whose target is written by a test.
 #pragma once
 
 #include <deque>

@@ -1,4 +1,4 @@
-// The handshake against targets that are slow, deaf, stubborn or of another make.
+// The handshake with targets that are slow, that do not receive, that disobey, or that have another DBC.
 #include "bench/drive/handshake.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Runs in virtual time over a simulated wire: exact, the same each time, and within what theory bounds.
+// Runs in virtual time over a simulated wire are exact, reproducible, and within the bounds of the analysis.
 #include "bench/drive/in_process_wire.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
@@ -187,11 +187,13 @@ TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {
             run.seen.stimuli.at("SlaveImu").count);
   EXPECT_EQ(timing.responses[message_index<messages::SeekerAntenna>()].count,
             run.seen.stimuli.at("Seeker").count);
-  for (const auto& [group, split] : timing.split_by_group) {
-    EXPECT_EQ(split.echoed, split.stimuli) << group;
-    EXPECT_GE(split.to_echo_ns, split.stimulus_wire_ns) << group;
+  for (const auto& [group, breakdown] : timing.breakdown_by_group) {
+    EXPECT_EQ(breakdown.echoed, breakdown.stimuli) << group;
+    EXPECT_GE(breakdown.to_echo_ns, breakdown.stimulus_wire_ns) << group;
     // Rounded up to whole ns by frame.
-    EXPECT_GE(split.latency_ns + static_cast<std::int64_t>(4 * split.stimuli), split.reply_wire_ns) << group;
+    EXPECT_GE(breakdown.latency_ns + static_cast<std::int64_t>(4 * breakdown.stimuli),
+              breakdown.reply_wire_ns)
+        << group;
   }
 }
 
@@ -202,11 +204,11 @@ INSTANTIATE_TEST_SUITE_P(InProcessWire, Containers, testing::Values("", "&queue=
 TEST(InProcessWire, OnCanFdTheWholeLatencyIsExplained) {
   const Flown run =
       fly(scenario_of("los_quick"), "in-process?bitrate=500000&data-bitrate=2000000", BusFormat::fd);
-  const checks::LatencySplit& split = run.seen.timing.split;
-  const auto stimuli = static_cast<double>(split.stimuli);
-  EXPECT_GT(split.stimuli, 1000U);
-  EXPECT_NEAR(static_cast<double>(split.to_echo_ns - split.stimulus_wire_ns) / stimuli, 0, 1'000);
-  EXPECT_NEAR(static_cast<double>(split.latency_ns - split.reply_wire_ns) / stimuli, 0, 20'000);
+  const checks::LatencyBreakdown& breakdown = run.seen.timing.breakdown;
+  const auto stimuli = static_cast<double>(breakdown.stimuli);
+  EXPECT_GT(breakdown.stimuli, 1000U);
+  EXPECT_NEAR(static_cast<double>(breakdown.to_echo_ns - breakdown.stimulus_wire_ns) / stimuli, 0, 1'000);
+  EXPECT_NEAR(static_cast<double>(breakdown.latency_ns - breakdown.reply_wire_ns) / stimuli, 0, 20'000);
 }
 
 TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {

@@ -1,4 +1,4 @@
-// A bus that brings more frames than the bench can look at.
+// A bus that delivers more frames than the bench can process.
 #include "bench/drive/link.hpp"
 #include "bench/observe/contract_watch.hpp"
 
@@ -78,24 +78,24 @@ TEST(LinkFlood, IsNamedByTheIdThatBringsMostFrames) {
   while (port.monotonic_ns() < ns_per_s / 2) link.drain();
   ASSERT_TRUE(link.flood());
   EXPECT_THAT(
-      words(*link.flood()),
+      to_text(*link.flood()),
       testing::MatchesRegex("the bus was flooded by id 0C0: [0-9]+ of [0-9]+ frames in 0\\.[0-9]+ s"));
 }
 
 TEST(SharesOfFrames, WhereNoIdHasHalfOfThemTheIdsAreCountedToo) {
   observe::Shares shares;
   for (std::uint32_t id = 0; id < 300; ++id) shares.add({.id = id % 3});
-  EXPECT_EQ(shares.words(), "id 000: 100 of 300 frames, the most of 3 ids");
+  EXPECT_EQ(shares.to_text(), "id 000: 100 of 300 frames, the most of 3 ids");
   for (int n = 0; n < 500; ++n) shares.add({.id = 0x12345, .extended = true});
-  EXPECT_EQ(shares.words(), "id 00012345: 500 of 800 frames");
+  EXPECT_EQ(shares.to_text(), "id 00012345: 500 of 800 frames");
   for (int n = 0; n < 900; ++n) shares.add({.id = 4, .error = true});
-  EXPECT_EQ(shares.words(), "error frames: 900 of 1700 frames");
+  EXPECT_EQ(shares.to_text(), "error frames: 900 of 1700 frames");
 }
 
 TEST(SharesOfFrames, OfAllIdsOnlySoManyAreToldApart) {
   observe::Shares shares;
   for (std::uint32_t id = 0; id < 100'000; ++id) shares.add({.id = id, .extended = true});
-  EXPECT_EQ(shares.words(), "id 00000000: 1 of 100000 frames, the most of more than 4096 ids");
+  EXPECT_EQ(shares.to_text(), "id 00000000: 1 of 100000 frames, the most of more than 4096 ids");
 }
 
 TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {

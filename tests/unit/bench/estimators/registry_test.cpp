@@ -65,8 +65,8 @@ std::string table() {
     for (const Estimator* one : all()) {
       const bool of_runs = std::ranges::find(one->of_runs, quantity) != one->of_runs.end();
       in_runs = in_runs || of_runs;
-      sampled = sampled || quantities::tells(one->layout, *quantity);
-      if (of_runs || quantities::tells(one->layout, *quantity)) tellers.push_back(one->name);
+      sampled = sampled || quantities::has(one->layout, *quantity);
+      if (of_runs || quantities::has(one->layout, *quantity)) tellers.push_back(one->name);
     }
     std::ranges::sort(tellers);
     rows += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", quantity->name, quantity->meaning,

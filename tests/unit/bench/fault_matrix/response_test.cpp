@@ -1,4 +1,4 @@
-// What a flight with a fault is called, by what the target said and by its checks.
+// The name of a response to a fault, from the flags of the target and the checks of the flight.
 #include "bench/fault_matrix/response.hpp"
 
 #include <fmt/format.h>
@@ -67,16 +67,16 @@ class Flown : public testing::Test {
 
 TEST_F(Flown, ToleratedWhereNothingIsSaidAndNothingFails) {
   EXPECT_EQ(response().kind, Kind::tolerated);
-  EXPECT_EQ(words(response()), "tolerated");
+  EXPECT_EQ(to_text(response()), "tolerated");
 }
 
 TEST_F(Flown, DetectedAndRecovered) {
   degraded(8.3, 10.5);
-  EXPECT_EQ(words(response()), "detected in 0.300 s (degraded in an answer), recovered in 0.500 s");
+  EXPECT_EQ(to_text(response()), "detected in 0.300 s (degraded in an answer), recovered in 0.500 s");
   degraded(8.3, 9);
   before_.signs = checks::signs_in(run_.seen, {});
   degraded(8.3, 20);
-  EXPECT_THAT(words(response()), HasSubstr("not recovered"));
+  EXPECT_THAT(to_text(response()), HasSubstr("not recovered"));
 }
 
 TEST_F(Flown, WhatIsSaidWithoutAFaultTooIsNoResponse) {
@@ -105,7 +105,7 @@ TEST_F(Flown, EndedWithItsReasonIsADetection) {
   run_.ending = {.kind = Ending::Kind::target_fault,
                  .t_us = 8'500'000,
                  .detail = "the target reported a fault of its transfer_alignment, its errors: input_silent"};
-  EXPECT_EQ(words(response()), "ended in 0.500 s: input_silent");
+  EXPECT_EQ(to_text(response()), "ended in 0.500 s: input_silent");
 }
 
 TEST_F(Flown, SilenceOfTheTargetIsAViolation) {

@@ -1,4 +1,4 @@
-// What befalls sensors and nodes: each kind against the same flight without it.
+// Faults of sensors and nodes: each kind is compared with the same flight without a fault.
 #include <cmath>
 #include <set>
 

@@ -1,4 +1,5 @@
-// What goes out and what answers are paired with, by a mapping in a text.
+// The frames that a mapping plays, and the samples that answers are assigned to. The mapping is a text in the
+// test.
 #include "bench/mapping/player.hpp"
 
 #include <fmt/format.h>
@@ -217,10 +218,9 @@ TEST(Mapping, SaysWhatIsWrongInOneLine) {
             "\"Answer.Roll\" beside it");
   EXPECT_EQ(refused("every_ms = 20", ""),
             "ecu.mapping.toml:5: key 'play[1].every_ms': is missing, expected a number above 0");
-  EXPECT_EQ(
-      refused("message = \"Answer\"", "message = \"Rates\""),
-      "ecu.mapping.toml:15: key 'hear[1].message': Rates is played or heard already, expected each message "
-      "once");
+  EXPECT_EQ(refused("message = \"Answer\"", "message = \"Rates\""),
+            "ecu.mapping.toml:15: key 'hear[1].message': Rates is already used, expected each message "
+            "once");
 }
 
 }  // namespace

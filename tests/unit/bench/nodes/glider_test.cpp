@@ -1,4 +1,4 @@
-// What the glider's navigation and fins send.
+// The messages of the glider's navigation and fins.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Nodes that send what was recorded: from rows of numbers, and from frames.
+// Nodes that send recorded samples, from CSV rows and from logged frames.
 #include "bench/nodes/recorded.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What the seeker sends of an engagement, and what it makes of the target's answers.
+// The messages of the seeker in an engagement, and guidance on the target's answers.
 #include "bench/nodes/seeker.hpp"
 
 #include <gmock/gmock.h>

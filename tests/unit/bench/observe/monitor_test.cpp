@@ -437,15 +437,15 @@ TEST_F(OnAWire, TheLatencyIsSplitAndItsPartsAddUp) {
   }
   monitor_at_rate_.received({.frame = filler, .t_ns = t_ns + 1'000});
   const checks::TimingRecord timing = monitor_at_rate_.finish().timing;
-  EXPECT_EQ(timing.split.stimuli, 1U);
-  EXPECT_EQ(timing.split.echoed, 1U);
-  EXPECT_EQ(timing.split.to_echo_ns, 200'000);
-  EXPECT_EQ(timing.split.stimulus_wire_ns, ns(imu));
-  EXPECT_EQ(timing.split.latency_ns, 100'000 + wire_ns);
-  EXPECT_EQ(timing.split.reply_wire_ns, wire_ns);
-  EXPECT_EQ(timing.split.told, 1U);
-  EXPECT_EQ(timing.split.target_queue_ns, 50'000);
-  EXPECT_EQ(timing.split.target_compute_ns, 30'000);
+  EXPECT_EQ(timing.breakdown.stimuli, 1U);
+  EXPECT_EQ(timing.breakdown.echoed, 1U);
+  EXPECT_EQ(timing.breakdown.to_echo_ns, 200'000);
+  EXPECT_EQ(timing.breakdown.stimulus_wire_ns, ns(imu));
+  EXPECT_EQ(timing.breakdown.latency_ns, 100'000 + wire_ns);
+  EXPECT_EQ(timing.breakdown.reply_wire_ns, wire_ns);
+  EXPECT_EQ(timing.breakdown.accounted, 1U);
+  EXPECT_EQ(timing.breakdown.target_queue_ns, 50'000);
+  EXPECT_EQ(timing.breakdown.target_compute_ns, 30'000);
   EXPECT_EQ(timing.slowest.message, "AlignVelocityD");
   EXPECT_EQ(timing.slowest.latency_ns, 100'000 + wire_ns);
   EXPECT_EQ(timing.slowest.queue_max_us, 60);
@@ -465,15 +465,15 @@ TEST_F(OnAWire, EachGroupOfStimuliHasASplitOfItsOwn) {
   }
   transmit(MasterInsVelocityD{.time_of_validity_us = 20'000}, 20'000'000);
   answer_filter(20'000, 23'000'000);
-  const auto& all = seen().timing.split_by_group;
+  const auto& all = seen().timing.breakdown_by_group;
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].group, SlaveImuStatus::info.sample_group);
-  EXPECT_EQ(all[0].split.stimuli, 2U);
-  EXPECT_EQ(all[0].split.latency_ns, 1'000'000);
+  EXPECT_EQ(all[0].breakdown.stimuli, 2U);
+  EXPECT_EQ(all[0].breakdown.latency_ns, 1'000'000);
   EXPECT_EQ(all[1].group, MasterInsVelocityD::info.sample_group);
-  EXPECT_EQ(all[1].split.stimuli, 1U);
-  EXPECT_EQ(all[1].split.latency_ns, 3'000'000);
-  EXPECT_EQ(seen().timing.split.stimuli, 3U);
+  EXPECT_EQ(all[1].breakdown.stimuli, 1U);
+  EXPECT_EQ(all[1].breakdown.latency_ns, 3'000'000);
+  EXPECT_EQ(seen().timing.breakdown.stimuli, 3U);
 }
 
 TEST_F(OnAWire, AMeanAtTheEndOfItsRangeIsKnownToBeOne) {
@@ -481,8 +481,8 @@ TEST_F(OnAWire, AMeanAtTheEndOfItsRangeIsKnownToBeOne) {
   answer(10'000, 9'000'000);
   receive(
       TargetTiming{.queue_max_us = 8191, .queue_mean_us = 8191, .compute_max_us = 40, .compute_mean_us = 30});
-  EXPECT_TRUE(seen().timing.split.queue_clipped);
-  EXPECT_FALSE(seen().timing.split.compute_clipped);
+  EXPECT_TRUE(seen().timing.breakdown.queue_clipped);
+  EXPECT_FALSE(seen().timing.breakdown.compute_clipped);
 }
 
 // One stimulus, the answers of two estimators: it took until the second was there.
@@ -490,10 +490,10 @@ TEST_F(OnAWire, AStimulusIsAnsweredWithItsLastAnswer) {
   imu(10'000, 0);
   answer(10'000, 300'000);
   answer_in_flight(10'000, 500'000);
-  EXPECT_EQ(seen().timing.split.stimuli, 1U);
-  EXPECT_EQ(seen().timing.split.latency_ns, 500'000);
-  EXPECT_EQ(seen().timing.split.echoed, 0U);
-  EXPECT_EQ(seen().timing.split.told, 0U);
+  EXPECT_EQ(seen().timing.breakdown.stimuli, 1U);
+  EXPECT_EQ(seen().timing.breakdown.latency_ns, 500'000);
+  EXPECT_EQ(seen().timing.breakdown.echoed, 0U);
+  EXPECT_EQ(seen().timing.breakdown.accounted, 0U);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a receiver must count of frames that are withheld, damaged, repeated or out of date.
+// The counts that a receiver must report for frames that are missing, damaged, repeated or out of date.
 #include "bench/observe/receiver_model.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Two targets on one bus, and what looks like two and is one.
+// Detects two targets on one bus, and does not mistake one target for two.
 #include "bench/observe/second_target.hpp"
 #include "bench/observe/contract_watch.hpp"
 

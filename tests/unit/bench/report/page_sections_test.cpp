@@ -1,4 +1,4 @@
-// What the sections of a page show: the timing, the results, the bus.
+// The content of the sections of a page: timing, results, bus.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -42,7 +42,7 @@ TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
 TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
   drive::Run run = run_on_a_wire();
   run.seen.timing.wire.rates = {};
-  run.seen.timing.split.told = 0;
+  run.seen.timing.breakdown.accounted = 0;
   const auto parts = document(scenario_of(), run).at("split").at("parts_s");
   EXPECT_TRUE(parts.at("reply_wire").is_null());
   EXPECT_TRUE(parts.at("target_queue").is_null());
@@ -54,7 +54,7 @@ TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
 TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
   drive::Run run = run_on_a_wire();
   EXPECT_FALSE(document(scenario_of(), run).at("split").contains("at_least"));
-  run.seen.timing.split.queue_clipped = true;
+  run.seen.timing.breakdown.queue_clipped = true;
   const auto split = document(scenario_of(), run).at("split");
   EXPECT_EQ(split.at("at_least"), Json::array({"target_queue"}));
   EXPECT_EQ(split.at("at_most"), Json::array({"not_explained"}));
@@ -69,7 +69,7 @@ TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
 TEST(PageSections, TheSplitOfEachGroupStandsBesideThatOfAll) {
   drive::Run run = run_on_a_wire();
   checks::TimingRecord& timing = run.seen.timing;
-  timing.split_by_group = {
+  timing.breakdown_by_group = {
       {"SlaveImu", {.stimuli = 90, .latency_ns = 45'000'000, .reply_wire_ns = 9'000'000}},
       {"MasterIns", {.stimuli = 10, .latency_ns = 55'000'000, .reply_wire_ns = 1'000'000}}};
   const auto groups = document(scenario_of(), run).at("split").at("groups");

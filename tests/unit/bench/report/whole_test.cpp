@@ -1,4 +1,4 @@
-// A report that was cut, edited or made by another hand is refused with the key that is wrong.
+// A report that was truncated or edited is rejected with the name of the wrong key.
 #include "bench/report/whole.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The scenarios that come with the project are valid, with the names of the project's own DBC.
+// The scenarios of the project are valid with the project's own DBC.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -42,7 +42,7 @@ std::vector<std::string> answers(const std::string& text) {
   return names;
 }
 
-Contract of_the_dbc() {
+DbcVocabulary of_the_dbc() {
   const std::string text = dbc();
   return {.estimators = value_table(text, "Estimator"),
           .algorithms = value_table(text, "Algorithm"),

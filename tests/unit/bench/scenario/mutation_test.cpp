@@ -1,4 +1,4 @@
-// Whatever a file holds, reading it ends with a scenario in bounds or with one line that names the file.
+// Reading any file gives either a scenario within its limits, or one line that names the file.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 

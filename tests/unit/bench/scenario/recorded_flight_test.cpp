@@ -1,4 +1,4 @@
-// A recorded flight of a scenario: what of a file is flown, and each way in which a file can be wrong.
+// A recorded flight of a scenario: which part of the file is used, and one line per error of the file.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A small valid scenario, and how tests change it.
+// A small valid scenario, and functions to change it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,16 +14,16 @@
 
 namespace canhil::scenario {
 
-inline const Contract contract{.estimators = {"transfer_alignment", "inflight_alignment", "los_rate"},
-                               .algorithms = {"kalman", "robust_h2"},
-                               .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
-                               .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},
-                               .answers = {"AlignAttitude", "AlignUpdate"},
-                               .check_kinds = checks::kinds(estimators::all()),
-                               .known = estimators::all(),
-                               .former_check_kinds = checks::former_kinds(estimators::all()),
-                               .facts = estimators::facts(),
-                               .nodes = nodes::tables()};
+inline const DbcVocabulary contract{.estimators = {"transfer_alignment", "inflight_alignment", "los_rate"},
+                                    .algorithms = {"kalman", "robust_h2"},
+                                    .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
+                                    .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},
+                                    .answers = {"AlignAttitude", "AlignUpdate"},
+                                    .check_kinds = checks::kinds(estimators::all()),
+                                    .known = estimators::all(),
+                                    .former_check_kinds = checks::former_kinds(estimators::all()),
+                                    .facts = estimators::facts(),
+                                    .nodes = nodes::tables()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0

@@ -1,4 +1,4 @@
-// The analysis against the simulated wire: neither knows of the other.
+// Compares the analysis with the simulated wire; their code is independent.
 #include <gtest/gtest.h>
 
 #include "tests/unit/bench/schedulability/traffic.hpp"

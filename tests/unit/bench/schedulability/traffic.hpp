@@ -1,4 +1,4 @@
-// Random message sets, and what the simulated wire makes of them.
+// Random message sets, and their response times on the simulated wire.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The engagement against its own finite differences, the equations that the filter is made of, and the miss
-// distance of proportional navigation.
+// The engagement against its own finite differences, the equations of the filter, and the miss distance of
+// proportional navigation.
 #include "bench/world/engagement/engagement.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A recorded flight: it passes through what was recorded, and its IMU increments lead back to it.
+// A recorded flight passes through the recorded states, and integrating its IMU increments reproduces them.
 #include "bench/world/motion/recorded.hpp"
 
 #include <gtest/gtest.h>

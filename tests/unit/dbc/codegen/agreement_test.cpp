@@ -1,4 +1,4 @@
-// The generated and the run-time codec agree bit for bit, on random frames and on random values.
+// The generated codec and the run-time codec agree bit for bit, on random frames and on random values.
 #include <gtest/gtest.h>
 
 #include <bit>

@@ -1,4 +1,4 @@
-// The contract on CAN FD, as dbcgen makes it of the classic one.
+// The CAN FD version of the DBC, which dbcgen derives from the classic one.
 #include "dbc/codegen/fd.hpp"
 
 #include <fmt/format.h>

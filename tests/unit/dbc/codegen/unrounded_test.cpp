@@ -1,4 +1,4 @@
-// Frames that round nothing: what is packed stays, the scaled signals travel beside it.
+// Unrounded frames: the packed bytes stay the same, and the unrounded signals travel beside them.
 #include "dbc/wire/unrounded.hpp"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Every error, with its place and its whole text: one clear line for each wrong input.
+// Every error with its place and its complete text: one clear line for each wrong input.
 #include <gtest/gtest.h>
 
 #include "dbc/parser/parse.hpp"

@@ -1,4 +1,4 @@
-// Property: a plan allocates nothing when it is used.
+// Property: using a plan does not allocate.
 #include <gtest/gtest.h>
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// The compiled codec against one that takes a bit at a time, on random layouts.
+// The compiled codec against a codec that handles one bit at a time, on random layouts.
 #include "dbc/parser/plan.hpp"
 
 #include <gtest/gtest.h>

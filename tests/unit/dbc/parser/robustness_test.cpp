@@ -1,4 +1,4 @@
-// Whatever the text, parse() returns: a Database that the codec can work with, or one line.
+// For any text, parse() returns either a Database that the codec can use, or one line.
 #include <gtest/gtest.h>
 
 #include <fstream>

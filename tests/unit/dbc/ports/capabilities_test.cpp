@@ -1,4 +1,4 @@
-// What a bus can do, as its port tells it.
+// The capabilities that a port reports for its bus.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// The FD contract on a bus: what goes in as classic frames comes out as the same, in the same order.
+// The CAN FD format on a bus: classic frames that are sent arrive unchanged and in the same order.
 #include "dbc/ports/fd_groups.hpp"
 
 #include <fmt/format.h>

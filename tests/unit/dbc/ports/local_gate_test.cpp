@@ -1,4 +1,4 @@
-// Who may be on an embedded bus: its own user's processes, as long as they speak and read.
+// Access to an embedded bus: only processes of the same user, and only while they send and read.
 #include "dbc/ports/local_gate.hpp"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
-// The embedded bus with a bit rate. The stamps are the wire's own, so they are exact on a busy machine too;
-// the bit rates are so low that this program gets to run within a frame.
+// The embedded bus with a bit rate. Time stamps come from the simulated wire, so they are exact on a busy
+// machine too. The bit rates are so low that this program is scheduled within the time of a frame.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // The profiles against the protected data that the standard publishes: AUTOSAR FO PRS E2EProtocol (document
-// 849), sections 'E2E Profile N Protocol Examples'. The numbers are repeated by the tests of public
-// libraries, from which they were taken: autosar-e2e on PyPI, torsko/autosar-e2e and remotivelabs/autosar-e2e
-// on GitHub.
+// 849), sections 'E2E Profile N Protocol Examples'. The numbers were taken from the tests of public
+// libraries, which repeat them: autosar-e2e on PyPI, torsko/autosar-e2e and remotivelabs/autosar-e2e on
+// GitHub.
 #include "dbc/protection/profiles.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Counters, what is covered, sender and receiver.
+// Counters, covered bytes, sender and receiver.
 #include "dbc/protection/protection.hpp"
 
 #include <gtest/gtest.h>

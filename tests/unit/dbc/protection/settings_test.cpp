@@ -1,4 +1,4 @@
-// One line for each impossible setting.
+// One error line for each impossible setting.
 #include "dbc/protection/settings.hpp"
 
 #include <gtest/gtest.h>

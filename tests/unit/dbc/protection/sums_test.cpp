@@ -1,4 +1,4 @@
-// Sums that vehicle makers use, each with a message that was computed by hand.
+// Checksums of vehicle manufacturers, each with a message that was computed by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>

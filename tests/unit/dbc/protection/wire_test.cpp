@@ -1,4 +1,4 @@
-// Our own wire's protection (dbc/wire/e2e.hpp) and the preset of the same profile agree bit for bit.
+// canhil's own protection (dbc/wire/e2e.hpp) and the preset of the same profile agree bit for bit.
 #include "dbc/wire/e2e.hpp"
 
 #include <gtest/gtest.h>

@@ -30,7 +30,7 @@ TEST(Words, SayWhatIsInForce) {
                     .awake = true,
                     .governors = {"performance"},
                     .preemption = "PREEMPT_RT"};
-  EXPECT_EQ(words(standing),
+  EXPECT_EQ(to_text(standing),
             "SCHED_FIFO 40, CPU 2-3, 71 MiB locked, timer slack 1 ns, no deep sleep, governor performance, "
             "PREEMPT_RT");
   EXPECT_EQ(frequency_warning(standing), "");

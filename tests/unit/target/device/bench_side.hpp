@@ -1,5 +1,4 @@
-// The other side of the bus for tests of the Device: a level flight at constant velocity, sensors without
-// errors.
+// Plays the bench for tests of the Device: a level flight at constant velocity, sensors without errors.
 #pragma once
 
 #include <cmath>

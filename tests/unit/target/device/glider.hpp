@@ -1,4 +1,4 @@
-// The other side of the bus for the wind estimator: the published run, 20 s at 50 Hz, row by row as frames.
+// Plays the bench for the wind estimator: the published run, 20 s at 50 Hz, one row per frame group.
 #pragma once
 
 #include <numbers>

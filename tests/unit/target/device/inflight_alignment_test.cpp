@@ -1,4 +1,4 @@
-// In-flight alignment behind the bus: a vehicle at rest whose fixes come from an SSBL or a GPS, good and bad.
+// In-flight alignment through the device: a vehicle at rest with good and bad fixes from an SSBL or a GPS.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The other side of the bus for tests of the LOS rate: the seeker of a missile on its way to the target.
+// Plays the bench for tests of the LOS rate: the seeker of a missile on its way to the target.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// A seeker that breaks: its faults are named, coasted over with growing sigmas, and recovered from.
+// Faults of the seeker: they are reported, bridged with growing sigmas, and the estimator recovers.
 #include <gmock/gmock.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// What the device makes of frames that are lost, broken, late, or say that they are invalid.
+// How the device handles frames that are lost, damaged, late or marked as invalid.
 #include <gtest/gtest.h>
 
 #include "target/device/imu_stream.hpp"

@@ -1,4 +1,4 @@
-// Several estimators on one device: they hear the same sensors and know nothing of each other.
+// Several estimators on one device receive the same sensors and do not influence each other.
 #include <gmock/gmock.h>
 
 #include "tests/unit/target/device/bench_side.hpp"

@@ -1,4 +1,4 @@
-// The wind estimator behind the bus: whatever is bad for a while is named, coasted over and forgotten.
+// The wind estimator through the device: temporary bad input is reported, bridged, and has no lasting effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>

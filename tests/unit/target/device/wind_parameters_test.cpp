@@ -1,4 +1,4 @@
-// The parameters of the wind estimator over the bus.
+// Setting the parameters of the wind estimator over the bus.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The wind estimator behind the bus: a published run in frames.
+// The wind estimator through the device: a published run in frames.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
-// The published vector's rows as frames through the Device: its states come back. Built on the contract,
-// where they come back up to its rounding, and on the twin that rounds nothing.
+// The published test vector through the Device: its rows go in as frames, and its states come out. The test
+// is built twice: with the DBC, where the states agree up to its rounding, and with a version that rounds
+// nothing.
 #include <gtest/gtest.h>
 
 #include "tests/unit/target/device/glider.hpp"

@@ -1,6 +1,6 @@
-// Property: no allocation on the frame path, in the libraries as everybody links them. The linker sends their
-// calls of malloc and its like here (--wrap, CMakeLists.txt), Eigen's among them, and operator new is this
-// file's.
+// Property: no allocation on the frame path, in the delivered libraries. The linker redirects their calls of
+// malloc and similar functions to this file (--wrap, CMakeLists.txt), including those of Eigen. This file
+// also defines operator new.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
 #pragma once
-// Matrices of any size for what tests compute as reference: one type whose operations are compiled once, in
-// reference_matrix.cpp. Expressions of fixed-size matrices are a type each, and those of one test took longer
-// to compile than the filter under it.
+// Matrices of any size for references in tests. This type is compiled once, in reference_matrix.cpp. With
+// fixed-size Eigen matrices every expression is a type of its own, and one test took longer to compile than
+// the filter.
 #include <Eigen/Core>
 #include <iosfwd>
 #include <vector>

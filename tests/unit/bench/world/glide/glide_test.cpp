@@ -1,4 +1,5 @@
-// The glider's truth: the flight of the published study, and the laws of mechanics on what was recorded.
+// The glider's truth: the flight of the published study, and the laws of mechanics applied to the recorded
+// states.
 #include "bench/world/glide/glide.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Properties of the in-flight filters that hold without a reference.
+// Properties of the in-flight filters that need no reference.
 #include "target/estimators/inflight_alignment/filter.hpp"
 
 #include <gtest/gtest.h>

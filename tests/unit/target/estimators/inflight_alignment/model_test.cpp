@@ -1,5 +1,5 @@
-// The error models against what they are models of: a real INS with errors beside one without; and their
-// Jacobians against differences.
+// The error models against the difference of two INS, one with errors and one without; and their Jacobians
+// against finite differences.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

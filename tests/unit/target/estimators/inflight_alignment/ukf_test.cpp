@@ -1,5 +1,5 @@
-// The unscented prediction against the transform as it is written down: all 2 N + 1 points, the centre's
-// weight negative.
+// The unscented prediction against the textbook transform: all 2 N + 1 points, with the negative weight of
+// the centre.
 #include <gtest/gtest.h>
 
 #include <functional>

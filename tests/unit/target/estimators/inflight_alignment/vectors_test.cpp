@@ -1,4 +1,4 @@
-// Acceptance bar A: the filters replay the published double-precision runs.
+// Acceptance limit A: the filters reproduce the published double-precision runs.
 #include <gtest/gtest.h>
 
 #include <cmath>

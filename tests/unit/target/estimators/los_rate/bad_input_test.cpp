@@ -1,4 +1,5 @@
-// Input that cannot be used: named, coasted over with growing sigmas, never a NaN, and recovered from.
+// Unusable input is reported and bridged with growing sigmas; the output is never NaN, and the filter
+// recovers.
 #include <gtest/gtest.h>
 
 #include <cmath>

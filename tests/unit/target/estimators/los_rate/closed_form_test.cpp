@@ -1,5 +1,5 @@
-// The closed forms against the table of algebraic Riccati equations, the integrated differential one and the
-// discrete one.
+// The closed forms against the table of algebraic Riccati equations, the integrated differential equation and
+// the discrete equation.
 #include "target/estimators/los_rate/closed_form.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The closed gains: against the Kalman filter and the integrated Riccati equation, their statistics, their
-// start-up.
+// The closed-form gains against the Kalman filter and the integrated Riccati equation; their statistics and
+// their start-up.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -268,7 +268,7 @@ TEST(ClosedGain, ToldSigmaAllowsForATurnAllAtOnce) {
       const UpdateResult result = step(state, m, design);
       if (m.error.yaw > 0.1) break;
       lag = std::max(lag, std::abs(estimate(state).rate.yaw - a / range * t));
-      const double told = told_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
+      const double told = reported_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
       if (k == 600) allowed = std::sqrt(told * told - own * own);
     }
     EXPECT_NEAR(lag / (3 * allowed), 1, 0.1);

@@ -1,4 +1,4 @@
-// Properties of the whole step: exactness, signs, two planes under roll.
+// Properties of a complete step: exactness, signs, two planes under roll.
 #include "target/estimators/los_rate/filter.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Samples that were lost: antenna and missile are bridged, the gain is that of the longer step.
+// Lost samples: antenna and missile motion are bridged, and the gain is that of the longer step.
 #include <gtest/gtest.h>
 
 #include <cmath>

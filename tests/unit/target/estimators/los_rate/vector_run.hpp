@@ -1,6 +1,6 @@
 #pragma once
-// The published flight (200 Hz, pitch plane) and filters made of the estimator's own pieces with exact gains,
-// on ranges as they come, without clamp and start-up.
+// The published flight (200 Hz, pitch plane), and filters built from the estimator's own parts with exact
+// gains. Ranges are used as they are, without limits and start-up.
 #include <functional>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// The published flight: gains to 1e-9, estimates to 1e-9 rad/s, and what a wrong sign does to both.
+// The published flight: gains to 1e-9, estimates to 1e-9 rad/s, and the effect of a wrong sign on both.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Properties of the transfer-alignment filter that hold without a reference.
+// Properties of the transfer-alignment filter that need no reference.
 #include "target/estimators/transfer_alignment/filter.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The feedback of an invariant error: its algebra against dense references, and what it is there for.
+// The feedback of an invariant error: its algebra against dense references, and its benefit.
 #include "target/estimators/transfer_alignment/invariant.hpp"
 
 #include <gtest/gtest.h>

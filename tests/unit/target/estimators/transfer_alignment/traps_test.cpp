@@ -1,4 +1,4 @@
-// What is easily got wrong in this filter; each test names the mistake it catches.
+// Frequent mistakes in this filter; each test names the mistake that it detects.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Whatever is bad for a while is flagged, coasted over and forgotten; nothing becomes NaN.
+// Temporary bad input is flagged, bridged, and has no lasting effect; nothing becomes NaN.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// step() as a whole: its order, its time base, the start, the choices of algorithm, what is reported.
+// step() as a whole: order of operations, time base, start, algorithms, reported values.
 #include "target/estimators/wind/filter.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The model's equations, each against what it must mean: a corrected equation put in as printed fails the
-// test that names it.
+// Each equation of the model against its physical meaning. If a corrected equation is replaced by the printed
+// one, the test that names it fails.
 #include "target/estimators/wind/model.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "bench/drive/hands.hpp"
+#include "bench/drive/rig_control.hpp"
 
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -48,25 +48,25 @@ InterfaceFacts interface_facts(const std::string& bus) {
           .may_set = set_flag(bus, std::nullopt)};  // the flags that it has: nothing changes
 }
 
-RunHands::RunHands(std::string bus, std::optional<TargetProcess>& target,
-                   std::function<void(std::int64_t)> restart)
+RunRigControl::RunRigControl(std::string bus, std::optional<TargetProcess>& target,
+                             std::function<void(std::int64_t)> restart)
     : bus_(std::move(bus)), target_(target), restart_(std::move(restart)) {}
 
-RunHands::~RunHands() {
+RunRigControl::~RunRigControl() {
   interface_up();
   if (errors_ >= 0) close(errors_);
 }
 
-void RunHands::pause_target() {
+void RunRigControl::pause_target() {
   if (target_) target_->send_signal(SIGSTOP);
 }
 
-void RunHands::resume_target() {
+void RunRigControl::resume_target() {
   if (target_) target_->send_signal(SIGCONT);
 }
 
 // Over a socket of its own: whoever listens hears it as of the driver, the bench too.
-void RunHands::report_error(const Frame& error) {
+void RunRigControl::report_error(const Frame& error) {
   if (errors_ < 0) {
     errors_ = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
     if (errors_ < 0) return;
@@ -84,7 +84,7 @@ void RunHands::report_error(const Frame& error) {
 }
 
 // The loop that drives a run waits for the interface, so it cannot be what sets it up.
-void RunHands::interface_down(std::int64_t for_us) {
+void RunRigControl::interface_down(std::int64_t for_us) {
   interface_up();
   if (!set_flag(bus_, false)) return;
   up_ = std::thread([bus = bus_, for_us] {
@@ -93,7 +93,7 @@ void RunHands::interface_down(std::int64_t for_us) {
   });
 }
 
-void RunHands::interface_up() {
+void RunRigControl::interface_up() {
   if (up_.joinable()) up_.join();
 }
 

@@ -18,7 +18,7 @@ inline constexpr Routes target_messages([](const MessageInfo& info) {
 
 /// The message, if this is one and whole, and no echo of ours.
 template <class Message>
-std::optional<Message> heard(const Received& received) {
+std::optional<Message> decode_from_target(const Received& received) {
   if (received.own || !nodes::is_whole<Message>(received.frame)) return std::nullopt;
   return from_frame<Message>(received.frame);
 }

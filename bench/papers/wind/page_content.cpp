@@ -1,5 +1,5 @@
 // What the page on the wind shows: scores, the wind over the height, the nominal glide.
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -141,29 +141,29 @@ Curve glide(std::string_view what) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& /*options*/,
-                  const std::filesystem::path& /*exact*/) {
-  Told told;
-  add_scores(told.names, results);
-  add_claims(told.names, results);
+Result<PageContent> page_content(const Results& results, const FlyOptions& /*options*/,
+                                 const std::filesystem::path& /*exact*/) {
+  PageContent content;
+  add_scores(content.names, results);
+  add_claims(content.names, results);
   const world::GlideTruth& end = nominal_glide().epochs().back();
-  told.names["glide_end"] = [&end](Words&) {
+  content.names["glide_end"] = [&end](Words&) {
     return fmt::format("{:.0f} m/s and {:.2f} km, heading {:+.1f} deg", end.v_a.norm(), end.height / 1000,
                        world::euler_from(end.C_bn).heading / deg);
   };
-  told.curves["error"] = [&results](Words& words) {
+  content.curves["error"] = [&results](Words& words) {
     constexpr std::size_t step = 10;  // answers come every 100 ms: a point a second
     return over_time(results.of("table1").curve(words.rest(), quantities::wind_norm), 1, step);
   };
-  told.curves["wind_speed"] = [](Words& words) {
+  content.curves["wind_speed"] = [](Words& words) {
     return profile(words.rest(), [](const world::Vector3& wind_n) { return wind_n.norm(); });
   };
-  told.curves["wind_from"] = [](Words& words) { return profile(words.rest(), from_deg); };
-  told.curves["glide"] = [](Words& words) { return glide(words.rest()); };
-  told.bars_met =
+  content.curves["wind_from"] = [](Words& words) { return profile(words.rest(), from_deg); };
+  content.curves["glide"] = [](Words& words) { return glide(words.rest()); };
+  content.bars_met =
       passed(results.of("table1"), lost_requirement) &&
       std::ranges::all_of(judged, [&](const char* name) { return passed(results.of(name), requirement); });
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::wind

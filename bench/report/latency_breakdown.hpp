@@ -14,19 +14,20 @@ namespace canhil::report {
 enum class Bound : std::uint8_t { exact, at_least, at_most };
 
 /// A part of the way from the hand-over of the last frame of a stimulus to the last frame of its answer.
-struct SplitPart {
+struct BreakdownPart {
   std::string_view key{};          ///< in the JSON
   std::string_view what{};         ///< for people
   std::optional<double> mean_s{};  ///< none: not known of this bus, or not told by the target
-  Bound bound = Bound::exact;      ///< what the target tells ends at checks::most_told_us
+  Bound bound = Bound::exact;      ///< what the target tells ends at checks::most_reported_us
 };
 
 /// In the order of time; the parts that are known add up to total_s().
-std::vector<SplitPart> parts(const checks::TimingRecord& timing);
+std::vector<BreakdownPart> parts(const checks::TimingRecord& timing);
 /// Of the stimuli of one group, which the target does not account for alone: its part is in the last.
-std::vector<SplitPart> group_parts(const checks::TimingRecord& timing, const checks::LatencySplit& split);
+std::vector<BreakdownPart> group_parts(const checks::TimingRecord& timing,
+                                       const checks::LatencyBreakdown& breakdown);
 /// For people, of a key; the key itself if it is none of them.
 std::string_view what_of(std::string_view key);
-double total_s(const checks::LatencySplit& split);
+double total_s(const checks::LatencyBreakdown& breakdown);
 
 }  // namespace canhil::report

@@ -1,5 +1,5 @@
 // What the page on the LOS rate shows: errors by time to go, misses, bandwidths.
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -169,16 +169,16 @@ Curve error(const Flown& flown, std::string_view variant) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& /*options*/,
-                  const std::filesystem::path& /*exact*/) {
-  Told told;
-  add_tables(told.names, results);
-  add_claims(told.names, results);
-  told.curves["error"] = [&results](Words& words) { return error(results.of("open_loop"), words.rest()); };
-  told.curves["bandwidth"] = [](Words& words) { return bandwidth(words.rest()); };
-  told.bars_met =
+Result<PageContent> page_content(const Results& results, const FlyOptions& /*options*/,
+                                 const std::filesystem::path& /*exact*/) {
+  PageContent content;
+  add_tables(content.names, results);
+  add_claims(content.names, results);
+  content.curves["error"] = [&results](Words& words) { return error(results.of("open_loop"), words.rest()); };
+  content.curves["bandwidth"] = [](Words& words) { return bandwidth(words.rest()); };
+  content.bars_met =
       std::ranges::all_of(judged, [&](const char* name) { return passed(results.of(name), "bar"); });
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::los_rate

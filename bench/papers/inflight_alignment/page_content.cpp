@@ -1,5 +1,5 @@
 // What the page on in-flight alignment shows: heading errors at 300 s, repairs of the covariance.
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -156,20 +156,21 @@ bool add_claims(Names& names, const Results& results) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& /*exact*/) {
-  Told told;
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& /*exact*/) {
+  PageContent content;
   auto curves = first_runs(results, options);
   if (!curves) return tl::unexpected(curves.error());
-  told.curves = std::move(*curves);
-  add_headings(told.names, results);
-  add_paths(told.names, results);
-  told.bars_met = add_claims(told.names, results) && std::ranges::all_of(judged, [&](const char* name) {
-                    return passed(results.of(name), "bar B");
-                  });
-  told.names["drawn_runs"] = [drawn = std::min(drawn_runs, results.of("ssbl").campaign.runs)](Words&) {
+  content.curves = std::move(*curves);
+  add_headings(content.names, results);
+  add_paths(content.names, results);
+  content.bars_met = add_claims(content.names, results) && std::ranges::all_of(judged, [&](const char* name) {
+                       return passed(results.of(name), "bar B");
+                     });
+  content.names["drawn_runs"] = [drawn = std::min(drawn_runs, results.of("ssbl").campaign.runs)](Words&) {
     return fmt::to_string(drawn);
   };
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::inflight_alignment

@@ -1,6 +1,6 @@
 // What the page on transfer alignment shows: times into 3, 2 and 1 mrad, beside those of the reference
 // simulation.
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -105,11 +105,12 @@ void add_curves(Curves& curves, const Results& results) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact) {
-  Told told;
-  add_times(told.names, results);
-  add_curves(told.curves, results);
-  told.bars_met = add_claims(told.names, results);
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact) {
+  PageContent content;
+  add_times(content.names, results);
+  add_curves(content.curves, results);
+  content.bars_met = add_claims(content.names, results);
 
   const Flown& table = results.of(main_campaign);
   const auto store = campaign::Store::open(results_file(options, main_campaign));
@@ -117,7 +118,8 @@ Result<Told> tell(const Results& results, const FlyOptions& options, const std::
   auto spreads = spreads_of(table.campaign, *store);
   if (!spreads) return tl::unexpected(spreads.error());
   // As compared, with the spread over batches before the verdict.
-  told.names["batched"] = [compared = told.names["compared"], spreads = std::move(*spreads)](Words& words) {
+  content.names["batched"] = [compared = content.names["compared"],
+                              spreads = std::move(*spreads)](Words& words) {
     const std::string_view reference = words.next(), variant = words.rest();
     const std::string three = fmt::format("{} {} {}", reference, main_campaign, variant);
     Words of_table(three);
@@ -126,13 +128,13 @@ Result<Told> tell(const Results& results, const FlyOptions& options, const std::
     return cells.insert(cells.rfind('|') + 1,
                         fmt::format(" {} |", spread == spreads.end() ? "-" : spread->second));
   };
-  told.names["exact_given"] = [given = !exact.empty()](Words&) { return given; };
+  content.names["exact_given"] = [given = !exact.empty()](Words&) { return given; };
   if (!exact.empty()) {
     auto unrounded = read_exact(exact, table.campaign);
     if (!unrounded) return tl::unexpected(unrounded.error());
-    told.names["exact_rows"] = [rows = exact_rows(table, *unrounded)](Words&) { return rows; };
+    content.names["exact_rows"] = [rows = exact_rows(table, *unrounded)](Words&) { return rows; };
   }
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::transfer_alignment

@@ -19,12 +19,12 @@ struct InterfaceFacts {
 };
 InterfaceFacts interface_facts(const std::string& bus);
 
-class RunHands final : public faults::Hands {
+class RunRigControl final : public faults::RigControl {
  public:
   /// `target`: none while it is not started; must outlive it. `restart`: does it.
-  RunHands(std::string bus, std::optional<TargetProcess>& target,
-           std::function<void(std::int64_t t_us)> restart);
-  ~RunHands() override;
+  RunRigControl(std::string bus, std::optional<TargetProcess>& target,
+                std::function<void(std::int64_t t_us)> restart);
+  ~RunRigControl() override;
 
   void pause_target() override;
   void resume_target() override;

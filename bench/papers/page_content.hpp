@@ -9,7 +9,7 @@
 
 namespace canhil::papers {
 
-struct Told {
+struct PageContent {
   Names names{};  ///< beside those that all papers have
   Curves curves{};
   bool bars_met = false;
@@ -25,22 +25,26 @@ void add_shared_names(Names& names, const Results& results, std::uint64_t runs, 
 // without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
 namespace transfer_alignment {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
 }  // namespace transfer_alignment
 
 namespace inflight_alignment {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
 }  // namespace inflight_alignment
 
 namespace los_rate {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
 }  // namespace los_rate
 
 namespace wind {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
 }  // namespace wind
 
 }  // namespace canhil::papers
