@@ -57,13 +57,20 @@ class Session:
         self.folder = Path(where.read_text().strip()) if where.exists() else self.folder
         return ended.returncode, ended.stdout
 
-    def unknown_options(self, text: str) -> list[str]:
-        """Options of the project's own programs that their help does not have."""
+    def unknown_words(self, text: str) -> list[str]:
+        """Options that the help of the project's programs does not have, and files that it does not have."""
         unknown = []
         for call in re.split(r"[;|&]+|\$\(|\|\|", re.sub(r"'[^']*'|\"[^\"]*\"", "QUOTED", text)):
             words = call.replace("[", " ").replace("]", " ").split()
             while words and (words[0] == "sudo" or "=" in words[0]):
                 words.pop(0)
+            for word in words:  # files of the project
+                if re.match(r"(bench|dbc|docs|target|tests|packaging)/", word) and not re.search(r"[*A-Z]", word) and not (self.root / word).exists():
+                    unknown.append(f"{word} is not there")
+            scripts = [self.root / word for word in words[:2] if word.endswith((".py", ".sh")) and (self.root / word).is_file()]
+            for option in (word.split("=")[0] for word in words if word.startswith("--") and scripts):
+                if option not in scripts[0].read_text():
+                    unknown.append(f"{scripts[0].name} has no option {option}")
             if not words or Path(words[0]).name not in ("hil-bench", "hil-target", "dbcgen"):
                 continue
             command = [words[0]]
@@ -83,11 +90,9 @@ class Session:
 
 def attempt(command: Command, rule: Rule, session: Session) -> str:
     """What is wrong; empty: nothing."""
-    wrong = session.unknown_options(command.text)
-    if wrong:
+    wrong = session.unknown_words(command.text) if rule.why_not else []
+    if wrong or rule.why_not:
         return "; ".join(wrong)
-    if rule.why_not:
-        return ""
     text = command.text
     for pattern, replacement in (*rule.instead, *PLACEHOLDERS):
         text = re.sub(pattern, replacement, text)
