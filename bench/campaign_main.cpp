@@ -1,4 +1,4 @@
-// hil-bench-campaign: what `hil-bench campaign`, `accept`, `faults` and `reference` become.
+// hil-bench-campaign: the program for `hil-bench campaign`, `accept`, `faults` and `reference`.
 #include <array>
 
 #include "bench/commands/campaign.hpp"

@@ -1,4 +1,4 @@
-// hil-bench: plays every node but the target, and judges it.
+// hil-bench: emulates every node except the target, and judges the target.
 #include <array>
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace canhil::commands;
 
-// For help alone: the subcommands themselves are of hil-bench-campaign.
+// For the help text only: the subcommands themselves belong to hil-bench-campaign.
 void name_campaign(canhil::command_line::Command program, int& /*code*/) {
   program.add_subcommand(std::string(accept_name), std::string(accept_summary));
   program.add_subcommand(std::string(campaign_name), std::string(campaign_summary));

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{1} << 22U;
 constexpr double at_an_instant = 2, in_the_mean = 0.25, of_rounding = 4;
 
-/// The one that is the most tolerances off.
+/// The value with the largest deviation in tolerances.
 struct Worst {
   double tolerances = 0;
   std::string words;
@@ -119,13 +119,13 @@ Result<Reference> read_reference(const std::filesystem::path& file) {
     if (first != "rounding" && first != "mean" && first != "mean_rounding") {
       const auto [end, bad] = std::from_chars(first.data(), first.data() + first.size(), index);
       if (bad != std::errc() || end != first.data() + first.size())
-        return wrong("'message', 'signals', 'rounding', 'mean', 'mean_rounding' or the place of an answer");
+        return wrong("'message', 'signals', 'rounding', 'mean', 'mean_rounding' or the index of an answer");
       if (index >= message.count || !(words >> t_s))
-        return wrong(fmt::format("the place of one of {} answers, and its time", message.count));
+        return wrong(fmt::format("the index of one of {} answers, and its time", message.count));
     }
     std::vector<double> values = numbers(words);
     if (values.size() != message.signals.size())
-      return wrong(fmt::format("{} numbers, one a signal", message.signals.size()));
+      return wrong(fmt::format("{} numbers, one per signal", message.signals.size()));
     if (first == "rounding") {
       message.rounding = std::move(values);
     } else if (first == "mean") {
@@ -167,7 +167,8 @@ std::string departure(const Reference& reference, const Answers& answers, double
                              signal.name, row.t_s, now, signal.unit, row.values[s], tolerance);
         });
       }
-      if (signal.name.ends_with("_counter") || signal.name.ends_with("_us")) continue;  // a mean says nothing
+      if (signal.name.ends_with("_counter") || signal.name.ends_with("_us"))
+        continue;  // a mean has no meaning
       const double now = series->mean(s);
       const double mean_tolerance =
           share * ((counts(signal) ? 1.01 / static_cast<double>(count) : in_the_mean * step) +

@@ -29,7 +29,7 @@ std::string counts(const Acceptance& suite) {
   return words;
 }
 
-/// What is to be seen of a finding without asking: what is wrong with it.
+/// The items shown by default: the violations.
 std::vector<const Item*> shown_items(const Finding& finding) {
   std::vector<const Item*> items;
   for (const Item& item : finding.items) {
@@ -46,7 +46,7 @@ std::string sign_of(Outcome outcome) {
   return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, checks::name(outcome));
 }
 
-/// Everything that was looked at, folded away.
+/// All items, collapsed.
 std::string all_of(const Finding& finding) {
   std::string list;
   for (const Item& item : finding.items)

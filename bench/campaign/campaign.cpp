@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using scenario::Section;
 using scenario::Setting;
 
-/// A variant as the file has it.
+/// A variant as written in the file.
 struct Given {
   std::string name;
   std::string scenario;
@@ -27,7 +27,7 @@ struct Given {
   int line = 0;
 };
 
-/// One value for every key of the sweep.
+/// One value for each key of the sweep.
 struct Point {
   std::string name;
   std::vector<Setting> settings;
@@ -56,7 +56,7 @@ std::string without_quotes(std::string_view value) {
   return std::string(quoted ? value.substr(1, value.size() - 2) : value);
 }
 
-/// The cartesian product: the last key runs fastest.
+/// The cartesian product; the last key varies fastest.
 std::vector<Point> expand(const std::vector<Setting>& sweep) {
   std::vector<Point> points{{}};
   for (const Setting& key : sweep) {
@@ -84,7 +84,7 @@ std::vector<Setting> read_sweep(Section& root, const std::vector<Given>& given) 
   refuse_seed(*section, sweep);
   for (const Setting& key : sweep) {
     if (key.elements.empty()) {
-      section->reject(key.key, key.value.starts_with('[') ? "is empty" : "is no array",
+      section->reject(key.key, key.value.starts_with('[') ? "is empty" : "is not an array",
                       "an array of at least one value");
     }
     const auto has_key = [&](const Given& one) {
@@ -114,7 +114,7 @@ std::uint64_t hash_of(const Sources& sources) {
   return world::fnv1a_64(all);
 }
 
-/// Recordings that a scenario flies are no part of the sources, but of what was flown.
+/// Recordings that a scenario uses are not among the sources, but they change the results.
 std::uint64_t with_recordings(std::uint64_t hash, const std::vector<Variant>& variants) {
   for (const Variant& variant : variants) {
     const std::uint64_t own = variant.scenario.recordings_hash;
@@ -142,10 +142,11 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
                       .scenario = {}};
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
-      // Named from the campaign's folder, and what it names from its own.
-      const fs::path index = fs::path(sources.file).parent_path() / one.scenario;
+      // The path is relative to the campaign's folder; paths within the scenario are relative to the
+      // scenario.
+      const fs::path path = fs::path(sources.file).parent_path() / one.scenario;
       auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings,
-                                        index.parent_path().string(), beside);
+                                        path.parent_path().string(), beside);
       const auto refused = [&](std::string_view why) {
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };
@@ -173,7 +174,8 @@ std::vector<Given> read_variants(Section& root) {
   for (Section& section : root.tables("variant")) {
     Given one = read_given(section);
     if (std::ranges::find(given, one.name, &Given::name) != given.end()) {
-      section.reject("name", fmt::format("'{}' is the name of another variant", one.name), "another name");
+      section.reject("name", fmt::format("'{}' is already the name of another variant", one.name),
+                     "another name");
     }
     given.push_back(std::move(one));
   }
@@ -188,7 +190,8 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
   for (Section& section : root.tables("metric")) {
     Metric metric = read_metric(section, names, duration_us);
     if (std::ranges::find(metrics, metric.name, &Metric::name) != metrics.end()) {
-      section.reject("name", fmt::format("'{}' is the name of another metric", metric.name), "another name");
+      section.reject("name", fmt::format("'{}' is already the name of another metric", metric.name),
+                     "another name");
     }
     metrics.push_back(std::move(metric));
   }
@@ -202,7 +205,7 @@ void refuse_untold(Section& root, const Campaign& campaign) {
       const Variant& variant = campaign.variants[index];
       if (quantities::has(estimators::of(variant.scenario).layout, quantity)) continue;
       root.reject("metric",
-                  fmt::format("'{}' asks for {}, which variant '{}' does not tell", metric.name,
+                  fmt::format("'{}' asks for {}, which variant '{}' does not report", metric.name,
                               quantity.name, variant.name),
                   "a quantity of its estimator");
     }
@@ -277,7 +280,7 @@ std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& met
   for (std::size_t i = 0; i < campaign.variants.size(); ++i) {
     const std::string& name = campaign.variants[i].given;
     const bool wanted = metric.variants.empty()
-                            ? name != other  // nobody is compared with himself unasked
+                            ? name != other  // a variant is compared with itself only on request
                             : std::ranges::find(metric.variants, name) != metric.variants.end();
     if (wanted) chosen.push_back(i);
   }

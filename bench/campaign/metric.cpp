@@ -16,13 +16,13 @@ namespace {
 using scenario::Limits;
 using scenario::Section;
 
-/// What the readers of all kinds need to know of the campaign.
+/// Facts about the campaign for the readers of all kinds.
 struct Context {
   const std::vector<std::string>& variants;
   std::int64_t duration_us;
 };
 
-/// Whether campaigns keep a quantity: some of single runs they do not.
+/// Whether campaigns store a quantity; some exist in single runs only.
 bool is_sampled(const Quantity& quantity) {
   if (mapping::find_reference_quantity(quantity.name) != nullptr) return true;
   return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
@@ -30,7 +30,7 @@ bool is_sampled(const Quantity& quantity) {
   });
 }
 
-/// Those of the project's estimators, and those that a mapped target may tell.
+/// The quantities of the bench's estimators and those that a mapped target may report.
 std::span<const Quantity* const> every_quantity() {
   static const std::vector<const Quantity*> all = [] {
     const auto own = estimators::every_quantity();
@@ -43,11 +43,11 @@ std::span<const Quantity* const> every_quantity() {
   return all;
 }
 
-/// The quantity that `quantity` names, of those that campaigns keep and that are wanted.
+/// The quantity that `quantity` names: one that campaigns store and that is wanted here.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
-    if (!is_sampled(one)) return "is of single runs, which campaigns do not keep";
+    if (!is_sampled(one)) return "exists in single runs only, not in campaigns";
     return wanted(one) ? "" : "cannot be used with this kind";
   });
 }
@@ -62,8 +62,8 @@ std::optional<double> optional_number(Section& section, const scenario::Key& key
   return std::nullopt;
 }
 
-/// The bars STEM_at_least and STEM_at_most with what their keys end in; nothing could hold them in descending
-/// order.
+/// The bars STEM_at_least and STEM_at_most with their suffix. Bars in descending order are rejected: no value
+/// could meet both.
 template <class Value>
 void expect_bars_ordered(Section& section, std::string_view stem, std::string_view ending,
                          const std::optional<Value>& at_least, const std::optional<Value>& at_most) {
@@ -145,7 +145,7 @@ Distribution read(Section& section, const Context& context, Distribution rule) {
   expect_bars_ordered(section, "fraction_", "", rule.fraction_at_least, rule.fraction_at_most);
   if (!rule.below && (rule.fraction_at_least || rule.fraction_at_most)) {
     section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
-                   "is of no use without a bound", fmt::format("below{} beside it", rule.unit.ending));
+                   "has no effect without a bound", fmt::format("below{} beside it", rule.unit.ending));
   }
   rule.batch =
       section.optional_integer({"batch", "Runs of a batch, of which the range of the RMS is drawn."}, 2)
@@ -209,7 +209,7 @@ Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
       {checks::key_of("beyond", rule.quantity->unit), "An error beyond this is a divergence.", "beyond_UNIT"},
       Limits::above(0));
   rule.from_us = section.optional_time_us({"from_s", "From this time on, in place of the end of the run."},
-                                          Limits{});  // of samples by the time to go minus it
+                                          Limits{});  // for samples by time to go, minus the time to go
   rule.at_most = section.optional_integer({"at_most", "Bar: at most."}, 0);
   rule.at_least = section.optional_integer({"at_least", "Bar: at least."}, 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
@@ -235,14 +235,14 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
-    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "is of no use alone",
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has no effect alone",
                    "other = a variant beside it");
   }
   return rule;
 }
 
 ToGo read(Section& section, const Context& context, ToGo rule) {
-  // Of a whole run there is no time to go.
+  // Quantities of a whole run have no time to go.
   rule.quantity = read_quantity(section, [](const Quantity& one) {
     return !one.of_whole_run && std::ranges::any_of(estimators::all(), [&](const auto* estimator) {
       return estimator->layout.to_go_stretch_us > 0 && quantities::has(estimator->layout, one);
@@ -266,7 +266,7 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
                                         Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
-    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "compares with nothing",
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has nothing to compare with",
                    "other beside it");
   }
   return rule;
@@ -285,7 +285,7 @@ std::string in_unit(double value, const Quantity& quantity) {
   return fmt::format("{:g} {}", value / quantity.unit.factor, quantity.unit.name);
 }
 
-/// What tells a metric from others of its kind and quantity.
+/// Distinguishes metrics of the same kind and quantity.
 std::string subject(const RmsCurve& /*rule*/) { return {}; }
 std::string subject(const TimeWithin& rule) { return " " + in_unit(rule.within, *rule.quantity); }
 std::string subject(const Lead& rule) {
@@ -296,7 +296,7 @@ std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s",
 std::string subject(const Paired& rule) {
   return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
 }
-/// Of a rule with a window.
+/// For a rule with a window.
 template <class Windowed>
 std::string subject(const Windowed& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
@@ -311,7 +311,7 @@ std::string subject(const ToGo& rule) {
 }
 std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
 
-/// Whoever is compared with himself is as good, whatever he does.
+/// Comparing a variant with itself always passes.
 void expect_another(Section& section, const Metric& metric, const std::vector<std::string>& variants) {
   const std::string other = other_of(metric);
   if (other.empty()) return;

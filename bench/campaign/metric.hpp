@@ -1,4 +1,4 @@
-// [[metric]]: what a campaign is asked, and the bars that make a verdict of the answer. A new kind is a
+// [[metric]]: the questions of a campaign, and the bars that turn answers into a verdict. A new kind is a
 // struct here, its reader in metric.cpp, and its answer in answer.cpp.
 #pragma once
 
@@ -25,7 +25,7 @@ struct RmsCurve {
   const Quantity* quantity = &quantities::attitude_heading;
 };
 
-/// When the RMS over runs is within for good.
+/// The time from which the RMS over runs stays within a limit.
 struct TimeWithin {
   static constexpr std::string_view kind = "time_within";
   static constexpr std::string_view meaning =
@@ -36,7 +36,7 @@ struct TimeWithin {
   std::optional<std::int64_t> never_before_us;  ///< 'never' passes
 };
 
-/// How much earlier than `other` a variant's RMS is within for good.
+/// How much earlier than `other` the RMS of a variant stays within a limit.
 struct Lead {
   static constexpr std::string_view kind = "lead";
   static constexpr std::string_view meaning = "How much earlier than `other` that is.";
@@ -55,7 +55,7 @@ struct ValueAt {
   std::optional<double> at_most, at_least;  ///< [SI]
 };
 
-/// How |quantity| is spread over runs at a time: of each run the last update at or before it.
+/// The distribution of |quantity| over runs at a time: for each run its last update at or before it.
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
   static constexpr std::string_view meaning =
@@ -64,13 +64,13 @@ struct Distribution {
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
-  std::optional<double> below;  ///< asks for the fraction of runs below it [SI]
-  std::int64_t batch = 100;     ///< runs of the Monte Carlo whose RMS has the bootstrap range
+  std::optional<double> below;  ///< reports the fraction of runs below it [SI]
+  std::int64_t batch = 100;     ///< number of runs for the bootstrap range of the RMS
   std::optional<double> rms_at_most, rms_at_least, median_at_most, median_at_least, p90_at_most;  ///< [SI]
   std::optional<double> fraction_at_least, fraction_at_most;
 };
 
-/// Mean and standard deviation over runs and a time window.
+/// Mean and standard deviation over all runs and updates in a time window.
 struct WindowMoments {
   static constexpr std::string_view kind = "window";
   static constexpr std::string_view meaning = "Mean and standard deviation over runs and a time window.";
@@ -80,7 +80,7 @@ struct WindowMoments {
   std::optional<double> standard_deviation_at_most;
 };
 
-/// Mean of |quantity| over a time window of each run; its mean and standard deviation over the runs.
+/// The mean of |quantity| over a time window of each run; mean and standard deviation of these means.
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
   static constexpr std::string_view meaning =
@@ -88,11 +88,11 @@ struct RunMean {
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< of the mean over runs [SI]
-  std::string other;                                    ///< empty: compared with none
+  std::string other;                                    ///< empty: no comparison
   std::optional<double> ratio_at_most, ratio_at_least;  ///< of the mean to that of `other`
 };
 
-/// RMS and mean over runs and a window of the time to go, and how they compare with another variant's.
+/// RMS and mean over runs in a window of the time to go, and their ratio to another variant's.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
   static constexpr std::string_view meaning = "RMS and mean over runs and a window of the time to go.";
@@ -104,7 +104,7 @@ struct ToGo {
   std::optional<double> ratio_at_most, ratio_at_least;  ///< of the RMS to that of `other`
 };
 
-/// RMS over runs at their ends over that of `other`.
+/// RMS over runs at their ends, divided by that of `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
   static constexpr std::string_view meaning = "RMS over runs at their ends over that of `other`.";
@@ -113,7 +113,7 @@ struct RmsRatio {
   std::optional<double> at_most;
 };
 
-/// Fraction of runs in which |quantity| is smaller than that of `other` with the same random numbers.
+/// Fraction of runs in which |quantity| is smaller than in the run of `other` with the same random numbers.
 struct Paired {
   static constexpr std::string_view kind = "paired";
   static constexpr std::string_view meaning =
@@ -136,10 +136,11 @@ struct Consistency {
   std::int64_t from_us = 0, to_us = 0;
   double probability = 0.95;
   std::optional<std::pair<double, double>> mean_between;
-  std::optional<double> inside_at_least;  ///< fraction of the updates whose mean lies within the bounds
+  std::optional<double>
+      inside_at_least;  ///< required fraction of the updates whose mean lies within the bounds
 };
 
-/// Runs that went astray: at their end, or at any time from one on.
+/// Diverged runs: beyond a limit at their end, or at any time from a given one on.
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
   static constexpr std::string_view meaning =
@@ -152,7 +153,7 @@ struct Diverged {
 
 struct Metric {
   std::string name;                   ///< unique; by default kind and subject
-  std::string requirement;            ///< id carried to the reports; may be empty
+  std::string requirement;            ///< id for the reports; may be empty
   std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
   std::variant<RmsCurve, TimeWithin, Lead, ValueAt, Distribution, WindowMoments, Paired, Consistency,
                Diverged, ToGo, RmsRatio, RunMean>
@@ -170,7 +171,7 @@ struct MetricKind {
 };
 std::vector<MetricKind> metric_kinds();
 
-/// `variants`: the names that the metric may use; `duration_us`: the shortest of theirs.
+/// `variants`: the names that the metric may use; `duration_us`: the shortest duration of these variants.
 Metric read_metric(scenario::Section& section, const std::vector<std::string>& variants,
                    std::int64_t duration_us);
 

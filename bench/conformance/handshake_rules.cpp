@@ -10,7 +10,7 @@ namespace {
 
 using namespace messages;
 
-// The first rule of all: no command was sent yet.
+// Must be the first rule: no command has been sent yet.
 std::string beats(Subject& subject) {
   constexpr std::int64_t period_ns = TargetHeartbeat::info.cycle_time_us * 1000;
   constexpr int attempts = 3;  // the host may be busy with something else
@@ -49,14 +49,13 @@ std::string refuses_another_contract(Subject& subject) {
 
 std::string refuses_another_estimator(Subject& subject) {
   TargetCommand reset = subject.talk.command(Command::reset);
-  reset.estimator = Estimator{0b111};  // the last one that the signal can name: the DBC has no such
+  reset.estimator = Estimator{0b111};  // the largest value of the signal: not in the DBC
   subject.talk.send(reset);
   const auto beat =
       subject.talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
   return beat && beat->state == TargetState::idle
              ? ""
-             : "a reset with an estimator that nobody has: " + described(beat) +
-                   ", expected idle and error_command";
+             : "a reset with an unknown estimator: " + described(beat) + ", expected idle and error_command";
 }
 
 std::string refuses_an_unknown_command(Subject& subject) {
@@ -91,11 +90,11 @@ std::string takes_its_state_whole(Subject& subject) {
 
 std::string hears_a_repeated_command(Subject& subject) {
   if (auto wrong = made_to_run(subject); !wrong.empty()) return wrong;
-  // A bench that starts anew may have come to the same counter.
+  // A bench that restarts may use the same counter again.
   subject.talk.repeat(subject.talk.command(Command::stop));
   return subject.talk.waits_for(TargetState::idle)
              ? ""
-             : "a stop with the counter of the start before it: not heard";
+             : "a stop with the counter of the start before it: ignored";
 }
 
 std::string tells_its_state(Subject& subject) {
@@ -163,14 +162,14 @@ constexpr Rule all[] = {
      "A command that the DBC does not name changes nothing and is answered with error_command.",
      refuses_an_unknown_command},
     {"P-STATE", "protocol",
-     "The target says idle, ready and running as it is told to, and answers from the start on.",
+     "The target reports idle, ready and running as commanded, and answers from the start on.",
      tells_its_state},
     {"P-NO-STATE", "protocol",
-     "An estimator that was given no initial state does not start, and says not_initialised.",
+     "An estimator without an initial state does not start, and reports not_initialised.",
      starts_only_when_told_its_state},
-    {"P-WHOLE-STATE", "protocol", "An initial state of which a message is missing is none.",
+    {"P-WHOLE-STATE", "protocol", "An initial state with a missing message is ignored.",
      takes_its_state_whole},
-    {"P-REPEAT", "protocol", "A command is heard though its counter is that of the one before.",
+    {"P-REPEAT", "protocol", "A command is obeyed even if its counter repeats the previous one.",
      hears_a_repeated_command},
     {"P-BEFORE", "protocol", "Before the start no sample is answered.", is_quiet_before_the_start},
     {"P-STOP", "protocol", "After a stop nothing is answered.", stops},
@@ -178,7 +177,7 @@ constexpr Rule all[] = {
     {"P-IN-FLIGHT", "protocol",
      "An initial state that comes in flight changes nothing, and is reported as error_command.",
      takes_no_state_while_it_runs},
-    {"P-RESET", "protocol", "A reset forgets errors and counts.", forgets},
+    {"P-RESET", "protocol", "A reset clears errors and counts.", forgets},
 };
 
 }  // namespace

@@ -76,13 +76,13 @@ void Talk::tell_state(const std::function<bool(const Frame&)>& sent) {
 void Talk::tell_time() {
   listener_.frames.clear();
   send(to_frame(Sync{.lockstep = 1},
-                e2e::counter_period - 1));  // the flight's first one has the next counter, 0
+                e2e::counter_period - 1));  // so that the first counter of the flight is 0
 }
 
 void Talk::tell_damaged(int frames) {
   Frame frame = to_frame(ParamSet{}, 0);
   frame.data[0] ^= 0xFFU;
-  constexpr int at_once = 128;  // a bus drops a node that keeps it waiting: the target is to catch up
+  constexpr int at_once = 128;  // a bus drops a node that blocks it, so the target must be able to catch up
   for (int i = 0; i < frames; ++i) {
     static_cast<void>(link_.send(frame, patience_ns));
     if (i % at_once != at_once - 1) continue;
@@ -107,7 +107,7 @@ std::string Talk::reset() {
     return one.state == TargetState::idle && one.estimator == wanted.estimator &&
            one.algorithm == wanted.algorithm;
   });
-  if (!beat) return "reset: no heartbeat says idle with the estimator and algorithm told";
+  if (!beat) return "reset: no heartbeat says idle with the commanded estimator and algorithm";
   for (const scenario::Parameter& parameter : scenario_.targets.front().parameters) {
     const auto name = from_name<messages::Parameter>(parameter.name);
     const auto ack = name ? set(*name, parameter.value) : std::nullopt;

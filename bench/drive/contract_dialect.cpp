@@ -9,7 +9,7 @@
 namespace canhil::drive {
 namespace {
 
-constexpr std::int64_t four_heartbeats_ns = 400'000'000;  // a dead target is named within 0.5 s
+constexpr std::int64_t four_heartbeats_ns = 400'000'000;  // a dead target is reported within 0.5 s
 
 class ContractDialect final : public Dialect {
  public:

@@ -13,7 +13,7 @@
 namespace canhil::drive {
 namespace {
 
-/// What a carrier tells a glider that it lets go: the truth with the errors that this run draws.
+/// The state that a carrier transfers to the glider at release: the truth with the errors drawn for this run.
 InitialState state_at_release(const world::GlideTruth& truth, const scenario::Glide& config,
                               const scenario::InitialSigma& sigma, world::Stream& stream) {
   const scenario::ReleaseError& error = config.release;
@@ -55,19 +55,19 @@ Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::
     });
   };
   own.glide_is_sampled = !is_recorded(scenario::TruthOf::glide);
-  // A recorded seeker flies nothing.
+  // With a recorded seeker there is no simulated engagement.
   if (scenario.engagement && !is_recorded(scenario::TruthOf::engagement)) own.engagement.emplace();
   return own;
 }
 
-/// The period of the node that samples every epoch, whether it is on the bus or not.
+/// The period of the node that samples every epoch, whether or not it is on the bus.
 std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
   const nodes::Kind& kind = **std::ranges::find_if(nodes::all(), &nodes::Kind::at_every_epoch);
   const scenario::NodeSettings* node = scenario.node(kind.table.key);
   return node == nullptr ? kind.table.closes.cycle_time_us : node->period_us();
 }
 
-/// What a vehicle does between samples of its flight nobody knows: an IMU would not feel it.
+/// The motion between recorded samples is unknown, so an IMU must not sample much faster than the recording.
 Result<void> check_density(const scenario::Scenario& scenario) {
   constexpr std::int64_t most_intervals = 10;
   const auto* recorded = std::get_if<world::Recorded>(&scenario.truth.motion);
@@ -99,7 +99,7 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
-  // What every run tells its target; its draws are checked run by run.
+  // The initial state is checked for every run; draws are checked run by run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");
     const auto start = initial_solution(truth.epochs().front(), world::InitialErrorModel{}, none);

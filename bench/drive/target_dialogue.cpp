@@ -66,8 +66,8 @@ void Dialogue::listen(std::int64_t duration_ns) {
   while (link_.now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
 }
 
-// A target that beats and does not do as it is told has a reason; of one that nobody understands the frames
-// say more than the silence.
+// A target that sends heartbeats but does not obey reports a reason; if none of its frames are valid, the
+// frames say more than the silence.
 std::string Dialogue::complaint(const Step& step) const {
   const double limit_s = static_cast<double>(step.limit_ns) * 1e-9;
   const bool beats = mailbox_.heartbeat && sightings_.of(message_index<TargetHeartbeat>()).right > 0;

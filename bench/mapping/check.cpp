@@ -40,12 +40,12 @@ class Remarks {
   static bool is_protection(const Mapped& of, const dbc::Signal& signal) {
     if (!of.protection) return false;
     const protection::Settings& settings = of.protection->settings();
-    const protection::Place index{.start_bit = signal.start_bit,
+    const protection::Place place{.start_bit = signal.start_bit,
                                   .length = signal.length,
                                   .big_endian = signal.byte_order == dbc::ByteOrder::big_endian};
-    return (settings.counter && settings.counter->index == index) ||
-           (settings.checksum && settings.checksum->index == index) ||
-           std::ranges::find(settings.constants, index, &protection::Constant::index) !=
+    return (settings.counter && settings.counter->place == place) ||
+           (settings.checksum && settings.checksum->place == place) ||
+           std::ranges::find(settings.constants, place, &protection::Constant::place) !=
                settings.constants.end();
   }
 

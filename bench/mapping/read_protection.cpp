@@ -58,14 +58,14 @@ std::optional<protection::Place> read_place_of(Section& section, std::string_vie
                                                const dbc::Message& message) {
   auto table = section.optional_table(key);
   if (!table) return std::nullopt;
-  const protection::Place index = read_place(*table, message);
+  const protection::Place place = read_place(*table, message);
   table->finish();
-  return index;
+  return place;
 }
 
 protection::Counter read_counter(Section section, const dbc::Message& message) {
   protection::Counter counter;
-  counter.index = read_place(section, message);
+  counter.place = read_place(section, message);
   counter.modulo = bits(section, "modulo");
   counter.skipped = values(section, "skipped");
   counter.shared_as = section.has("shared_as") ? section.text("shared_as") : "";
@@ -123,7 +123,7 @@ std::variant<protection::Crc, protection::Sum> read_rule(Section& section) {
 
 protection::Checksum read_checksum(Section section, const dbc::Message& message) {
   protection::Checksum checksum;
-  checksum.index = read_place(section, message);
+  checksum.place = read_place(section, message);
   checksum.rule = read_rule(section);
   for (const std::uint64_t byte : values(section, "bytes"))
     checksum.bytes.push_back(static_cast<unsigned>(byte));
@@ -168,7 +168,7 @@ protection::Settings read_parts(Section& section, const dbc::Message& message, s
   if (section.has("constants")) {
     for (Section& constant : section.tables("constants")) {
       settings.constants.push_back(
-          {.index = read_place(constant, message), .value = bits(constant, "value")});
+          {.place = read_place(constant, message), .value = bits(constant, "value")});
       constant.finish();
     }
   }

@@ -52,7 +52,7 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
       const std::optional<std::size_t> rate = increment == nullptr ? std::nullopt : std::optional(column++);
       const bool has_rate = rate && rows.has(*rate);
       if (has_rate && rows.has(own))
-        return failure(fmt::format("{}:1: column '{}': is there beside '{}', expected one of the two",
+        return failure(fmt::format("{}:1: column '{}': is given beside '{}', expected one of the two",
                                    rows.file, rows.found[*rate], rows.found[own]));
       if (rows.has(own)) {
         source.column = own;

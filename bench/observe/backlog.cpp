@@ -7,9 +7,9 @@
 namespace canhil::observe {
 namespace {
 
-// A bench that had no CPU for a while finds frames too, but has looked at them all in a fraction of this.
+// A bench that had no CPU for a while finds a backlog too, but processes it in a fraction of this time.
 constexpr std::int64_t flood_ns = 100'000'000;
-// Who floods a bus shares CPUs with the bench: it may have seen them all for a moment.
+// The flooding program may share CPUs with the bench, so the backlog may be empty for a moment.
 constexpr std::int64_t break_ns = 20'000'000;
 
 }  // namespace

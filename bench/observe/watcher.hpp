@@ -1,4 +1,4 @@
-// Who makes observations of a run's frames.
+// Turns the frames of a run into observations.
 #pragma once
 
 #include "bench/checks/observations.hpp"
@@ -8,9 +8,9 @@ namespace canhil::observe {
 
 class Watcher : public Observer {
  public:
-  /// The target was started again: its counters and counts begin anew.
+  /// The target was restarted: its counters begin again.
   virtual void target_restarted() {}
-  /// The run is over: all that was seen.
+  /// The run is over: all observations.
   virtual checks::Observations finish() = 0;
 };
 

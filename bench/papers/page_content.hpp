@@ -1,4 +1,4 @@
-// What a paper's campaigns tell its page: the figures that stand for the names of its templates, its curves,
+// The content of a paper's page from its campaigns: the values for the names in its templates, its curves,
 // and whether its bars are met. The prose is in page.mustache and the other templates of the paper's folder.
 #pragma once
 
@@ -10,18 +10,19 @@
 namespace canhil::papers {
 
 struct PageContent {
-  Names names{};  ///< beside those that all papers have
+  Names names{};  ///< in addition to those that all papers have
   Curves curves{};
   bool bars_met = false;
 };
 
-/// Adds the names that all papers have: runs, enough, flights, frames, #too_few_runs, #unrounded;
-/// {{bars CAMPAIGN REQUIREMENT}}, a row for every answer that carries it; {{reproduces NAME}} and
-/// {{pass NAME}}, a verdict by a yes or no. `runs`: of the campaign with the bars, which are for `enough`.
+/// Adds the names that all papers have: runs, enough, flights, frames, #too_few_runs, #unrounded; {{bars
+/// CAMPAIGN REQUIREMENT}}, a row for every answer with that requirement; {{reproduces NAME}} and {{pass
+/// NAME}}, the verdict of a boolean name. `runs`: of the campaign with the bars; `enough`: the number of runs
+/// that the bars are made for.
 void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
 
-// Of each paper: the files that are built into the program, bench/monte_carlo/paper_NAME and its templates;
-// and what it tells, which keeps references to the results. `exact`: results of the transfer paper's table2
+// For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its
+// page content, which keeps references to the results. `exact`: results of the transfer paper's table2
 // without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
 namespace transfer_alignment {
 extern const report::EmbeddedFiles campaigns, scenarios, templates;

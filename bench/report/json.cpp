@@ -18,7 +18,7 @@
 namespace canhil::report {
 namespace {
 
-// As many digits as a picture shows.
+// With the number of digits that a picture can show.
 double rounded(double value, int digits = 5) {
   if (value == 0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - (digits - 1));
@@ -87,7 +87,7 @@ Json object(const realtime::Standing& host, std::int64_t spin_ns) {
           {"spin_us", spin_ns / 1000}};
 }
 
-// By Series::Kind.
+// Indexed by Series::Kind.
 constexpr std::array<std::string_view, 4> kind_names{"estimate", "error", "innovation", "statistic"};
 
 Json object(const Series& series) {
@@ -99,7 +99,7 @@ Json object(const Series& series) {
             {"t_s", Json::array()},
             {"low", Json::array()},
             {"high", Json::array()}};
-  // An estimate is looked at beside a truth that differs in its last digits.
+  // An estimate needs more digits, because it differs from the truth in the last ones.
   const int digits = series.kind == Series::Kind::estimate ? 8 : 5;
   const auto or_null = [&](const std::optional<double>& value) {
     return value && std::isfinite(*value) ? Json(rounded(*value, digits)) : Json(nullptr);
@@ -122,7 +122,7 @@ Json object(const Series& series) {
   return json;
 }
 
-// By second; of a long run the busiest of each stretch of several.
+// By second; for a long run the maximum of each stretch of seconds.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   constexpr std::size_t most = 400;
   const std::span<const wire::BitLength> seconds = checks::whole_seconds(seen);
@@ -141,7 +141,7 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   return json;
 }
 
-// What was tested: the program and which of its versions, as far as the bench knows it.
+// The tested program and its version, as far as the bench knows it.
 Json target(const drive::Run& run) {
   if (run.in_process) return {{"program", "in hil-bench itself"}};
   if (!run.options.target) return {{"program", "runs elsewhere"}};

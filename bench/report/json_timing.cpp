@@ -18,7 +18,7 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] of those that are not empty.
+// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] of the non-empty buckets.
 Json object(const checks::Histogram& histogram) {
   const checks::Distribution d = checks::distribution_s(histogram);
   Json json{{"count", d.count}, {"min", d.min},   {"p50", d.p50}, {"p90", d.p90},
@@ -28,7 +28,7 @@ Json object(const checks::Histogram& histogram) {
   return json;
 }
 
-// stretch_s, and largest_s of each stretch from time 0 on; null where there was no value.
+// stretch_s, and largest_s of each stretch from time 0 on; null for a stretch without a value.
 Json object(const checks::TimeLine& line) {
   Json json{{"stretch_s", seconds(line.stretch_ns())}, {"largest_s", Json::array()}};
   for (const std::int64_t largest_ns : line.largest_ns())

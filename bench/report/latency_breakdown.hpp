@@ -1,4 +1,4 @@
-// Where the time of an answer went: the mean of each part, and what no part explains.
+// The parts of an answer's latency: the mean of each part, and the unexplained rest.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace canhil::report {
 
-/// What is known of a time.
+/// How exactly a time is known.
 enum class Bound : std::uint8_t { exact, at_least, at_most };
 
-/// A part of the way from the hand-over of the last frame of a stimulus to the last frame of its answer.
+/// A part of the time from the hand-over of a stimulus's last frame to the last frame of its answer.
 struct BreakdownPart {
   std::string_view key{};          ///< in the JSON
   std::string_view what{};         ///< for people
-  std::optional<double> mean_s{};  ///< none: not known of this bus, or not told by the target
-  Bound bound = Bound::exact;      ///< what the target tells ends at checks::most_reported_us
+  std::optional<double> mean_s{};  ///< none: unknown on this bus, or not reported by the target
+  Bound bound = Bound::exact;      ///< the target's values saturate at checks::most_reported_us
 };
 
-/// In the order of time; the parts that are known add up to total_s().
+/// In order of time; the known parts add up to total_s().
 std::vector<BreakdownPart> parts(const checks::TimingRecord& timing);
-/// Of the stimuli of one group, which the target does not account for alone: its part is in the last.
+/// For the stimuli of one group. The target does not account for single groups, so its time is in the last
+/// part.
 std::vector<BreakdownPart> group_parts(const checks::TimingRecord& timing,
                                        const checks::LatencyBreakdown& breakdown);
-/// For people, of a key; the key itself if it is none of them.
+/// The label of a part; the key itself if it has none.
 std::string_view what_of(std::string_view key);
 double total_s(const checks::LatencyBreakdown& breakdown);
 

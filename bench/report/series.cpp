@@ -26,7 +26,8 @@ Series::Kind kind_of(const Track& track) {
                                                 : Series::Kind::error;
 }
 
-// What a track told, put together into stretches of equal length, with a gap where nothing came for too long.
+// The points of a track combined into stretches of equal length, with a gap where answers are missing for too
+// long.
 template <class PointOf>
 std::vector<Series::Point> thinned(const Track& track, std::int64_t duration_us, PointOf point_of) {
   const std::int64_t stretch_us =
@@ -98,7 +99,7 @@ std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
   return bars;
 }
 
-// The values of a track, or its estimates beside the truth.
+// The values of a track, or its estimates together with the truth.
 Series series_of(std::string_view estimator, const Track& track, bool estimates,
                  const scenario::Scenario& scenario) {
   const quantities::Unit& unit = estimates ? track.estimate_unit : track.unit;
@@ -133,7 +134,7 @@ void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, cons
 
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run) {
   std::vector<Series> all;
-  std::ptrdiff_t estimates_end = 0;  // those of an estimator stand before its other series
+  std::ptrdiff_t estimates_end = 0;  // an estimator's estimates come before its other series
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
     if (all.empty() || all.back().estimator != estimator) estimates_end = std::ssize(all);
     if (!track.estimate_title.empty())

@@ -30,7 +30,7 @@ std::string to_text(const estimators::ResultLine& line) {
   return fmt::format("  {:<29} {}\n", line.what, text.empty() ? "none" : text);
 }
 
-// When, by the bench's first transmission; in the units of the events' own words.
+// Events with their times since the bench's first transmission; values in the unit of each event.
 std::string to_text(const checks::BusRecord& bus, std::int64_t first_ns) {
   constexpr std::size_t shown = 20;
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
@@ -73,7 +73,7 @@ std::string load_words(const drive::Run& run) {
   return lines;
 }
 
-// Latency of the message that closes each group; first of those that have none.
+// Latency of the last message of each group; first those without any.
 std::string latency_words(const scenario::Scenario& scenario, const checks::Observations& seen,
                           bool virtual_time) {
   std::string none, lines;
@@ -99,13 +99,13 @@ std::string latency_words(const scenario::Scenario& scenario, const checks::Obse
   return none + lines;
 }
 
-// Where the mean latency went, and the slowest answer beside what the target said of that time.
+// The parts of the mean latency, and the slowest answer with the target's report for that time.
 std::string split_words(const checks::TimingRecord& timing) {
   if (timing.breakdown.stimuli == 0) return "";
   std::string lines = fmt::format("  from stimulus to answer       mean {:.3f} ms of {} stimuli, of it\n",
                                   total_s(timing.breakdown) * 1e3, timing.breakdown.stimuli);
   for (const BreakdownPart& part : parts(timing)) {
-    const char* bound = part.bound == Bound::at_least  ? " (at least: the target tells no more)"
+    const char* bound = part.bound == Bound::at_least  ? " (at least: the target reports no more)"
                         : part.bound == Bound::at_most ? " (at most)"
                                                        : "";
     if (part.mean_s) lines += fmt::format("    {:>8.3f} ms  {}{}\n", *part.mean_s * 1e3, part.what, bound);
@@ -125,7 +125,7 @@ std::string split_words(const checks::TimingRecord& timing) {
   return lines;
 }
 
-// How near to its bound each message came over the bus: those that went beyond, else the nearest.
+// The bus response time of each message relative to its bound: those beyond it, otherwise the nearest.
 std::string wire_words(const checks::Observations& seen) {
   if (seen.bit_rates.nominal == 0) return "";
   if (const std::string why = checks::no_bounds(seen); !why.empty())

@@ -21,7 +21,7 @@ Check read_check(Section& section, const CheckContext& context) {
     const auto& former = context.contract.former_check_kinds;
     const auto found = std::ranges::find(former, std::string_view(given), &FormerCheckKind::name);
     if (found != former.end())
-      section.reject("kind", fmt::format("'{}' is a kind of before", given), found->now);
+      section.reject("kind", fmt::format("'{}' is a former kind", given), found->now);
   }
   check.kind = section.one_of({"kind", "Kind of the check."}, names);
   check.requirement = section.text({"requirement", "Id that reports carry."}, "");

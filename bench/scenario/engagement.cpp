@@ -11,7 +11,7 @@ namespace {
 
 using world::Manoeuvre;
 
-// A step or a weave begins at a time, or at a time to go.
+// A step or a weave begins at a given time or at a given time to go.
 Manoeuvre read_manoeuvre(Section& section) {
   static constexpr std::array<std::string_view, 3> kinds{"none", "step", "weave"};
   Manoeuvre manoeuvre;

@@ -19,11 +19,11 @@ namespace {
 
 using world::units::deg;
 
-// No vehicle turns faster or accelerates harder than this; a row that is wrong does.
+// No vehicle turns or accelerates more than this; a wrong row does.
 constexpr double most_turn_rate = 1000 * deg;    // [rad/s]
 constexpr double most_acceleration = 1000;       // [m/s^2]
-constexpr double most_turn_of_a_row = 45 * deg;  // beyond, the way of the turn is a guess
-constexpr double usual_gap_s = 0.2;              // what the target bridges of an IMU's
+constexpr double most_turn_of_a_row = 45 * deg;  // beyond this the direction of the turn is ambiguous
+constexpr double usual_gap_s = 0.2;              // the IMU gap that a target bridges
 constexpr double usual_agreement_m = 5;
 
 enum Place : std::size_t { time, latitude, longitude, height, north, east, down, roll, pitch, heading };
@@ -31,7 +31,7 @@ struct Quantity {
   std::string_view name;
   Limits limits{};  // in the unit of its name
 };
-// Limits of a position as of read_position(). Angles may count up to a whole turn either way.
+// Limits of a position as in read_position(). Angles may exceed their range by up to a full turn.
 const std::array<Quantity, 10> quantities{{{"t_s", {}},
                                            {"latitude_deg", Limits::between(-89, 89)},
                                            {"longitude_deg", Limits::between(-180, 360)},
@@ -47,7 +47,7 @@ bool has_position(const Table& table) {
   return table.has(latitude) || table.has(longitude) || table.has(height);
 }
 
-/// Everything but the positions must be there, and of those all or none.
+/// All columns except positions are required; positions must be complete or absent.
 Result<void> check_columns(const Table& table) {
   for (std::size_t index = 0; index < quantities.size(); ++index) {
     const bool of_position = index == latitude || index == longitude || index == height;
@@ -88,7 +88,7 @@ world::RecordedState state_of(const Table& table, std::size_t row, std::int64_t 
   return state;
 }
 
-/// From a row to the next no vehicle does more than it can.
+/// Checks each step between rows against what a vehicle can do.
 Result<void> check_steps(const Table& table, const Rows& rows,
                          const std::vector<world::RecordedState>& states) {
   for (std::size_t i = 1; i < states.size(); ++i) {
@@ -136,7 +136,7 @@ Result<void> check_agreement(const Table& table, const Rows& rows, const world::
 struct Wanted {
   std::int64_t from_us = 0, gap_us = 0, duration_us = 0;
   double agree_within = 0;
-  std::optional<world::Position> start{};  // of a file without positions
+  std::optional<world::Position> start{};  // for a file without positions
 };
 
 Result<world::Flight> flight_of(const Table& table, const Wanted& wanted) {

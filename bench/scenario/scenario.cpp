@@ -14,7 +14,7 @@
 namespace canhil::scenario {
 namespace {
 
-/// The keys of the nodes that sample a truth, after those of the truth itself.
+/// The keys of a truth, followed by those of the nodes that sample it.
 std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contract,
                                       std::vector<std::string_view> keys) {
   for (const NodeTable* node : contract.nodes) {
@@ -23,7 +23,7 @@ std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contra
   return keys;
 }
 
-/// Whether something holds of an estimator that the scenario runs.
+/// Whether a condition holds for an estimator of the scenario.
 template <class Holds>
 bool any_runs(const Scenario& scenario, const DbcVocabulary& contract, Holds holds) {
   return std::ranges::any_of(scenario.targets, [&](const TargetSetup& target) {
@@ -48,12 +48,12 @@ void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract
     if (!recorded && truth == TruthOf::navigation && !scenario.truth_is_known())
       root.reject(node->key, "has no truth to measure, as trajectory is \"unknown\"",
                   "'recorded', and what was measured");
-    // Error models and faults work on what is measured here, not on what was.
+    // Error models and faults apply to simulated measurements, not to recorded ones.
     section->finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
   }
 }
 
-/// The glider's truth and nodes.
+/// The truth and the nodes of the glider.
 void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   const auto parts = keys_of(TruthOf::glide, contract, {glide_tables.begin(), glide_tables.end()});
   const bool wanted = any_runs(scenario, contract,
@@ -68,7 +68,7 @@ void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contrac
   read_nodes(root, scenario, contract, TruthOf::glide);
 }
 
-/// The contract that the bus is to carry, if the scenario says so.
+/// The DBC of the bus, if the scenario selects it.
 std::optional<bool> read_fd(Section& root) {
   root.optional("dbc");
   if (!root.has("dbc")) return std::nullopt;
@@ -111,8 +111,8 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Db
   return checks;
 }
 
-/// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
-/// may be.
+/// The carrier's flight. It may be absent if there is an engagement or a glide; then nothing that depends on
+/// it is allowed.
 void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
@@ -121,11 +121,11 @@ void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& con
   }
   root.optional("truth");
   for (const std::string_view key : keys_of(TruthOf::navigation, contract, {"initial_error"})) {
-    if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
+    if (root.has(key)) root.reject(key, "depends on a truth", "a table [truth] beside it");
   }
 }
 
-/// What the target is told of an unknown flight is what the scenario says, as it says it.
+/// With an unknown flight, the target receives the state exactly as the scenario gives it, without errors.
 void refuse_errors_of_start(Section& root, const Scenario& scenario) {
   const bool own = std::ranges::any_of(
       scenario.targets, [](const TargetSetup& target) { return target.initial_error.has_value(); });
@@ -135,8 +135,8 @@ void refuse_errors_of_start(Section& root, const Scenario& scenario) {
                 "no 'initial_error'");
 }
 
-/// An estimator that is aided takes the fixes of one aid, the first unless its parameter says another, and
-/// refuses the others'; nobody else takes any.
+/// An aided estimator uses the fixes of one aid, by default the first, or as its parameter selects, and
+/// refuses those of others; other estimators use none.
 void expect_aid(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const auto target = std::ranges::find_if(scenario.targets, [&](const TargetSetup& one) {
     return !facts_of(contract, one.estimator).aided_by.empty();
@@ -187,8 +187,8 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 }  // namespace
 
-// An estimator goes by the truth that its nodes sample. Of a glide or an engagement the bench flies a truth
-// of its own, which has nothing to do with what was recorded of another.
+// An estimator depends on the truth that its nodes sample. For a glide or an engagement the bench simulates
+// its own truth, which is unrelated to a recording.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) {
   for (const NodeSettings& node : scenario.nodes) {
     if (std::ranges::find(facts.nodes, node.table().key) == facts.nodes.end()) continue;
@@ -244,7 +244,7 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVo
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
                         const DbcVocabulary& contract, const FaultPlaces* some) {
   Section root = Section::parse(text, name);
-  if (!root.has("fault")) root.tables("fault");  // it has nothing else
+  if (!root.has("fault")) root.tables("fault");  // it contains nothing else
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
               scenario.faults, some);
   root.finish();

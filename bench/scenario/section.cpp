@@ -47,13 +47,13 @@ std::size_t line_of(const toml::node& node) { return node.source().begin.line; }
 
 struct Section::File {
   std::string name;
-  std::string folder;            // where the files are that it names
-  std::uint64_t files_hash = 0;  // of those that were read
+  std::string folder;            // folder of the files that it names
+  std::uint64_t files_hash = 0;  // of the files that were read
   toml::table root;
   std::optional<Error> error;
   Description* description = Describing::current();
 
-  /// What a setting put there is on no line of the file.
+  /// A value from a setting has no line in the file.
   [[nodiscard]] std::string where(std::size_t line) const {
     return line == 0 ? name : fmt::format("{}:{}", name, line);
   }
@@ -62,12 +62,13 @@ struct Section::File {
     if (error) return;
     std::string message = fmt::format("{}: {}", where(line), what);
     for (char& c : message) {
-      if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';  // a quoted key may hold anything
+      if (static_cast<unsigned char>(c) < ' ' || c == 0x7F)
+        c = '?';  // a quoted key may contain any character
     }
     error = Error{std::move(message)};
   }
 
-  /// Puts a value where its key says, with the tables on the way.
+  /// Sets a value by its key, creating the tables on the way.
   void set(const Setting& setting) {
     if (std::ranges::count(setting.key, '.') >= most_key_parts) return fail(0, deep_key);
     toml::table* table = &root;
@@ -89,11 +90,11 @@ struct Section::File {
 
 struct Section::State {
   std::shared_ptr<File> file;
-  const toml::table* table = nullptr;  // null: the table is missing, and that has been said
+  const toml::table* table = nullptr;  // null: the table is missing, and the error is reported
   std::string path;
   std::size_t line = 1;
   std::vector<std::string> asked;
-  std::vector<std::pair<std::string, std::string>> missing;  // key, what was expected
+  std::vector<std::pair<std::string, std::string>> missing;  // key, expected value
 
   /// For the reference: how a key is asked for.
   void describe(const Key& key, DescribedKey as) const {
@@ -108,7 +109,7 @@ struct Section::State {
     if (std::ranges::find(asked, key) == asked.end()) asked.emplace_back(key);
     return table == nullptr ? nullptr : table->get(key);
   }
-  /// The same for a key that is missing if it is not there, unless it may be absent.
+  /// The same for a key that counts as missing if absent, unless it may be absent.
   const toml::node* ask(std::string_view key, std::string_view expected, bool may_be_absent = false) {
     const toml::node* node = ask(key);
     if (node == nullptr && !may_be_absent) missing.emplace_back(key, expected);
@@ -124,7 +125,7 @@ struct Section::State {
   void fail(std::string_view key, std::size_t at, std::string_view what, std::string_view expected) const {
     file->fail(at, fmt::format("key '{}': {}, expected {}", path_of(key), what, expected));
   }
-  /// The text of a key; null: it is not there, or is none, and that has been said.
+  /// The text of a key; null: absent, or not a text, and the error is reported.
   const std::string* text(std::string_view key, std::string_view expected, bool may_be_absent) {
     const toml::node* node = ask(key, expected, may_be_absent);
     if (node == nullptr) return nullptr;
@@ -132,7 +133,7 @@ struct Section::State {
     if (value == nullptr) fail(key, line_of(*node), type_of(*node), expected);
     return value == nullptr ? nullptr : &value->get();
   }
-  /// What an array holds; nothing where it is none, or empty, and that has been said.
+  /// The elements of an array; none if it is not an array, or empty, and the error is reported.
   const toml::array& elements(std::string_view key, const toml::node* node, std::string_view expected) const {
     static const toml::array none;
     if (node == nullptr) return none;
@@ -328,7 +329,7 @@ std::vector<std::string> Section::some_of(const Key& key, std::span<const std::s
   for (const toml::node& element : state_->elements(key.name, state_->ask(key.name), expected)) {
     const auto* name = element.as_string();
     if (name == nullptr) {
-      reject(key.name, "holds what is no name", expected);
+      reject(key.name, "contains a value that is not a name", expected);
     } else if (std::ranges::find(names, name->get()) == names.end()) {
       reject(key.name, fmt::format("'{}' is unknown", name->get()), expected_instead(name->get(), names));
     } else {
@@ -346,7 +347,7 @@ std::vector<std::string> Section::texts(const Key& key) {
     if (const auto* text = element.as_string(); text != nullptr && !text->get().empty())
       all.push_back(text->get());
     else
-      reject(key.name, "holds what is no text", expected);
+      reject(key.name, "contains a value that is not text", expected);
   }
   return all;
 }
@@ -361,7 +362,7 @@ std::vector<std::int64_t> Section::integers(const Key& key, std::int64_t least) 
     if (const auto* number = element.as_integer(); number != nullptr && number->get() >= least)
       all.push_back(number->get());
     else
-      reject(key.name, "holds what is none", expected);
+      reject(key.name, "contains a value that is not one", expected);
   }
   return all;
 }
@@ -432,7 +433,7 @@ void Section::missing(std::string_view key, std::string_view expected) {
 
 void Section::finish(std::string_view unasked) {
   if (state_->table == nullptr) return;
-  // The first in the file, as the table itself is sorted by key.
+  // The first in the file, because the table itself is sorted by key.
   const toml::node* unknown = nullptr;
   std::string unknown_key;
   for (const auto& [key, node] : *state_->table) {

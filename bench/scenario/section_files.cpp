@@ -1,4 +1,4 @@
-// Files that a section names.
+// Reads files that a section names.
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"

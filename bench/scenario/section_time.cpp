@@ -1,4 +1,4 @@
-// Times in a section, whole in microseconds; and what of a section needs no look into the file.
+// Times in a section, in whole microseconds; and functions of a section that do not access the file.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@
 namespace canhil::scenario {
 namespace {
 
-constexpr double longest_us = 1e11;  // a day and more
+constexpr double longest_us = 1e11;  // more than a day
 
 }  // namespace
 
@@ -19,7 +19,7 @@ std::int64_t Section::time_us(const Key& key, Limits limits, std::optional<doubl
     return 0;
   }
   const double whole = std::round(us);
-  // A decimal fraction is not exact in binary: it is off by 1e-16 of the time, 1e-5 us in a day.
+  // A decimal fraction is not exact in binary: the error is 1e-16 of the time, 1e-5 us in a day.
   if (std::abs(us - whole) > 1e-3) reject(key.name, "is not whole in microseconds", "a multiple of 1 us");
   return static_cast<std::int64_t>(whole);
 }

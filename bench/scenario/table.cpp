@@ -21,7 +21,7 @@ constexpr std::array<Endings, 6> of_one_dimension{{{"_s", "_ms", "_us"},
                                                    {"_mps2", "_g", "_ug"},
                                                    {"_m"}}};
 
-/// The name in each unit that it may have, its own first.
+/// The name with each unit that it may have, its own unit first.
 std::vector<std::string> names_of(std::string_view name) {
   std::vector<std::string> names{std::string(name)};
   for (const Endings& endings : of_one_dimension) {
@@ -43,7 +43,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Takes what is before the next separator, or all of it, with the separator.
+/// Takes the text before the next separator, or the rest, and removes it with the separator.
 std::string_view take(std::string_view& rest, char separator) {
   const std::size_t end = rest.find(separator);
   const std::string_view part = rest.substr(0, end);
@@ -68,7 +68,7 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// What a user may have put there is shown as far as it can be on one line.
+/// Shows a user's text on one line as far as possible.
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 40;
   std::string part(text.substr(0, most));
@@ -78,7 +78,7 @@ std::string shown(std::string_view text) {
   return part + (text.size() > most ? "..." : "");
 }
 
-/// Where a name is asked for stands in a file.
+/// The position of a requested name in a file.
 struct Column {
   std::size_t index = 0;
   double factor = 1;
@@ -91,7 +91,7 @@ Result<std::optional<Column>> find(std::string_view name, std::span<const std::s
     for (std::size_t index = 0; index < header.size(); ++index) {
       if (header[index] != candidate) continue;
       if (column)
-        return failure(fmt::format("{}:1: column '{}': is there beside '{}', expected one of the two", file,
+        return failure(fmt::format("{}:1: column '{}': is given beside '{}', expected one of the two", file,
                                    candidate, header[column->index]));
       column = Column{.index = index, .factor = factor_of(candidate) / factor_of(name)};
     }
@@ -118,7 +118,8 @@ Result<Table> read_table(std::string_view text, std::string_view file, std::span
               .found = {},
               .values = {},
               .lines = {}};
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // of some spreadsheets
+  if (text.starts_with("\xEF\xBB\xBF"))
+    text.remove_prefix(3);  // a byte order mark, as some spreadsheets write it
   const std::vector<std::string_view> header = fields_of(take(text, '\n'));
   std::vector<std::optional<Column>> columns;
   for (const std::string& name : names) {
@@ -129,7 +130,7 @@ Result<Table> read_table(std::string_view text, std::string_view file, std::span
   }
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::string_view row = trimmed(take(text, '\n'));
-    if (row.empty() && trimmed(text).empty()) break;  // the last line may have an end of its own
+    if (row.empty() && trimmed(text).empty()) break;  // the last line may end with a line break
     const std::vector<std::string_view> fields = fields_of(row);
     if (fields.size() != header.size())
       return failure(fmt::format("{}:{}: has {} values, expected {}, one for each column", file, line,
@@ -141,7 +142,7 @@ Result<Table> read_table(std::string_view text, std::string_view file, std::span
       if (!value)
         return tl::unexpected(
             table.about(table.rows() - 1, index,
-                        fmt::format("'{}' is no number, expected one", shown(fields[column->index]))));
+                        fmt::format("'{}' is not a number, expected one", shown(fields[column->index]))));
       table.values.push_back(column ? *value * column->factor : 0);
     }
   }
@@ -150,13 +151,13 @@ Result<Table> read_table(std::string_view text, std::string_view file, std::span
 }
 
 Result<std::vector<std::int64_t>> times_of(const Table& table, std::size_t index, std::int64_t from_us) {
-  constexpr double most_s = 1e11;  // microseconds of it fit well into 64 bits
+  constexpr double most_s = 1e11;  // in microseconds it fits easily into 64 bits
   std::vector<std::int64_t> t_us;
   t_us.reserve(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double t_s = table.value(row, index);
     if (std::abs(t_s) > most_s)
-      return tl::unexpected(table.about(row, index, fmt::format("{:g} s is no time, expected one", t_s)));
+      return tl::unexpected(table.about(row, index, fmt::format("{:g} s is not a time, expected one", t_s)));
     t_us.push_back(std::llround(t_s * 1e6) - from_us);
     if (row > 0 && t_us[row] <= t_us[row - 1])
       return tl::unexpected(table.about(row, index,

@@ -41,7 +41,7 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
   std::vector<Parameter> parameters;
   for (const std::string& name : contract.parameters) {
     const bool given =
-        section.has(name);  // one of another estimator may be the target's too: that refuses it
+        section.has(name);  // a parameter of another estimator is possible: then the target rejects it
     if (!given && !may_be_meant(name)) continue;
     const double value = section.plain_number(name, Limits::between(-largest, largest), 0.0);
     if (!given) continue;
@@ -53,13 +53,13 @@ std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& con
   return parameters;
 }
 
-/// Without a handshake: nothing is told, so there is nothing to be set.
+/// Without a handshake the target receives nothing, so nothing can be set.
 TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
   static const std::vector<std::string> none{"none"};
   section.one_of({"handshake", "With `mapping`: the target gets no commands."}, none, none.front());
   section.text(
-      {"mapping", "Mapping of a target that has a DBC of its own (mapping.md)."});  // read before, by whom
-                                                                                    // the contract is
+      {"mapping", "Mapping of a target that has a DBC of its own (mapping.md)."});  // already read to choose
+                                                                                    // the vocabulary
   TargetSetup target;
   target.estimator = contract.estimators.front();
   target.own_start = {
@@ -79,14 +79,14 @@ TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
 TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   if (contract.foreign != nullptr) return read_own_start(section, contract);
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
-    section.refuse(key, "is of a target with a mapping", "the key 'mapping' beside it");
+    section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
   target.estimator =
       section.one_of({"estimator", "Estimator of the DBC's value table Estimator."}, contract.estimators);
   target.algorithm = section.one_of(
       {"algorithm", "Algorithm of that estimator, of the DBC's value table Algorithm."}, contract.algorithms);
   target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
-  // Told at every start; an estimator that does not navigate makes nothing of it.
+  // Every target receives an initial state at the start; an estimator that does not navigate ignores it.
   const EstimatorFacts facts = facts_of(contract, target.estimator);
   if (facts.start != Start::nothing || section.has("initial_sigma"))
     target.initial_sigma = read_initial_sigma(section.table("initial_sigma"), target);

@@ -41,7 +41,7 @@ world::Motion read_level_acceleration(Section& section) {
 }
 
 world::Motion read_weave(Section& section) {
-  // Without a motion its period is of no consequence, but must not be zero.
+  // Without a motion its period has no effect, but it must not be zero.
   return world::Weave{
       .heading = read_heading(section),
       .speed =
@@ -62,7 +62,7 @@ world::Motion read_weave(Section& section) {
   };
 }
 
-// Surfaces and dives again; without a depth its period is of no consequence.
+// Dives and surfaces repeatedly; without a depth its period has no effect.
 world::DepthProfile read_depth(Section& section, double speed) {
   const world::DepthProfile profile{
       .depth = section.number({"dive_depth_m",

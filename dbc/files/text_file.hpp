@@ -10,6 +10,7 @@
 
 namespace canhil {
 
+/// 2^20 bytes.
 inline constexpr std::size_t mebibyte = std::size_t{1} << 20U;
 
 /// The content of a file, a pipe or a device. Reads at most `most_bytes`, as a device may have no end. Error:

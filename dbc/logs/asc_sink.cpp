@@ -68,12 +68,12 @@ class AscSink final : public LogSink {
   }
   std::size_t channel_of(const std::string& interface) {
     const auto found = std::ranges::find(interfaces_, interface);
-    const auto place = static_cast<std::size_t>(found - interfaces_.begin());
+    const auto index = static_cast<std::size_t>(found - interfaces_.begin());
     if (found == interfaces_.end()) {
       interfaces_.push_back(interface);
-      lines_.write(fmt::format("// channel {}: {}\n", place + 1, interface));
+      lines_.write(fmt::format("// channel {}: {}\n", index + 1, interface));
     }
-    return place + 1;
+    return index + 1;
   }
 
   LineWriter lines_;

@@ -33,6 +33,7 @@ class LogSink {
   LogSink(const LogSink&) = delete;
   LogSink& operator=(const LogSink&) = delete;
   virtual ~LogSink() = default;
+  /// Appends an entry; an error shows in close().
   virtual void write(const LogEntry& entry) = 0;
   /// The errno of the error that stopped writing; 0: everything is written.
   virtual int close() = 0;
@@ -45,6 +46,7 @@ class LogSource {
   LogSource(const LogSource&) = delete;
   LogSource& operator=(const LogSource&) = delete;
   virtual ~LogSource() = default;
+  /// The next entry; none at the end. Error: one line with its place.
   virtual Result<std::optional<LogEntry>> next() = 0;
 };
 
@@ -54,6 +56,7 @@ class LogWriter {
   /// `final_name`: the name that the file gets later. It decides the format and appears in messages; empty:
   /// `path`.
   static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
+  /// Appends an entry; an error shows in close().
   void write(const LogEntry& entry) { sink_->write(entry); }
   /// Flushes the buffer and ends the log.
   Result<void> close();
@@ -69,6 +72,7 @@ class LogWriter {
 /// Reads a log; a malformed line is an error. Remote frames are skipped: a DBC describes none.
 class LogReader {
  public:
+  /// Opens a log; its first bytes decide the format. Error: one line.
   static Result<LogReader> open(const std::string& path);
   /// The next entry; none at the end. Error: "FILE:LINE:COLUMN: ...", for pcap "FILE: packet N: ...".
   Result<std::optional<LogEntry>> next() { return source_->next(); }

@@ -33,6 +33,7 @@ std::string_view value_name(const Signal& signal, std::uint64_t raw);
 /// True if the frame holds the signal: every multiplexor above it has one of the values that select it.
 bool is_present(const Message& message, const Signal& signal, std::span<const std::uint8_t> data);
 
+/// A signal that a frame holds, and its physical value.
 struct DecodedSignal {
   const Signal* signal = nullptr;
   double value = 0;
@@ -41,6 +42,7 @@ struct DecodedSignal {
 /// The signals that a frame holds, in the order of the DBC. Error if data and message differ in length.
 Result<std::vector<DecodedSignal>> decode(const Message& message, std::span<const std::uint8_t> data);
 
+/// A physical value for the signal of that name.
 struct NamedValue {
   std::string_view signal;
   double value = 0;

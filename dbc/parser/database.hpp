@@ -33,8 +33,10 @@ enum class Owner : std::uint8_t {
   node_variable
 };
 
+/// The type of an attribute: INT, HEX, FLOAT, STRING, ENUM.
 enum class AttributeType : std::uint8_t { integer, hexadecimal, real, text, enumeration };
 
+/// A definition of an attribute (BA_DEF_), with its default (BA_DEF_DEF_).
 struct AttributeDefinition {
   std::string name;
   Owner owner = Owner::network;
@@ -45,6 +47,7 @@ struct AttributeDefinition {
   std::optional<AttributeValue> initial;
 };
 
+/// The name of one raw value.
 struct ValueName {
   std::int64_t value = 0;
   std::string name;
@@ -57,13 +60,16 @@ struct ValueTable {
   std::vector<ValueName> values;
 };
 
+/// A node of the bus (BU_).
 struct Node {
   std::string name;
   std::string comment;
   Attributes attributes;
 };
 
+/// The order of a signal's bytes: Intel or Motorola.
 enum class ByteOrder : std::uint8_t { little_endian, big_endian };
+/// The type of a raw value.
 enum class RawType : std::uint8_t { unsigned_integer, signed_integer, float32, float64 };
 
 /// Raw values of a multiplexor, both ends included.
@@ -98,16 +104,20 @@ struct Signal {
   double sensor_sigma = 0;
   bool carries_remainder = false;
 
+  /// True for two's complement integers.
   [[nodiscard]] bool is_signed() const { return type == RawType::signed_integer; }
+  /// True for IEEE 754 numbers.
   [[nodiscard]] bool is_float() const { return type == RawType::float32 || type == RawType::float64; }
 };
 
+/// A group of signals of one message (SIG_GROUP_).
 struct SignalGroup {
   std::string name;
   int repetitions = 1;
   std::vector<std::string> signals;
 };
 
+/// A message (BO_) with its signals.
 struct Message {
   std::string name;
   std::uint32_t id = 0;  ///< without the flag of the extended format
@@ -129,6 +139,7 @@ struct Message {
   std::vector<std::string> answers;  ///< sample groups, separated by spaces in the text
 };
 
+/// An environment variable (EV_).
 struct EnvironmentVariable {
   std::string name;
   std::string unit;
@@ -153,6 +164,7 @@ struct RelationAttribute {
   AttributeValue value;
 };
 
+/// All that a DBC file says.
 struct Database {
   std::string version;
   std::string comment;
@@ -179,6 +191,7 @@ const AttributeValue* find_attribute(const Database& database, const Attributes&
 /// True for a valid time in an attribute of a message: 0 (none), or 1 us to 1e9 ms. Negative or tiny times
 /// would be mistaken for none; larger ones overflow in nanoseconds.
 bool is_message_time_ms(double ms);
+/// The range of is_message_time_ms(), for messages.
 inline constexpr std::string_view message_time_range = "0 (none) or 0.001..1e9";
 
 /// True if no frame can hold both signals: different values of a multiplexor above both select them.
@@ -190,6 +203,7 @@ struct RawRange {
   std::int64_t lowest = 0;
   std::int64_t highest = 0;
 };
+/// The range of an integer signal; none: no raw value is inside.
 std::optional<RawRange> raw_range(const Signal& signal);
 
 /// Whether a signal can carry a physical value. Up to one step outside its range is accepted.
@@ -200,6 +214,7 @@ struct RealRange {
   double lowest = 0;
   double highest = 0;
 };
+/// The range of a float signal.
 RealRange real_range(const Signal& signal);
 
 }  // namespace canhil::dbc

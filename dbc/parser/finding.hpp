@@ -18,6 +18,7 @@ namespace canhil::dbc {
 /// file; the lenient reader accepts it with the rule's consequence. error: both reject the file.
 enum class Severity : std::uint8_t { note, warning, error };
 
+/// The rules; rule_texts() has the text of each.
 enum class Rule : std::uint8_t {
   not_a_dbc,
   unfinished_string,
@@ -83,6 +84,7 @@ enum class Rule : std::uint8_t {
   duplicate_attribute,
 };
 
+/// The text of a rule.
 struct RuleText {
   Rule rule;
   std::string_view id;  ///< for programs and for people: "undeclared-node"
@@ -93,9 +95,12 @@ struct RuleText {
 
 /// All rules, in the order of the enumeration.
 std::span<const RuleText> rule_texts();
+/// The text of one rule.
 const RuleText& text_of(Rule rule);
+/// The name of a severity: "note", "warning", "error".
 std::string_view name_of(Severity severity);
 
+/// Where a text breaks a rule.
 struct Finding {
   Rule rule;
   Position at;
@@ -107,11 +112,14 @@ class Findings {
  public:
   struct Abandoned {};
 
+  /// Adds a finding; throws Abandoned after 10,000.
   void add(Rule rule, Position at, std::string what);
   /// Adds a finding only once per name: an undeclared node may occur a thousand times.
   void add_once(Rule rule, Position at, const std::string& name, std::string what);
 
+  /// The findings so far.
   [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
+  /// Moves the findings out.
   [[nodiscard]] std::vector<Finding> take() { return std::move(all_); }
 
  private:

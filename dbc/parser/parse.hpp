@@ -15,6 +15,7 @@
 
 namespace canhil::dbc {
 
+/// The result of inspect().
 struct Inspection {
   std::optional<Database> database;  ///< none: one of the findings is an error
   std::vector<Finding> findings;     ///< in the order in which they were found
@@ -39,6 +40,7 @@ Result<Database> parse_leniently(std::string_view text, std::string_view file_na
 
 /// parse() of a file's content. Error also if the file cannot be read, or is larger than 16 MiB.
 Result<Database> read_file(const std::string& path);
+/// parse_leniently() of a file's content; errors like read_file().
 Result<Database> read_file_leniently(const std::string& path);
 
 /// FNV-1a, 64 bits, of the text without carriage returns, so that a checkout's line ends do not change it.

@@ -33,6 +33,7 @@ struct BitPlacement {
 
 /// How raw bits become a physical value: raw * scale + offset.
 struct Conversion {
+  /// How the raw bits are read; wide_unsigned: 64 bits without a sign.
   enum class Kind : std::uint8_t { integer, wide_unsigned, float32, float64 };
 
   double scale = 1;
@@ -43,8 +44,10 @@ struct Conversion {
   bool is_plain = true;  ///< scale 1, offset 0
 
   Conversion() = default;
+  /// The conversion of a signal.
   explicit Conversion(const Signal& signal);
 
+  /// Raw bits as a signed integer.
   [[nodiscard]] std::int64_t sign_extended(std::uint64_t raw) const {
     return static_cast<std::int64_t>((raw ^ sign_bit) - sign_bit);
   }
@@ -58,6 +61,7 @@ struct RawLimits {
   double highest = 0;
 
   RawLimits() = default;
+  /// The limits of a signal: its bits, and [minimum, maximum].
   explicit RawLimits(const Signal& signal);
 };
 
@@ -65,6 +69,7 @@ struct RawLimits {
 /// the minimum.
 std::uint64_t quantised(const Conversion& conversion, const RawLimits& limits, double value);
 
+/// A message compiled for decoding and encoding at run time.
 class MessagePlan {
  public:
   /// For a message from the parser.

@@ -15,9 +15,11 @@ namespace canhil {
 /// only on the seed and the number of the attempt, on every machine.
 class BitErrors {
  public:
+  /// `rate`: probability of an error per bit; `rates`: of the wire.
   BitErrors(double rate, const wire::BitRates& rates, std::uint64_t seed)
       : rate_(rate), rates_(rates), engine_(seed) {}
 
+  /// The error that hits this attempt, if any.
   std::optional<WireError> operator()(const Attempt& attempt);
 
  private:

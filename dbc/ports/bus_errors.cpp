@@ -13,9 +13,9 @@ namespace {
 // Linux 6.0 introduced CAN_ERR_CNT. Earlier kernels put the counters into frames of the class "controller"
 // without a flag.
 void take_counters(BusErrors& errors, const Frame& frame) {
-  const bool told = (frame.id & CAN_ERR_CNT) != 0;
+  const bool flagged = (frame.id & CAN_ERR_CNT) != 0;
   const bool old = (frame.id & CAN_ERR_CRTL) != 0 && (frame.data[6] != 0 || frame.data[7] != 0);
-  if (frame.size < CAN_ERR_DLC || (!told && !old)) return;
+  if (frame.size < CAN_ERR_DLC || (!flagged && !old)) return;
   errors.tx_counter = frame.data[6];
   errors.rx_counter = frame.data[7];
   errors.tx_counter_max = std::max(errors.tx_counter_max, frame.data[6]);

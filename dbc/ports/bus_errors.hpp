@@ -20,6 +20,7 @@ enum class BusEvent : std::uint8_t {
   down,           ///< the interface is down or removed
   up              ///< the interface is up again
 };
+/// The name of an event, for reports.
 std::string_view name(BusEvent event);
 
 /// Counts of error frames by kind; one frame may report several kinds.

@@ -22,6 +22,7 @@ namespace canhil {
 /// What a bus carries: one of the project's two contracts, or unmodified CAN FD frames of another contract.
 enum class BusFormat : std::uint8_t { classic, fd, fd_frames };
 
+/// The name of the contract, as for `--dbc`.
 constexpr std::string_view name_of(BusFormat format) {
   return format == BusFormat::fd ? "canhil-fd" : "canhil";
 }
@@ -65,7 +66,9 @@ class FdPacker {
 class FdUnpacked {
  public:
   FdUnpacked() = default;
+  /// Unpacks a frame of an FD bus.
   explicit FdUnpacked(const Frame& frame);
+  /// The frames, in the order in which they were packed.
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), count_}; }
 
  private:
@@ -84,6 +87,7 @@ std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner);
 /// kinds of bus, candump on an FD bus records containers.
 class ClassicLogReader {
  public:
+  /// Takes over an open log.
   explicit ClassicLogReader(LogReader reader) : reader_(std::move(reader)) {}
   /// As LogReader::next().
   Result<std::optional<LogEntry>> next();

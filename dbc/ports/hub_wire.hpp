@@ -16,7 +16,7 @@ class HubWire {
   explicit HubWire(const WireSettings& settings);
 
   static constexpr std::size_t host = 0;
-  std::size_t add_node() { return wire_.add_node({.order = settings_.order, .told = true}); }
+  std::size_t add_node() { return wire_.add_node({.order = settings_.order, .reports_errors = true}); }
   [[nodiscard]] WireFacts facts() const { return settings_.facts(); }
   /// False while the queue of a node is full, or the node is off the bus.
   [[nodiscard]] bool has_room(std::size_t node) const;

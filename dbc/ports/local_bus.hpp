@@ -28,10 +28,12 @@ namespace canhil {
 
 /// The prefix of the name of every embedded bus.
 inline constexpr std::string_view local_prefix = "local:";
+/// True for the name of an embedded bus.
 constexpr bool is_local(std::string_view bus) { return bus.starts_with(local_prefix); }
 /// Inserts the name into `local:` and `local:?bitrate=500000`, which have none; does not change other buses.
 std::string named_local(std::string bus, std::string_view name);
 
+/// The host's port of an embedded bus.
 class LocalHub : public Port {
  public:
   /// The names of the nodes that have joined.
@@ -59,6 +61,7 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
 /// Joins the bus `local:NAME`. Error: an invalid name, no host (the error then begins with `nobody_hosts`), a
 /// host of another user, or the other frame format.
 Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOptions& options);
+/// How the error of join_local_bus() begins where no process hosts the bus.
 inline constexpr std::string_view nobody_hosts = "no bus ";
 
 /// Serves a bus without a bench (`hil-bench bus local:NAME`) until stop() is true; calls stop() at least

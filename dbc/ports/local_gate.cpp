@@ -11,7 +11,7 @@
 namespace canhil::local {
 namespace {
 
-constexpr int most_told = 20;
+constexpr int most_reports = 20;
 
 // Each node needs one file descriptor; nodes must not exhaust those of the process.
 std::size_t most_nodes(std::size_t wanted) {
@@ -39,12 +39,12 @@ Gate::Admission Gate::admit(std::vector<Peer>& peers) {
   if (!socket) return Admission::none;
   const Process process = process_behind(socket.get());
   if (!is_of_this_user(process)) {
-    tell(fmt::format("a process ({})", to_text(process)), "is another user's and was refused");
+    report(fmt::format("a process ({})", to_text(process)), "is another user's and was refused");
     return Admission::refused;
   }
   if (peers.size() >= rules_.most_nodes) {
-    tell(fmt::format("a process ({})", to_text(process)),
-         fmt::format("was refused: the bus has {} nodes, its limit", peers.size()));
+    report(fmt::format("a process ({})", to_text(process)),
+           fmt::format("was refused: the bus has {} nodes, its limit", peers.size()));
     return Admission::refused;
   }
   Peer& peer = peers.emplace_back();
@@ -70,8 +70,8 @@ void Gate::drop_silent(std::vector<Peer>& peers, bool fd_bus) {
     Frame no_frame;
     const Reading last = read(peer, fd_bus, none, no_frame);
     if (last == Reading::joined) return false;  // its Hello was in time; the hub reads it only now
-    if (last == Reading::nothing) tell(to_text(peer), "sent no Hello and was dropped");
-    if (last == Reading::nonsense) tell_of_nonsense(peer);
+    if (last == Reading::nothing) report(to_text(peer), "sent no Hello and was dropped");
+    if (last == Reading::nonsense) report_nonsense(peer);
     return true;
   });
   set_alarm(peers);
@@ -81,13 +81,13 @@ bool Gate::has_waited_enough(const Peer& peer, std::int64_t now_ns) const {
   return now_ns >= overdue_ns(peer, rules_);
 }
 
-void Gate::tell_of_dropped_reader(const Peer& peer) {
-  tell(to_text(peer), "did not read its frames and was dropped");
+void Gate::report_dropped_reader(const Peer& peer) {
+  report(to_text(peer), "did not read its frames and was dropped");
 }
 
-void Gate::tell_of_nonsense(const Peer& peer) {
-  tell(to_text(peer), peer.joined ? "sent an invalid frame and was dropped"
-                                  : "sent an invalid Hello (another version?) and was dropped");
+void Gate::report_nonsense(const Peer& peer) {
+  report(to_text(peer), peer.joined ? "sent an invalid frame and was dropped"
+                                    : "sent an invalid Hello (another version?) and was dropped");
 }
 
 void Gate::set_alarm(const std::vector<Peer>& peers) {
@@ -100,8 +100,8 @@ void Gate::set_alarm(const std::vector<Peer>& peers) {
   alarm_.set(at_ns);
 }
 
-void Gate::tell(std::string_view who, std::string_view what) {
-  if (rules_.on_turned_away && ++told_ <= most_told)
+void Gate::report(std::string_view who, std::string_view what) {
+  if (rules_.on_turned_away && ++reported_ <= most_reports)
     rules_.on_turned_away(fmt::format("bus '{}': {} {}", bus_, who, what));
 }
 

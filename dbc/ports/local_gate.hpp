@@ -32,21 +32,21 @@ class Gate {
 
   /// Whether the node has stalled the bus for too long and must be dropped.
   [[nodiscard]] bool has_waited_enough(const Peer& peer, std::int64_t now_ns) const;
-  void tell_of_dropped_reader(const Peer& peer);
-  void tell_of_nonsense(const Peer& peer);
+  void report_dropped_reader(const Peer& peer);
+  void report_nonsense(const Peer& peer);
 
   /// Sets the alarm to the time at which the next node must be dropped.
   void set_alarm(const std::vector<Peer>& peers);
 
  private:
-  void tell(std::string_view who, std::string_view what);
+  void report(std::string_view who, std::string_view what);
 
   Descriptor listener_;
   HubRules rules_;
   std::string bus_;
   Timer alarm_;
   bool strangers_ = false;  // at the last check some peers had not sent their Hello
-  int told_ = 0;
+  int reported_ = 0;
 };
 
 }  // namespace canhil::local

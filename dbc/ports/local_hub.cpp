@@ -25,10 +25,10 @@ namespace canhil {
 namespace {
 
 using local::Datagram;
+using local::Format;
 using local::Gate;
 using local::HubWire;
 using local::Peer;
-using local::Place;
 using local::Reading;
 
 constexpr int backlog = 64;                // nodes that wait to be accepted
@@ -165,7 +165,7 @@ class Hub final : public LocalHub {
       --behind_;
       peer.behind = false;
       peer.arrears_ns += now_ns - peer.behind_since_ns;
-      if (!delivered) gate_.tell_of_dropped_reader(peer);
+      if (!delivered) gate_.report_dropped_reader(peer);
       return !delivered;
     });
     if (behind_ != before) watch_all();
@@ -205,7 +205,7 @@ class Hub final : public LocalHub {
           ++next_;
           return peer.socket.get();
         case Reading::nonsense:
-          gate_.tell_of_nonsense(peer);
+          gate_.report_nonsense(peer);
           [[fallthrough]];
         case Reading::gone:
           peers_.erase(peers_.begin() + static_cast<std::ptrdiff_t>(next_));
@@ -260,7 +260,7 @@ class Hub final : public LocalHub {
     int left = most_at_once;
     while (catch_up()) {
       if (const auto report = wire_->report()) {
-        tell(*report);
+        deliver(*report);
         continue;
       }
       take_in(left);
@@ -281,7 +281,7 @@ class Hub final : public LocalHub {
   }
 
   /// Delivers a controller's report to its own node only.
-  void tell(const WireReport& report) {
+  void deliver(const WireReport& report) {
     if (report.node == HubWire::host) return queue_ready(report.frame, report.t_ns, false);
     const auto peer = peer_of(report.node);
     if (peer == peers_.end()) return;
@@ -369,7 +369,7 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
 
   auto claim = local::Claim::take(bus, name->name);
   if (!claim) return tl::unexpected(claim.error());
-  Descriptor listener = claim->listen(options.fd ? Place::fd : Place::classic, backlog);
+  Descriptor listener = claim->listen(options.fd ? Format::fd : Format::classic, backlog);
   if (!listener) return failure(fmt::format("bus '{}': {}", bus, std::strerror(errno)));
   std::optional<HubWire> wire;
   if (name->wire.rates.nominal > 0) wire.emplace(name->wire);

@@ -19,7 +19,7 @@ namespace canhil {
 namespace {
 
 using local::Datagram;
-using local::Place;
+using local::Format;
 
 class LocalNode final : public Port {
  public:
@@ -84,7 +84,7 @@ std::string why_not_joined(std::string_view bus, const std::string& directory, c
   if (error == EAGAIN)
     return fmt::format("bus '{}': its host takes no more nodes (too many wait to join)", bus);
   if (error != ECONNREFUSED && error != ENOENT) return fmt::format("bus '{}': {}", bus, std::strerror(error));
-  if (local::connect_to(directory, name, fd ? Place::classic : Place::fd)) {
+  if (local::connect_to(directory, name, fd ? Format::classic : Format::fd)) {
     return fd ? fmt::format(
                     "bus '{}' is classic CAN and this node wants CAN FD: host it with FD, or join without",
                     bus)
@@ -105,7 +105,7 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   const auto directory = local::directory();
   if (!directory) return failure(fmt::format("bus '{}': {}", bus, directory.error().message));
 
-  Descriptor socket = local::connect_to(*directory, name->name, options.fd ? Place::fd : Place::classic);
+  Descriptor socket = local::connect_to(*directory, name->name, options.fd ? Format::fd : Format::classic);
   if (!socket) return failure(why_not_joined(bus, *directory, name->name, options.fd, errno));
   if (const local::Process host = local::process_behind(socket.get()); !local::is_of_this_user(host)) {
     return failure(fmt::format("bus '{}': its host is {}, expected a process of uid {}", bus,

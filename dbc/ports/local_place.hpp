@@ -23,7 +23,7 @@ Result<void> make_private(const std::string& path);
 
 /// The frame format of a bus. Each format has its own socket, so connect() fails for the wrong format, and
 /// joining needs no answer from the host.
-enum class Place : std::uint8_t { classic, fd };
+enum class Format : std::uint8_t { classic, fd };
 
 /// The exclusive right to host a bus, for the lifetime of the object. The kernel releases the lock of a
 /// process that dies; the next host removes its sockets.
@@ -36,7 +36,7 @@ class Claim {
   ~Claim();
 
   /// The listening socket of the bus; none: errno says why.
-  [[nodiscard]] Descriptor listen(Place place, int backlog) const;
+  [[nodiscard]] Descriptor listen(Format format, int backlog) const;
 
  private:
   Claim(Descriptor lock, std::string path) : lock_(std::move(lock)), path_(std::move(path)) {}
@@ -45,7 +45,7 @@ class Claim {
 };
 
 /// A connection to the host of a bus; none: errno says why.
-Descriptor connect_to(const std::string& directory, const std::string& name, Place place);
+Descriptor connect_to(const std::string& directory, const std::string& name, Format format);
 
 /// The process at the other end of a connection, from the kernel.
 struct Process {

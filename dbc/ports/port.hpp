@@ -33,6 +33,7 @@ struct Received {
   std::uint8_t bus = 0;  ///< index among several buses behind one port, see Port::bus_name()
 };
 
+/// What became of a frame given to Port::send().
 enum class SendOutcome : std::uint8_t {
   sent,        ///< the bus has accepted the frame
   queue_full,  ///< no room: wait(port, WaitFor::room, ...), then try again
@@ -46,6 +47,7 @@ struct RoomWait {
   std::int64_t pause_ns = 0;  ///< without such an event: try again after this time
 };
 
+/// What a port has counted since it was opened.
 struct PortCounters {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
@@ -54,6 +56,7 @@ struct PortCounters {
   std::uint64_t foreign = 0;  ///< see Received
 };
 
+/// How to open a port.
 struct PortOptions {
   bool fd = false;                        ///< CAN FD frames too
   bool own_echo = false;                  ///< receive own frames back, with their transmit time stamps
@@ -73,7 +76,7 @@ struct WireFacts {
 /// The time that passes on a bus.
 enum class BusTime : std::uint8_t {
   host,  ///< real time
-  told,  ///< virtual: the time that Port::tell_time() set last
+  set,   ///< virtual: the time that Port::set_time() set last
   waits  ///< virtual: it advances while a caller waits
 };
 
@@ -89,6 +92,7 @@ struct Capabilities {
 /// The current time of a clock of clock_gettime() [ns].
 std::int64_t clock_ns(int clock);
 
+/// One node's access to a bus. Not for several threads at once.
 class Port {
  public:
   virtual ~Port() = default;
@@ -99,6 +103,7 @@ class Port {
   /// For poll(): readable when receive() has something to do or the bus is gone. Then call receive() until it
   /// returns none. For room to send see room_wait().
   [[nodiscard]] virtual int descriptor() const = 0;
+  /// How to wait for room after SendOutcome::queue_full.
   [[nodiscard]] virtual RoomWait room_wait() const = 0;
   /// Waits like wait() for a frame. A port may read the frame in the same system call.
   virtual bool wait_for_frame(std::int64_t deadline_ns);
@@ -109,7 +114,9 @@ class Port {
   /// False while an interface is down or removed. send() and receive() check for its return; wait() wakes the
   /// caller often enough for that.
   [[nodiscard]] virtual bool up() const { return true; }
+  /// The counters so far.
   [[nodiscard]] virtual PortCounters counters() const = 0;
+  /// The properties of the bus.
   [[nodiscard]] virtual Capabilities capabilities() const { return {}; }
   /// The clock of Received::t_ns: CLOCK_REALTIME or CLOCK_MONOTONIC.
   [[nodiscard]] virtual int stamp_clock() const = 0;
@@ -118,12 +125,13 @@ class Port {
   /// The current time of the clock of deadlines [ns]: CLOCK_MONOTONIC, unless the port simulates time that
   /// advances by waiting.
   [[nodiscard]] virtual std::int64_t monotonic_ns() const { return clock_ns(CLOCK_MONOTONIC); }
-  /// Sets the virtual time since the start of the run, for ports with BusTime::told. Others ignore it.
-  virtual void tell_time(std::int64_t /*t_ns*/) {}
+  /// Sets the virtual time since the start of the run, for ports with BusTime::set. Others ignore it.
+  virtual void set_time(std::int64_t /*t_ns*/) {}
   /// As given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// For several buses behind one port: the name of one, and the one to which send() passes a frame.
   [[nodiscard]] virtual const std::string& bus_name(std::uint8_t /*bus*/) const { return name(); }
+  /// The index of the bus to which send() passes this frame.
   [[nodiscard]] virtual std::uint8_t bus_of(const Frame& /*frame*/) const { return 0; }
 };
 
@@ -131,8 +139,10 @@ class Port {
 /// what was expected.
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options);
 
+/// What wait() waits for.
 enum class WaitFor : std::uint8_t { frame, room };
 
+/// A deadline that never comes.
 constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 
 /// Waits until another receive() or send() may succeed: true. False at deadline_ns on the clock of

@@ -87,7 +87,7 @@ std::int64_t SimulatedWire::next_event_ns() const {
   const std::int64_t start_ns = first_start_ns();
   std::int64_t event_ns = start_ns == never ? never : start_ns + bit_ns_;
   for (const Node& node : nodes_) {
-    if (!node.off || !node.setup.told) continue;
+    if (!node.off || !node.setup.reports_errors) continue;
     const std::int64_t runs = recovery_runs - node.recessive_runs;
     event_ns = std::min(event_ns, idle_ns_ + runs * recessive_run_bits * bit_ns_);
   }
@@ -192,7 +192,7 @@ Carried SimulatedWire::succeed() {
     other.rec = other.rec > error_passive_above ? receive_errors_after_success : std::max(other.rec - 1, 0);
   }
   ++counters_.frames;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) tell(n, carried.delivered_ns, SeenError::none);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) report_to_host(n, carried.delivered_ns, SeenError::none);
   finish();
   return carried;
 }
@@ -207,21 +207,21 @@ void SimulatedWire::fail() {
     Node& other = nodes_[n];
     if (n == from || other.off) continue;
     other.rec += receive_error + (running_->error->at == n ? first_to_notice : 0);
-    tell(n, noticed_ns, SeenError::stuff);
+    report_to_host(n, noticed_ns, SeenError::stuff);
   }
   // An error passive sender without other nodes does not count missing acknowledgements: they must not drive
   // it bus-off.
   if (running_->acknowledged || !is_passive(sender.tec, sender.rec)) sender.tec += transmit_error;
   ++counters_.error_frames;
-  tell(from, noticed_ns, missed ? SeenError::acknowledgement : SeenError::bit);
+  report_to_host(from, noticed_ns, missed ? SeenError::acknowledgement : SeenError::bit);
   finish();
   if (sender.tec > bus_off_above) go_off(sender);
 }
 
 /// The node's controller reports an error that it saw, and its state if that has changed.
-void SimulatedWire::tell(std::size_t node, std::int64_t t_ns, SeenError seen) {
+void SimulatedWire::report_to_host(std::size_t node, std::int64_t t_ns, SeenError seen) {
   Node& n = nodes_[node];
-  if (!n.setup.told) return;
+  if (!n.setup.reports_errors) return;
   const BusEvent level = level_of(n.tec, n.rec);
   ControllerNews news{.seen = seen, .tx_counter = n.tec, .rx_counter = n.rec};
   if (level != n.level) news.event = n.level == BusEvent::bus_off ? BusEvent::restarted : level;
@@ -265,7 +265,7 @@ void SimulatedWire::see_recessive(std::int64_t runs, std::int64_t last_ns) {
     node.recessive_runs += std::min(runs, missing);
     if (runs < missing) continue;
     node = Node{.setup = node.setup, .level = BusEvent::bus_off};
-    tell(n, last_ns - (runs - missing) * recessive_run_bits * bit_ns_, SeenError::none);
+    report_to_host(n, last_ns - (runs - missing) * recessive_run_bits * bit_ns_, SeenError::none);
   }
 }
 

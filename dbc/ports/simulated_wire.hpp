@@ -25,12 +25,14 @@ namespace canhil {
 /// queues).
 enum class QueueOrder : std::uint8_t { priority, fifo };
 
+/// The states of a CAN controller (ISO 11898-1:2015, fault confinement).
 enum class NodeState : std::uint8_t { error_active, error_passive, bus_off };
 
+/// The properties of a node on the wire.
 struct WireNode {
   QueueOrder order = QueueOrder::priority;
-  std::size_t depth = 64;  ///< of the queue, in frames, including the one on the wire
-  bool told = false;       ///< its controller reports errors, see SimulatedWire::report()
+  std::size_t depth = 64;       ///< of the queue, in frames, including the one on the wire
+  bool reports_errors = false;  ///< its controller reports errors, see SimulatedWire::report()
 };
 
 /// One attempt to send a frame.
@@ -70,6 +72,7 @@ struct WireReport {
   std::int64_t t_ns = 0;
 };
 
+/// What the wire has counted since the start.
 struct WireCounters {
   std::uint64_t frames = 0;
   std::uint64_t error_frames = 0;
@@ -77,8 +80,10 @@ struct WireCounters {
   std::int64_t busy_ns = 0;   ///< frames and error frames, with their intermissions
 };
 
+/// A CAN bus in virtual time: arbitration, exact lengths of frames, errors and their counters.
 class SimulatedWire {
  public:
+  /// A wire with these bit rates and nodes; without `disturb` there are no errors.
   SimulatedWire(const wire::BitRates& rates, std::vector<WireNode> nodes, Disturb disturb = {});
 
   static constexpr std::int64_t never = std::numeric_limits<std::int64_t>::max();
@@ -95,9 +100,10 @@ class SimulatedWire {
   /// due before until_ns must be queued first.
   std::optional<Carried> next(std::int64_t until_ns);
 
-  /// The next report of a node with `told`, in order of time. Reports that exist when next() returns a frame
-  /// are later than that frame.
+  /// The next report of a node with reports_errors, in order of time. Reports that exist when next() returns
+  /// a frame are later than that frame.
   std::optional<WireReport> report();
+  /// True if report() has something.
   [[nodiscard]] bool has_report() const { return !reports_.empty(); }
 
   /// When next() can return more; `never`: only after another frame is queued.
@@ -105,9 +111,13 @@ class SimulatedWire {
 
   /// The state at the last call of queue() or next().
   [[nodiscard]] NodeState state(std::size_t node) const;
+  /// The transmit error counter of a node.
   [[nodiscard]] int transmit_errors(std::size_t node) const { return nodes_[node].tec; }
+  /// The receive error counter of a node.
   [[nodiscard]] int receive_errors(std::size_t node) const { return nodes_[node].rec; }
+  /// The number of frames in a node's queue.
   [[nodiscard]] std::size_t waiting(std::size_t node) const { return nodes_[node].queue.size(); }
+  /// The counters so far.
   [[nodiscard]] const WireCounters& counters() const { return counters_; }
 
  private:
@@ -149,7 +159,7 @@ class SimulatedWire {
   Carried succeed();
   void fail();
   void go_off(Node& node);
-  void tell(std::size_t node, std::int64_t t_ns, SeenError seen);
+  void report_to_host(std::size_t node, std::int64_t t_ns, SeenError seen);
   void finish();
   void idle_until(std::int64_t t_ns);
   void see_recessive(std::int64_t runs, std::int64_t last_ns);

@@ -23,6 +23,7 @@ struct BitLength {
     data += other.data;
     return *this;
   }
+  /// All bits, whatever their rate.
   [[nodiscard]] constexpr std::int64_t bits() const { return nominal + data; }
   friend constexpr bool operator==(const BitLength&, const BitLength&) = default;
 };
@@ -37,6 +38,7 @@ struct BitRates {
 /// frames.
 class BitStream {
  public:
+  /// Appends a bit, and a stuff bit before it where one is due.
   constexpr void put(bool bit) {
     if (run_ == longest_run) stuff();
     run_ = bit == last_ ? run_ + 1 : 1;
@@ -53,7 +55,9 @@ class BitStream {
   constexpr void close() {
     if (run_ == longest_run) stuff();
   }
+  /// Bits so far, with stuff bits.
   [[nodiscard]] constexpr int length() const { return length_; }
+  /// The CRC of the bits so far, without stuff bits.
   [[nodiscard]] constexpr std::uint32_t crc15() const { return crc_; }
 
  private:

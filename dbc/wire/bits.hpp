@@ -41,6 +41,7 @@ constexpr std::uint64_t load_be(const std::uint8_t* data) {
   return bytes == 0 ? 0 : __builtin_bswap64(load_le<first, bytes>(data)) >> ((64 - 8 * bytes) & 63);
 }
 
+/// The inverse of load_le().
 template <std::size_t first, std::size_t bytes>
 constexpr void store_le(std::uint8_t* data, std::uint64_t word) {
   static_assert(bytes <= 8);
@@ -51,6 +52,7 @@ constexpr void store_le(std::uint8_t* data, std::uint64_t word) {
   }
 }
 
+/// The inverse of load_be().
 template <std::size_t first, std::size_t bytes>
 constexpr void store_be(std::uint8_t* data, std::uint64_t word) {
   if constexpr (bytes > 0) store_le<first, bytes>(data, __builtin_bswap64(word) >> (64 - 8 * bytes));
@@ -61,11 +63,13 @@ template <std::size_t first, std::size_t bytes>
 constexpr void merge_le(std::uint8_t* data, std::uint64_t word) {
   store_le<first, bytes>(data, load_le<first, bytes>(data) | word);
 }
+/// Like merge_le(), the first byte most significant.
 template <std::size_t first, std::size_t bytes>
 constexpr void merge_be(std::uint8_t* data, std::uint64_t word) {
   store_be<first, bytes>(data, load_be<first, bytes>(data) | word);
 }
 
+/// A word whose lowest `length` bits are 1.
 constexpr std::uint64_t mask(unsigned length) {
   return length >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << length) - 1;
 }

@@ -25,6 +25,7 @@ struct Carrier {
 /// By index in all_messages.
 using Carriers = std::array<Carrier, messages::all_messages.size()>;
 
+/// On classic CAN: each message travels in a frame of its own.
 inline constexpr Carriers classic_carriers = [] {
   Carriers carriers{};
   for (std::size_t i = 0; i < carriers.size(); ++i) {
@@ -34,6 +35,7 @@ inline constexpr Carriers classic_carriers = [] {
   return carriers;
 }();
 
+/// On CAN FD: the containers of the sample groups, and frames of their own for the other messages.
 inline constexpr Carriers fd_carriers = [] {
   Carriers carriers = classic_carriers;
   for (std::size_t i = 0; i < carriers.size(); ++i) {

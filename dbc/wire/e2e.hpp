@@ -10,6 +10,7 @@
 
 namespace canhil::e2e {
 
+/// Counters run from 0 to 14.
 inline constexpr int counter_period = 15;  // the profile excludes the value 15
 
 namespace detail {
@@ -57,8 +58,10 @@ constexpr void protect(std::span<std::uint8_t> data, std::uint16_t data_id, std:
   data[0] = crc(data, data_id);
 }
 
+/// The counter of a protected frame.
 constexpr std::uint8_t counter(std::span<const std::uint8_t> data) { return data[1] & 0x0FU; }
 
+/// The counter after this one.
 constexpr std::uint8_t next(std::uint8_t counter) {
   return static_cast<std::uint8_t>(counter + 1 == counter_period ? 0 : counter + 1);
 }
@@ -87,7 +90,9 @@ class Receiver {
     lost_ = (now + counter_period - before - 1) % counter_period;
     return lost_ == 0 ? Check::ok : Check::some_lost;
   }
+  /// The frames lost before the last checked one (0..13).
   [[nodiscard]] constexpr int lost() const { return lost_; }
+  /// Forgets the last counter: the next frame with a right CRC is ok.
   constexpr void reset() { last_ = none; }
 
  private:

@@ -22,6 +22,7 @@ struct Frame {
   bool unrounded = false;  ///< scaled signals follow the payload as doubles: within one process only
   std::array<std::uint8_t, max_size> data{};
 
+  /// The data bytes of the frame.
   [[nodiscard]] std::span<const std::uint8_t> payload() const { return {data.data(), size}; }
 
   friend bool operator==(const Frame& a, const Frame& b) {

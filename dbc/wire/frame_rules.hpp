@@ -9,7 +9,9 @@
 
 namespace canhil {
 
+/// The largest 11-bit id.
 constexpr std::uint32_t max_standard_id = 0x7FF;
+/// The largest 29-bit id.
 constexpr std::uint32_t max_extended_id = 0x1FFF'FFFF;
 
 /// Sizes by data length code, for CAN FD; classic CAN uses the first nine.

@@ -47,6 +47,7 @@ enum class Resolution : std::uint8_t {
   unknown_sigma     ///< carries a remainder, so it is a measurement, but has no SensorSigma
 };
 
+/// Judges a signal by its LSB and the 1-sigma of its sensor, both in the signal's unit; 0: no sensor.
 constexpr Resolution resolution_of(std::string_view name, double lsb, double sensor_sigma,
                                    bool carries_remainder) {
   if (name.starts_with("delta_") && !carries_remainder) return Resolution::loses_remainder;

@@ -29,6 +29,7 @@ namespace wire {
 
 /// The step between neighbouring values of a signal, in its unit; 0 for a float, which has no fixed step.
 constexpr double lsb(double scale, bool is_float) { return is_float ? 0 : scale < 0 ? -scale : scale; }
+/// The step of a signal, in its unit; 0: a float.
 constexpr double lsb(const SignalInfo& signal) { return lsb(signal.scale, signal.is_float); }
 
 }  // namespace wire

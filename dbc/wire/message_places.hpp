@@ -12,12 +12,14 @@
 
 namespace canhil {
 
+/// Looks up messages by the ids of frames.
 class MessagePlaces {
  public:
   static constexpr std::size_t nowhere = 0xFF;
   /// The largest number of messages in a list.
   static constexpr std::size_t most = nowhere;
 
+  /// For a list of at most `most` messages.
   explicit MessagePlaces(std::span<const MessageInfo> messages) {
     standard_.fill(nowhere);
     for (std::size_t i = 0; i < messages.size(); ++i) {

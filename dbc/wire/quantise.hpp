@@ -32,6 +32,7 @@ constexpr double bound(std::uint64_t raw) {
   const int spare = 64 - 53 - __builtin_clzll(raw);
   return static_cast<double>((raw >> spare) << spare);
 }
+/// The same for a signed limit.
 constexpr double bound(std::int64_t raw) {
   const auto bits = static_cast<std::uint64_t>(raw);
   return raw < 0 ? -bound(0 - bits) : bound(bits);

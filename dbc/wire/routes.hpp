@@ -17,22 +17,22 @@ class Routes {
   /// Selects the messages for which `wanted(const MessageInfo&)` is true.
   template <class Wanted>
   consteval explicit Routes(Wanted wanted) {
-    place_.fill(nowhere);
+    index_.fill(nowhere);
     for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
       const MessageInfo& info = messages::all_messages[i];
-      if (!info.extended && wanted(info)) place_[info.id] = static_cast<std::uint8_t>(i);
+      if (!info.extended && wanted(info)) index_[info.id] = static_cast<std::uint8_t>(i);
     }
   }
 
   /// The index of a frame's message in all_messages; nowhere for error frames, extended ids and ids that are
   /// not selected.
   [[nodiscard]] constexpr std::size_t operator()(const Frame& frame) const {
-    return frame.error || frame.extended || frame.id >= place_.size() ? nowhere : place_[frame.id];
+    return frame.error || frame.extended || frame.id >= index_.size() ? nowhere : index_[frame.id];
   }
 
  private:
   static_assert(messages::all_messages.size() < nowhere);
-  std::array<std::uint8_t, 2048> place_{};
+  std::array<std::uint8_t, 2048> index_{};
 };
 
 }  // namespace canhil

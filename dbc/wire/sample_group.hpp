@@ -12,6 +12,7 @@ namespace canhil {
 template <class... Messages>
 class SampleGroup {
  public:
+  /// What put() did.
   enum class Outcome : std::uint8_t {
     waiting,          ///< stored; the group is incomplete
     complete,         ///< the group is complete: read it now
@@ -34,10 +35,12 @@ class SampleGroup {
     return started_anew ? Outcome::dropped_previous : Outcome::waiting;
   }
 
+  /// The last message of this type; valid together when put() returned complete.
   template <class Message>
   [[nodiscard]] const Message& get() const {
     return std::get<Message>(messages_);
   }
+  /// The counter of the pending or last group.
   [[nodiscard]] std::uint8_t counter() const { return counter_; }
   /// Discards an incomplete group; true if there was one.
   bool discard() {

@@ -34,6 +34,7 @@ class TransmitCounters {
     next = e2e::next(now);
     return now;
   }
+  /// Sets all counters to 0.
   void reset() { next_.fill(0); }
 
  private:
@@ -44,6 +45,7 @@ class TransmitCounters {
 template <std::size_t capacity>
 class Outbox {
  public:
+  /// An empty buffer, all counters 0.
   explicit Outbox(Rounding rounding = Rounding::as_on_the_bus) : rounding_(rounding) {}
 
   /// Packs, protects and appends one message.
@@ -55,10 +57,13 @@ class Outbox {
   void put(const Frame& frame) {
     if (size_ < capacity) frames_[size_++] = frame;
   }
+  /// The frames since the last clear(), in order.
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), size_}; }
   /// How scaled signals are rounded when sent.
   [[nodiscard]] Rounding rounding() const { return rounding_; }
+  /// Empties the buffer; counters go on.
   void clear() { size_ = 0; }
+  /// Sets all counters to 0.
   void reset_counters() { counters_.reset(); }
 
  private:

@@ -27,7 +27,7 @@ class BusNotes {
   std::string news(const Port& port, BusFormat format);
 
  private:
-  struct Told {
+  struct Reported {
     BusErrors errors;
     std::int64_t errors_ns = 0;
     std::uint64_t late_in_queue = 0;
@@ -44,7 +44,7 @@ class BusNotes {
   bool up_ = true;
   std::int64_t changed_ns_ = 0;
   std::int64_t last_outage_ns_ = 0;
-  Told told_;
+  Reported reported_;
 };
 
 }  // namespace canhil::target

@@ -47,7 +47,7 @@ void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
   }
 }
 
-void tell(const std::string& news) {
+void print(const std::string& news) {
   for (std::size_t begin = 0; begin < news.size();) {
     const std::size_t end = news.find('\n', begin);
     std::fprintf(stderr, "hil-target: %s\n", news.substr(begin, end - begin).c_str());
@@ -118,7 +118,7 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
       if (std::exchange(bench_heard, false)) bench_ns = now;
-      tell(notes.news(port, format));
+      print(notes.news(port, format));
       established = true;
       // Sync drives the heartbeat. During a run the process adds no heartbeats, even if the bench is slow, so
       // that the frames equal those of a replay. After a bench has disappeared, heartbeats resume for the
@@ -135,7 +135,7 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
     // A port may hold more frames from the last read; wait() does not report these.
     heard = more || wait(port, WaitFor::frame, report_due_ns);
   }
-  tell(notes.news(port, format));
+  print(notes.news(port, format));
   return {};
 }
 

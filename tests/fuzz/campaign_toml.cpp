@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect_one_line(campaign.error().message, "fuzz.toml:");
     return 0;
   }
-  // What is kept with the results reads as the same campaign.
+  // The stored text of a campaign reads as the same campaign.
   const auto again = campaign::parse_campaign(campaign->sources);
   fuzz::expect(again && again->hash == campaign->hash && again->variants.size() == campaign->variants.size());
   for (const campaign::Metric& metric : campaign->metrics) {

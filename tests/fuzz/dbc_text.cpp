@@ -16,7 +16,7 @@ void expect_one_line(const canhil::Error& error) {
   if (!error.message.starts_with("fuzz.dbc:") || error.message.find('\n') != std::string::npos) std::abort();
 }
 
-/// The sanitizers see whether it stays inside of the data.
+/// The sanitizers detect accesses outside the data.
 void expect_usable(const Database& database) {
   for (const Message& message : database.messages) {
     const MessagePlan plan(message);

@@ -24,7 +24,8 @@ namespace {
 using namespace canhil;
 using Json = nlohmann::ordered_json;
 
-// Over a simulated wire: with distributions of times. Few of a kind, as to read them takes most of the time.
+// A run over a simulated wire, because it has distributions of times. It has few samples of a kind, because
+// reading them takes most of the time.
 Json flown() {
   const auto scenario = scenario::parse(fuzz::short_scenario, "short.toml", drive::contract());
   fuzz::expect(scenario.has_value());
@@ -61,7 +62,7 @@ class Changes {
     return first;
   }
 
-  // Down from the root, at each step to one of what is inside; `above`: what it is in.
+  // Walks down from the root, at each step to one of the members. `above` is the parent.
   Json* walk(Json& root, Json*& above, std::size_t& place) {
     Json* at = &root;
     for (int steps = byte() % 8; steps > 0 && at->is_structured() && !at->empty(); --steps) {
@@ -129,7 +130,7 @@ class Changes {
   std::span<const std::uint8_t> rest_;
 };
 
-// What `hil-bench report` and `hil-bench compare` do.
+// The operations of `hil-bench report` and `hil-bench compare`.
 void use(const std::string& text, const report::Reports& whole) {
   static const int file = ::memfd_create("report", 0);
   static const std::string path = "/proc/self/fd/" + std::to_string(file);

@@ -56,7 +56,7 @@ checks::Observations collected(observe::Monitor& monitor, const observe::BusWatc
   return seen;
 }
 
-// All that is made of a run. A report that the bench writes it must read.
+// All results of a run. The bench must be able to read every report that it writes.
 void report_all(const scenario::Scenario& scenario, const drive::Run& run) {
   fuzz::expect(!report::text(scenario, run).empty());
   fuzz::expect(!report::junit(scenario, run).empty());

@@ -52,7 +52,7 @@ while read -r program; do
   esac
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
 as_text ports_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py "$build/tests/perf/ports/vcan_node"
-# At a priority of their own where that is permitted. One CPU: no wake-up of another hides what the target costs.
+# At real-time priority if permitted. On one CPU, so that waking another CPU does not hide the cost of the target.
 real_time=(chrt -f 30)
 "${real_time[@]}" true 2>/dev/null || real_time=()
 last_cpu=$(taskset -cp $$ | sed 's/.*[ ,-]//')

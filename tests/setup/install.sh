@@ -5,6 +5,7 @@
 #   install.sh coverage    tests, and the packages for tests/run.sh --coverage
 #   install.sh tidy        packages for tests/run.sh --tidy and --analyse
 #   install.sh package     packages for tests/package/debian.sh, too
+#   install.sh docs        packages for the API pages (target api), and the pictures and figures in docs
 #   install.sh full        all packages for tests/run.sh --full and tests/perf/run.sh
 #   install.sh list SET    prints the package names of a set
 set -euo pipefail
@@ -23,6 +24,8 @@ test_packages=(
 )
 paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper, which refuses to run without it
 tidy_packages=(clang clang-tidy)
+docs_packages=(doxygen openssh-client) # API pages; the tutorial signs a report
+picture_packages=(chromium fonts-dejavu-core) # pictures of the report page
 package_packages=(dpkg-dev file debootstrap help2man) # builds a Debian package and tests it in a fresh system
 full_packages=(
   rt-tests valgrind libclang-rt-14-dev
@@ -41,8 +44,9 @@ select_packages() {
     coverage) wanted+=("${test_packages[@]}" "${paper_packages[@]}") ;;
     tidy) wanted+=("${test_packages[@]}" "${tidy_packages[@]}") ;;
     package) wanted+=("${package_packages[@]}") ;;
-    full) wanted+=("${test_packages[@]}" "${paper_packages[@]}" "${tidy_packages[@]}" "${full_packages[@]}") ;;
-    *) die "unknown set '$1': expected build, tests, coverage, tidy, package or full" ;;
+    docs) wanted+=("${docs_packages[@]}" "${picture_packages[@]}" "${paper_packages[@]}" tshark) ;;
+    full) wanted+=("${docs_packages[@]}" "${test_packages[@]}" "${paper_packages[@]}" "${tidy_packages[@]}" "${full_packages[@]}") ;;
+    *) die "unknown set '$1': expected build, tests, coverage, tidy, package, docs or full" ;;
   esac
 }
 

@@ -38,8 +38,8 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
   std::exit(1);
 }
 
-/// Anonymous memory alone: the pages of the program and its libraries come in when their code first runs,
-/// which is no leak.
+/// Only anonymous memory: pages of the program and its libraries are loaded when their code first runs, which
+/// is not a leak.
 std::int64_t resident_kib() {
   std::ifstream file("/proc/self/statm");
   std::int64_t size = 0;
@@ -157,7 +157,7 @@ int send(Port& port, std::int64_t duration_ns, std::int64_t rate) {
     }
     const std::int64_t late_ns = now_ns() - due_ns;
     latest_ns = std::max(latest_ns, late_ns);
-    if (late_ns > catch_up_ns) due_ns += late_ns;  // no bus carries what a stalled host would catch up with
+    if (late_ns > catch_up_ns) due_ns += late_ns;  // no bus could carry the backlog of a stalled host
     for (const auto due = static_cast<std::uint64_t>(tick * rate * tick_ns / ns_per_s); sent < due; ++sent)
       send(port, numbered_id, sent);
     drain();

@@ -1,4 +1,4 @@
-// What the page on the wind shows: scores, the wind over the height, the nominal glide.
+// Content of the page on the wind: scores, the wind over the height, the nominal glide.
 #include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
@@ -20,12 +20,12 @@ constexpr const char* requirement = "section 8";
 constexpr const char* lost_requirement = "section 8: lost";
 constexpr std::array judged{"table1", "sensitivity", "rates"};
 
-// Metrics: of all three components of the wind's error, and of each.
+// Names of metrics: the error of the wind vector, and of each component.
 constexpr const char* all = "wind error";
 constexpr std::array components{"along track", "cross track", "down"};
 
-// Mean over t >= 10 s of |error of the wind| of each run; of these, mean and standard deviation over the
-// runs [m/s].
+// Mean of |error of the wind| for t >= 10 s of each run; mean and standard deviation of these over the runs
+// [m/s].
 double mean(const campaign::Answer& answer) { return figure(answer, "mean_mps"); }
 std::string score(const campaign::Answer& answer) {
   return fmt::format("{:.2f} ({:.2f})", mean(answer), figure(answer, "standard_deviation_mps"));
@@ -69,7 +69,7 @@ void add_scores(Names& names, const Results& results) {
   };
 }
 
-// What the paper claims, and how far it holds.
+// The paper's claims, and how far they hold.
 void add_claims(Names& names, const Results& results) {
   const auto at = [&](const char* filter, int level) {
     return mean(results.of("table1").answer(all, fmt::format("{}_{}", filter, level)));
@@ -113,7 +113,7 @@ double from_deg(const world::Vector3& wind_n) {
   return from < 0 ? from + 360 : from;
 }
 
-// The nominal glide: no run of the target.
+// The nominal glide, without errors and without a target.
 const world::GlideRecord& nominal_glide() {
   static const world::GlideRecord record({}, 100'000'000, world::Stream(0, 0, "none"),
                                          world::Stream(0, 0, "none"));
@@ -152,7 +152,7 @@ Result<PageContent> page_content(const Results& results, const FlyOptions& /*opt
                        world::euler_from(end.C_bn).heading / deg);
   };
   content.curves["error"] = [&results](Words& words) {
-    constexpr std::size_t step = 10;  // answers come every 100 ms: a point a second
+    constexpr std::size_t step = 10;  // answers come every 100 ms: one point per second
     return over_time(results.of("table1").curve(words.rest(), quantities::wind_norm), 1, step);
   };
   content.curves["wind_speed"] = [](Words& words) {

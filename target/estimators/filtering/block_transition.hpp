@@ -9,6 +9,7 @@
 
 namespace canhil::filtering {
 
+/// The place of a 3 x 3 block in a matrix.
 struct Block {
   int row = 0, column = 0;  // in blocks of 3
 };

@@ -33,6 +33,7 @@ class History {
   using UpdateResult = typename Model::UpdateResult;
   using Outcome = typename Model::Outcome;
 
+  /// Starts at start_us; forgets epochs older than longest_us, or beyond Capacity.
   explicit History(std::int64_t start_us, std::int64_t longest_us = std::numeric_limits<std::int64_t>::max())
       : longest_us_(longest_us) {
     restart(start_us);
@@ -90,6 +91,7 @@ class History {
     return result;
   }
 
+  /// The newest epoch.
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
 
  private:

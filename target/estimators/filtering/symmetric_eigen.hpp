@@ -5,11 +5,13 @@
 
 namespace canhil::filtering {
 
+/// The largest number of rows.
 inline constexpr int most_eigen_rows = 18;
 using SquareMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_eigen_rows, most_eigen_rows>;
 using ColumnVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_eigen_rows, 1>;
 
+/// Eigenvalues and eigenvectors.
 struct SymmetricEigen {
   ColumnVector values;   // ascending
   SquareMatrix vectors;  // columns of length 1

@@ -29,6 +29,7 @@ struct Layout {
   static constexpr int accel_bias = moving, gyro_bias = moving + 3, fix_bias = moving + 6;
 };
 
+/// Estimated errors x [N] and their covariance P [N x N], in the order of Layout.
 template <int N>
 struct Errors {
   Vector<N> x = Vector<N>::Zero();

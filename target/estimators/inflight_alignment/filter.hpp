@@ -19,11 +19,13 @@ struct Ins {
   std::uint32_t steps = 0;  // since the start
 };
 
+/// A position on WGS-84.
 struct GeodeticPosition {
   double latitude = 0, longitude = 0;  // [rad]
   double height = 0;                   // above the ellipsoid [m]
 };
 
+/// All that the filter keeps between two samples.
 struct State {
   Ins ins;
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimates, subtracted from IMU [m/s^2],
@@ -37,6 +39,7 @@ struct State {
   bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
 };
 
+/// What became of a fix.
 enum class Outcome : std::uint8_t {
   ok,
   gated,                  // NIS above the gate
@@ -68,7 +71,9 @@ void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings&
 
 /// The parts of propagate(): mechanisation only; whether the filter must predict now; its prediction.
 void mechanise(State& state, const strapdown::ImuIncrement& imu);
+/// True if the interval without a fix has reached Settings::longest_interval.
 bool prediction_is_due(const State& state, const Settings& settings);
+/// Predicts the filter over the interval since its last prediction.
 void predict(State& state, const Settings& settings);
 
 /// Processes a fix valid at the last IMU epoch: prediction over the interval, measurement update, and in a
@@ -84,6 +89,7 @@ struct Estimate {
   strapdown::NavState nav;
   Eigen::Vector3d accel_bias, gyro_bias, fix_bias;  // [m/s^2], [rad/s], NED [m]
 };
+/// The estimate after the last sample.
 Estimate estimate(const State& state);
 
 /// The uncertainty after the last update.
@@ -93,6 +99,7 @@ struct Uncertainty {
   Eigen::Vector3d accel_bias, gyro_bias;               // sigmas, body [m/s^2], [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();  // sigmas, NED [m]
 };
+/// The sigmas after the last update.
 Uncertainty uncertainty(const State& state);
 
 }  // namespace canhil::inflight_alignment

@@ -4,6 +4,7 @@
 
 namespace canhil::inflight_alignment {
 
+/// True for a filter with sine and cosine of the heading error as states.
 template <int N>
 constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
 
@@ -12,6 +13,7 @@ template <int N>
 filtering::Correction<N, 3> correction(const Errors<N>& prior, const Eigen::Vector3d& innovation,
                                        const Settings& settings);
 
+/// The position of a navigation state.
 GeodeticPosition position_of(const strapdown::NavState& nav);
 
 /// The position minus its errors [m].

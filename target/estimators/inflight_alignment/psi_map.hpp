@@ -6,10 +6,13 @@
 
 namespace canhil::inflight_alignment {
 
+/// Sines and cosines of the psi angles.
 struct Trig {
   Eigen::Vector3d sin, cos;  // of psi_x, psi_y, psi_z
 
+  /// Of psi [rad].
   explicit Trig(const Eigen::Vector3d& psi);
+  /// From sines and cosines that are known.
   Trig(const Eigen::Vector3d& sine, const Eigen::Vector3d& cosine) : sin(sine), cos(cosine) {}
 };
 
@@ -22,12 +25,15 @@ struct Terms {
   Eigen::Vector3d rates;  // E [(w - C_pc' w) T - A e]
 };
 
+/// The map about a state, over one interval.
 class PsiMap {
  public:
+  /// About x; `interval` must outlive the map.
   PsiMap(const Vector<15>& x, const Interval& interval);
 
   /// The image of x, as arguments of moved().
   [[nodiscard]] Eigen::Vector3d force_increment() const { return interval_.delta_v_n - terms_.force; }
+  /// The increment of psi over the interval [rad].
   [[nodiscard]] const Eigen::Vector3d& attitude_increment() const { return terms_.rates; }
 
   /// The even and odd parts for x +- d; both points share one evaluation of sin and cos.
@@ -35,7 +41,9 @@ class PsiMap {
 
   /// C_pc A and -E A: d(velocity+)/d(accelerometer bias) and d(attitude+)/d(gyro bias).
   [[nodiscard]] Eigen::Matrix3d velocity_accel() const;
+  /// See velocity_accel().
   [[nodiscard]] Eigen::Matrix3d attitude_gyro() const;
+  /// The length of the interval [s].
   [[nodiscard]] double duration() const { return interval_.duration; }
 
  private:

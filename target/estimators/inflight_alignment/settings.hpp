@@ -7,7 +7,9 @@
 
 namespace canhil::inflight_alignment {
 
+/// One g [m/s^2].
 inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+/// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
 /// sin_cos: the states are sine and cosine of the heading error; the model is linear in them, so any start
@@ -21,6 +23,7 @@ enum class Aiding : std::uint8_t { ssbl, gps };
 /// P by the heading correction, `navigation` does not. An open loop uses platform axes, like the paper.
 enum class AttitudeErrorFrame : std::uint8_t { platform, navigation };
 
+/// The square root of P whose columns are the sample points' offsets.
 enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 
 /// about_central: about the transformed central point; positive semi-definite for any weights.
@@ -31,8 +34,10 @@ enum class UkfCovariance : std::uint8_t { about_mean, about_central };
 /// vertical force is second order in the tilts, and biases are turned with the heading error.
 enum class SinCosForm : std::uint8_t { published, levelled };
 
+/// When a late fix is applied.
 enum class LateFixes : std::uint8_t { at_arrival, at_validity };
 
+/// The settings of the filter.
 struct Settings {
   Algorithm algorithm = Algorithm::sin_cos;
   Aiding aiding = Aiding::ssbl;

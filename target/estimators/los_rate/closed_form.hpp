@@ -30,6 +30,7 @@ struct SteadyState {
   Covariance P;
   Gain d;
 };
+/// The steady state for jerk of PSD q [m^2/s^5].
 SteadyState steady_state(double q, DisplacementNoise noise);
 
 /// K = [d1, d2 + (vc/r) d1, r d3]: converts a gain for y to a gain for x, whose innovation is the error

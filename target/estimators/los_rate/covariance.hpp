@@ -26,6 +26,7 @@ struct Geometry {
 struct Transition {
   double ew, ea, ww, wa;
 };
+/// The transition over dt [s] until `end`.
 Transition transition(Geometry end, double dt);
 
 /// Converts a covariance of y to one of x: M P M', M = [1/r 0 0; vc/r^2 1/r 0; 0 0 1].

@@ -16,6 +16,7 @@ struct Sigma {
   double acceleration = 0;  // of the target [m/s^2]
 };
 
+/// The square roots of the diagonal.
 inline Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
 
 /// A closed gain (discrete, for x) and its 1-sigmas.
@@ -40,6 +41,7 @@ struct PBarTable {
 /// linear interpolation.
 struct CombinedTable {
   static constexpr int ranges = 128, speeds = 9;
+  /// One entry of the table.
   struct Node {
     double alpha, root_beta, root_gamma;  // gain for y = [alpha, root_beta^2, root_gamma^3]
     Sigma sigma;                          // error and rate times range
@@ -54,6 +56,7 @@ struct LowPass {
   Covariance noise;  // [1, 1/s, ... per rad^2 s]
 };
 
+/// The settings and what follows from them; made once, at start-up.
 struct Design {
   Settings settings;
   bool equal_noise = true;  // then only the pitch member of each pair of tables is computed

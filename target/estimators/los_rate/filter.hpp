@@ -22,6 +22,7 @@ struct Measurement {
   bool error_valid = false, antenna_valid = false, acceleration_valid = false;
 };
 
+/// All that the filter keeps between two samples.
 struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
   Motion motion;                    // the last measurement of each component
@@ -34,6 +35,7 @@ struct State {
   bool covariance = false;  // P is propagated: Kalman filter or coasting
 };
 
+/// What a step did.
 enum class Outcome : std::uint8_t {
   waiting,     // no usable range and error angle yet
   started,     // the first sample: its error angle starts the estimate
@@ -44,6 +46,7 @@ enum class Outcome : std::uint8_t {
   non_finite,  // the result would not be finite: ignored
 };
 
+/// The result of a step.
 struct UpdateResult {
   Outcome outcome = Outcome::bad_step;
   Fault fault = Fault::none;  // the first fault found, whether or not the estimate coasts

@@ -4,6 +4,7 @@
 
 namespace canhil::los_rate {
 
+/// Where the gain comes from.
 enum class Algorithm : std::uint8_t {
   switched_table,  // the paper's: P-bar tables for thermal and glint noise, switched where the two cross
   combined,        // one gain for the sum of all noises, tabulated in range and closing speed
@@ -26,6 +27,7 @@ struct Noise {
   bool operator==(const Noise&) const = default;
 };
 
+/// The settings of the estimator.
 struct Settings {
   Algorithm algorithm = Algorithm::combined;
   Planes<Noise> noise;

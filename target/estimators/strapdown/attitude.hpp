@@ -20,6 +20,7 @@ Eigen::Vector3d log_rotation(const Eigen::Matrix3d& C);
 /// The attitude error phi [rad], n axes, of C_computed = exp(-[phi x]) C_true.
 Eigen::Vector3d misalignment(const Eigen::Matrix3d& C_computed, const Eigen::Matrix3d& C_true);
 
+/// Euler angles, yaw-pitch-roll sequence [rad].
 struct Euler {
   double roll = 0, pitch = 0, heading = 0;  // [rad]
 };

@@ -4,6 +4,7 @@
 
 namespace canhil::strapdown {
 
+/// One sample: increments of angle and velocity, body axes.
 struct ImuIncrement {
   Eigen::Vector3d delta_theta = Eigen::Vector3d::Zero();  // integral of omega_ib_b [rad]
   Eigen::Vector3d delta_v = Eigen::Vector3d::Zero();      // integral of f_ib_b [m/s]

@@ -7,6 +7,7 @@
 
 namespace canhil::strapdown {
 
+/// Integrals since the last update of a filter.
 struct Interval {
   double duration = 0;                                      // [s]
   Eigen::Vector3d delta_v_n = Eigen::Vector3d::Zero();      // integral of C_bn f_ib_b [m/s]

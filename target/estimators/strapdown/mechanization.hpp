@@ -8,6 +8,7 @@
 
 namespace canhil::strapdown {
 
+/// Attitude, velocity and position of a navigation.
 struct NavState {
   Eigen::Matrix3d C_bn = Eigen::Matrix3d::Identity();  // body to navigation (NED) axes
   Eigen::Vector3d v_eb_n = Eigen::Vector3d::Zero();    // [m/s]
@@ -23,6 +24,7 @@ struct MechanizationStep {
   Eigen::Vector3d omega_ie_n, omega_en_n;  // [rad/s]
 };
 
+/// The mechanisation, see mechanize().
 enum class Mechanization : std::uint8_t { reference, two_sample, one_sample };
 
 /// Assumes constant rate and specific force over the sample, and earth terms frozen at its start (like the

@@ -21,6 +21,7 @@ struct Ins {
   Interval interval;                                     // since the last update
 };
 
+/// All that the filter keeps between two samples.
 struct State {
   Ins ins;
   Covariance P;                // posterior of the last update
@@ -28,6 +29,7 @@ struct State {
   std::uint32_t rejected = 0;  // velocities gated in a row
 };
 
+/// What became of a velocity of the master.
 enum class Outcome : std::uint8_t {
   ok,
   gated,                  // NIS above the gate

@@ -10,9 +10,12 @@
 
 namespace canhil::transfer_alignment {
 
+/// One g [m/s^2].
 inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+/// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
+/// The recursion of the covariance.
 enum class Algorithm : std::uint8_t { kalman, robust_h2 };
 
 /// Structure of the uncertain block A_v,phi = L Delta N, S = [(1 1 1) x]: (alpha I, I), (alpha S, I), (I,
@@ -28,6 +31,7 @@ enum class AlphaRule : std::uint8_t { cov_df, constant };
 /// is guarded, and velocities beyond the gate are refused.
 enum class Loop : std::uint8_t { open, published, invariant };
 
+/// The settings of the filter.
 struct Settings {
   Algorithm algorithm = Algorithm::robust_h2;
   H2Case h2_case = H2Case::two;

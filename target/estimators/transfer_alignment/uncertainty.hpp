@@ -8,6 +8,7 @@
 
 namespace canhil::transfer_alignment {
 
+/// The factors of the uncertain block L Delta N, |Delta| <= 1.
 struct Uncertainty {
   Eigen::Matrix3d L;  // on the velocity rows
   Eigen::Matrix3d N;  // of the attitude columns

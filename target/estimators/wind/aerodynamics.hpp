@@ -11,6 +11,7 @@ namespace canhil::wind {
 /// The quantities outside the model's range.
 struct RangeFlags {
   bool alpha = false, beta = false, speed = false, mach = false, altitude = false, pitch = false;
+  /// True if any quantity is outside.
   bool any() const { return alpha || beta || speed || mach || altitude || pitch; }
   RangeFlags& operator|=(const RangeFlags& other);
   bool operator==(const RangeFlags&) const = default;
@@ -25,6 +26,7 @@ struct Flow {
   RangeFlags outside;
 };
 
+/// Lift, drag and side force; rolling, pitching and yawing moment.
 struct Coefficients {
   double lift = 0, drag = 0, side = 0, roll = 0, pitch = 0, yaw = 0;
 };
@@ -35,7 +37,8 @@ struct Loads {
 };
 
 /// Each coefficient (lift, drag, side; roll, pitch, yaw) is the sum of three parts: flow, fins, rates.
-inline constexpr int force_part_count = 9, part_count = 18;
+inline constexpr int force_part_count = 9;  ///< the parts of lift, drag and side force
+inline constexpr int part_count = 18;       ///< all parts
 
 /// The contribution of each part to the specific force [m/s^2] and to the moment [N m], body axes, lift
 /// first; their sums are loads(). The induced drag, which depends on the whole lift, belongs to the flow
@@ -50,12 +53,16 @@ struct LoadsJacobian {
   Eigen::Matrix3d force_v_a, force_omega, moment_v_a, moment_omega;
 };
 
+/// The flow at air velocity v_a [m/s] and rates omega [rad/s], body axes.
 Flow flow(const Eigen::Vector3d& v_a, const Eigen::Vector3d& omega, const Air& air, const Airframe& airframe);
 
+/// The coefficients of a flow and fin deflections.
 Coefficients coefficients(const Flow& flow, const Deflection& fins, const Airframe& airframe);
 
+/// Force and moment of a flow and its coefficients.
 Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airframe& airframe);
 
+/// The same, part by part.
 LoadsByPart loads_by_part(const Flow& flow, const Deflection& fins, const Coefficients& c, const Air& air,
                           const Airframe& airframe);
 

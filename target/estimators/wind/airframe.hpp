@@ -10,6 +10,7 @@ struct Deflection {
   bool operator==(const Deflection&) const = default;
 };
 
+/// A closed interval.
 struct Range {
   double least = 0, most = 0;
 };
@@ -18,6 +19,7 @@ struct Range {
 struct Longitudinal {
   double constant = 0, alpha = 0, pitch_rate = 0, elevator = 0;
 };
+/// Coefficients of side force, rolling and yawing moment.
 struct Lateral {
   double sideslip = 0, roll_rate = 0, yaw_rate = 0, aileron = 0, rudder = 0;
 };
@@ -28,6 +30,7 @@ struct Drag {
   double wave = 0, wave_mach = 1, wave_width = 1;
 };
 
+/// All that the model needs of an airframe.
 struct Airframe {
   double mass = 1;                            // [kg]
   double Ixx = 1, Iyy = 1, Izz = 1, Ixz = 0;  // [kg m^2]

@@ -6,6 +6,7 @@
 namespace canhil::wind {
 
 // clang-format off
+/// The airframe of the filter, and of the truth as far as a scenario does not change it.
 inline constexpr Airframe airframe_table{
     .mass = 300,
     .Ixx = 8, .Iyy = 120, .Izz = 125, .Ixz = 0.5,

@@ -3,8 +3,10 @@
 
 namespace canhil::wind {
 
+/// Gravity of the model [m/s^2].
 inline constexpr double gravity = 9.80665;  // [m/s^2]
 
+/// The state of the air.
 struct Air {
   double density = 0;         // [kg/m^3]
   double speed_of_sound = 0;  // [m/s]

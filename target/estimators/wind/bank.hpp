@@ -19,12 +19,14 @@ namespace canhil::wind {
 /// One filter for wrong coefficients, one for gusts.
 inline constexpr std::size_t bank_most = 2;
 
+/// The designs of a bank's filters.
 struct BankDesign {
   std::array<Design, bank_most> of;
   std::array<double, bank_most> odds{};  // prior weights
   std::size_t count = 1;                 // of running filters
 };
 
+/// All that a bank keeps between two samples.
 struct Bank {
   std::array<State, bank_most> states;
   std::array<double, bank_most> surprise{};  // J
@@ -40,6 +42,7 @@ BankDesign make_bank(const Settings& settings);
 
 /// Like initial() of a filter: without and with knowledge at release.
 Bank initial(const BankDesign& design);
+/// With knowledge at release.
 Bank initial(const Start& start, const BankDesign& design);
 
 /// Processes one sample with each filter and mixes their states; returns the result of the likeliest filter.

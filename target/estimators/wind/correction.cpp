@@ -11,14 +11,14 @@ namespace {
 using Matrix6 = filtering::Matrix<6, 6>;
 using ByShare = Eigen::Matrix<double, 1, part_count>;
 
-// One scalar measurement h x at index `place`: Ph = P h', S = h P h' + R, residual = its innovation - h dx.
-void absorb(Correction& c, int place, const StateVector& Ph, double S, double residual) {
+// One scalar measurement h x at index `index`: Ph = P h', S = h P h' + R, residual = its innovation - h dx.
+void absorb(Correction& c, int index, const StateVector& Ph, double S, double residual) {
   const double scale = 1 / std::sqrt(S);
   const StateVector q = scale * Ph;  // the same vector as both factors: P stays symmetric to the last bit
   const double normalised = scale * residual;
   c.P.noalias() -= q.lazyProduct(q.transpose());
   c.dx += normalised * q;
-  c.normalised(place) = normalised;
+  c.normalised(index) = normalised;
   c.nis += normalised * normalised;
   c.determinant *= S;
 }

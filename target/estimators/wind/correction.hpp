@@ -5,6 +5,7 @@
 
 namespace canhil::wind {
 
+/// The result of a measurement update.
 struct Correction {
   StateVector dx = StateVector::Zero();
   Covariance P;

@@ -4,6 +4,7 @@
 
 namespace canhil::wind {
 
+/// The estimates in the units of the report.
 struct Estimate {
   Eigen::Vector3d air_velocity;    // body [m/s]
   Eigen::Vector3d rate, attitude;  // [rad/s]; roll, pitch, heading [rad]
@@ -22,8 +23,10 @@ struct Uncertainty {
   double along_track = 0, cross_track = 0;  // [m/s]
 };
 
+/// The estimates of a state.
 Estimate estimate(const StateVector& x);
 
+/// The sigmas of a state with covariance P.
 Uncertainty uncertainty(const StateVector& x, const Covariance& P);
 
 }  // namespace canhil::wind

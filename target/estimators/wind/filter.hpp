@@ -22,6 +22,7 @@ struct Navigation {
   bool valid = false;
 };
 
+/// All that a filter keeps between two samples.
 struct State {
   StateVector x = StateVector::Zero();
   Covariance P = Covariance::Identity();
@@ -37,6 +38,7 @@ struct State {
   Observation last = Observation::Zero();  // the last navigation sample
 };
 
+/// What a step did.
 enum class Outcome : std::uint8_t {
   waiting,  // not started, and this sample is not usable
   started,  // started from the sample's attitude, rates and velocity, and the previous wind
@@ -57,15 +59,18 @@ enum class Fault : std::uint8_t {
   jump,          // innovation beyond the gate
 };
 
+/// What limits the trust in an estimate.
 struct Flags {
   RangeFlags outside;              // the range of the aerodynamic model, the atmosphere or the Euler angles
   bool fins_late = false;          // a deflection is missing or too old
   bool fins_missing = false;       // none for so long that the model is unreliable
   bool fins_not_physical = false;  // the last frame of the fins was refused
   bool theta_capped = false;       // H-infinity: theta was lowered
+  /// True if the process noise was raised.
   bool degraded() const { return outside.any() || fins_missing; }  // process noise was raised
 };
 
+/// The result of a step.
 struct UpdateResult {
   Outcome outcome = Outcome::waiting;
   Fault fault = Fault::none;
@@ -101,7 +106,9 @@ State initial(const Start& start, const Design& design);
 /// is usable. No allocation, no exception; never leaves a NaN in the state.
 UpdateResult step(State& state, const Navigation& navigation, const FinHistory& fins, const Design& design);
 
+/// The estimates after the last sample.
 inline Estimate estimate(const State& state) { return estimate(state.x); }
+/// The sigmas after the last sample.
 inline Uncertainty uncertainty(const State& state) { return uncertainty(state.x, state.P); }
 
 }  // namespace canhil::wind

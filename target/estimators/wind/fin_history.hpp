@@ -10,6 +10,7 @@
 
 namespace canhil::wind {
 
+/// What became of a sample of the fins.
 enum class FinOutcome : std::uint8_t {
   kept,
   out_of_order,  // not valid after the newest
@@ -24,6 +25,7 @@ struct ActingFins {
   bool not_physical = false;  // the last frame was refused
 };
 
+/// The last 64 samples of the fins.
 class FinHistory {
  public:
   /// Adds deflections [rad] valid at t_us, each at most `limit`. Times must ascend; an earlier sample is

@@ -18,7 +18,10 @@ using StateVector = filtering::Vector<12>;
 using Covariance = filtering::Matrix<12, 12>;
 using Observation = filtering::Vector<9>;
 
-inline constexpr int air_velocity_at = 0, rate_at = 3, attitude_at = 6, wind_at = 9;
+inline constexpr int air_velocity_at = 0;  ///< the first of its three states
+inline constexpr int rate_at = 3;          ///< likewise
+inline constexpr int attitude_at = 6;      ///< likewise
+inline constexpr int wind_at = 9;          ///< likewise
 
 /// Inputs that act during a step.
 struct Inputs {
@@ -36,6 +39,7 @@ struct Jacobian {
   Eigen::Matrix3d po, pp;      // of Phi'
 };
 
+/// x' and its derivatives at one state.
 struct Linearisation {
   StateVector f;
   Jacobian A;
@@ -53,6 +57,7 @@ StateVector predicted(const StateVector& x, const StateVector& f, double dt, con
 /// G = A dt + (A dt)^2/2, where Phi = I + G. Only 9 x 8: no state depends on heading and wind, and the wind
 /// is constant.
 using Growth = filtering::Matrix<9, 8>;
+/// G for a step of dt [s].
 Growth growth(const Jacobian& A, double dt);
 
 /// Phi P Phi'; the caller adds Q.
@@ -70,6 +75,7 @@ struct GroundVelocity {
   Eigen::Vector3d C_v_a;
   Eigen::Matrix3d C_bn, by_attitude;
 };
+/// The ground velocity without wind, and its derivative.
 GroundVelocity ground_velocity(const StateVector& x);
 
 /// C_bn from the Euler angles roll, pitch, heading [rad].

@@ -15,6 +15,7 @@ void predict(StateVector& x, Covariance& P, double dt, const Inputs& inputs, con
 /// y - h(x), angles in [-pi, pi]; `at` is ground_velocity(x).
 Observation innovation_of(const Observation& y, const StateVector& x, const GroundVelocity& at);
 
+/// The result of an update.
 struct Answer {
   Observation innovation;
   Observation normalised;  // whitened (correction.hpp)

@@ -6,14 +6,17 @@
 
 namespace canhil::wind {
 
+/// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
+/// The recursion.
 enum class Algorithm : std::uint8_t {
   ekf,
   h_infinity,  // the paper's
   adaptive_q,  // EKF that adapts the noise of rates or coefficients to the innovation statistic
 };
 
+/// How the process noise enters the states.
 enum class ProcessNoise : std::uint8_t {
   block_diagonal,  // presumably the paper's: the wind's noise does not enter the air velocity
   correlated,      // the wind's noise enters the air velocity: v_a' = ... - C v_w'
@@ -21,6 +24,7 @@ enum class ProcessNoise : std::uint8_t {
   likeliest,       // several filters with different noise, weighted by their likelihood (bank.hpp)
 };
 
+/// True if the noise depends on the aerodynamic loads.
 constexpr bool follows_loads(ProcessNoise noise) {
   return noise == ProcessNoise::aerodynamic || noise == ProcessNoise::likeliest;
 }
@@ -34,6 +38,7 @@ struct Densities {
   double coefficient = 0.0022;           // relative, of each part of each coefficient: 1 % held for 50 ms
 };
 
+/// The settings of the estimator.
 struct Settings {
   Algorithm algorithm = Algorithm::adaptive_q;
   ProcessNoise process_noise = ProcessNoise::likeliest;

@@ -41,7 +41,7 @@ struct controller {
 	enum wire wire;
 	u32 frame_us;
 	u8 written[REGS]; // the last value the driver wrote
-	u8 seen[REGS];    // what it is shown in place of the chip's, where not 0; SR, IR: besides
+	u8 seen[REGS];    // if not 0, replaces the value of the chip; SR and IR are or-ed
 	u8 request;       // CMR bits of a transmission that waits
 	struct hrtimer timer;
 };
@@ -111,7 +111,7 @@ static void write_chip(struct controller *c, int reg, u8 value)
 	passing = false;
 }
 
-// Who hears a frame of another bit rate counts errors too, but no receiver goes bus-off.
+// A receiver of a frame with another bit rate counts errors too, but no receiver goes bus-off.
 static void disturb(struct controller *c, u8 ir, u8 rxerr)
 {
 	if (netif_running(c->dev) && !c->seen[TXERR] && c->seen[RXERR] < rxerr)
@@ -151,7 +151,7 @@ static enum hrtimer_restart next_stage(struct hrtimer *timer)
 			disturb(&controllers[c == &controllers[0]], IR_PASSIVE, 128);
 	} else if (wire == BROKEN) {
 		c->request = 0;
-		write_chip(c, MOD, MOD_RESET); // as the chip does by itself
+		write_chip(c, MOD, MOD_RESET); // like the chip
 		raise(c, IR_WARNING | IR_BUS_ERROR, SR_WARNING | SR_BUS_OFF, ecc, 0, 255, 0);
 		return HRTIMER_NORESTART;
 	}

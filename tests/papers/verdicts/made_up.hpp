@@ -49,7 +49,7 @@ inline campaign::Campaign read(const Paper& paper, const report::EmbeddedFile& f
   return std::move(*campaign);
 }
 
-/// A run in which every quantity has the same value all the time, in the unit that reports have.
+/// A run in which every quantity is constant, in the unit of the reports.
 inline campaign::RunSeries run_at(const campaign::Variant& variant, std::uint64_t run, double value) {
   const quantities::Layout& layout = estimators::of(variant.scenario).layout;
   campaign::RunSeries series{.run = run, .ending = {}, .samples = quantities::Samples(layout)};
@@ -82,7 +82,7 @@ inline std::vector<campaign::Answer> answers_at(const campaign::Campaign& campai
   return std::move(evaluation->answers);
 }
 
-/// All campaigns of a paper, every figure 1, no run missing and every bar met; tests spoil them.
+/// All campaigns of a paper, with every figure 1, no run missing and every limit met; tests change them.
 class MadeUp {
  public:
   explicit MadeUp(const Paper& paper) : paper_(paper) {
@@ -101,7 +101,7 @@ class MadeUp {
     // Curves of single runs come from the files.
     for (const char* name : {"table2", "ssbl", "gps"})
       if (const Flown* flown = find(name)) store(*flown);
-    // A bar of the in-flight paper that is no campaign's: the UKF's median is the smaller one.
+    // A limit of the in-flight paper that belongs to no campaign: the UKF's median is smaller than the EKF's.
     for (const char* aid : {"ssbl", "gps"})
       if (find(aid) != nullptr) set(aid, "heading at 300 s", "ekf_90", "median_deg", 2);
   }

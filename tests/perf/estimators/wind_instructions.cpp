@@ -10,7 +10,7 @@ using namespace canhil::wind;
 
 #define MEASURED extern "C" [[gnu::noinline]]
 
-// The recommended filter from where the EKF is after five seconds.
+// The recommended filter, starting from the state of the EKF after five seconds.
 struct WarmBank {
   WarmGlider glider;
   BankDesign design = make_bank({});

@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::uint32_t ping_id = 0x77;
 constexpr std::uint32_t echo_id = 0x78;
-constexpr int receive_bytes = 64 << 20;  // so that what is compared is work, not losses
+constexpr int receive_bytes = 64 << 20;  // so that the measurement compares work, not losses
 
 [[noreturn]] void give_up(const std::string& why) {
   fmt::print(stderr, "vcan_node: {}\n", why);
@@ -78,7 +78,7 @@ class PortLine final : public Line {
   std::unique_ptr<Port> port_;
 };
 
-/// The least that a program can do: blocking read() and write(), no stamps, no check of anything.
+/// The minimum that a program can do: blocking read() and write(), without stamps and checks.
 class RawLine final : public Line {
  public:
   explicit RawLine(const std::string& interface) : socket_(::socket(AF_CAN, SOCK_RAW, CAN_RAW)) {

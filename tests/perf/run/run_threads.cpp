@@ -25,7 +25,8 @@ constexpr std::uint64_t runs = 150;  // of each variant: about a second
 
 struct Rate {
   double runs_per_s = 0;
-  double processor_ms = 0;  // of a run: what the threads cost each other, whoever else uses the machine
+  // CPU time of a run: shows how much the threads slow each other, independent of other load.
+  double processor_ms = 0;
 };
 
 Rate measured(const campaign::Campaign& campaign, unsigned threads) {

@@ -59,7 +59,7 @@ int complain(const std::string& what) {
   return 2;
 }
 
-/// How the echo reads and writes: by one blocking call each, and nothing else.
+/// The echo reads and writes by one blocking call each, and does nothing else.
 struct Bare {
   std::function<void()> read;
   std::function<void(const Frame&)> write;
@@ -113,12 +113,12 @@ struct Times {
 };
 using TimesByAnswer = std::map<std::uint32_t, Times>;
 
-/// One side of the comparison: who answers on this bus.
+/// One side of the comparison: the program that answers on this bus.
 class Side {
  public:
   explicit Side(Port& port) : port_(port) {}
 
-  /// Takes what is left over.
+  /// Reads and discards the remaining frames.
   void settle() {
     for (int empty = 0; empty < 2;) empty = port_.receive() ? 0 : empty + 1;
   }
@@ -181,7 +181,7 @@ void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
 
 Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string>& buses, Side& device,
                  Side& bare) {
-  // Those who left before: what is left of them must not live on in a new process.
+  // Removes the rest of earlier processes, which must not appear in a new one.
   device.settle();
   bare.settle();
   const pid_t child = ::fork();

@@ -33,7 +33,7 @@ TEST(Recording, TheLogOfVirtualTimeCarriesVirtualTime) {
   EXPECT_TRUE(start_ns);
 }
 
-// A limit of file sizes stands for a disk that fills up: the log is the only file larger than that.
+// A file size limit simulates a full disk; the log is the only file that exceeds it.
 TEST(Recording, ALogThatCannotBeWrittenToItsEndCostsNothingElse) {
   const std::string log = scratch("cut.log"), report = scratch("cut.xml");
   const Ended ended =

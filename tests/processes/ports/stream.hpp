@@ -34,7 +34,7 @@ inline Frame streamed(std::uint64_t sender, std::uint64_t n) {
   return frame;
 }
 
-/// A number that stands for frames, their stamps and their order.
+/// A digest of frames, their stamps and their order.
 class Order {
  public:
   void add(const Received& received) {

@@ -20,7 +20,7 @@ useconds_t microseconds(const char* variable) {
 
 }  // namespace
 
-// The names are those of the Itanium C++ ABI, where a member function's object is its first argument.
+// The names follow the Itanium C++ ABI, in which the object of a member function is its first argument.
 std::span<const Frame> delivered_receive(target::Device& device, const Frame& frame) asm(
     "__real__ZN6canhil6target6Device7receiveERKNS_5FrameE");
 std::span<const Frame> slow_receive(target::Device& device, const Frame& frame) asm(

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr double heading_step_deg = 0.003;
 
-// A flight of so many answers with a heading that is off by so much, and a flag that is set in some.
+// A flight with a number of answers, an error of the heading, and a flag that is set in some answers.
 class Flown {
  public:
   Flown& attitude(double heading_deg, int coasting = 0) {

@@ -73,7 +73,7 @@ TEST(RunMean, ARatioNeedsAnother) {
   const auto campaign = parse(
       two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'attitude.heading'\nratio_at_most = 0.5\n");
   ASSERT_FALSE(campaign);
-  EXPECT_THAT(campaign.error().message, testing::HasSubstr("metric[1].ratio_at_most': is of no use alone"));
+  EXPECT_THAT(campaign.error().message, testing::HasSubstr("metric[1].ratio_at_most': has no effect alone"));
 }
 
 TEST(WindSeries, IsWhatTheChecksSee) {

@@ -23,7 +23,7 @@ constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 20 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-// 20 s at rest, a fix of the SSBL each second, all of them used; tests spoil it.
+// 20 s at rest with an SSBL fix each second, all of them used; tests change it.
 class Fixed : public testing::Test {
  protected:
   Fixed() {

@@ -33,7 +33,7 @@ constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 4 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-// A frame of the target, and what it answers.
+// A frame of the target, and its cause.
 struct Came {
   std::int64_t t_ns = 0;
   std::int64_t cause_us = -1;
@@ -41,7 +41,7 @@ struct Came {
   std::optional<std::uint8_t> counter{};
 };
 
-// A run of 4 s at rest with perfect answers; tests spoil it.
+// A run of 4 s at rest with perfect answers; tests change it.
 class Judged : public testing::Test {
  protected:
   Judged() {
@@ -71,7 +71,7 @@ class Judged : public testing::Test {
     std::erase_if(came<messages::AlignAttitude>(), [&](const Came& one) { return one.cause_us >= t_us; });
   }
 
-  // What the bench would have seen, with the timing that these checks ask for.
+  // Observations of the bench, with the timing that these checks need.
   [[nodiscard]] Observations timed(const std::vector<scenario::Check>& checks) const {
     Observations seen = seen_;
     seen.timing.windows = timed_windows(checks);
@@ -281,7 +281,7 @@ TEST_F(Judged, CountersByEachBar) {
   rule.frames_lost_at_most = 0;
   rule.late_at_most = 2;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  seen_.counters->bad_crc = 5;  // not asked for
+  seen_.counters->bad_crc = 5;  // not checked
   seen_.counters->late = 2;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   seen_.counters->late = 3;
@@ -291,7 +291,8 @@ TEST_F(Judged, CountersByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
-// Stalled for 5 of 400 stimuli: as many late frames pass its p99, and the answers' periods would not.
+// Stalled for 5 of 400 stimuli: the p99 of lateness tolerates this number of late frames, the periods of the
+// answers would not.
 TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   const OutputPeriod period{.message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
   ASSERT_EQ(judge(period).outcome, Outcome::pass);

@@ -21,7 +21,7 @@ scenario::Check check_of(Kind rule, std::string name = "it") {
           .rule = std::make_shared<RuleOf<Kind>>(std::move(rule))};
 }
 
-/// What the judge says of one rule.
+/// The verdict on one rule.
 template <class Kind>
 CheckResult judged(const Kind& rule, const Observations& seen, const estimators::Truth& truth) {
   scenario::Scenario scenario;
@@ -40,7 +40,7 @@ inline Error error_of(std::string estimator, const quantities::Quantity& quantit
           .unit = quantity.unit};
 }
 
-/// What a rule that looks at nothing but what was seen finds.
+/// The finding of a rule that uses only observations.
 template <class Kind>
 Finding found(const Kind& rule, const Observations& seen) {
   static const world::FlightRecord rest{{.start = {}, .motion = world::Rest{}}, 1'000'000, 10'000};

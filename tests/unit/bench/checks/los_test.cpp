@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr std::int64_t duration_us = 6'000'000;
 
-// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; tests spoil it.
+// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; tests change it.
 class Engaged : public testing::Test {
  protected:
   Engaged() {

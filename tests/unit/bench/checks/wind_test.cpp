@@ -35,7 +35,7 @@ world::GlidePlan heading_east() {
   return plan;
 }
 
-// 10 s of a glide to the east, perfect answers every 20 ms; tests spoil them.
+// 10 s of a glide to the east with perfect answers every 20 ms; tests change them.
 class Winds : public testing::Test {
  protected:
   Winds() {

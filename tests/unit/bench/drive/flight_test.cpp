@@ -115,7 +115,7 @@ TEST_F(ImuLimits, AScenarioThatSaturatesIsRefusedWithItsTruth) {
   EXPECT_TRUE(make_truth(scenario_));
 }
 
-// Frames and counters of every recorded run hang on this order.
+// The frames and counters of every recorded run depend on this order.
 TEST(Nodes, SendInAnOrderThatNeverChanges) {
   const auto all = scenario::read_file(SOURCE_DIR "/bench/flights/all_four.toml", contract()).value();
   const world::FlightRecord truth = make_truth(all).value();

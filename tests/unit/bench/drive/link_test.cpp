@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 
-// Brings frames of id 0C0, and of each other id in between a few.
+// Delivers frames of id 0C0, and a few of each other id in between.
 class FloodedPort final : public FakePort {
  public:
   std::optional<Received> receive() override {
@@ -61,7 +61,8 @@ TEST(LinkDrain, LooksAtSoManyFramesAndNoMore) {
 TEST(LinkDrain, AWaitEndsAtOnceWhileFramesAreLeft) {
   FloodedPort port;
   port.most = Link::most_at_once + 1;
-  ASSERT_EQ(::pipe(port.ends.data()), 0);  // never readable: nothing tells of the frames that the port holds
+  ASSERT_EQ(::pipe(port.ends.data()),
+            0);  // never readable: poll() does not show the frames that the port holds
   Link link(port);
   link.drain();
   EXPECT_TRUE(link.wait_until(clock_ns(CLOCK_MONOTONIC)));
@@ -111,7 +112,7 @@ TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
   EXPECT_FALSE(link.flood());
 }
 
-// Who floods the bus may leave the bench a CPU now and then only.
+// A flood can leave the bench only short periods of CPU time.
 TEST(LinkFlood, FramesThatWereLostMeanwhileHadBeenWaiting) {
   FloodedPort port;
   port.simulated = true;

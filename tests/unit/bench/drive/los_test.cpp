@@ -85,7 +85,7 @@ TEST(Los, EveryAlgorithmSeesTheSameFlight) {
 }
 
 TEST(Los, WithoutNoiseTheErrorIsThatOfTheBus) {
-  // What is left is a filter that expects noise: no manoeuvre, so that it need not follow one.
+  // The remaining error is that of a filter that expects noise; without a manoeuvre it has nothing to follow.
   const Flown quiet =
       fly("los_quick", {set("seeker.thermal_noise_radpm2", "0"), set("seeker.glint_noise_m", "0"),
                         set("seeker.gyro_noise_mradps", "0"), set("seeker.gyro_bias_sigma_mradps", "0"),

@@ -103,10 +103,9 @@ double rms(const Spool<estimators::NavigationError>& errors, std::int64_t from_u
   return std::sqrt(sum / count);
 }
 
-// The same seed gives both the same errors of sensors and start. What differs is the interpolation and the
-// rounding of the file, whose errors are small beside those of the alignment: the ratio of the errors differs
-// from 1 by 8e-6 at the most, and a frame's rounding that falls to the other side may make it some times
-// that.
+// The same seed gives both flights the same errors of sensors and start. They differ in the interpolation and
+// the rounding of the file, which are small compared with the errors of the alignment. The ratio of the
+// errors differs from 1 by at most 8e-6; a frame that is rounded in the other direction can multiply this.
 TEST(RecordedTruth, GivesTheErrorsOfTheFlightThatItWasRecordedOf) {
   const std::string analytic = scenario_text(per_run_truth);
   const auto scenario = scenario::parse(analytic, "own.toml", contract());

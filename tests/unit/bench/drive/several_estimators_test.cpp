@@ -12,7 +12,7 @@
 namespace canhil::drive {
 namespace {
 
-// In lockstep, so that the heartbeats of neighbours are the only difference.
+// In lockstep, so that only the heartbeats of the other estimators differ.
 Collected fly(const scenario::Scenario& scenario) {
   const auto truth = make_truth(scenario);
   EXPECT_TRUE(truth) << truth.error().message;

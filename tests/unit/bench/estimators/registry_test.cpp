@@ -37,7 +37,7 @@ TEST(Registry, KnowsTheEstimatorsOfTheContract) {
   EXPECT_EQ(telling("height"), nullptr);
 }
 
-// What a misspelt parameter may mean: those that this target has.
+// Suggestions for a misspelt parameter: only parameters of this target.
 TEST(Registry, TheParametersAreThoseOfTheTarget) {
   const target::Device device;
   for (const auto estimator : messages::enumerators<messages::Estimator>) {
@@ -54,7 +54,7 @@ TEST(Registry, TheParametersAreThoseOfTheTarget) {
   }
 }
 
-// The table of docs/quantities.md, as the code has it.
+// The table of docs/quantities.md, generated from the code.
 std::string table() {
   std::string rows;
   std::vector<const Quantity*> by_name(every_quantity().begin(), every_quantity().end());

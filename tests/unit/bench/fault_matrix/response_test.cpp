@@ -27,7 +27,8 @@ using Kind = Response::Kind;
 
 constexpr std::int64_t second_us = 1'000'000, duration_us = 20 * second_us;
 
-// A flight of 20 s with a fault from 8 to 10 s, all of whose checks pass; tests say what the target said.
+// A flight of 20 s with a fault from 8 to 10 s, in which all checks pass; tests set the reports of the
+// target.
 class Flown : public testing::Test {
  protected:
   Flown() {
@@ -130,7 +131,7 @@ FaultText fault(const std::string& kind, const std::string& from_s, const std::s
 }
 
 TEST(Minimise, LeavesTheFaultTheWindowAndTheFlightThatAreNeeded) {
-  // A violation that takes `changed` at 5.20 s, at least each eighth frame, and a flight of 6.4 s.
+  // A violation that needs `changed` at 5.20 s, at least each eighth frame, and a flight of 6.4 s.
   const Shows shows = [](const std::vector<FaultText>& faults, std::int64_t flown_us) {
     if (flown_us != 0 && flown_us < 6'400'000) return false;
     return std::ranges::any_of(faults, [](const FaultText& one) {
@@ -207,7 +208,8 @@ TEST(Plan, DependsOnItsSeedAlone) {
   EXPECT_EQ(one.rows.front().name(), no_fault);
 }
 
-// Which is flown by default: what works in virtual time, on a bus without a bit rate, and befalls something.
+// The faults that are flown by default: those that work in virtual time, on a bus without a bit rate, and
+// that affect something.
 TEST(Plan, HasEachKindOnEachNode) {
   std::vector<Column> columns;
   for (const char* name :

@@ -27,13 +27,13 @@ inline std::string fault(const std::string& kind, const std::string& more) {
   return "[[fault]]\nkind = \"" + kind + "\"\n" + more;
 }
 
-/// What is wrong with these faults, in words.
+/// The error of these faults, as text.
 inline std::string refusal(const std::string& faults) {
   const auto scenario = parsed(faults);
   return scenario ? "nothing" : scenario.error().message;
 }
 
-/// Writes down what is done.
+/// Records the calls.
 class Noted final : public RigControl {
  public:
   void pause_target() override { done.emplace_back("pause"); }
@@ -91,7 +91,7 @@ struct Flight {
   Timed frames;
 };
 
-/// What a message of a flight says.
+/// The value of a signal in a message of a flight.
 template <class Message>
 std::vector<std::pair<std::int64_t, Message>> said(const Flight& flight) {
   std::vector<std::pair<std::int64_t, Message>> all;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr scenario::Window whole{.from_us = 0, .to_us = 20'000'000};
 
-// A roll of 15 deg in 3 s, told every 10 ms `delay` late, with noise and an offset.
+// A roll of 15 deg in 3 s, sent every 10 ms with the delay `delay`, with noise and an offset.
 quantities::Track track(double delay, double noise, double offset, unsigned seed, double amplitude = 0.26) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -45,7 +45,7 @@ TEST(Delay, LiesInItsIntervalAsOftenAsItSays) {
     EXPECT_LT(found->half_width_s, 0.005);
     inside += std::abs(found->delay_s - 0.023) <= found->half_width_s ? 1 : 0;
   }
-  // 95 % of 400 with four standard deviations of a binomial to either side.
+  // 95 % of 400, with four standard deviations of a binomial distribution to either side.
   EXPECT_GE(inside, 363);
   EXPECT_LE(inside, 397);
 }

@@ -98,7 +98,7 @@ std::string mapping_with(const std::string& text, const std::string& instead) {
   return mapping.replace(at, text.size(), instead);
 }
 
-// What a run plays, until it is over.
+// The frames that a run plays until its end.
 struct Flown {
   explicit Flown(const scenario::Scenario& scenario)
       : mapping(dynamic_cast<const Mapping&>(*scenario.foreign)),
@@ -181,7 +181,7 @@ TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& mapping = dynamic_cast<const Mapping&>(*scenario->foreign);
   const Places places(mapping);
-  const std::size_t speed = mapping.hears.front().of.place;
+  const std::size_t speed = mapping.hears.front().of.index;
   EXPECT_EQ(places(Frame{.id = 0x18FEF100, .size = 8, .extended = true}), speed);
   EXPECT_EQ(places(Frame{.id = 0x0CFEF122, .size = 8, .extended = true}), speed)
       << "from another, more urgent";

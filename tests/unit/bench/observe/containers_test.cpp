@@ -13,7 +13,7 @@ namespace {
 
 using namespace messages;
 
-/// A node of an FD bus: what it sends goes into containers.
+/// A node of an FD bus: its messages are sent in containers.
 class FdNode {
  public:
   template <class... Messages>
@@ -42,7 +42,7 @@ class FdNode {
   std::vector<Frame> messages_, on_wire_;
 };
 
-/// A run as the monitor sees it: the messages of each container, with its stamp.
+/// A run as the monitor sees it: the messages of each container, with the stamp of the container.
 class OnAnFdWire : public testing::Test {
  protected:
   static constexpr wire::BitRates rates{.nominal = 1'000'000, .data = 4'000'000};
@@ -94,7 +94,7 @@ TEST_F(OnAnFdWire, TheLatencyIsSplitIntoTheTimesOfContainers) {
   EXPECT_EQ(response<AlignVelocityD>().count, 0U);
 }
 
-// Nine messages: eight in a container, the ninth a frame of its own, which somebody holds back for 2 ms.
+// Nine messages: eight in a container, the ninth in a frame of its own, which is held back for 2 ms.
 TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   bench_.send(MasterInsVelocityNE{}, MasterInsAttitude{}, MasterInsLatitude{}, MasterInsLongitude{},
               MasterInsVelocityD{.time_of_validity_us = 20'000});
@@ -114,7 +114,7 @@ TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   EXPECT_EQ(timing().breakdown.latency_ns, 2'700'000 + ns(reply[1]));
 }
 
-// It went with the next frame of another kind: nobody saw when it was queued.
+// It was sent with the next frame of another kind, so the time of its queueing is not known.
 TEST_F(OnAnFdWire, AContainerWithoutItsLastMessageHasNoResponse) {
   bench_.send(SlaveImuDeltaTheta{}, SlaveImuDeltaV{}, Sync{}, SlaveImuDeltaTheta{}, SlaveImuDeltaV{},
               SlaveImuStatus{});

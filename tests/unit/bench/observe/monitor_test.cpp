@@ -21,7 +21,7 @@ std::array<std::int64_t, 2> both(const checks::Histogram& histogram) {
   return {histogram.min_ns(), histogram.max_ns()};
 }
 
-// Both sides of the bus, as a monitor sees them.
+// Both sides of the bus, as the monitor sees them.
 class Watched : public testing::Test {
  protected:
   void sync(std::int64_t t_us) { transmit(Sync{.time_us = static_cast<std::uint64_t>(t_us)}, 0); }
@@ -328,7 +328,7 @@ TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
   EXPECT_EQ(seen().last_ns, 300);
 }
 
-// A stimulus that was due at 100 us, handed over 20 us late, on the bus 5 us after that; answered.
+// A stimulus that was due at 100 us, written 20 us late, on the bus 5 us later; answered.
 TEST_F(Watched, TakesTheTimesOfEveryMessageOfAnAnswer) {
   const auto stimulate = [&](std::int64_t valid_us, std::int64_t due_ns, std::int64_t late_ns) {
     echo(transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(valid_us)}, due_ns + late_ns, late_ns),
@@ -412,7 +412,7 @@ TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
   EXPECT_EQ(latency<AlignVelocityD>().count(), 1U);
 }
 
-// At 1 Mbit/s a bit takes 1 us: what a frame takes is its length in bits.
+// At 1 Mbit/s a bit takes 1 us, so the duration of a frame in us is its length in bits.
 class OnAWire : public Watched {
  protected:
   OnAWire() : monitor_at_rate_(Asked{.wire = {.rates = {.nominal = 1'000'000}}}) {}
@@ -485,7 +485,7 @@ TEST_F(OnAWire, AMeanAtTheEndOfItsRangeIsKnownToBeOne) {
   EXPECT_FALSE(seen().timing.breakdown.compute_clipped);
 }
 
-// One stimulus, the answers of two estimators: it took until the second was there.
+// One stimulus with the answers of two estimators: the response lasts until the second answer.
 TEST_F(OnAWire, AStimulusIsAnsweredWithItsLastAnswer) {
   imu(10'000, 0);
   answer(10'000, 300'000);

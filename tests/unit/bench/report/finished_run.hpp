@@ -48,7 +48,8 @@ inline drive::Run run_of() {
   return run;
 }
 
-// A run at 500 kbit/s: 100 stimuli of 0.3 ms to their echo, 0.2 of it the frame, and 1 ms from there on.
+// A run at 500 kbit/s: 100 stimuli with 0.3 ms until their echo, of which the frame takes 0.2 ms, and 1 ms
+// from the echo to the answer.
 inline drive::Run run_on_a_wire() {
   drive::Run run = run_of();
   run.seen.bit_rates = {.nominal = 500'000};

@@ -59,10 +59,10 @@ TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
   EXPECT_EQ(split.at("at_least"), Json::array({"target_queue"}));
   EXPECT_EQ(split.at("at_most"), Json::array({"not_explained"}));
   EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td data-label=\"ms\">&ge; 0.100</td>"),
-                                  HasSubstr("tells no times beyond 8191 us")));
+                                  HasSubstr("reports no times beyond 8191 us")));
   EXPECT_THAT(
       text(scenario_of(), run),
-      AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target tells no more)"),
+      AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target reports no more)"),
             HasSubstr("wait for the bus (at most)")));
 }
 
@@ -92,7 +92,7 @@ TEST(PageSections, ShowsEachMessageBesideItsBound) {
   EXPECT_THAT(text(scenario_of(), run_on_a_wire()), Not(HasSubstr("bus load at 1000 kbit/s")));
 }
 
-// What the text tells of the estimators stands on the page too, drawn from the JSON.
+// The page shows the same results of the estimators as the text report, drawn from the JSON.
 TEST(PageSections, ShowsTheResultsOfAnAlignment) {
   const std::string page = page_of(run_of());
   EXPECT_THAT(page, AllOf(HasSubstr("<h2>Results</h2>"), HasSubstr("href=\"#results\""),
@@ -111,7 +111,7 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
                         "down none judged</td>"));
 }
 
-// 200 stimuli, and of the answers of a group of an estimator in use not one.
+// 200 stimuli, and no answer of a group that an estimator in use should send.
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
   drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)

@@ -96,7 +96,7 @@ TEST(WholeReport, IsAskedForWhereAFileIsRead) {
   torn.erase("timing");
   EXPECT_EQ(said(torn.dump()), "file '" + path + "': key 'timing' is missing, expected a whole report");
   EXPECT_EQ(said(text + std::string(1, '\0') + "more"),
-            "file '" + path + "': is no JSON, expected a report of hil-bench run --json");
+            "file '" + path + "': is not JSON, expected a report of hil-bench run --json");
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ TEST(ScenarioChecks, AQuantityIsOneThatIsToldAndThatTheKindAsksFor) {
 TEST(ScenarioChecks, WhatIsOfBeforeIsToldWithWhatToWriteNow) {
   const auto refused = [](std::string_view lines) { return error_of(one_check(lines)); };
   EXPECT_EQ(refused("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 1"),
-            "s.toml:17: key 'check[1].kind': 'attitude_error' is a kind of before, expected kind 'error' "
+            "s.toml:17: key 'check[1].kind': 'attitude_error' is a former kind, expected kind 'error' "
             "with quantity "
             "'attitude.heading', 'attitude.roll' or 'attitude.pitch'");
   for (const FormerCheckKind& former : checks::former_kinds(estimators::all())) {

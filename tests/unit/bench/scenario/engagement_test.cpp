@@ -178,7 +178,7 @@ TEST(EngagementErrors, WhatBelongsTogether) {
   EXPECT_EQ(error_of(with("[engagement]\nguidance = \"truth\"\n", "", los)),
             "s.toml:1: key 'engagement': is missing, expected a table beside [seeker]");
   EXPECT_EQ(error_of(with("[seeker]", "[slave_imu]\n[seeker]", los)),
-            "s.toml:9: key 'slave_imu': has nothing to go by, expected a table [truth] beside it");
+            "s.toml:9: key 'slave_imu': depends on a truth, expected a table [truth] beside it");
 }
 
 TEST(EngagementErrors, NothingIsJudgedAgainstATruthThatIsNotThere) {

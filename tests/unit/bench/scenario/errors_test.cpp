@@ -21,7 +21,7 @@ TEST_P(ScenarioError, IsOneExactLine) {
   EXPECT_EQ(error_of(with(GetParam().from, GetParam().to)), "s.toml:" + GetParam().error);
 }
 
-/// In the order in which they are read: what goes by a truth comes after it.
+/// In the order of reading: sections that depend on a truth come after it.
 std::string keys_of_a_file() {
   const auto nodes_of = [](TruthOf samples) {
     std::string keys;

@@ -56,7 +56,7 @@ inline std::string with(std::string_view from, std::string_view to, std::string_
   return changed.replace(at, from.size(), to);
 }
 
-/// `valid` with lines put after its table header [section].
+/// `valid` with lines inserted after its table header [section].
 inline std::string inside(std::string_view section, std::string_view lines) {
   return with(section, std::string(section) + "\n" + std::string(lines));
 }
@@ -82,7 +82,7 @@ inline std::string error_of(std::string_view text) {
   return result ? "no error" : result.error().message;
 }
 
-/// What a scenario says of a node that is on its bus.
+/// The text of a scenario about a node on its bus.
 template <class Settings>
 Settings node_of(const Scenario& scenario) {
   for (const NodeSettings& node : scenario.nodes) {

@@ -87,7 +87,7 @@ TEST(Spool, WhatIsChangedStays) {
   Spool<Sample> spool = filled(many);
   Sample& first = spool[0];
   for (std::size_t index = 0; index < many; ++index)
-    spool[index].value[6] = 6;  // the first pages were let go
+    spool[index].value[6] = 6;  // the first pages were released
   first.value[6] = 7;
   EXPECT_TRUE(
       std::all_of(spool.begin() + 1, spool.end(), [](const Sample& one) { return one.value[6] == 6; }));
@@ -146,7 +146,7 @@ TEST_F(SpoolFolder, WithoutOneItIsMemory) {
   EXPECT_TRUE(holds(filled(many), many));
 }
 
-// A limit of the size of files stands for a disk that is full.
+// A file size limit simulates a full disk.
 TEST_F(SpoolFolder, ThatIsFullInMidwayItIsMemory) {
   signal(SIGXFSZ, SIG_IGN);
   rlimit before{};

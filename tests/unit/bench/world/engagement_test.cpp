@@ -186,7 +186,7 @@ TEST(Engagement, TheMissIsTheClosestApproach) {
   }
 }
 
-/// Miss when the target's answers are the truth, each taking effect after a delay.
+/// The miss distance when the target's answers are the truth, each with a delay.
 double miss_on_commands(std::uint64_t run, std::int64_t delay_us) {
   EngagementPlan plan;
   plan.guidance = Guidance::target;

@@ -94,7 +94,7 @@ TEST(BusErrors, InWords) {
   BusErrors errors;
   EXPECT_EQ(to_text(errors), "");
   add(errors, error_frame(0));
-  EXPECT_EQ(to_text(errors), "of no known class");
+  EXPECT_EQ(to_text(errors), "of an unknown class");
   add(errors, error_frame(CAN_ERR_BUSOFF));
   add(errors, error_frame(CAN_ERR_ACK));
   add(errors, error_frame(CAN_ERR_ACK | CAN_ERR_CNT, {0, 0, 0, 0, 0, 0, 136, 0}));

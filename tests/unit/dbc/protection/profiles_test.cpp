@@ -249,9 +249,10 @@ TEST(E2eProfiles, RefuseWhatTheyCannotHave) {
             "profile autosar-e2e-5: data_id_list, expected data_id in its place");
   ProfileChoice nibble = with_id(1);
   nibble.data_id_nibble = Place{12, 4, false};
-  EXPECT_EQ(error("autosar-e2e-11a", nibble),
-            "profile autosar-e2e-11a: a place for the data id's nibble, expected none: variants 1c and 11c "
-            "have one");
+  EXPECT_EQ(
+      error("autosar-e2e-11a", nibble),
+      "profile autosar-e2e-11a: a place for the data id's nibble, expected none: only variants 1c and 11c "
+      "have one");
 }
 
 }  // namespace

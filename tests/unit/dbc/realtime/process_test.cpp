@@ -60,7 +60,8 @@ long page_faults() {
   return usage.ru_minflt;
 }
 
-// The sanitizers' own mlockall does nothing: they cannot have the terabytes of their shadow locked.
+// The sanitizers replace mlockall by a function that does nothing, because the terabytes of their shadow
+// memory cannot be locked.
 #ifdef CANHIL_SANITIZED
 constexpr bool memory_is_locked = false;
 #else

@@ -11,7 +11,7 @@
 
 namespace canhil::target {
 
-/// Sends frames to a Device and keeps what it answers.
+/// Sends frames to a Device and stores its answers.
 class BenchSide {
  public:
   template <class Message>
@@ -25,7 +25,7 @@ class BenchSide {
     const auto answers = device_.receive(frame);
     answers_.insert(answers_.end(), answers.begin(), answers.end());
   }
-  /// Takes the next counter of a message without sending it: the frame is lost.
+  /// Uses the next counter of a message without sending it: the frame is lost.
   template <class Message>
   void lose(const Message& message) {
     out_.clear();

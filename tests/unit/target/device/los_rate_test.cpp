@@ -26,7 +26,7 @@ Message as_received(const Message& message) {
   return from_frame<Message>(to_frame(message, 0));
 }
 
-// What the estimator makes of the sample as its frames carry it, without a Device.
+// The output of the estimator for the sample in these frames, without a Device.
 los::UpdateResult own_step(los::State& state, const SeekerSample& sample, const los::Design& design) {
   const auto antenna = as_received(sample.antenna);
   const auto angles = as_received(sample.angles);
@@ -113,8 +113,8 @@ TEST(LosRate, TheEstimateIsTheTruthOfANoiseFreeEngagement) {
   }
 }
 
-// Error angles with 15 times the noise that the filter was told: answers and heartbeat say so, until the
-// noise is as told again.
+// Error angles with 15 times the configured noise: answers and heartbeat report degraded, until the noise is
+// as configured again.
 TEST(LosRate, SaysThatItIsDegradedWhileItsInnovationsAreBeyondItsCovariance) {
   Missile missile;
   missile.fly_until(3);
@@ -204,7 +204,7 @@ std::vector<Parameter> own_parameters() {
   return own;
 }
 
-// A value that no limit hinders: the default lies inside of every range.
+// A value without a limit of its own: the default is inside of every range.
 TEST(LosRateParameters, AreReadBackRefusedOutsideTheirRangeAndWhileRunning) {
   ASSERT_EQ(own_parameters().size(), 25U);
   for (const Parameter parameter : own_parameters()) {
@@ -272,7 +272,7 @@ TEST(LosRateParameters, SettingsReachTheEstimator) {
             2 * slow.sigma.los_rate_sigma_pitch_radps);
 }
 
-// At the ends of the ranges, in random company, no design and no gain leaves the numbers.
+// At the ends of the ranges, in random combinations, all designs and gains stay finite.
 TEST(LosRateParameters, TheEndsOfTheRangesKeepTheEstimatorWhole) {
   std::mt19937_64 engine(1);
   // Largest and smallest accepted of a rough scan.

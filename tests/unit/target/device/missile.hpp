@@ -38,7 +38,7 @@ class Missile : public BenchSide {
     return setup;
   }
 
-  /// The next sample, by the words of the DBC: acceleration along antenna y is in the plane of yaw.
+  /// The next sample, with the meanings of the DBC: acceleration along antenna y is in the plane of yaw.
   SeekerSample next() {
     using messages::Validity;
     const los_rate::Measurement m = engagement_.next();

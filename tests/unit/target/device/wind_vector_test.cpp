@@ -10,8 +10,9 @@ namespace {
 
 using namespace messages;
 
-// The published run holds the fins of a row until the next; the target draws lines between samples. A second
-// sample just before the next row makes of the lines a hold, but for this share of the row's change.
+// The published run holds the fins of a row until the next row; the target interpolates linearly between
+// samples. A second sample just before the next row turns the line into a hold, except for this share of the
+// row's change.
 constexpr std::int64_t before_next_us = 10;
 
 struct Misses {

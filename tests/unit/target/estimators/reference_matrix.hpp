@@ -13,7 +13,7 @@ class Dense {
   Dense(int rows, int columns);  // zeros
   Dense(const double* by_columns, int rows, int columns);
 
-  /// A copy; implicit, so that a filter's matrix stands beside a reference in one expression.
+  /// A copy; implicit, so that one expression can contain a filter's matrix and a reference.
   template <int Rows, int Columns, int Options>
   Dense(const Eigen::Matrix<double, Rows, Columns, Options>& m)
       : Dense(m.data(), static_cast<int>(m.rows()), static_cast<int>(m.cols())) {

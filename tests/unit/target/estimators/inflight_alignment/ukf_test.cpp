@@ -91,7 +91,7 @@ TEST(Ukf, IsTheTransformAsWritten) {
   }
 }
 
-// W0 is negative: the transform itself may leave an indefinite P, which is mended and counted.
+// W0 is negative: the transform itself can give an indefinite P, which is repaired and counted.
 TEST(Ukf, RepairsWhatItsNegativeWeightBreaks) {
   const Interval interval = some_interval();
   Settings settings;

@@ -52,7 +52,8 @@ inline Gain switched_gain(Geometry at) {
   return discrete(exact_gain(at.range > crossing_range(vector_noise) ? thermal_part : glint_part, at), at);
 }
 
-/// The rows through predict() and correct(), a Measurement's signs included; `gain` is asked once a row.
+/// Runs the rows through predict() and correct(), including the signs of a Measurement; `gain` is called once
+/// per row.
 inline std::vector<Point> run_vector(const std::vector<Row>& rows,
                                      const std::function<Gain(Geometry)>& gain) {
   std::vector<Point> points;

@@ -114,7 +114,7 @@ TEST(WindBank, SurpriseIsThatOfTheInnovation) {
   EXPECT_NEAR(update(x, P, run.y[0], 0.02, design).surprise, expected, 1e-6 * std::abs(expected));
 }
 
-// A wind that turns by 15 m/s within 2 s is no error of a coefficient.
+// A wind that turns by 15 m/s within 2 s is not an error of a coefficient.
 TEST(WindBank, BelievesInGustsWhileThereAreSome) {
   const RecordedRun run;
   const BankDesign design = make_bank(likeliest());
