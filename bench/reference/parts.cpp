@@ -46,7 +46,7 @@ std::vector<AskedKey> in_table(const std::vector<AskedKey>& keys, std::string_vi
   return own;
 }
 
-std::vector<AskedKey> keys_of_file(const scenario::Contract& contract) {
+std::vector<AskedKey> keys_of_file(const scenario::DbcVocabulary& contract) {
   const auto all =
       explore([&](std::string_view text) { std::ignore = scenario::parse(text, file, contract); }, "",
               Depth::as_it_is);
@@ -62,9 +62,9 @@ std::vector<AskedKey> keys_of_file(const scenario::Contract& contract) {
   return keys;
 }
 
-Part target_part(const scenario::Contract& contract) {
+Part target_part(const scenario::DbcVocabulary& contract) {
   const auto keys = keys_of([&](Section& root) { scenario::read_targets(root, contract); });
-  scenario::Contract mapped = contract;
+  scenario::DbcVocabulary mapped = contract;
   mapped.foreign = std::make_shared<const scenario::Foreign>();
   const auto own = keys_of([&](Section& root) { scenario::read_targets(root, mapped); });
   Part part{
@@ -132,7 +132,7 @@ Part truth_part() {
                   .keys = in_table(glide, "airframe")}}};
 }
 
-Part nodes_part(const scenario::Contract& contract) {
+Part nodes_part(const scenario::DbcVocabulary& contract) {
   Part part{.title = "Nodes", .about = "Each table puts a node on the bus.", .tables = {}};
   for (const scenario::NodeTable* node : contract.nodes)
     part.tables.push_back(
@@ -151,7 +151,7 @@ Part nodes_part(const scenario::Contract& contract) {
 }
 
 /// Every node, with all its defaults.
-std::vector<scenario::NodeSettings> every_node(const scenario::Contract& contract) {
+std::vector<scenario::NodeSettings> every_node(const scenario::DbcVocabulary& contract) {
   std::vector<scenario::NodeSettings> nodes;
   for (const scenario::NodeTable* node : contract.nodes) {
     Section section = Section::parse("", file);
@@ -160,7 +160,7 @@ std::vector<scenario::NodeSettings> every_node(const scenario::Contract& contrac
   return nodes;
 }
 
-Part faults_part(const scenario::Contract& contract) {
+Part faults_part(const scenario::DbcVocabulary& contract) {
   const auto nodes = every_node(contract);
   const scenario::FaultContext context{.duration_us = longest_run_us, .contract = contract, .nodes = nodes};
   const auto of_all = explore(
@@ -179,11 +179,11 @@ Part faults_part(const scenario::Contract& contract) {
   return part;
 }
 
-Part checks_part(const scenario::Contract& contract) {
-  scenario::Contract mapped = contract;
+Part checks_part(const scenario::DbcVocabulary& contract) {
+  scenario::DbcVocabulary mapped = contract;
   mapped.foreign = std::make_shared<const scenario::Foreign>();
   const std::vector<scenario::FaultWindow> faults{{.name = "NAME", .window = {.from_us = 0, .to_us = 1}}};
-  const auto context_of = [&](const scenario::Contract& by) {
+  const auto context_of = [&](const scenario::DbcVocabulary& by) {
     return scenario::CheckContext{
         .duration_us = longest_run_us, .contract = by, .estimators = contract.estimators, .faults = faults};
   };
@@ -255,7 +255,7 @@ Part campaign_part() {
 }  // namespace
 
 std::vector<Part> parts() {
-  const scenario::Contract contract = drive::contract();
+  const scenario::DbcVocabulary contract = drive::contract();
   return {{.title = "The file",
            .about = "",
            .tables = {{.name = "Scenario", .about = "", .keys = keys_of_file(contract)}}},

@@ -38,7 +38,7 @@ def _blocks(lines: list[str]):
 
 
 def _without_remark(line: str) -> str:
-    """Without what a shell does not read: `# ...`, and words that stand apart on the right of an indented block."""
+    """Without what a shell does not read: `# ...`."""
     quoted = re.sub(r"'[^']*'|\"[^\"]*\"", lambda text: "x" * len(text[0]), line)
     remark = re.search(r"(^|\s)#", quoted)
     return line[: remark.start()].rstrip() if remark else line.rstrip()
@@ -47,8 +47,12 @@ def _without_remark(line: str) -> str:
 def commands_of(page: Path) -> list[Command]:
     commands: list[Command] = []
     for number, (language, first, lines) in enumerate(_blocks(page.read_text().splitlines())):
-        going_on = False
+        going_on, ends_at = False, ""
         for offset, line in enumerate(lines):
+            if ends_at:  # a text that the command reads
+                commands[-1].text += "\n" + line
+                ends_at = "" if line.strip() == ends_at else ends_at
+                continue
             text = _without_remark(line.removeprefix("$ "))
             if going_on:
                 commands[-1].text += " " + text.strip().removesuffix("\\").rstrip()
@@ -57,7 +61,9 @@ def commands_of(page: Path) -> list[Command]:
             else:
                 going_on = False
                 continue
-            going_on = text.endswith(("\\", "|")) and not text.endswith("||")
+            here = re.search(r"<<-?\s*'?(\w+)'?", text)
+            ends_at = here[1] if here else ""
+            going_on = not here and text.endswith(("\\", "|")) and not text.endswith("||")
             if not going_on and offset + 1 < len(lines) and re.match(r"\s+[\[|]", lines[offset + 1]):
                 going_on = True  # a synopsis that goes on
     return commands

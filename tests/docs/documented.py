@@ -67,7 +67,7 @@ class Session:
             for word in words:  # files of the project
                 if re.match(r"(bench|dbc|docs|target|tests|packaging)/", word) and not re.search(r"[*A-Z]", word) and not (self.root / word).exists():
                     unknown.append(f"{word} is not there")
-            scripts = [self.root / word for word in words[:2] if word.endswith((".py", ".sh")) and (self.root / word).is_file()]
+            scripts = [self.root / word for word in words[:2] if word.endswith(".py") and (self.root / word).is_file()]
             for option in (word.split("=")[0] for word in words if word.startswith("--") and scripts):
                 if option not in scripts[0].read_text():
                     unknown.append(f"{scripts[0].name} has no option {option}")
@@ -122,12 +122,12 @@ def main() -> int:
         rule = rule_of(command.text, page)
         wrong = attempt(command, rule, session)
         state = "FAILED" if wrong else "not run" if rule.why_not else "ok"
-        print(f"{state:7}  {page}:{command.line}: {command.text}{'  (' + rule.why_not + ')' if rule.why_not else ''}", flush=True)
+        print(f"{state:7}  {page}:{command.line}: {command.text.splitlines()[0]}{'  (' + rule.why_not + ')' if rule.why_not else ''}", flush=True)
         if wrong:
             print(f"    {wrong}")
             failed += 1
     if failed:
-        print(f"{failed} of {len(commands)} commands of {page} do not do what the page says: mend the page, or tests/processes/docs/rules.py")
+        print(f"{failed} of {len(commands)} commands of {page} do not do what the page says: mend the page, or tests/docs/rules.py")
         return 1
     shutil.rmtree(scratch, ignore_errors=True)
     return 0

@@ -36,6 +36,7 @@ FEW_RUNS = ((r"$", " --runs 2"),)
 
 RULES = (
     # What cannot be run here, or is run elsewhere.
+    Rule(r"", pages=r"docs/tutorial\.md$", why_not="is run for what it prints: tests/docs/outputs.py"),
     Rule(r"^bash bench/demo\.sh", why_not="installs packages and builds: .ci/run starts from there"),
     Rule(r"^bash tests/run\.sh", why_not="is what runs this test"),
     Rule(r"with_fifth|tests/fifth_estimator/", why_not="a build of its own: tests/run.sh --full makes it"),
