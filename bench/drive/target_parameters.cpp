@@ -1,16 +1,17 @@
 #include "bench/drive/target_parameters.hpp"
 
 #include "messages/canhil.hpp"
-#include "target/device/adapters.hpp"
+#include "target/device/device.hpp"
 
 namespace canhil::drive {
 
 std::vector<ParametersOf> target_parameters() {
   std::vector<ParametersOf> all;
-  for (const auto& adapter : target::make_adapters()) {
-    ParametersOf of{.estimator = name_of(adapter->estimator()), .parameters = {}};
+  const target::Device device;
+  for (const messages::Estimator estimator : messages::enumerators<messages::Estimator>) {
+    ParametersOf of{.estimator = name_of(estimator), .parameters = {}};
     for (const messages::Parameter parameter : messages::enumerators<messages::Parameter>) {
-      if (const auto range = adapter->range(parameter))
+      if (const auto range = device.range(estimator, parameter))
         of.parameters.push_back({.name = name_of(parameter),
                                  .initial = range->initial,
                                  .minimum = range->minimum,
@@ -19,7 +20,7 @@ std::vector<ParametersOf> target_parameters() {
                                  .while_running = range->while_running,
                                  .meaning = range->meaning});
     }
-    all.push_back(std::move(of));
+    if (!of.parameters.empty()) all.push_back(std::move(of));
   }
   return all;
 }

@@ -106,11 +106,7 @@ Part parameters_part() {
 }
 
 Part truth_part() {
-  const auto glide = keys_of([](Section& root) {
-    Section section = root.table("glide");
-    scenario::read_glide(root, section);
-  });
-  return {
+  Part part{
       .title = "Truth and initial errors",
       .about = "",
       .tables = {{.name = "[truth]",
@@ -121,15 +117,20 @@ Part truth_part() {
                   .keys = keys_of([](Section& section) { scenario::read_initial_error(section); })},
                  {.name = "[engagement]",
                   .about = "A missile and its target, drawn anew for each run.",
-                  .keys = keys_of([](Section& section) { scenario::read_engagement(section); })},
-                 {.name = "[glide]", .about = "The release of a glider.", .keys = in_table(glide, "glide")},
-                 {.name = "[glide.initial_error]",
-                  .about = "Errors of the glider's initial state that the target receives.",
-                  .keys = in_table(glide, "glide.initial_error")},
-                 {.name = "[wind]", .about = "The wind of a glide.", .keys = in_table(glide, "wind")},
-                 {.name = "[airframe]",
-                  .about = "How the glider differs from the filter's model.",
-                  .keys = in_table(glide, "airframe")}}};
+                  .keys = keys_of([](Section& section) { scenario::read_engagement(section); })}}};
+  const auto keys = keys_of([](Section& root) {
+    Section section = root.table("glide");
+    scenario::read_glide(root, section);
+  });
+  for (const std::string_view table : scenario::glide_tables) {
+    for (const std::string& path : {std::string(table), fmt::format("{}.initial_error", table)}) {
+      auto own = in_table(keys, path);
+      if (!own.empty())
+        part.tables.push_back(
+            {.name = fmt::format("[{}]", path), .about = "Of an unpowered glider.", .keys = std::move(own)});
+    }
+  }
+  return part;
 }
 
 Part nodes_part(const scenario::DbcVocabulary& contract) {
