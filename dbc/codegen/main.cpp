@@ -123,7 +123,7 @@ int run(int argc, char** argv) {
                      "also write the definitions that the header declares, to this file");
   program.add_option("--include", options.include, "the path by which that file includes the header");
   program.add_flag("--quantisation", options.quantisation,
-                   "print the resolution of every measurement beside its sensor's sigma");
+                   "print the resolution of every measurement relative to its sensor's noise");
   program.add_flag("--load", options.load, "print the worst-case bus load of every sender");
   program.add_flag("--json", options.json, "print the database as JSON");
   program.add_flag("--fd", options.fd,
