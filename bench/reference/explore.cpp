@@ -73,11 +73,14 @@ class Explorer {
     tried_.push_back(std::move(tried));
     if (depth == Depth::as_it_is || settings.size() == most_settings) return;
     for (const DescribedKey& key : description.keys) {
-      if (!expanded_.insert(path_of(key)).second || settings.contains(path_of(key))) continue;
+      const std::string path = path_of(key);
+      const auto given = settings.find(path);
+      const bool guessed = given != settings.end() && given->second == any_value;
+      if ((given != settings.end() && !guessed) || !expanded_.insert(path).second) continue;
       if (key.type == "one of")
-        for (const std::string& word : key.words) wait(settings, path_of(key), fmt::format("\"{}\"", word));
-      else if (key.type == "table" || description.looked_for.contains(path_of(key)))
-        wait(settings, path_of(key), key.sample);
+        for (const std::string& word : key.words) wait(settings, path, fmt::format("\"{}\"", word));
+      else if (guessed || key.type == "table" || description.looked_for.contains(path))
+        wait(settings, path, key.sample);
     }
     for (const std::string& path : description.looked_for) {
       const auto known = [&](const DescribedKey& key) { return path_of(key) == path; };
