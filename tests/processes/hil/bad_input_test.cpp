@@ -181,7 +181,7 @@ TEST(BadInput, UnknownSubcommand) {
   expect_one_line(
       hil_bench("zebra"),
       "subcommand 'zebra' is unknown, expected one of: run, report, compare, bus, accept, campaign, faults, "
-      "diverge, golden, doctor, schedulability");
+      "reference, diverge, golden, doctor, schedulability");
   expect_one_line(hil_bench(""), "subcommand is required");
 }
 
