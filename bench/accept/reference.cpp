@@ -21,13 +21,13 @@ constexpr double at_an_instant = 2, in_the_mean = 0.25, of_rounding = 4;
 /// The value with the largest deviation in tolerances.
 struct Worst {
   double tolerances = 0;
-  std::string words;
+  std::string text;
   void take(double off, double tolerance, const auto& say) {
     if (!(off > tolerance) && std::isfinite(off)) return;
     const double now = std::isfinite(off) ? off / std::max(tolerance, 1e-12) : HUGE_VAL;
-    if (!words.empty() && now <= tolerances) return;
+    if (!text.empty() && now <= tolerances) return;
     tolerances = now;
-    words = say();
+    text = say();
   }
 };
 
