@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "bench/checks/judge.hpp"
+#include "bench/drive/adapter.hpp"
 #include "bench/drive/buses.hpp"
 #include "bench/drive/ending.hpp"
 #include "bench/drive/flight.hpp"
 #include "bench/drive/real_time.hpp"
+#include "bench/drive/run_files.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "dbc/realtime/process.hpp"
@@ -36,6 +38,7 @@ struct Options {
   std::optional<realtime::Request> realtime;  ///< for the bench itself; the target's is among its arguments
   std::vector<std::string> target_arguments;  ///< besides --bus, and --dbc, which follows from the format
   std::optional<int> target_cpu;              ///< none: those of the bench before it was pinned
+  std::string operator_name{};                ///< who runs it, for the report; empty: not said
   std::int64_t spin_ns = 0;                   ///< before each deadline the bench polls instead of sleeping
   std::uint64_t run_index = 0;  ///< of a campaign: selects the random numbers together with the seed
   observe::Observer* onlooker = nullptr;  ///< sees every frame of the flight too; none: null
@@ -70,12 +73,15 @@ struct Run {
   bool in_process = false;                   ///< the target was the bench's own device
   std::string timing_unfit{};                ///< why no timing of the run is judged; empty: it is
   std::optional<realtime::Standing> host{};  ///< of the bench, in real time
-  /// The files of Options::target when it was started, its program first; empty: it was not.
-  std::vector<std::pair<std::string, ProgramFile>> target_files{};
-  double wall_s = 0;                 ///< from the start of the estimator to the end
-  std::int64_t started_s = 0;        ///< since 1970, UTC; 0: unknown
-  std::optional<Error> log_error{};  ///< see Collected
+  std::vector<RunFile> files{};              ///< that it depended on, as they were when it began
+  std::vector<Adapter> adapters{};           ///< of its bus, then of the nodes' own
+  double wall_s = 0;                         ///< from the start of the estimator to the end
+  std::int64_t started_s = 0;                ///< since 1970, UTC; 0: unknown
+  std::optional<Error> log_error{};          ///< see Collected
 };
+
+/// The adapters of its buses, each once.
+std::vector<Adapter> adapters_of(const Options& options);
 
 /// Runs a scenario. Error: the run could not take place (usage or configuration); a target that fails is a
 /// verdict.

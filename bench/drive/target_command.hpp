@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/drive/program_file.hpp"
+#include "bench/drive/file_identity.hpp"
 #include "dbc/wire/result.hpp"
 
 namespace canhil::drive {
@@ -25,9 +25,6 @@ std::string program_path(const std::string& word);
 /// The regular files that a command names, its program first, each once: the file that is started, and the
 /// arguments that are files.
 std::vector<std::string> files_of_target(const std::string& command);
-
-/// What lies on the disk of these; program first. Empty where the program cannot be read.
-std::vector<std::pair<std::string, ProgramFile>> look_at_target(const std::string& command);
 
 /// Error: a command that cannot be split, or whose first word is no executable file, in one line.
 Result<void> check_target(const std::string& command);

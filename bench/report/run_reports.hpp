@@ -4,6 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "bench/drive/session.hpp"
 #include "bench/report/file.hpp"
@@ -21,9 +23,11 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run);
 /// measured, what was expected and requirement ids are properties. The suite's time stamp is the start of the
 /// run (UTC).
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run);
+/// Of a suite as a whole: name and value.
+using Properties = std::vector<std::pair<std::string, std::string>>;
 /// One test suite of such a file, a case a check, and the file around suites. `started_s`: 0: not known.
 std::string junit_suite(std::string_view name, const std::vector<checks::CheckResult>& cases, double wall_s,
-                        std::int64_t started_s);
+                        std::int64_t started_s, const Properties& properties = {});
 std::string junit_whole(std::string_view suites);
 
 /// A table that anybody can read, a line an answer and quantity. Comma-separated: t_s (time of validity),

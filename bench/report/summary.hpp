@@ -19,6 +19,9 @@ struct EstimatorResults {
 /// Of each estimator that the scenario runs.
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run);
 
+/// What was tested: the command that started it, or where it runs.
+std::string target_program(const drive::Run& run);
+
 /// By which the run went.
 std::string_view clock_name(const drive::Run& run);
 

@@ -24,7 +24,8 @@ struct Foreign {
   std::vector<MessageInfo> messages;
   std::string file;            ///< that describes it, as it was named
   std::uint64_t hash = 0;      ///< of the texts that it was read from
-  std::uint64_t dbc_hash = 0;  ///< of its DBC
+  std::string dbc_file;        ///< its DBC
+  std::uint64_t dbc_hash = 0;  ///< of that
   /// Its answers say what they answer, so that virtual time can wait for them.
   bool answers_by_name = false;
   /// What it tells, as that of an estimator.

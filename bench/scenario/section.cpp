@@ -49,6 +49,7 @@ struct Section::File {
   std::string name;
   std::string folder;            // where the files are that it names
   std::uint64_t files_hash = 0;  // of those that were read
+  std::vector<std::string> files{};
   toml::table root;
   std::optional<Error> error;
 
@@ -286,6 +287,7 @@ std::string Section::beside(std::string_view path) const {
 }
 
 std::uint64_t& Section::files_hash() { return state_->file->files_hash; }
+std::vector<std::string>& Section::files() { return state_->file->files; }
 
 std::vector<std::string> Section::some_of(std::string_view key, std::span<const std::string> names) {
   constexpr std::string_view expected = "an array of names";

@@ -72,6 +72,8 @@ class Section {
   std::optional<std::string> read_beside(std::string_view key, std::string_view kind, std::size_t most_bytes);
   /// FNV-1a of all that was read so; 0: nothing was.
   [[nodiscard]] std::uint64_t& files_hash();
+  /// Their paths, in the order in which they were read.
+  [[nodiscard]] std::vector<std::string>& files();
 
   /// An array of some of these names; absent: none.
   std::vector<std::string> some_of(std::string_view key, std::span<const std::string> names);

@@ -38,8 +38,8 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
   std::exit(1);
 }
 
-/// Anonymous memory alone: the pages of the program and its libraries come in when their code first runs, which
-/// is no leak.
+/// Anonymous memory alone: the pages of the program and its libraries come in when their code first runs,
+/// which is no leak.
 std::int64_t resident_kib() {
   std::ifstream file("/proc/self/statm");
   std::int64_t size = 0;
