@@ -75,11 +75,9 @@ struct Section::File {
     for (auto dot = rest.find('.'); dot != std::string_view::npos; dot = rest.find('.')) {
       toml::node& next = table->insert(rest.substr(0, dot), toml::table{}).first->second;
       table = next.as_table();
-      if (table == nullptr) {
-        fail(0, fmt::format("key '{}': '{}' {}, expected a table", setting.key, rest.substr(0, dot),
-                            type_of(next)));
-        return;
-      }
+      if (table == nullptr)
+        return fail(0, fmt::format("key '{}': '{}' {}, expected a table", setting.key, rest.substr(0, dot),
+                                   type_of(next)));
       rest.remove_prefix(dot + 1);
     }
     const toml::table value = toml::parse(fmt::format("value = {}", setting.value));
