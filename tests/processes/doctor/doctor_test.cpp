@@ -43,8 +43,11 @@ TEST(Doctor, ExaminesABusAndItsMachine) {
   EXPECT_GE(page["jitter_s"]["count"], 1);
   EXPECT_LE(page["jitter_s"]["count"], 1000);
   EXPECT_EQ(page["loop"]["sent"], 200);
-  EXPECT_EQ(page["loop"]["lost"], 0);
-  EXPECT_EQ(page["loop"]["round_trip_s"]["count"], 200);
+  // A frame counts as lost when its answer takes more than 0.1 s, which a busy host may need once.
+  const int lost = page["loop"]["lost"];
+  EXPECT_LE(lost, 2);
+  EXPECT_EQ(page["loop"]["round_trip_s"]["count"], 200 - lost);
+  EXPECT_EQ(line_of(page, "loop")["grade"] == "bad", lost > 0 || page["loop"]["round_trip_s"]["p99"] > 10e-3);
   for (const auto& line : page["lines"]) {
     EXPECT_THAT(ended.out, HasSubstr(line["found"].get<std::string>()));
     EXPECT_THAT(ended.out, HasSubstr(line["remedy"].get<std::string>()));
