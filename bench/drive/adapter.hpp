@@ -8,14 +8,14 @@
 namespace canhil::drive {
 
 struct Adapter {
-  std::string bus;      ///< "can0", "local:x"
-  std::string kind;     ///< "usb", "pci", "spi", "platform" (in the SoC), "virtual", "unknown"
-  std::string driver;   ///< "gs_usb", "vcan"; of a bus without an interface what it is, in words
-  std::string address;  ///< where it is plugged in: "1-4:1.0", "0000:03:00.0"
-  std::string vendor_id, product_id;  ///< hexadecimal digits: USB, PCI
-  std::string product;                ///< as the device names itself: USB
-  std::string serial;                 ///< USB; empty: it has none
-  double usb_mbitps = 0;              ///< 12: full speed; 0: not USB
+  std::string bus;        ///< "can0", "local:x"
+  std::string kind;       ///< "usb", "pci", "spi", "platform" (in the SoC), "virtual", "unknown"
+  std::string driver{};   ///< "gs_usb", "vcan"; of a bus without an interface what it is, in words
+  std::string address{};  ///< where it is plugged in: "1-4:1.0", "0000:03:00.0"
+  std::string vendor_id{}, product_id{};  ///< hexadecimal digits: USB, PCI
+  std::string product{};                  ///< as the device names itself: USB
+  std::string serial{};                   ///< USB; empty: it has none
+  double usb_mbitps = 0;                  ///< 12: full speed; 0: not USB
 };
 
 /// Of an interface of the kernel, or a bus that has none. `sys`: where sysfs is mounted.
