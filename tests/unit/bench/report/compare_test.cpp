@@ -332,7 +332,7 @@ TEST(Compare, NamesAnotherAdapterProgramAndOption) {
                                   "differs  locked memory: no -> yes\n"
                                   "differs  file of faults (SHA-256): not known -> 77\n"
                                   "differs  operator: not known -> Ada\n"
-                                  "same "))
+                                  "latency  one run a side"))
       << "all of them, before the first figure";
 }
 
