@@ -38,7 +38,7 @@ struct InputFile {
 };
 
 struct Scenario {
-  std::string file;        ///< as named by the user
+  std::string file;  ///< as named by the user
   std::vector<InputFile> inputs{};
   std::uint64_t hash = 0;  ///< FNV-1a of text, settings and recordings: provenance in reports and campaigns
   std::uint64_t recordings_hash = 0;  ///< of the recordings alone; 0: it uses none
