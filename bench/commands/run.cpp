@@ -14,6 +14,7 @@
 
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
+#include "bench/commands/live.hpp"
 #include "bench/commands/program.hpp"
 #include "bench/commands/progress_line.hpp"
 #include "bench/commands/reports.hpp"
@@ -46,6 +47,7 @@ struct Arguments {
   std::optional<int> spin_us;
   Reports reports;
   std::string log;
+  Live live;
 };
 
 // gps, GPS and Gps are one node, as are master_ins and MasterIns.
@@ -230,15 +232,25 @@ ExitCode execute(const Arguments& arguments) {
   if (!format) return complain(format.error());
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
+  drive::Options options = options_of(arguments, bus, *format);
+  auto view = OpenView::open(arguments.live, {.flight = live::flight_of(*scenario, options)});
+  if (!view) return complain(view.error());
+  if (view->get() != nullptr) options.onlooker = &view->get()->onlooker();
   catch_interrupts();
   Result<drive::Run> finished = [&] {
     const ProgressLine line;
     bool begun = false;
-    return drive::run(*scenario, options_of(arguments, bus, *format), interrupted, [&](std::int64_t t_us) {
+    return drive::run(*scenario, options, interrupted, [&](std::int64_t t_us) {
       if (!std::exchange(begun, true)) remove_earlier(arguments);
       line.show([&] { return progress_text(t_us, scenario->duration_us); });
     });
   }();
+  if (view->get() != nullptr) {
+    if (finished)
+      view->get()->show(live::flight_of(*scenario, *finished));
+    else
+      view->get()->show_ended(finished.error().message);
+  }
   if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) {
     const std::string warning = realtime::frequency_warning(*finished->host);
@@ -246,6 +258,7 @@ ExitCode execute(const Arguments& arguments) {
   }
   if (auto written = write_reports(arguments.reports, *scenario, *finished); !written)
     return complain(written.error());
+  view->hold();
   return exit_code(finished->verdict.outcome);
 }
 
@@ -290,6 +303,7 @@ void add_run(command_line::Command app, int& code) {
   command.add_option(
       "--log", arguments->log,
       "record every frame: *.pcap (Wireshark), *.asc (Vector), any other name: candump's format");
+  add_live(command, arguments->live);
   command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }
 

@@ -12,6 +12,7 @@
 #include "bench/drive/buses.hpp"
 #include "bench/drive/ending.hpp"
 #include "bench/drive/flight.hpp"
+#include "bench/drive/onlooker.hpp"
 #include "bench/drive/real_time.hpp"
 #include "bench/drive/target_command.hpp"
 #include "bench/scenario/scenario.hpp"
@@ -38,7 +39,7 @@ struct Options {
   std::optional<int> target_cpu;              ///< none: those of the bench before it was pinned
   std::int64_t spin_ns = 0;                   ///< before each deadline the bench polls instead of sleeping
   std::uint64_t run_index = 0;  ///< of a campaign: selects the random numbers together with the seed
-  observe::Observer* onlooker = nullptr;  ///< sees every frame of the flight too; none: null
+  Onlooker* onlooker = nullptr;  ///< sees every frame of the flight too; none: null
   bool for_verdict = true;  ///< false: only what the target says is observed, not times, load, bus and host
 };
 

@@ -35,9 +35,7 @@ class Monitor final : public Watcher {
   void received(const Received& received) override;
   void target_restarted() override;
 
-  /// What was seen so far.
-  [[nodiscard]] const checks::Observations& observations() const { return seen_; }
-  /// The run is over: all of it.
+  [[nodiscard]] const checks::Observations& observations() const override { return seen_; }
   checks::Observations finish() override {
     if (stopwatch_) stopwatch_->finish();
     seen_.complaints.end(now_us_);

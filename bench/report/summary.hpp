@@ -33,6 +33,7 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message);
 
 /// The bit rates that reports tell the bus load at: that of the bus, or, where it has none, 500 kbit/s and
 /// 1 Mbit/s, on CAN FD with a data phase of 2 and 5 Mbit/s.
+std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format);
 std::vector<wire::BitRates> load_rates(const drive::Run& run);
 
 /// The periods that the scenario sets in place of the DBC's cycle times: "SlaveImu every 5 ms (DBC: 10 ms)".
