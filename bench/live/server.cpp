@@ -190,14 +190,13 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
     response_.result(status);
     response_.version(11);
     response_.keep_alive(false);
-    const auto set = [&](http::field name, std::string_view value) { response_.set(name, {value.data(), value.size()}); };
-    set(http::field::content_type, type);
-    set(http::field::cache_control, "no-store");
-    set(http::field::content_security_policy,
+    response_.set(http::field::content_type, {type.data(), type.size()});
+    response_.set(http::field::cache_control, "no-store");
+    response_.set("Content-Security-Policy",
         "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
         "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
-    set(http::field::referrer_policy, "no-referrer");
-    set(http::field::x_content_type_options, "nosniff");
+    response_.set("Referrer-Policy", "no-referrer");
+    response_.set("X-Content-Type-Options", "nosniff");
     response_.set("Cross-Origin-Resource-Policy", "same-origin");
     response_.body() = {text.data(), text.size()};
     response_.prepare_payload();
