@@ -21,6 +21,7 @@
 #include "bench/doctor/interface.hpp"
 #include "bench/drive/contract.hpp"
 #include "bench/drive/session.hpp"
+#include "bench/live/terminal.hpp"
 #include "bench/report/file.hpp"
 #include "bench/scenario/nearest.hpp"
 #include "dbc/ports/local_bus.hpp"
@@ -48,6 +49,7 @@ struct Arguments {
   Reports reports;
   std::string log;
   Live live;
+  bool terminal = false;
 };
 
 // gps, GPS and Gps are one node, as are master_ins and MasterIns.
@@ -233,7 +235,14 @@ ExitCode execute(const Arguments& arguments) {
   if (arguments.seed) scenario->seed = *arguments.seed;
   if (auto fine = check_outputs(arguments); !fine) return complain(fine.error());
   drive::Options options = options_of(arguments, bus, *format);
-  auto view = OpenView::open(arguments.live, {.flight = live::flight_of(*scenario, options)});
+  std::vector<std::unique_ptr<live::Display>> displays;
+  if (arguments.terminal) {
+    auto terminal = live::open_terminal();
+    if (!terminal) return complain(terminal.error());
+    displays.push_back(std::move(*terminal));
+  }
+  auto view =
+      OpenView::open(arguments.live, {.flight = live::flight_of(*scenario, options)}, std::move(displays));
   if (!view) return complain(view.error());
   if (view->get() != nullptr) options.onlooker = &view->get()->onlooker();
   catch_interrupts();
@@ -250,6 +259,7 @@ ExitCode execute(const Arguments& arguments) {
       view->get()->show(live::flight_of(*scenario, *finished));
     else
       view->get()->show_ended(finished.error().message);
+    if (arguments.terminal) view->get()->close();  // the report comes to the terminal as it was
   }
   if (!finished) return complain(with_controller(finished.error(), arguments.bus));
   if (arguments.realtime.wanted) {
@@ -303,7 +313,9 @@ void add_run(command_line::Command app, int& code) {
   command.add_option(
       "--log", arguments->log,
       "record every frame: *.pcap (Wireshark), *.asc (Vector), any other name: candump's format");
-  add_live(command, arguments->live);
+  command
+      .add_flag("--tui", arguments->terminal, "show it on one screen of this terminal while it goes on")
+      .excludes(add_live(command, arguments->live));
   command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }
 

@@ -47,7 +47,9 @@ View::~View() { close(); }
 
 void View::close() {
   closing_ = true;
-  if (thread_.joinable()) thread_.join();
+  if (!thread_.joinable()) return;
+  thread_.join();
+  displays_.clear();
 }
 
 void View::Tap::departs(const drive::Departure& departure) {
