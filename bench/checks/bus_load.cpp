@@ -26,9 +26,7 @@ LoadLine load_line(std::span<const wire::BitLength> seconds, wire::BitRates rate
   return line;
 }
 
-Load bus_load(const Observations& seen, wire::BitRates rates) {
-  return bus_load(whole_seconds(seen), rates);
-}
+Load bus_load(const Observations& seen, wire::BitRates rates) { return bus_load(whole_seconds(seen), rates); }
 
 Load bus_load(std::span<const wire::BitLength> seconds, wire::BitRates rates) {
   Load load;

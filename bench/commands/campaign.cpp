@@ -13,6 +13,7 @@
 #include "bench/campaign/export.hpp"
 #include "bench/campaign/merge.hpp"
 #include "bench/campaign/report.hpp"
+#include "bench/commands/campaign_course.hpp"
 #include "bench/commands/exit_code.hpp"
 #include "bench/commands/interrupt.hpp"
 #include "bench/commands/live.hpp"
@@ -122,41 +123,6 @@ ExitCode print_report(const campaign::Campaign& campaign, const fs::path& file, 
   return exit_code(evaluation->outcome());
 }
 
-// How the runs go on, as the live view shows it.
-class Course {
- public:
-  Course(const campaign::Campaign& campaign, live::View& view) : campaign_(campaign), view_(view) {}
-
-  void committed(std::span<const campaign::Finished> runs) {
-    for (const auto& [variant, series] : runs) {
-      const bool ended = series.ending.kind != drive::Ending::Kind::completed;
-      batch_.failed += ended ? 1 : 0;
-      batch_.add({.name = fmt::format("{} · run {}", campaign_.variants[variant].name, series.run),
-                  .result = ended ? series.ending.detail : "completed",
-                  .failed = ended});
-    }
-  }
-  void progress(const campaign::Progress& progress, double elapsed_s) {
-    batch_.done = progress.stored + progress.done;
-    batch_.total = progress.stored + progress.total;
-    batch_.rate_per_s = static_cast<double>(progress.done) / elapsed_s;
-    view_.show(batch_);
-  }
-  void end(checks::Outcome outcome, std::string reason) {
-    batch_.outcome = outcome;
-    batch_.reason = std::move(reason);
-    view_.show(batch_);
-  }
-  static live::Batch begun(const std::string& title, std::uint64_t total) {
-    return {.title = title, .of = "runs", .total = total, .failed_means = "ended early"};
-  }
-
- private:
-  const campaign::Campaign& campaign_;
-  live::View& view_;
-  live::Batch batch_ = begun(campaign_.sources.file, 0);
-};
-
 Rounding rounding_of(const Arguments& arguments) {
   return arguments.unrounded ? Rounding::none : Rounding::as_on_the_bus;
 }
@@ -225,8 +191,7 @@ ExitCode execute(const Arguments& arguments) {
     fmt::print(stderr, "hil-bench: interrupted; --resume goes on with {}\n", file->string());
     return ExitCode::not_measured;
   }
-  const ExitCode code =
-      shard->count > 1 ? ExitCode::pass : print_report(*campaign, *file, arguments.json);
+  const ExitCode code = shard->count > 1 ? ExitCode::pass : print_report(*campaign, *file, arguments.json);
   if (course) course->end(outcome_of(code), shard->count > 1 ? "the shard is flown" : "");
   view->hold();
   return code;

@@ -13,9 +13,10 @@ namespace canhil::commands {
 command_line::Option add_live(command_line::Command command, Live& live) {
   const auto page = command.add_flag_or_number(
       "--live", live.port,
-      fmt::format("show it in a browser while it goes on: a page on this port (default: {}; 0: any free one); "
-                  "its URL is printed. See docs/live.md",
-                  live::usual_port),
+      fmt::format(
+          "show it in a browser while it goes on: a page on this port (default: {}; 0: any free one); "
+          "its URL is printed. See docs/live.md",
+          live::usual_port),
       live::usual_port, 0, 65535);
   live.address = live::loopback_address;
   command

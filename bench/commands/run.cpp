@@ -313,8 +313,7 @@ void add_run(command_line::Command app, int& code) {
   command.add_option(
       "--log", arguments->log,
       "record every frame: *.pcap (Wireshark), *.asc (Vector), any other name: candump's format");
-  command
-      .add_flag("--tui", arguments->terminal, "show it on one screen of this terminal while it goes on")
+  command.add_flag("--tui", arguments->terminal, "show it on one screen of this terminal while it goes on")
       .excludes(add_live(command, arguments->live));
   command.on_given([&code, arguments] { code = static_cast<int>(execute(*arguments)); });
 }

@@ -1,4 +1,5 @@
-// Who looks on at a flight, and from where: its own thread may look at the same truth while the flight goes on.
+// Who looks on at a flight, and from where: its own thread may look at the same truth while the flight goes
+// on.
 #pragma once
 
 #include <functional>

@@ -36,8 +36,12 @@ class Feed final : public observe::Observer {
   }
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
-  void received(const Received& received) override { put({.kind = Event::Kind::received, .received = received}); }
-  void foreign(const Received& received) override { put({.kind = Event::Kind::foreign, .received = received}); }
+  void received(const Received& received) override {
+    put({.kind = Event::Kind::received, .received = received});
+  }
+  void foreign(const Received& received) override {
+    put({.kind = Event::Kind::foreign, .received = received});
+  }
   void time_told(std::int64_t t_ns) override { put({.kind = Event::Kind::time_told, .t_ns = t_ns}); }
   void interface_changed(bool up, std::int64_t t_ns) override {
     put({.kind = Event::Kind::interface_changed, .up = up, .t_ns = t_ns});

@@ -94,7 +94,9 @@ Flight flight_of(const scenario::Scenario& scenario, const drive::Options& optio
   return {.title = scenario.title,
           .scenario = scenario.file,
           .bus = options.bus.text,
-          .clock = options.lockstep ? "lockstep" : options.bus.in_process ? "virtual time" : "real time",
+          .clock = options.lockstep         ? "lockstep"
+                   : options.bus.in_process ? "virtual time"
+                                            : "real time",
           .duration_s = seconds(scenario.duration_us),
           .checks = open_checks(scenario),
           .faults = faults_of(scenario)};
@@ -103,8 +105,8 @@ Flight flight_of(const scenario::Scenario& scenario, const drive::Options& optio
 Flight flight_of(const scenario::Scenario& scenario, const drive::Run& run) {
   Flight flight = flight_of(scenario, run.options);
   flight.clock = report::clock_name(run);
-  flight.t_s = seconds(run.ending.kind == drive::Ending::Kind::completed ? scenario.duration_us
-                                                                         : run.ending.t_us);
+  flight.t_s =
+      seconds(run.ending.kind == drive::Ending::Kind::completed ? scenario.duration_us : run.ending.t_us);
   flight.outcome = run.verdict.outcome;
   flight.reason = run.verdict.reason;
   flight.checks.clear();
@@ -225,8 +227,8 @@ void FlightInProgress::take(std::string_view estimator, const quantities::Track&
   known->shown = estimates || !track.only_if_judged || !series.bars.empty();
 }
 
-// A pass over the whole flight, once for the checks that are over together: as many passes as the scenario has
-// checks, however long it is.
+// A pass over the whole flight, once for the checks that are over together: as many passes as the scenario
+// has checks, however long it is.
 void FlightInProgress::judge_what_is_over(Flight& flight) {
   const scenario::Scenario& scenario = departure_.scenario;
   std::vector<std::size_t> due;
@@ -236,8 +238,7 @@ void FlightInProgress::judge_what_is_over(Flight& flight) {
   }
   if (due.empty()) return;
   const checks::Verdict verdict = checks::judge(
-      scenario,
-      {.seen = whole_->observations(), .truth = truth(), .estimators = estimators::in(scenario)});
+      scenario, {.seen = whole_->observations(), .truth = truth(), .estimators = estimators::in(scenario)});
   for (const std::size_t i : due) {
     judged_at_us_[i] = now_us();
     const checks::CheckResult& result = verdict.checks[i];

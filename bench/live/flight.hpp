@@ -19,8 +19,8 @@ Flight flight_of(const scenario::Scenario& scenario, const drive::Options& optio
 /// The flight when it is over: the numbers of its report.
 Flight flight_of(const scenario::Scenario& scenario, const drive::Run& run);
 
-/// Looks at the frames of a flight while it goes on, with the watchers, tracks and checks that judge it at its
-/// end. Its memory does not grow with the flight, nor does the work for one update.
+/// Looks at the frames of a flight while it goes on, with the watchers, tracks and checks that judge it at
+/// its end. Its memory does not grow with the flight, nor does the work for one update.
 class FlightInProgress final : public observe::Observer {
  public:
   /// What the departure refers to must outlive it.

@@ -47,10 +47,8 @@ Json object(const report::Series& series, std::size_t from) {
     json["sigma"].push_back(number(point.sigma));
   }
   for (const report::Series::Bar& bar : series.bars)
-    json["bars"].push_back({{"check", bar.check},
-                            {"below", number(bar.below)},
-                            {"from_s", bar.from_s},
-                            {"to_s", bar.to_s}});
+    json["bars"].push_back(
+        {{"check", bar.check}, {"below", number(bar.below)}, {"from_s", bar.from_s}, {"to_s", bar.to_s}});
   return json;
 }
 
@@ -96,7 +94,8 @@ Json object(const Flight& flight, FromOf from_of) {
                               {"outcome", outcome(check.outcome)},
                               {"measured", check.measured},
                               {"expected", check.expected}});
-  for (const report::Series& series : flight.series) json["series"].push_back(object(series, from_of(series)));
+  for (const report::Series& series : flight.series)
+    json["series"].push_back(object(series, from_of(series)));
   for (const TimingLine& line : flight.timing) json["timing"].push_back(object(line));
   for (const double busiest : flight.load_line.busiest) json["load"].push_back(number(busiest));
   for (const FaultLine& fault : flight.faults)

@@ -5,10 +5,10 @@
 
 namespace canhil::live {
 
-extern const report::EmbeddedFiles page_files;
+extern const report::EmbeddedFiles page_texts;
 
 namespace library {
-extern const report::EmbeddedFiles chart_files;  ///< Chart.js
+extern const report::EmbeddedFiles chart_texts;  ///< Chart.js
 }
 
 }  // namespace canhil::live

@@ -59,7 +59,7 @@ class Screen {
     for (; end < text.size(); ++end) {
       auto& byte = reinterpret_cast<unsigned char&>(text[end]);
       if (byte < 0x20 || byte == 0x7f) byte = '?';
-      const bool begins = (byte & 0xC0U) != 0x80U;
+      const bool begins = static_cast<signed char>(byte) >= -64;  // else it goes on with a character
       if (begins && shown++ == columns_) break;
     }
     text.resize(end);
@@ -98,8 +98,8 @@ void add(Screen& screen, const Flight& flight) {
   }
   add_checks(screen, flight);
   if (flight.timing.empty()) return;
-  screen.heading(fmt::format("{:<24}{:>8}{:>10}{:>10}{:>10}{:>12}{:>10}", "latency and jitter [ms]", "answers",
-                             "p50", "p99", "max", "jitter p99", "max"));
+  screen.heading(fmt::format("{:<24}{:>8}{:>10}{:>10}{:>10}{:>12}{:>10}", "latency and jitter [ms]",
+                             "answers", "p50", "p99", "max", "jitter p99", "max"));
   for (const TimingLine& line : flight.timing)
     screen.add(fmt::format("{:<24.24}{:>8}{:>10}{:>10}{:>10}{:>12}{:>10}", line.message, line.count,
                            number(line.p50_us / 1e3), number(line.p99_us / 1e3), number(line.max_us / 1e3),
@@ -107,7 +107,8 @@ void add(Screen& screen, const Flight& flight) {
 }
 
 void add(Screen& screen, const Batch& batch) {
-  screen.add(fmt::format("{}: {}", batch.failed_means, batch.failed), batch.failed > 0 ? Look::bad : Look::good);
+  screen.add(fmt::format("{}: {}", batch.failed_means, batch.failed),
+             batch.failed > 0 ? Look::bad : Look::good);
   screen.heading("latest results");
   for (const Batch::Line& line : batch.latest)
     screen.add(fmt::format("{}: {}", line.name, line.result), line.failed ? Look::bad : Look::plain);
@@ -129,7 +130,8 @@ std::vector<ScreenLine> screen_of(const Snapshot& snapshot, std::size_t rows, st
     add(screen, *flight);
   } else if (const auto& batch = snapshot.batch) {
     screen.add(fmt::format("{}: {}", state(snapshot, batch->outcome, paused), batch->title), Look::heading);
-    const double share = batch->total == 0 ? 0 : static_cast<double>(batch->done) / static_cast<double>(batch->total);
+    const double share =
+        batch->total == 0 ? 0 : static_cast<double>(batch->done) / static_cast<double>(batch->total);
     screen.add(fmt::format("{} {} / {} {}", bar(share, columns), batch->done, batch->total, batch->of));
     add(screen, *batch);
   }

@@ -55,7 +55,7 @@ std::string_view text_of(const report::EmbeddedFiles& files, std::string_view na
 // In the page's own addresses the token is repeated.
 std::string page_with(const std::string& query) {
   constexpr std::string_view mark = "$QUERY";
-  std::string page(text_of(page_files, "page"));
+  std::string page(text_of(page_texts, "page"));
   for (std::size_t at = page.find(mark); at != std::string::npos; at = page.find(mark, at + query.size()))
     page.replace(at, mark.size(), query);
   return page;
@@ -166,14 +166,16 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
  private:
   void answer() {
     const auto& request = parser_.get();
-    const auto field = [&](http::field name) { return std::string_view(request[name].data(), request[name].size()); };
+    const auto field = [&](http::field name) {
+      return std::string_view(request[name].data(), request[name].size());
+    };
     const bool upgrade = websocket::is_upgrade(request);
-    const Answer answer = admit(site_.admission,
-                                {.method = {request.method_string().data(), request.method_string().size()},
-                                 .target = {request.target().data(), request.target().size()},
-                                 .host = field(http::field::host),
-                                 .origin = field(http::field::origin),
-                                 .upgrade = upgrade});
+    const Answer answer =
+        admit(site_.admission, {.method = {request.method_string().data(), request.method_string().size()},
+                                .target = {request.target().data(), request.target().size()},
+                                .host = field(http::field::host),
+                                .origin = field(http::field::origin),
+                                .upgrade = upgrade});
     if (answer.status != 200) return this->answer(answer.status, answer.what, "text/plain");
     if (upgrade) {
       stream_.expires_never();
@@ -193,8 +195,8 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
     response_.set(http::field::content_type, {type.data(), type.size()});
     response_.set(http::field::cache_control, "no-store");
     response_.set("Content-Security-Policy",
-        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
-        "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+                  "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+                  "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     response_.set("Referrer-Policy", "no-referrer");
     response_.set("X-Content-Type-Options", "nosniff");
     response_.set("Cross-Origin-Resource-Policy", "same-origin");
@@ -226,16 +228,16 @@ class BeastServer final : public Server {
     acceptor_.listen();
     const tcp::endpoint local = acceptor_.local_endpoint();
     // Where every address of the machine listens, its name is one that a browser elsewhere may know.
-    site_.admission = {.address = local.address().is_unspecified() ? asio::ip::host_name()
-                                                                   : local.address().to_string(),
-                       .loopback = local.address().is_loopback(),
-                       .port = local.port(),
-                       .token = std::move(token)};
+    site_.admission = {
+        .address = local.address().is_unspecified() ? asio::ip::host_name() : local.address().to_string(),
+        .loopback = local.address().is_loopback(),
+        .port = local.port(),
+        .token = std::move(token)};
     site_.page = page_with(site_.admission.query());
     site_.files = {{"/", "text/html; charset=utf-8", site_.page},
-                   {"/style.css", "text/css; charset=utf-8", text_of(page_files, "style")},
-                   {"/script.js", "text/javascript; charset=utf-8", text_of(page_files, "script")},
-                   {"/chart.js", "text/javascript; charset=utf-8", text_of(library::chart_files, "chart")}};
+                   {"/style.css", "text/css; charset=utf-8", text_of(page_texts, "style")},
+                   {"/script.js", "text/javascript; charset=utf-8", text_of(page_texts, "script")},
+                   {"/chart.js", "text/javascript; charset=utf-8", text_of(library::chart_texts, "chart")}};
     accept();
   }
 
@@ -246,12 +248,14 @@ class BeastServer final : public Server {
   }
 
   void show(const Snapshot& snapshot) override {
+    if (!accepting_) accept();
     std::erase_if(spectators_, [](const auto& one) { return !one->open(); });
     // Nothing is written for nobody; who comes is given all of it.
     last_ = std::nullopt;
     whole_ = nullptr;
     if (spectators_.empty()) sent_.clear();
-    const Text next = spectators_.empty() ? nullptr : std::make_shared<const std::string>(next_message(snapshot, sent_));
+    const Text next =
+        spectators_.empty() ? nullptr : std::make_shared<const std::string>(next_message(snapshot, sent_));
     last_ = snapshot;
     for (const auto& one : spectators_) {
       if (one->busy())
@@ -270,9 +274,13 @@ class BeastServer final : public Server {
     return whole_;
   }
   void accept() {
+    accepting_ = true;
     acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-      if (error == asio::error::operation_aborted) return;
-      if (!error && site_.connections < most_connections) {
+      if (error) {  // such as no descriptor left: tried again with the next snapshot
+        accepting_ = false;
+        return;
+      }
+      if (site_.connections < most_connections) {
         close_on_exec(socket);
         std::make_shared<Exchange>(site_, std::move(socket), [this](std::shared_ptr<Spectator> spectator) {
           if (last_) spectator->send(whole());
@@ -291,6 +299,7 @@ class BeastServer final : public Server {
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
   std::vector<std::shared_ptr<Spectator>> spectators_;
+  bool accepting_ = false;
 };
 
 }  // namespace
@@ -299,7 +308,8 @@ Result<std::unique_ptr<Server>> Server::open(const std::string& address, std::ui
   error_code error;
   const asio::ip::address at = asio::ip::make_address(address, error);
   if (error)
-    return failure(fmt::format("--live-address '{}': is not an IP address, expected one of this machine", address));
+    return failure(
+        fmt::format("--live-address '{}': is not an IP address, expected one of this machine", address));
   try {
     return std::make_unique<BeastServer>(tcp::endpoint(at, port), at.is_loopback() ? "" : new_token());
   } catch (const boost::system::system_error& refused) {
@@ -307,8 +317,9 @@ Result<std::unique_ptr<Server>> Server::open(const std::string& address, std::ui
       return failure(fmt::format("--live {}: the port is in use, expected a free one, or 0 for any", port));
     if (refused.code() == asio::error::access_denied)
       return failure(fmt::format("--live {}: the port is not permitted, expected one from 1024 on", port));
-    return failure(fmt::format("--live-address '{}': cannot listen there ({}), expected an address of this machine",
-                               address, refused.code().message()));
+    return failure(
+        fmt::format("--live-address '{}': cannot listen there ({}), expected an address of this machine",
+                    address, refused.code().message()));
   }
 }
 

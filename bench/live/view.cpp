@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
+#include <exception>
 #include <utility>
 
 namespace canhil::live {
@@ -66,7 +68,7 @@ void View::Tap::landed() {
   view_.feed_.follow(nullptr);
   view_.requests_.landing = true;
   view_.asked_ = true;
-  view_.landed_.wait(lock, [&] { return !view_.requests_.landing; });
+  view_.landed_.wait(lock, [&] { return !view_.requests_.landing || view_.gave_up_; });
 }
 
 void View::show(Batch batch) {
@@ -110,16 +112,32 @@ void View::look_at_frames() {
 }
 
 void View::serve(std::chrono::milliseconds time) {
-  for (const auto& display : displays_)
-    display->run_for(time / static_cast<std::int64_t>(displays_.size()));
+  for (const auto& display : displays_) display->run_for(time / static_cast<std::int64_t>(displays_.size()));
 }
 
 void View::show_all() {
   for (const auto& display : displays_) display->show(snapshot_);
 }
 
+// What goes wrong in the view, such as no memory, is not the flight's.
 void View::run() {
   run_below_others();
+  try {
+    look_on();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hil-bench: the live view ended: %s\n", error.what());
+    give_up();
+  }
+}
+
+void View::give_up() {
+  const std::scoped_lock lock(mutex_);
+  gave_up_ = true;
+  flight_.reset();
+  landed_.notify_all();
+}
+
+void View::look_on() {
   Clock::time_point next = Clock::now();
   while (!closing_) {
     look_at_requests();

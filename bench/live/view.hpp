@@ -61,6 +61,8 @@ class View {
   };
 
   void run();
+  void look_on();
+  void give_up();
   void look_at_requests();
   void look_at_frames();
   void serve(std::chrono::milliseconds time);
@@ -72,6 +74,7 @@ class View {
   std::mutex mutex_;
   std::condition_variable landed_;
   Requests requests_;
+  bool gave_up_ = false;
   std::atomic<bool> asked_ = false, closing_ = false;
   // Of the view's thread alone.
   Snapshot snapshot_;

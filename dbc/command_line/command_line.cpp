@@ -87,9 +87,8 @@ Option Command::add_flag_or_number(const std::string& name, std::optional<int>& 
   const auto read = [&value, name, usual, least, most, missing](const std::string& text) {
     value = text.empty() || text == missing ? usual : read_number<int>(name, text, least, most);
   };
-  return Option(command_->add_option_function<std::string>(name, read, help)
-                    ->expected(0, 1)
-                    ->type_name("[UINT]"));
+  return Option(
+      command_->add_option_function<std::string>(name, read, help)->expected(0, 1)->type_name("[UINT]"));
 }
 
 Option Command::add_number(const std::string& name, double& value, const std::string& help, double least,

@@ -8,7 +8,8 @@ namespace {
 const Admission here{.address = "127.0.0.1", .loopback = true, .port = 8460, .token = ""};
 const Admission everywhere{.address = "bench", .loopback = false, .port = 8460, .token = "0123abcd"};
 
-Asked page(std::string_view target = "/", std::string_view host = "127.0.0.1:8460", std::string_view origin = "") {
+Asked page(std::string_view target = "/", std::string_view host = "127.0.0.1:8460",
+           std::string_view origin = "") {
   return {.method = "GET", .target = target, .host = host, .origin = origin};
 }
 Asked socket(std::string_view host, std::string_view origin) {
@@ -33,8 +34,9 @@ TEST(LiveAdmission, AnswersNothingButGet) {
 }
 
 TEST(LiveAdmission, RefusesPagesOfOtherSites) {
-  for (const std::string_view origin : {"http://example.com", "https://127.0.0.1:8460", "http://127.0.0.1:80",
-                                        "http://127.0.0.1:84600", "null", "http://127.0.0.1:8460.example.com"}) {
+  for (const std::string_view origin :
+       {"http://example.com", "https://127.0.0.1:8460", "http://127.0.0.1:80", "http://127.0.0.1:84600",
+        "null", "http://127.0.0.1:8460.example.com"}) {
     EXPECT_EQ(admit(here, socket("127.0.0.1:8460", origin)).status, 403U) << origin;
     EXPECT_EQ(admit(here, page("/", "127.0.0.1:8460", origin)).status, 403U) << origin;
   }
@@ -46,8 +48,9 @@ TEST(LiveAdmission, RefusesPagesOfOtherSites) {
 
 TEST(LiveAdmission, WantsTheTokenForEverything) {
   EXPECT_EQ(everywhere.url(), "http://bench:8460/?token=0123abcd");
-  for (const std::string_view target : {"/", "/?token=", "/?token=0123abce", "/?token=0123abcdd", "/?token=0123abc",
-                                        "/chart.js", "/?Token=0123abcd", "/?x&token=0123abcd"})
+  for (const std::string_view target :
+       {"/", "/?token=", "/?token=0123abce", "/?token=0123abcdd", "/?token=0123abc", "/chart.js",
+        "/?Token=0123abcd", "/?x&token=0123abcd"})
     EXPECT_EQ(admit(everywhere, page(target, "bench:8460")).status, 403U) << target;
   EXPECT_EQ(admit(everywhere, page("/?token=0123abcd", "10.0.0.7:8460")).status, 200U);
   EXPECT_EQ(admit(everywhere, page("/script.js?token=0123abcd", "bench:8460")).what, "/script.js");

@@ -99,7 +99,8 @@ TEST(LiveVerdict, JudgesAWindowWhenItIsOver) {
   scenario::Scenario flown = scenario("transfer_alignment");
   Flight shown;
   ASSERT_TRUE(fly(flown, &shown));
-  const auto known = std::ranges::count_if(shown.checks, [](const CheckLine& c) { return c.outcome.has_value(); });
+  const auto known =
+      std::ranges::count_if(shown.checks, [](const CheckLine& c) { return c.outcome.has_value(); });
   const auto over = std::ranges::count_if(flown.checks, [&](const scenario::Check& check) {
     const auto bar = check.rule->bar();
     return bar && !bar->stretch.to_go_s && bar->stretch.window.to_us + 2'000'000 < flown.duration_us;

@@ -10,11 +10,12 @@ namespace canhil::live {
 namespace {
 
 Snapshot full_snapshot() {
-  Snapshot snapshot{.flight = Flight{.title = "a flight over M\xc3\xbcnchen\x1b[2J",
-                              .t_s = 7,
-                              .duration_s = 20,
-                              .checks = {{.name = "one", .outcome = checks::Outcome::fail, .measured = "2 mrad"},
-                                         {.name = "two"}}}};
+  Snapshot snapshot{
+      .flight = Flight{.title = "a flight over M\xc3\xbcnchen\x1b[2J",
+                       .t_s = 7,
+                       .duration_s = 20,
+                       .checks = {{.name = "one", .outcome = checks::Outcome::fail, .measured = "2 mrad"},
+                                  {.name = "two"}}}};
   for (int i = 0; i < 30; ++i) {
     snapshot.flight->series.push_back({.estimator = "any",
                                        .about = &quantities::attitude_heading,
@@ -52,7 +53,8 @@ TEST(LiveScreen, ShowsTheMostImportantFirst) {
 }
 
 TEST(LiveScreen, ShowsABatch) {
-  Batch batch{.title = "many", .of = "runs", .done = 3, .total = 10, .failed = 1, .failed_means = "ended early"};
+  Batch batch{
+      .title = "many", .of = "runs", .done = 3, .total = 10, .failed = 1, .failed_means = "ended early"};
   batch.add({.name = "run 2", .result = "target silent", .failed = true});
   const auto lines = screen_of({.batch = batch}, 10, 80, false);
   EXPECT_NE(lines[1].text.find("3 / 10 runs"), std::string::npos);
