@@ -90,7 +90,7 @@ function chart_of(parent, key) {
   const x = axis("t [s]");
   x.ticks.maxTicksLimit = 8;
   const chart = new Chart(canvas, {type: "line", data: {datasets: []},
-    options: {scales: {x, y: axis("")}, plugins: {legend: {display: false}, tooltip: {enabled: false}}}});
+    options: {scales: {x, y: Object.assign(axis(""), {afterFit: scale => { scale.width = 56; }})}, plugins: {legend: {display: false}, tooltip: {enabled: false}}}});
   one = {chart, box, canvas, title: caption.children[0], now: caption.children[1]};
   charts.set(key, one);
   return one;
@@ -184,7 +184,7 @@ function show_flight(message) {
   const worst = (closing.length ? closing : flight.timing).reduce((a, b) => !a || b.p99_us > a.p99_us ? b : a, null);
   const faults_now = flight.faults.filter(fault => flight.t_s >= fault.from_s && flight.t_s <= fault.to_s).length;
   const tiles = [
-    ["Time", figure(flight.t_s) + " s", "of " + flight.duration_s + " s"],
+    ["Time", flight.t_s.toFixed(1) + " s", "of " + flight.duration_s + " s"],
     ["Checks", failed ? failed + " failed" : count("pass") + " passed", open ? open + " open" : "of " + checks.length, failed ? "no" : ""],
     ["Bus load", percent(flight.load_now), "busiest " + percent(flight.load_busiest)],
     ["Latency, 99 %", worst ? ms(worst.p99_us) + " ms" : "–", worst ? worst.message : flight.no_timing || "no answers yet"],
@@ -217,7 +217,7 @@ function show_flight(message) {
   by_id("faults-section").hidden = flight.faults.length === 0;
   fill(by_id("faults"), flight.faults.map(fault => {
     const over = flight.outcome !== null || flight.t_s > fault.to_s, yet = flight.t_s < fault.from_s;
-    return [[fault.name], [fault.stage], [figure(fault.from_s) + ", " + figure(fault.to_s)],
+    return [[fault.name], [fault.stage], [fault.from_s + ", " + fault.to_s],
       over ? ["over", "mark soft"] : yet ? ["to come", "mark soft"] : ["at work", "mark unknown"]];
   }));
   set_text(by_id("title"), flight.title || flight.scenario);
