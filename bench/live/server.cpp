@@ -180,7 +180,7 @@ class Exchange : public std::enable_shared_from_this<Exchange> {
     if (upgrade) {
       stream_.expires_never();
       auto spectator = std::make_shared<Spectator>(stream_.release_socket(), std::move(place_));
-      spectator->accept(request, [look = look_, spectator] { look(spectator); });
+      spectator->accept(request, [self = shared_from_this(), spectator] { self->look_(spectator); });
       return;
     }
     const auto file = std::ranges::find(site_.files, answer.what, &File::path);
