@@ -68,6 +68,9 @@ void View::Tap::landed() {
   view_.feed_.follow(nullptr);
   view_.requests_.landing = true;
   view_.asked_ = true;
+  // The flight waits for the view now: where that is permitted the view is no longer the last of all.
+  const sched_param parameters{};
+  static_cast<void>(pthread_setschedparam(view_.thread_.native_handle(), SCHED_OTHER, &parameters));
   view_.landed_.wait(lock, [&] { return !view_.requests_.landing || view_.gave_up_; });
 }
 

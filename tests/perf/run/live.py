@@ -63,7 +63,7 @@ def look_on(bench, side):
 def fly(program, scenario, real_time, side, open_page):
     words = ["run", scenario, *real_time, "--json", "run.json"]
     if open_page:
-        with Bench(program, *words) as bench:
+        with Bench(program, *words, hurried=False) as bench:
             looker = threading.Thread(target=look_on, args=(bench, side))
             looker.start()
             code, _ = bench.end()

@@ -9,6 +9,8 @@ import socket
 import struct
 import subprocess
 import tempfile
+import threading
+import time
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -19,7 +21,8 @@ PATIENCE_S = 60
 class Bench:
     """hil-bench with these arguments and --live 0; ends with the block."""
 
-    def __init__(self, program, *arguments, live=("--live", "0")):
+    def __init__(self, program, *arguments, live=("--live", "0"), hurried=True):
+        self.hurried = hurried
         self.errors = tempfile.NamedTemporaryFile("w+", suffix=".err")
         self.folder = tempfile.TemporaryDirectory()
         self.process = subprocess.Popen([program, *map(str, arguments), *live], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -29,10 +32,21 @@ class Bench:
         self.url = self.await_line(r"live at (http://\S+)")
         parts = urllib.parse.urlsplit(self.url)
         self.port, self.query = parts.port, "?" + parts.query if parts.query else ""
+        threading.Thread(target=self.hurry, daemon=True).start()
         return self
 
+    def hurry(self):
+        """In a flight in real time the view's thread takes what others leave (SCHED_IDLE): on a busy machine that is nothing."""
+        while self.hurried and self.process.poll() is None:
+            for thread in os.listdir(f"/proc/{self.process.pid}/task"):
+                try:
+                    if os.sched_getscheduler(int(thread)) == os.SCHED_IDLE:
+                        os.sched_setscheduler(int(thread), os.SCHED_OTHER, os.sched_param(0))
+                except (PermissionError, ProcessLookupError):
+                    pass
+            time.sleep(0.05)
+
     def await_line(self, pattern):
-        import time
         until = time.monotonic() + PATIENCE_S
         while time.monotonic() < until:
             self.errors.seek(0)
@@ -116,15 +130,17 @@ class WebSocket:
                 return None
             if len(head) < 2:
                 return None
-            kind, length = head[0] & 0x0F, head[1] & 0x7F
+            last, kind, length = head[0] & 0x80, head[0] & 0x0F, head[1] & 0x7F
             if length >= 126:
                 size = 2 if length == 126 else 8
                 length = int.from_bytes(self.file.read(size), "big")
             data = self.file.read(length)
             if kind == 8:
                 return None
-            if kind == 1:
-                return json.loads(data)
+            if kind in (0, 1):  # a message may come in parts
+                self.parts = (self.parts if kind == 0 else b"") + data
+                if last:
+                    return json.loads(self.parts)
             if kind == 9:  # ping
                 self.send(data, kind=10)
 
@@ -143,4 +159,6 @@ class WebSocket:
         return last
 
     def close(self):
+        if hasattr(self, "file"):
+            self.file.close()
         self.socket.close()

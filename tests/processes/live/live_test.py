@@ -26,6 +26,7 @@ class Page(unittest.TestCase):
                 self.assertEqual(len(body), int(headers["content-length"]))
                 if target != "/chart.js":  # which has addresses in its licence
                     self.assertNotIn(b"http", body.replace(b"http-equiv", b""), target)
+            bench.await_line("(page stays)")
             code, out = bench.interrupt()
             self.assertEqual(code, 3, out)  # of the flight: its times are not judged in lockstep
 
@@ -125,7 +126,9 @@ class Run(unittest.TestCase):
             alone = subprocess.run([HIL_BENCH, "run", QUICK, "--lockstep", "--json", "alone.json", "--log", "alone.log"],
                                    capture_output=True, text=True, timeout=60, cwd=folder)
             self.assertEqual(alone.returncode, code)
-            self.assertEqual((folder / "live.log").read_bytes().replace(b"live", b""), (folder / "alone.log").read_bytes().replace(b"alone", b""))
+            frames = [[line.split()[2:] for line in (folder / name).read_text().splitlines()] for name in ("live.log", "alone.log")]
+            self.assertGreater(len(frames[0]), 1000)
+            self.assertEqual(frames[0], frames[1])  # their stamps are the host's
             live, without = (without_host(json.loads((folder / name).read_text())) for name in ("live.json", "alone.json"))
             bus = live["provenance"].pop("bus"), without["provenance"].pop("bus")  # private: named after the process
             self.assertTrue(all(name.startswith("local:") for name in bus))
