@@ -19,14 +19,14 @@ PATIENCE_S = 60
 
 
 class Bench:
-    """hil-bench with these arguments and --live 0; ends with the block."""
+    """hil-bench with these arguments and --live 0, in a folder of its own or this one; ends with the block."""
 
-    def __init__(self, program, *arguments, live=("--live", "0"), hurried=True):
+    def __init__(self, program, *arguments, live=("--live", "0"), hurried=True, folder=None):
         self.hurried = hurried
         self.errors = tempfile.NamedTemporaryFile("w+", suffix=".err")
         self.folder = tempfile.TemporaryDirectory()
         self.process = subprocess.Popen([program, *map(str, arguments), *live], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                        stderr=self.errors, text=True, cwd=self.folder.name)
+                                        stderr=self.errors, text=True, cwd=folder or self.folder.name)
 
     def __enter__(self):
         self.url = self.await_line(r"live at (http://\S+)")

@@ -4,6 +4,7 @@ import json
 import pathlib
 import subprocess
 import sys
+import time
 import unittest
 
 sys.dont_write_bytecode = True
@@ -102,6 +103,7 @@ class Refusals(unittest.TestCase):
             for _ in range(100):  # the places are free when the bench has looked
                 if get(bench.port)[0] == 200:
                     break
+                time.sleep(0.05)
             self.assertEqual(get(bench.port)[0], 200)
             silent = [connect(bench.port) for _ in range(MOST)]  # who says nothing loses his place
             for one in silent:
