@@ -1,5 +1,5 @@
-// hil-bench-paper: what `hil-bench campaign --paper NAME` becomes. Flies what a paper claims, prints the
-// tables, writes the page.
+// hil-bench-paper: the program for `hil-bench campaign --paper NAME`. Flies the campaigns of a paper, prints
+// the tables, writes the page.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -19,10 +19,10 @@
 namespace canhil::commands {
 namespace {
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string paper;
-  std::string folder;  // empty: paper-NAME here
+  std::string folder;  // empty: paper-NAME in the current folder
   std::optional<std::uint64_t> runs;
   bool unrounded = false;
   std::string exact;

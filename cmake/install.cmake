@@ -1,8 +1,8 @@
-# cmake --install: programs, the libraries for find_package(canhil), data, documents; cpack -G DEB makes a Debian package of them.
+# cmake --install: programs, the libraries for find_package(canhil), data, documents; cpack -G DEB packs them into a Debian package.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# What a program of others may link: messages and their codecs, buses, logs, estimators.
+# What other projects can link: messages and their codecs, buses, logs, estimators.
 set(canhil_exported wire files dbc messages messages_fd logs ports strapdown filtering transfer_alignment inflight_alignment los_rate wind)
 foreach(library IN LISTS canhil_exported)
   get_target_property(type canhil_${library} TYPE)
@@ -35,13 +35,13 @@ foreach(program hil-bench hil-target)
   install(FILES ${CMAKE_SOURCE_DIR}/packaging/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
 endforeach()
 
-# Pages of the manual: what --help says, one for each program and each subcommand of hil-bench.
+# Manual pages from the output of --help: one for each program and each subcommand of hil-bench.
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
   add_custom_target(canhil_manual ALL
     COMMAND ${CMAKE_SOURCE_DIR}/packaging/manual.sh ${CMAKE_BINARY_DIR} ${CMAKE_BINARY_DIR}/man ${PROJECT_VERSION}
     DEPENDS hil-target hil-bench hil-bench-campaign dbcgen ${CMAKE_SOURCE_DIR}/packaging/manual.sh
-    COMMENT "Pages of the manual" VERBATIM)
+    COMMENT "Manual pages" VERBATIM)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
 endif()
 

@@ -1,13 +1,13 @@
-# Heavy headers of the standard library, Eigen and fmt, of the tests also GoogleTest, are read once for all targets that are compiled
-# alike, not once for each of some five hundred sources.
+# Precompiles the heavy headers of the standard library, Eigen and fmt (for the tests also GoogleTest) once for all targets that share
+# compiler options, instead of parsing them in each of some five hundred sources.
 #
-# For a build that is made once (CANHIL_TOGETHER, the sanitizers). Where sources are edited, each names what it includes and ccache
-# tells what has changed; a precompiled header hides the first and disturbs the second.
+# Only for one-off builds (CANHIL_TOGETHER, the sanitizers). While sources are edited, a precompiled header hides missing includes and
+# lowers the hit rate of ccache.
 set(canhil_headers <algorithm> <array> <charconv> <chrono> <cmath> <cstdint> <cstring> <deque> <filesystem> <fstream> <functional>
     <limits> <map> <memory> <optional> <random> <set> <span> <sstream> <string> <string_view> <tuple> <utility> <variant> <vector>
     <fmt/format.h> <fmt/ranges.h>)
 
-# Targets of a folder and of those in it, that are compiled as C++.
+# The C++ targets of a folder and its subfolders.
 function(canhil_targets_of folder result)
   get_property(found DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   get_property(inner DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
@@ -26,8 +26,8 @@ function(canhil_targets_of folder result)
   set(${result} ${targets} PARENT_SCOPE)
 endfunction()
 
-# canhil_share_headers(FOLDER LIBRARIES lib... HEADERS <header>...): for each way in which the targets of the folder are compiled. What
-# the libraries define is defined for all of them: the compiler takes a header only where it has the same macros.
+# canhil_share_headers(FOLDER LIBRARIES lib... HEADERS <header>...): one precompiled header for each set of compiler options in the folder.
+# All targets get the macros that the libraries define: the compiler accepts a precompiled header only if the macros agree.
 function(canhil_share_headers folder)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;HEADERS" ${ARGN})
   set(definitions "")

@@ -38,7 +38,7 @@ int run(int argc, char** argv) {
   const auto bus_option = program
                               .add_option("--bus", buses,
                                           "bus to serve: a SocketCAN interface (can0, vcan0) or local:NAME; "
-                                          "several: listen on all, answer on the first")
+                                          "if given several times: receive on all, answer on the first")
                               .one_word_each();
   const auto replay_option = program.add_option(
       "--replay", log, "feed a recorded log to the device and print its answers, in candump's format");
@@ -75,7 +75,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return canhil::command_line::finish("hil-target", run(argc, argv));
-  } catch (const std::exception& error) {  // no memory, for one
+  } catch (const std::exception& error) {  // for example std::bad_alloc
     std::fprintf(stderr, "hil-target: %s\n", error.what());
     return exit_usage;
   }

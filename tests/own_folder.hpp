@@ -9,8 +9,8 @@
 
 namespace canhil::test {
 
-/// Gone with the process that made it, a child of that one left aside; kept where a test failed: somebody
-/// will want to look.
+/// Removed at the end of the process that created it (not of its children). Kept if a test failed, so that
+/// its files can be inspected.
 class OwnFolder {
  public:
   OwnFolder() { std::filesystem::create_directories(path); }

@@ -2,14 +2,14 @@
 # Builds and runs the tests of the project; the last line is "N passed, N failed", the exit code 0 only when none failed.
 #   bash tests/run.sh                 format and structure, every unit, property and process test, one pass over vcan
 #   bash tests/run.sh --full          also the sanitizers, all of vcan, two emulated controllers, Slurm, the papers, the fuzzers
-#   bash tests/run.sh --coverage      unit tests, process tests and the papers' pages, and the lines of dbc, target and bench they run
+#   bash tests/run.sh --coverage      unit tests, process tests and the papers' pages, with line coverage of dbc, target and bench
 #   bash tests/run.sh --tidy          with either of the first two: also clang-tidy on every source, about ten minutes
 #   bash tests/run.sh --analyse       with either of the first two: also clang's static analyser on every source, about an hour
 #   bash tests/run.sh --soak          with either of the first two: also five minutes of random flights against one target (tests/soak)
 #   bash tests/run.sh --package       with --full: also the Debian package, installed and flown in a fresh Debian (root, network; tests/package)
-#   bash tests/run.sh --only REGEX    with any: of its CTest cases those whose name matches, in every configuration
-# Counted: each CTest case in each configuration, each static check, and each build that fails.
-# What a mode did not run it says at its end. JUnit files and logs: build/results/.
+#   bash tests/run.sh --only REGEX    with any: only the CTest cases whose name matches, in every configuration
+# The totals count each CTest case in each configuration, each static check, and each failed build.
+# The end of the output lists the checks that the mode did not run. JUnit files and logs: build/results/.
 set -uo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 2
@@ -32,16 +32,16 @@ while (($#)); do
       if [[ -z "$only" ]]; then usage "--only: expected a regular expression"; fi
       shift ;;
     -h | --help) sed -n '2,/^set /{/^#/s/^# \{0,1\}//p}' tests/run.sh; exit ;;
-    --quick) usage "--quick is now what it does without an option: bash tests/run.sh" ;;
-    --fuzz) usage "--fuzz is now a part of --full: bash tests/run.sh --full" ;;
+    --quick) usage "--quick is now the default: bash tests/run.sh" ;;
+    --fuzz) usage "--fuzz is now part of --full: bash tests/run.sh --full" ;;
     *) usage "unknown option '$1': expected --full, --coverage, --tidy, --analyse, --soak, --package or --only REGEX" ;;
   esac
   shift
 done
 if [[ $mode == coverage && $tidy$analyse$soak != nonono ]]; then usage "--coverage excludes --tidy, --analyse and --soak"; fi
-if [[ $package == yes && $mode != full ]]; then usage "--package: packs a whole build, expected --full beside it"; fi
+if [[ $package == yes && $mode != full ]]; then usage "--package needs a full build, expected --full as well"; fi
 
-# The same result from any shell: Debian's tools first, one locale, no settings of the caller's builds.
+# For the same result from any shell: Debian's tools first, one locale, no build settings of the caller.
 export PATH=/usr/bin:/usr/sbin:/bin:/sbin:${PATH:-} LC_ALL=C.UTF-8
 unset CXXFLAGS CPPFLAGS LDFLAGS CXX CC CMAKE_GENERATOR MAKEFLAGS DESTDIR LD_PRELOAD CDPATH
 unset "${!GTEST_@}" "${!CTEST_@}" "${!GCOV_@}"
@@ -58,7 +58,7 @@ finish() {
   printf '\n%d passed, %d failed\n' "$passed" "$failed"
   exit $((failed > 0))
 }
-running= # process group of the command that runs
+running= # process group of the running command
 interrupted() {
   progress_stop
   echo "tests/run.sh: interrupted" >&2
@@ -68,7 +68,7 @@ interrupted() {
 }
 trap interrupted INT TERM HUP
 
-stage() { # stage NAME FUNCTION...: runs it; it adds to passed and failed
+stage() { # stage NAME FUNCTION...: runs the function, which adds to passed and failed
   local name=$1 p=$passed f=$failed start=$SECONDS took
   shift
   printf '\n=== %s\n' "$name"
@@ -77,17 +77,17 @@ stage() { # stage NAME FUNCTION...: runs it; it adds to passed and failed
   rows+=("$(printf '%-34s %7d %7d %4d:%02d' "$name" $((passed - p)) $((failed - f)) $((took / 60)) $((took % 60)))")
 }
 
-one_check() { # one_check COMMAND...: counts as one
+one_check() { # one_check COMMAND...: counts the command as one check
   if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
 }
 
 failure() { echo "FAILED: $*"; failed=$((failed + 1)); }
 
-logged() { # logged WHAT LOG COMMAND...: its exit code; what it says goes to the log, how far it is to the terminal
+logged() { # logged WHAT LOG COMMAND...: runs the command with its output in the log and its progress on the terminal; returns its exit code
   local what=$1 log=$2 code=0
   shift 2
   : >"$log"
-  setsid "$@" >"$log" 2>&1 & # not waited for in the foreground, so that an interruption is heeded at once
+  setsid "$@" >"$log" 2>&1 & # in the background, so that the shell handles an interruption at once
   running=$!
   progress_start "$what" "$log"
   wait "$running" || code=$?
@@ -96,7 +96,7 @@ logged() { # logged WHAT LOG COMMAND...: its exit code; what it says goes to the
   return "$code"
 }
 
-# All at once, where clang-tidy does not want to see each source by itself; in a tree that is edited it would cost each time.
+# Compiles sources together, unless clang-tidy needs each source by itself. In a working tree that would slow down every rebuild.
 together=(-DCANHIL_TOGETHER=OFF)
 if [[ $mode == full && $tidy$analyse == nono ]]; then together=(-DCANHIL_TOGETHER=ON); fi
 build() { # build PRESET [TARGET...]
@@ -104,7 +104,7 @@ build() { # build PRESET [TARGET...]
   shift
   { cmake --preset "$preset" "${together[@]}" || cmake --fresh --preset "$preset" "${together[@]}"; } >"$log" 2>&1 ||
     { tail -n 20 "$log"; failure "configuring $preset"; return 1; }
-  # -k 0: what still builds is still tested.
+  # -k 0: continue after errors and test all targets that can be built.
   if ! logged "building $preset" "$log" ninja -C "build/$preset" -j "$jobs" -k 0 "$@"; then
     progress_rest "$log"
     failure "building $preset"
@@ -114,7 +114,7 @@ build() { # build PRESET [TARGET...]
 run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
   local preset=$1 junit=$results/$1.xml log=$results/$1.ctest.log code=0 counts p f
   shift
-  # One more than there are cores: many tests fly in real time or wait for a guest, and leave theirs idle.
+  # One job more than cores: many tests run in real time or wait for a guest system, and leave their core idle.
   logged "testing $preset" "$log" "${personality[@]}" ctest --test-dir "build/$preset" -j $((jobs + 1)) --timeout 300 \
     --output-on-failure --no-tests=ignore ${only:+-R "$only"} --output-junit "$junit" "$@" || code=$?
   progress_rest "$log"
@@ -126,13 +126,13 @@ run_ctest() { # run_ctest PRESET [CTEST OPTIONS...]
 }
 personality=()
 
-# Labels are joined by a plus sign (tests/CMakeLists.txt): "unit+threads" is of unit and of threads, "vcan-full" not of vcan.
+# A plus sign joins labels (tests/CMakeLists.txt): "unit+threads" has the labels unit and threads; "vcan-full" does not have vcan.
 labelled() { echo "(^|[+])($1)([+]|$)"; }
 
 optimised() { build default tests_unit tests_processes tests_vcan && run_ctest default -L "$(labelled 'static|unit|processes|vcan')"; }
 optimised_all() { build default && run_ctest default; }
 
-# Whether the sanitizers run here: some need fixed addresses (setarch -R), the leak checker needs ptrace.
+# Checks whether the sanitizers run here: some need fixed addresses (setarch -R), the leak checker needs ptrace.
 probe_sanitizers() {
   local dir=$root/build/probe
   mkdir -p "$dir"
@@ -152,8 +152,8 @@ probe_sanitizers() {
 }
 
 address_sanitizer() {
-  echo "address, leak and undefined-behaviour sanitizers on: what reads input from outside, and both programs; docs/ci.md says what not"
-  # In a copy of the tree with one more estimator: what adds one breaks nothing, and costs no build of its own.
+  echo "address, leak and undefined-behaviour sanitizers on: code that reads external input, and both programs; docs/ci.md lists the rest"
+  # In a copy of the tree with one more estimator: tests that adding one breaks nothing, without another build.
   local copy=$root/build/with_fifth
   echo "built with a fifth estimator in it (tests/fifth_estimator), in build/with_fifth"
   if ! python3 tests/fifth_estimator/add.py "$copy"; then failure "making $copy"; return; fi
@@ -161,24 +161,24 @@ address_sanitizer() {
   local dbcgen=build/asan/dbc/codegen/dbcgen kit=docs/examples/kit/canhil_messages
   { build asan dbcgen && "$dbcgen" dbc/canhil.dbc --fd -o dbc/canhil-fd.dbc && "$dbcgen" dbc/canhil.dbc --c -o $kit.h &&
     "$dbcgen" dbc/canhil.dbc --python -o $kit.py; } || failure "the contract of $copy"
-  # What the documentation shows of the contract is of the project's own. That each rule of conformance names its defect, that each
-  # shipped scenario is valid, and that a campaign may be killed at any time is no matter of memory; the latter two take a minute each.
-  # Long flights in real time run the code of the quick ones, and wait.
+  # Left out: tests that compare the documentation with the contract, which has one more estimator in this copy; conformance rules,
+  # validity of scenarios and killed campaigns, which add nothing for memory errors and take up to a minute each; and long flights in
+  # real time, which run the same code as the quick ones.
   build asan tests_input tests_processes tests_fuzz tests_fifth_estimator &&
     run_ctest asan -L "$(labelled 'input|processes|fuzz|fifth_estimator')" -E '[.]Documentation[.]|Defective[.]TargetIsNamed|ScenarioFiles[.]AreAllValid|Killed[.]AndResumed|Bits[.]A|ThePapersFlight|Ecu[.]PassesInRealTime|DefectiveEcu|Faults[.]WhatIsKnown'
   cd "$root" || exit 2
 }
 
 thread_sanitizer() {
-  echo "thread sanitizer on: what has threads (hil-target and hil-bench run have one thread each, with --live a second, whose queue is tested here)"
+  echo "thread sanitizer on: code with threads (hil-target and hil-bench run have one thread each, with --live a second, whose queue is tested here)"
   build tsan tests_threads && run_ctest tsan -L "$(labelled threads)"
 }
 
 coverage() {
   find build/coverage -name '*.gcda' -delete 2>/dev/null # the counts of an earlier run
-  export GCOV_ERROR_FILE=/dev/null # a process without the right to write its counts says so, where a test expects one line
-  # Left out: two tests in which the program may not write files, and so not its counts.
-  # Half optimised, and counting, a long test takes twice its time.
+  export GCOV_ERROR_FILE=/dev/null # a process that cannot write its counts would print an extra line, where a test expects one
+  # Left out: two tests in which the program cannot write files, including its counts.
+  # The longer timeout: half optimised and instrumented, a long test takes twice its time.
   build coverage tests_unit tests_processes tests_pages &&
     run_ctest coverage --timeout 600 -L "$(labelled 'static|unit|processes|pages')" -E 'CampaignBadInput[.](FullDisk|ReadOnlyFolder)' &&
     python3 tests/static/coverage.py build/coverage | tee "$results/coverage.txt" || failure "no figures of coverage"
@@ -204,7 +204,7 @@ case $mode in
     stage "thread sanitizer" thread_sanitizer ;;
   coverage)
     stage "coverage" coverage
-    not_run+=("all that needs no lines counted, vcan among it: bash tests/run.sh, and bash tests/run.sh --full") ;;
+    not_run+=("all tests that add no coverage, such as vcan: bash tests/run.sh, and bash tests/run.sh --full") ;;
 esac
 again="bash tests/run.sh$([[ $mode == full ]] && echo ' --full')"
 if [[ $tidy == yes ]]; then
@@ -228,7 +228,7 @@ if [[ $soak == yes ]]; then
 elif [[ $mode != coverage ]]; then
   not_run+=("five minutes of random flights against one target: $again --soak")
 fi
-if [[ $mode != coverage ]]; then not_run+=("the lines that the tests run, counted: bash tests/run.sh --coverage"); fi
-if [[ -n "$only" ]]; then not_run+=("clang-format, and every test whose name does not match '$only': without --only"); fi
+if [[ $mode != coverage ]]; then not_run+=("line coverage: bash tests/run.sh --coverage"); fi
+if [[ -n "$only" ]]; then not_run+=("clang-format, and tests whose name does not match '$only': omit --only"); fi
 if [[ -n "$only" ]] && ((!passed && !failed)); then failure "no test matches '$only'"; fi
 finish

@@ -28,7 +28,7 @@ drive::Options in_process(std::string_view bus) {
   return options;
 }
 
-/// Magnitude of a signal's mean over a flight; none: no answer has it.
+/// Magnitude of a signal's mean over a flight; none: no answer carries it.
 std::optional<double> mean_of(const Answers& answers, const Move& move) {
   const Series* series = answers.find(move.message);
   if (series == nullptr) return std::nullopt;
@@ -37,13 +37,13 @@ std::optional<double> mean_of(const Answers& answers, const Move& move) {
   return std::abs(series->mean(static_cast<std::size_t>(found - series->signals.begin())));
 }
 
-// One suite being flown.
+// The execution of one suite.
 class Run {
  public:
   Run(const Suite& suite, const Options& options, const std::atomic<bool>& stop)
       : suite_(suite), options_(options), stop_(stop) {}
 
-  // What needs the least time comes first, and times last, which nothing else is to disturb.
+  // The fastest tests come first, and timing comes last, when nothing else runs.
   Result<std::vector<Item>> fly() {
     if (auto flown = fly_all(false); !flown) return tl::unexpected(flown.error());
     if (suite_.dialogue && (wanted("protocol") || wanted("parameters")) && !done()) {
@@ -75,7 +75,7 @@ class Run {
     return options_.families.empty() ||
            std::ranges::find(options_.families, family) != options_.families.end();
   }
-  /// Whether a requirement that is wanted asks for a flight, or one for which another is flown.
+  /// Whether a selected requirement needs a flight, either directly or for comparison with another flight.
   [[nodiscard]] bool wanted(const Flight& flight) const {
     const auto of = [&](const std::string& id) {
       const Requirement* requirement = suite_.find(id);
@@ -95,7 +95,7 @@ class Run {
     failed_ = failed_ || item.outcome == Outcome::fail;
     items_.push_back(std::move(item));
   }
-  /// `wrong`: what was; empty: nothing.
+  /// `wrong`: the violation; empty: none.
   static Item item(const std::string& requirement, const std::string& name, const std::string& wrong,
                    const std::string& expected) {
     return {.requirement = requirement,
@@ -105,8 +105,7 @@ class Run {
             .expected = expected};
   }
 
-  /// What the host does now and then is no fault of the target: in real time the best of three flights
-  /// counts.
+  /// Occasional delays by the host are not the target's fault: in real time the best of three flights counts.
   Result<void> fly(const Flight& flight) {
     constexpr int most_attempts = 3;
     for (int left = flight.real_time ? most_attempts : 1;; --left) {
@@ -147,19 +146,19 @@ class Run {
     return found;
   }
 
-  /// Its ending and its checks.
+  /// The checks of a flight and its ending.
   Items judged(const Flight& flight, const std::string& name, const drive::Run& run) const {
     if (flight.faults) {
       const bool fault = run.ending.kind == Ending::Kind::target_fault;
       const std::string ending = run.ending.detail.empty() ? flown_to_its_end : run.ending.detail;
       return {
-          item(flight.requirement, name + " ends", fault ? "" : ending, "a heartbeat that tells of a fault")};
+          item(flight.requirement, name + " ends", fault ? "" : ending, "a heartbeat that reports a fault")};
     }
     if (run.ending.kind == Ending::Kind::interrupted) return {};
     Items found{item(flight.requirement, name + " ends", run.ending.detail, flown_to_its_end)};
     if (run.ending.kind != Ending::Kind::completed) return found;
     for (const checks::CheckResult& check : run.verdict.checks) {
-      // In virtual time nobody judges times: the flights in real time do.
+      // Timing cannot be judged in virtual time; the flights in real time judge it.
       if (!flight.real_time && check.outcome == Outcome::not_measured) continue;
       found.push_back(
           {.requirement = suite_.find(check.requirement) != nullptr ? check.requirement : flight.requirement,
@@ -226,7 +225,7 @@ class Run {
     for (const campaign::Endings& ending : evaluation->endings) {
       if (ending.completed == ending.runs && ending.not_finite == 0) continue;
       add(item(requirement_of(campaign), fmt::format("{}: {}", name, ending.variant),
-               fmt::format("{} of {} runs completed, {} with values that are no numbers; {}",
+               fmt::format("{} of {} runs completed, {} with values that are not numbers; {}",
                            ending.completed, ending.runs, ending.not_finite, ending.first_fault),
                "all runs to their end"));
     }
@@ -275,7 +274,7 @@ Result<Acceptance> accept(const Suite& suite, const Options& options, const std:
     const auto found = std::ranges::find_if(acceptance.findings, [&](const Finding& finding) {
       return finding.requirement.id == item.requirement;
     });
-    if (found == acceptance.findings.end() && !asked.empty()) continue;  // of a family that nobody asked for
+    if (found == acceptance.findings.end() && !asked.empty()) continue;  // its family was not selected
     if (found == acceptance.findings.end())
       return failure(fmt::format("{}: {} is for '{}', expected a requirement of the suite",
                                  suite.folder.string(), item.name, item.requirement));

@@ -1,4 +1,4 @@
-// Flies a suite against a target and says, requirement by requirement, whether it is met.
+// Flies a suite against a target and decides for each requirement whether it is met.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace canhil::accept {
 
-/// One thing that was looked at for a requirement.
+/// One test for a requirement.
 struct Item {
   std::string requirement;  ///< its id
   std::string name;         ///< "flight 'paper': error attitude.heading"
@@ -25,21 +25,21 @@ struct Item {
 
 struct Options {
   std::string target;                   ///< program
-  std::optional<std::uint64_t> seed{};  ///< of the campaigns, in place of their own
-  double share = 1;                     ///< by which the tolerances of the references are multiplied
-  bool first_failure = false;           ///< stop there: what comes after is not looked at
-  std::vector<std::string> families{};  ///< only what requirements of these ask for; empty: all
+  std::optional<std::uint64_t> seed{};  ///< replaces the campaigns' own seeds
+  double share = 1;                     ///< factor for the tolerances of the references
+  bool first_failure = false;           ///< stops at the first failure
+  std::vector<std::string> families{};  ///< only requirements of these families; empty: all
   std::function<void(const std::string&)> progress = [](const std::string&) {};
 };
 
-/// A requirement with what was found.
+/// A requirement with its results.
 struct Finding {
   Requirement requirement;
   std::vector<Item> items;
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// What became of one suite.
+/// The result of one suite.
 struct Acceptance {
   std::string estimator;
   std::string title;
@@ -51,7 +51,7 @@ struct Acceptance {
 /// Error: the suite cannot be flown (usage or configuration). A target that fails is a finding.
 Result<Acceptance> accept(const Suite& suite, const Options& options, const std::atomic<bool>& stop);
 
-/// Flies the suite's flights in this process, with frames rounded and not, and writes their references.
+/// Flies the suite's flights in this process, with rounded and unrounded frames, and writes their references.
 /// Error: one line.
 Result<void> record(const Suite& suite, const std::atomic<bool>& stop,
                     const std::function<void(const std::string&)>& progress);

@@ -1,4 +1,4 @@
-// The protocol of the target, asked command by command: what it must do, and what it must refuse.
+// Tests the target's protocol command by command: what it must do, and what it must reject.
 #pragma once
 
 #include <atomic>
@@ -10,10 +10,10 @@
 
 namespace canhil::accept {
 
-/// Requirements that every target owes, whatever it estimates.
+/// Requirements for every target, whatever it estimates.
 std::vector<Requirement> protocol_requirements(const Suite& suite);
 
-/// Starts the target and talks to it as the estimator of suite.dialogue. Error: it does not start.
+/// Starts the target and tests it as the estimator of suite.dialogue. Error: it does not start.
 Result<std::vector<Item>> talk(const Suite& suite, const std::string& target, const std::atomic<bool>& stop);
 
 }  // namespace canhil::accept

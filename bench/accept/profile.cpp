@@ -11,7 +11,7 @@ namespace {
 
 constexpr double full_turn_deg = 360;
 
-/// Another program may carry another version and be right.
+/// Differs between programs that are both right, such as the version.
 bool of_the_program(const SignalInfo& signal) {
   return signal.name.starts_with("version_") || signal.name == "dbc_hash";
 }
@@ -29,7 +29,7 @@ double distance(const SignalInfo& signal, double a, double b) {
 double Series::mean(std::size_t signal) const {
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    // An angle's turns are counted from the first one, so that a heading about south has a mean.
+    // Angles are unwrapped relative to the first one, so that a heading near south has a mean.
     const double first = value(0, signal), now = value(i, signal);
     sum += turns(*signals[signal]) ? first + std::remainder(now - first, full_turn_deg) : now;
   }

@@ -1,5 +1,5 @@
-// What a target answered in one flight, signal by signal, short enough to be kept: how often each message
-// came, the mean of each signal, and its values at some instants.
+// A summary of the target's answers in one flight, short enough to keep: the count of each message, the mean
+// of each signal, and its values at some instants.
 #pragma once
 
 #include <cstddef>
@@ -13,33 +13,33 @@
 
 namespace canhil::accept {
 
-/// Every answer of one message. Values are in the unit of their signal.
+/// All answers of one message. Values are in the units of their signals.
 struct Series {
   std::vector<const SignalInfo*> signals;
-  std::vector<double> t_s;     ///< bench time of the last Sync before each
-  std::vector<double> values;  ///< answer by answer, a number a signal
+  std::vector<double> t_s;     ///< bench time at the last Sync before each answer
+  std::vector<double> values;  ///< answer by answer, one number per signal
   [[nodiscard]] std::size_t size() const { return t_s.size(); }
   [[nodiscard]] double value(std::size_t answer, std::size_t signal) const {
     return values[answer * signals.size() + signal];
   }
-  /// Over the flight; 0 without answers.
+  /// The mean over the flight; 0 without answers.
   [[nodiscard]] double mean(std::size_t signal) const;
 };
 
-/// Hears a flight. Frames that speak of the host do not count, nor signals that say which program answers.
+/// Records the answers of a flight. Frames about the host and signals that identify the program are ignored.
 class Answers final : public drive::Onlooker {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
 
-  /// As before the first frame.
+  /// Returns to the initial state.
   void clear() {
     messages_.clear();
     t_s_ = 0;
   }
-  /// By message, in the order of their names.
+  /// By message name, sorted.
   [[nodiscard]] const std::map<std::string, Series, std::less<>>& messages() const { return messages_; }
-  /// Of "Message.signal"; none: null, or the flight had no answer of this message.
+  /// The series of "Message.signal"; null: unknown, or the flight had no answer of this message.
   [[nodiscard]] const Series* find(std::string_view message) const;
 
  private:
@@ -47,7 +47,7 @@ class Answers final : public drive::Onlooker {
   double t_s_ = 0;
 };
 
-/// By how much two values of a signal differ: of an angle of a full turn the shorter way round.
+/// The difference of two values of a signal; for an angle the shorter way around.
 double distance(const SignalInfo& signal, double a, double b);
 
 }  // namespace canhil::accept

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{1} << 22U;
 constexpr double at_an_instant = 2, in_the_mean = 0.25, of_rounding = 4;
 
-/// The one that is the most tolerances off.
+/// The value with the largest deviation in tolerances.
 struct Worst {
   double tolerances = 0;
   std::string words;
@@ -59,9 +59,9 @@ Reference make_reference(const Answers& answers, const Answers& unrounded, std::
     }
     const std::size_t kept = std::min(rows, series.size());
     for (std::size_t k = 0; k < kept; ++k) {
-      const std::size_t place = kept == 1 ? 0 : k * (series.size() - 1) / (kept - 1);
-      ReferenceMessage::Row row{.place = place, .t_s = series.t_s[place], .values = {}};
-      for (std::size_t s = 0; s < series.signals.size(); ++s) row.values.push_back(series.value(place, s));
+      const std::size_t index = kept == 1 ? 0 : k * (series.size() - 1) / (kept - 1);
+      ReferenceMessage::Row row{.index = index, .t_s = series.t_s[index], .values = {}};
+      for (std::size_t s = 0; s < series.signals.size(); ++s) row.values.push_back(series.value(index, s));
       message.rows.push_back(std::move(row));
     }
     reference.push_back(std::move(message));
@@ -80,7 +80,7 @@ Result<void> write(const Reference& reference, const std::filesystem::path& file
                         fmt::join(message.rounding, " "), fmt::join(message.mean, " "),
                         fmt::join(message.mean_rounding, " "));
     for (const auto& row : message.rows)
-      text += fmt::format("{} {:.6g} {:.12g}\n", row.place, row.t_s, fmt::join(row.values, " "));
+      text += fmt::format("{} {:.6g} {:.12g}\n", row.index, row.t_s, fmt::join(row.values, " "));
   }
   return report::write_file(file.string(), text);
 }
@@ -114,18 +114,18 @@ Result<Reference> read_reference(const std::filesystem::path& file) {
       for (std::string name; words >> name;) message.signals.push_back(name);
       continue;
     }
-    std::size_t place = 0;
+    std::size_t index = 0;
     double t_s = 0;
     if (first != "rounding" && first != "mean" && first != "mean_rounding") {
-      const auto [end, bad] = std::from_chars(first.data(), first.data() + first.size(), place);
+      const auto [end, bad] = std::from_chars(first.data(), first.data() + first.size(), index);
       if (bad != std::errc() || end != first.data() + first.size())
-        return wrong("'message', 'signals', 'rounding', 'mean', 'mean_rounding' or the place of an answer");
-      if (place >= message.count || !(words >> t_s))
-        return wrong(fmt::format("the place of one of {} answers, and its time", message.count));
+        return wrong("'message', 'signals', 'rounding', 'mean', 'mean_rounding' or the index of an answer");
+      if (index >= message.count || !(words >> t_s))
+        return wrong(fmt::format("the index of one of {} answers, and its time", message.count));
     }
     std::vector<double> values = numbers(words);
     if (values.size() != message.signals.size())
-      return wrong(fmt::format("{} numbers, one a signal", message.signals.size()));
+      return wrong(fmt::format("{} numbers, one per signal", message.signals.size()));
     if (first == "rounding") {
       message.rounding = std::move(values);
     } else if (first == "mean") {
@@ -133,7 +133,7 @@ Result<Reference> read_reference(const std::filesystem::path& file) {
     } else if (first == "mean_rounding") {
       message.mean_rounding = std::move(values);
     } else {
-      message.rows.push_back({.place = place, .t_s = t_s, .values = std::move(values)});
+      message.rows.push_back({.index = index, .t_s = t_s, .values = std::move(values)});
     }
   }
   for (const ReferenceMessage& message : reference) {
@@ -161,13 +161,14 @@ std::string departure(const Reference& reference, const Answers& answers, double
       const double step = wire::lsb(signal), effect = of_rounding * message.rounding[s];
       const double tolerance = share * (counts(signal) ? effect : at_an_instant * step + effect);
       for (const auto& row : message.rows) {
-        const double now = series->value(row.place, s);
+        const double now = series->value(row.index, s);
         worst.take(distance(signal, now, row.values[s]), tolerance, [&] {
           return fmt::format("{}.{} at t={:g} s: {:.7g} {}, reference {:.7g} +- {:.2g}", message.name,
                              signal.name, row.t_s, now, signal.unit, row.values[s], tolerance);
         });
       }
-      if (signal.name.ends_with("_counter") || signal.name.ends_with("_us")) continue;  // a mean says nothing
+      if (signal.name.ends_with("_counter") || signal.name.ends_with("_us"))
+        continue;  // a mean has no meaning
       const double now = series->mean(s);
       const double mean_tolerance =
           share * ((counts(signal) ? 1.01 / static_cast<double>(count) : in_the_mean * step) +
@@ -182,7 +183,7 @@ std::string departure(const Reference& reference, const Answers& answers, double
     if (std::ranges::find(reference, name, &ReferenceMessage::name) == reference.end())
       return fmt::format("{}: {} answers, none in the reference", name, series.size());
   }
-  return worst.words;
+  return worst.text;
 }
 
 std::string difference(const Answers& one, const Answers& other, double steps, double relative) {
@@ -207,7 +208,7 @@ std::string difference(const Answers& one, const Answers& other, double steps, d
       }
     }
   }
-  return worst.words;
+  return worst.text;
 }
 
 }  // namespace canhil::accept

@@ -1,12 +1,12 @@
-// What the reference target answered in one flight, kept as text, and how far from it a target may be.
+// The answers of the reference target in one flight, stored as text, with the allowed deviation of a target.
 //
-// Two right targets differ by rounding: the contract's steps, and what they do to an estimate on its way
-// through the filter. The second is measured when the reference is made, by a flight whose frames round
-// nothing. A target may be off by `share` times
+// Two correct targets differ by rounding: the steps of the DBC's signals, and their effect on an estimate
+// through the filter. The latter is measured when the reference is made, by a flight with unrounded frames.
+// The deviation of a target may be `share` times
 //   at an instant:  2 steps + 4 times the largest effect of rounding over the flight
 //   in the mean:    1/4 step + 4 times the effect of rounding on the mean
-// Flags, states and counts may not be off at an instant, unless rounding changes them, and by one answer in
-// the mean.
+// Flags, states and counts may not differ at an instant, unless rounding changes them, and in the mean by one
+// answer.
 #pragma once
 
 #include <filesystem>
@@ -18,14 +18,14 @@
 
 namespace canhil::accept {
 
-/// Of one message.
+/// The reference of one message.
 struct ReferenceMessage {
   std::string name;
   std::size_t count = 0;
   std::vector<std::string> signals{};
-  std::vector<double> rounding{}, mean{}, mean_rounding{};  ///< a number a signal
+  std::vector<double> rounding{}, mean{}, mean_rounding{};  ///< one number per signal
   struct Row {
-    std::size_t place = 0;  ///< among the answers of this message
+    std::size_t index = 0;  ///< among the answers of this message
     double t_s = 0;
     std::vector<double> values;
   };
@@ -33,21 +33,21 @@ struct ReferenceMessage {
 };
 using Reference = std::vector<ReferenceMessage>;
 
-/// `rows`: instants kept of each message, evenly over its answers. `unrounded`: the same flight with frames
-/// that round nothing.
+/// `rows`: number of instants kept per message, evenly spaced over its answers. `unrounded`: the same flight
+/// with unrounded frames.
 Reference make_reference(const Answers& answers, const Answers& unrounded, std::size_t rows);
 
-/// `comment`: lines that say what it is.
+/// `comment`: lines at the beginning of the file.
 Result<void> write(const Reference& reference, const std::filesystem::path& file, const std::string& comment);
-/// Error: one line, with the file's.
+/// Error: one line, with the line of the file.
 Result<Reference> read_reference(const std::filesystem::path& file);
 
-/// Where a target left the reference: the first place of the signal that is the most tolerances off, in
-/// words; empty: nowhere.
+/// Where a target deviates from the reference: the signal with the largest deviation in tolerances, and its
+/// first such instant; empty: nowhere.
 std::string departure(const Reference& reference, const Answers& answers, double share = 1);
 
-/// The same for two flights of one target that are to agree: by `steps` of each signal, and `relative` to
-/// the second's value. Messages of both are compared, but for heartbeats, which name the algorithm.
+/// The same for two flights of one target that must agree: within `steps` of each signal and `relative` to
+/// the second's value. Compares messages that both have, except heartbeats, which name the algorithm.
 std::string difference(const Answers& one, const Answers& other, double steps, double relative);
 
 }  // namespace canhil::accept

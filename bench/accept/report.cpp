@@ -29,8 +29,8 @@ std::string counts(const Acceptance& suite) {
   return words;
 }
 
-/// What is to be seen of a finding without asking: what is wrong with it.
-std::vector<const Item*> told(const Finding& finding) {
+/// The items shown by default: the violations.
+std::vector<const Item*> shown_items(const Finding& finding) {
   std::vector<const Item*> items;
   for (const Item& item : finding.items) {
     if (item.outcome != Outcome::pass) items.push_back(&item);
@@ -46,7 +46,7 @@ std::string sign_of(Outcome outcome) {
   return fmt::format("<span class=\"{}\">{} {}</span>", style, sign, checks::name(outcome));
 }
 
-/// Everything that was looked at, folded away.
+/// All items, collapsed.
 std::string all_of(const Finding& finding) {
   std::string list;
   for (const Item& item : finding.items)
@@ -64,7 +64,7 @@ std::string section(const Acceptance& suite) {
     for (const Finding& finding : suite.findings) {
       if (finding.requirement.family != family) continue;
       std::string seen = all_of(finding);
-      const auto wrong = told(finding);
+      const auto wrong = shown_items(finding);
       for (std::size_t i = 0; i < std::min(wrong.size(), most_told); ++i)
         seen += fmt::format("<p><b>{}</b>: {}; expected {}</p>", escaped(wrong[i]->name),
                             escaped(wrong[i]->measured), escaped(wrong[i]->expected));
@@ -92,7 +92,7 @@ std::string text(const Report& report) {
         if (finding.requirement.family != family) continue;
         out += fmt::format("  {:<12}  {:<12} {}  ({} looked at)\n", report::label(finding.outcome()),
                            finding.requirement.id, finding.requirement.text, finding.items.size());
-        const auto wrong = told(finding);
+        const auto wrong = shown_items(finding);
         for (std::size_t i = 0; i < std::min(wrong.size(), most_told); ++i)
           out += fmt::format("      {} {}: {}; expected {}\n", wrong[i]->outcome == Outcome::fail ? "-" : "?",
                              wrong[i]->name, wrong[i]->measured, wrong[i]->expected);

@@ -1,4 +1,4 @@
-// What became of an acceptance, for people and for programs.
+// Reports of an acceptance test for people and programs.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,20 @@
 
 namespace canhil::accept {
 
-/// Of one `hil-bench accept`.
+/// The report of one `hil-bench accept`.
 struct Report {
-  std::string target;  ///< as it was named
+  std::string target;  ///< as given by the user
   std::int64_t started_s = 0;
   std::vector<Acceptance> suites;
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// A line a requirement, and below it what failed or was not measured.
+/// One line for each requirement, followed by what failed or was not measured.
 std::string text(const Report& report);
 std::string json(const Report& report);
-/// A test suite an estimator, a case a thing that was looked at.
+/// One test suite for each estimator, one test case for each test.
 std::string junit(const Report& report);
-/// One page that needs nothing outside itself.
+/// A self-contained page.
 std::string page(const Report& report);
 
 }  // namespace canhil::accept

@@ -20,7 +20,7 @@ using scenario::Setting;
 
 constexpr std::int64_t most_rows = 1000;
 
-/// Whether "Message.signal" is in the contract.
+/// Whether "Message.signal" is in the DBC.
 bool names_one(std::string_view name) {
   const std::size_t dot = std::min(name.find('.'), name.size());
   const auto message = std::ranges::find(messages::all_messages, name.substr(0, dot), &MessageInfo::name);
@@ -28,7 +28,7 @@ bool names_one(std::string_view name) {
          observe::signal_of(*message, name.substr(dot + 1)) != nullptr;
 }
 
-// One file being read.
+// Reads one file.
 class Reader {
  public:
   Reader(fs::path folder, std::string_view text)
@@ -70,7 +70,7 @@ class Reader {
     Requirement requirement{
         .id = section.text("id"), .family = section.one_of("family", families), .text = section.text("text")};
     if (suite_.find(requirement.id) != nullptr)
-      section.reject("id", fmt::format("'{}' is there twice", requirement.id), "each once");
+      section.reject("id", fmt::format("'{}' is given twice", requirement.id), "each once");
     suite_.requirements.push_back(std::move(requirement));
     section.finish();
   }
@@ -78,7 +78,7 @@ class Reader {
   std::string requirement(Section& section, std::string_view key) {
     std::string id = section.text(key);
     if (suite_.find(id) == nullptr && !section.error())
-      section.reject(key, fmt::format("'{}' is no requirement of this suite", id), "the id of one above");
+      section.reject(key, fmt::format("'{}' is not a requirement of this suite", id), "the id of one above");
     return id;
   }
 
@@ -87,7 +87,7 @@ class Reader {
     const auto found = std::ranges::find(suite_.flights, name, &Flight::name);
     if (found != suite_.flights.end()) return &*found;
     if (!section.error())
-      section.reject(key, fmt::format("'{}' is no flight before this one", name), "the name of one");
+      section.reject(key, fmt::format("'{}' is not the name of an earlier flight", name), "the name of one");
     return nullptr;
   }
 
@@ -113,7 +113,7 @@ class Reader {
   void read_flight(Section& section) {
     Flight flight{.name = section.text("name")};
     if (std::ranges::find(suite_.flights, flight.name, &Flight::name) != suite_.flights.end())
-      section.reject("name", fmt::format("'{}' is there twice", flight.name), "each once");
+      section.reject("name", fmt::format("'{}' is given twice", flight.name), "each once");
     std::vector<Setting> settings;
     if (auto set = section.optional_table("set")) settings = set->settings();
     flight.scenario = scenario(section, "scenario", settings);

@@ -1,5 +1,5 @@
-// What a target must do to be accepted as an estimator: a folder with suite.toml, the scenarios and campaigns
-// that it names, and the reference answers (docs/accept.md).
+// The requirements for accepting a target as an estimator: a folder with suite.toml, the scenarios and
+// campaigns that it names, and reference answers (docs/accept.md).
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace canhil::accept {
 
-/// What is asked, and under which heading.
+/// A requirement and its family.
 struct Requirement {
   std::string id;
   std::string family;  ///< one of `families`
@@ -23,34 +23,34 @@ struct Requirement {
 inline const std::vector<std::string> families{"errors",           "honesty",  "algorithms", "parameters",
                                                "flags and states", "protocol", "timing"};
 
-/// Another flight of the suite whose answers are to be the same.
+/// Another flight of the suite that must have the same answers.
 struct SameAs {
   std::string flight;
   std::string requirement;
-  double steps = 0;     ///< of each signal's resolution
-  double relative = 0;  ///< to the value
+  double steps = 0;     ///< tolerance in steps of each signal
+  double relative = 0;  ///< tolerance relative to the value
 };
 
-/// A signal that a flight moves, beside another flight.
+/// A signal whose mean changes compared with another flight.
 struct Move {
-  std::string flight;  ///< beside which
+  std::string flight;  ///< the other flight
   std::string message, signal;
-  bool up = false;  ///< its mean magnitude is larger there, else smaller
+  bool up = false;  ///< true: its mean magnitude must be larger there; false: smaller
   std::string requirement;
 };
 
-/// One flight in lockstep, or in real time.
+/// A flight in lockstep or in real time.
 struct Flight {
   std::string name;
   scenario::Scenario scenario{};
-  std::string requirement{};  ///< of its checks that have none of the suite's themselves
+  std::string requirement{};  ///< for checks without a requirement of the suite
   std::optional<std::string>
-      reference{};       ///< requirement that its answers are the reference's; none: not asked
-  std::size_t rows = 0;  ///< kept in the reference
+      reference{};       ///< the requirement that its answers match the reference; none: not tested
+  std::size_t rows = 0;  ///< number kept in the reference
   std::optional<SameAs> same_as{};
   std::optional<Move> moves{};
   bool real_time = false;
-  bool faults = false;  ///< the target is to say that it cannot go on
+  bool faults = false;  ///< the target must report a fault
 };
 
 using conformance::Parameter;
@@ -64,17 +64,17 @@ struct Suite {
   std::vector<Parameter> parameters;
   std::vector<std::string> campaigns;  ///< files in the folder
   std::optional<std::pair<std::string, double>>
-      apply;                                   ///< a parameter that takes effect in flight; none: not asked
-  std::optional<scenario::Scenario> dialogue;  ///< whose estimator is talked to; none: nobody is
+      apply;                                   ///< a parameter that takes effect in flight; none: not tested
+  std::optional<scenario::Scenario> dialogue;  ///< selects the estimator for the dialogue; none: no dialogue
 
   [[nodiscard]] const Requirement* find(std::string_view id) const;
   [[nodiscard]] std::filesystem::path reference_of(const Flight& flight) const;
 };
 
-/// Reads folder/suite.toml and what it names but references and campaigns. Error: one line.
+/// Reads folder/suite.toml and the files that it names, except references and campaigns. Error: one line.
 Result<Suite> read_suite(const std::filesystem::path& folder);
 
-/// The folders of the suites in a folder, by name. Error: one line; there is none.
+/// The folders of suites within a folder, sorted by name. Error: one line; there is none.
 Result<std::vector<std::filesystem::path>> suites_in(const std::filesystem::path& folder);
 
 }  // namespace canhil::accept

@@ -16,7 +16,7 @@ std::string with_unit(double value, const quantities::Unit& unit) {
   return fmt::format("{:.4g}{}{}", value / unit.factor, unit.name.empty() ? "" : " ", unit.name);
 }
 
-/// A value in its unit, under a name that ends in the unit.
+/// A value in its unit, under a name with the unit as suffix.
 std::pair<std::string, std::optional<double>> figure(std::string_view stem, double value,
                                                      const quantities::Unit& unit) {
   return {fmt::format("{}{}", stem, unit.ending), value / unit.factor};
@@ -24,12 +24,12 @@ std::pair<std::string, std::optional<double>> figure(std::string_view stem, doub
 
 std::string time_or_never(std::optional<double> t_s) { return t_s ? fmt::format("{:g} s", *t_s) : "never"; }
 
-/// " (3 missing)", as no bar is met then.
+/// " (3 values missing)": with missing values no bar is met.
 std::string missing_note(std::size_t missing) {
   return missing == 0 ? "" : fmt::format(" ({} values missing)", missing);
 }
 
-/// What the number of a bar is, in words.
+/// Formats the number of a bar.
 using Words = std::function<std::string(double)>;
 Words in(const quantities::Unit& unit) {
   return [unit](double bar) { return with_unit(bar, unit); };
@@ -37,7 +37,7 @@ Words in(const quantities::Unit& unit) {
 std::string percent(double fraction) { return fmt::format("{:g} %", 100 * fraction); }
 std::string times(double ratio) { return fmt::format("{:g} times", ratio); }
 
-/// The bars of an answer: each that there is adds what it expects and whether it holds.
+/// The bars of an answer: each one adds its expectation and whether it is met.
 class Bars {
  public:
   Bars(Answer& answer, bool complete) : answer_(answer), complete_(complete) {}
@@ -45,7 +45,7 @@ class Bars {
     answer_.expected += (answer_.expected.empty() ? "" : ", ") + words;
     answer_.passed = answer_.passed.value_or(true) && complete_ && holds;
   }
-  /// `what`: ahead of "at most", with a space.
+  /// `what`: text before "at most", ending in a space.
   void at_most(double value, const std::optional<double>& bar, const Words& words,
                std::string_view what = {}) {
     if (bar) expect(value <= *bar, fmt::format("{}at most {}", what, words(*bar)));
@@ -65,7 +65,7 @@ class Bars {
 
  private:
   Answer& answer_;
-  bool complete_;  // with a run missing no bar is met
+  bool complete_;  // with a run missing, no bar is met
 };
 
 std::size_t missing_in(std::span<const CurvePoint> curve) {
@@ -112,7 +112,8 @@ void answer(const Lead& rule, const Runs& runs, const Runs& other, Answer& out) 
       fmt::format("{} against {}{}", time_or_never(own_s), time_or_never(other_s), missing_note(missing));
   if (!rule.at_least_us) return;
   const double bar = seconds(*rule.at_least_us);
-  constexpr double rounding_s = 1e-9;  // times are multiples of 1 us, their difference only nearly
+  constexpr double rounding_s =
+      1e-9;  // times are multiples of 1 us, but their difference has rounding errors
   const bool holds = own_s && (!other_s || *other_s - *own_s >= bar - rounding_s);
   Bars(out, missing == 0).expect(holds, fmt::format("at least {:g} s before", bar));
 }
@@ -228,7 +229,7 @@ void answer(const RmsRatio& rule, const Runs& runs, const Runs& other, Answer& o
   Bars(out, missing == 0).at_most(ratio, rule.at_most, times);
 }
 
-// A run without a value counts as worse than any, so nothing is missing here.
+// A run without a value counts as the worst, so nothing is missing here.
 void answer(const Paired& rule, const Runs& runs, const Runs& other, Answer& out) {
   const PairedFraction paired = paired_fraction(runs, other, *rule.quantity, rule.at_us, rule.confidence);
   out.measured =

@@ -1,4 +1,4 @@
-// The answer to one question of a campaign: a function a kind of metric.
+// Answers the questions of a campaign: one function for each kind of metric.
 #pragma once
 
 #include <optional>
@@ -13,22 +13,23 @@ namespace canhil::campaign {
 
 using Runs = std::vector<RunSeries>;
 
-/// Of one metric for one variant.
+/// The answer to one metric for one variant.
 struct Answer {
   std::string metric;
   std::string kind;
   std::string requirement;
   std::string variant;
-  std::string measured{};                                                ///< with its unit
-  std::string expected{};                                                ///< the bars in words; empty: none
-  std::optional<bool> passed{};                                          ///< none: without a bar
-  std::vector<std::pair<std::string, std::optional<double>>> figures{};  ///< by name with unit; none: never
-  std::vector<CurvePoint> curve{};                                       ///< of rms_curve, else empty
+  std::string measured{};        ///< with its unit
+  std::string expected{};        ///< the bars as text; empty: none
+  std::optional<bool> passed{};  ///< none: there is no bar
+  std::vector<std::pair<std::string, std::optional<double>>>
+      figures{};                    ///< by name with unit; none: never reached
+  std::vector<CurvePoint> curve{};  ///< for rms_curve, otherwise empty
   const Quantity* quantity = nullptr;
 };
 
-/// Fills in what a metric asks of the runs of a variant. `other`: those of the one that it compares with;
-/// where it compares with none they are not looked at.
+/// Evaluates a metric for the runs of a variant. `other`: the runs of the variant that it compares with, if
+/// any.
 void answer(const Metric& metric, const Runs& runs, const Runs& other, Answer& out);
 
 }  // namespace canhil::campaign

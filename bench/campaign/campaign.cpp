@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using scenario::Section;
 using scenario::Setting;
 
-/// A variant as the file has it.
+/// A variant as written in the file.
 struct Given {
   std::string name;
   std::string scenario;
@@ -27,7 +27,7 @@ struct Given {
   int line = 0;
 };
 
-/// One value for every key of the sweep.
+/// One value for each key of the sweep.
 struct Point {
   std::string name;
   std::vector<Setting> settings;
@@ -39,11 +39,11 @@ void refuse_seed(Section& section, const std::vector<Setting>& settings) {
 }
 
 Given read_given(Section& section) {
-  Given given{.name = section.text("name"),
-              .scenario = section.text("scenario"),
+  Given given{.name = section.text({"name", "Unique name."}),
+              .scenario = section.text({"scenario", "Scenario file, relative to the campaign's."}),
               .settings = {},
               .line = section.line()};
-  if (auto set = section.optional_table("set")) {
+  if (auto set = section.optional_table({"set", "Keys of the scenario and their values."})) {
     given.settings = set->settings();
     refuse_seed(*set, given.settings);
   }
@@ -56,7 +56,7 @@ std::string without_quotes(std::string_view value) {
   return std::string(quoted ? value.substr(1, value.size() - 2) : value);
 }
 
-/// The cartesian product: the last key runs fastest.
+/// The cartesian product; the last key varies fastest.
 std::vector<Point> expand(const std::vector<Setting>& sweep) {
   std::vector<Point> points{{}};
   for (const Setting& key : sweep) {
@@ -75,14 +75,16 @@ std::vector<Point> expand(const std::vector<Setting>& sweep) {
 }
 
 std::vector<Setting> read_sweep(Section& root, const std::vector<Given>& given) {
-  auto section = root.optional_table("sweep");
+  auto section = root.optional_table(
+      {"sweep",
+       "Keys of the scenario, each with an array of values: every variant flies with every combination."});
   if (!section) return {};
   std::vector<Setting> sweep = section->settings();
   if (sweep.empty()) root.reject("sweep", "is empty", "keys of the scenario, each with an array of values");
   refuse_seed(*section, sweep);
   for (const Setting& key : sweep) {
     if (key.elements.empty()) {
-      section->reject(key.key, key.value.starts_with('[') ? "is empty" : "is no array",
+      section->reject(key.key, key.value.starts_with('[') ? "is empty" : "is not an array",
                       "an array of at least one value");
     }
     const auto has_key = [&](const Given& one) {
@@ -112,7 +114,7 @@ std::uint64_t hash_of(const Sources& sources) {
   return world::fnv1a_64(all);
 }
 
-/// Recordings that a scenario flies are no part of the sources, but of what was flown.
+/// Recordings that a scenario uses are not among the sources, but they change the results.
 std::uint64_t with_recordings(std::uint64_t hash, const std::vector<Variant>& variants) {
   for (const Variant& variant : variants) {
     const std::uint64_t own = variant.scenario.recordings_hash;
@@ -140,10 +142,11 @@ Result<std::vector<Variant>> make_variants(const std::vector<Given>& given, cons
                       .scenario = {}};
       std::vector<Setting> settings = one.settings;
       settings.insert(settings.end(), point.settings.begin(), point.settings.end());
-      // Named from the campaign's folder, and what it names from its own.
-      const fs::path place = fs::path(sources.file).parent_path() / one.scenario;
+      // The path is relative to the campaign's folder; paths within the scenario are relative to the
+      // scenario.
+      const fs::path path = fs::path(sources.file).parent_path() / one.scenario;
       auto read = drive::parse_scenario(sources.scenarios.at(one.scenario), one.scenario, settings,
-                                        place.parent_path().string(), beside);
+                                        path.parent_path().string(), beside);
       const auto refused = [&](std::string_view why) {
         return failure(fmt::format("{}:{}: variant '{}': {}", sources.file, one.line, variant.name, why));
       };
@@ -171,7 +174,8 @@ std::vector<Given> read_variants(Section& root) {
   for (Section& section : root.tables("variant")) {
     Given one = read_given(section);
     if (std::ranges::find(given, one.name, &Given::name) != given.end()) {
-      section.reject("name", fmt::format("'{}' is the name of another variant", one.name), "another name");
+      section.reject("name", fmt::format("'{}' is already the name of another variant", one.name),
+                     "another name");
     }
     given.push_back(std::move(one));
   }
@@ -186,7 +190,8 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
   for (Section& section : root.tables("metric")) {
     Metric metric = read_metric(section, names, duration_us);
     if (std::ranges::find(metrics, metric.name, &Metric::name) != metrics.end()) {
-      section.reject("name", fmt::format("'{}' is the name of another metric", metric.name), "another name");
+      section.reject("name", fmt::format("'{}' is already the name of another metric", metric.name),
+                     "another name");
     }
     metrics.push_back(std::move(metric));
   }
@@ -196,11 +201,11 @@ std::vector<Metric> read_metrics(Section& root, const std::vector<Given>& given,
 void refuse_untold(Section& root, const Campaign& campaign) {
   for (const Metric& metric : campaign.metrics) {
     const Quantity& quantity = quantity_of(metric);
-    for (const std::size_t place : variants_of(campaign, metric)) {
-      const Variant& variant = campaign.variants[place];
-      if (quantities::tells(estimators::of(variant.scenario).layout, quantity)) continue;
+    for (const std::size_t index : variants_of(campaign, metric)) {
+      const Variant& variant = campaign.variants[index];
+      if (quantities::has(estimators::of(variant.scenario).layout, quantity)) continue;
       root.reject("metric",
-                  fmt::format("'{}' asks for {}, which variant '{}' does not tell", metric.name,
+                  fmt::format("'{}' asks for {}, which variant '{}' does not report", metric.name,
                               quantity.name, variant.name),
                   "a quantity of its estimator");
     }
@@ -214,12 +219,14 @@ Result<Campaign> parse_campaign(std::string_view text, std::string_view file,
   Section root = Section::parse(text, file);
   Campaign campaign;
   campaign.sources = {.file = std::string(file), .text = std::string(text), .scenarios = {}};
-  campaign.title = root.text("title");
-  campaign.runs = static_cast<std::uint64_t>(root.integer("runs", 1));
+  campaign.title = root.text({"title", "One line, shown in every report."});
+  campaign.runs = static_cast<std::uint64_t>(root.integer(
+      {"runs", fmt::format("Runs of each variant, at most {}. `--runs` overrides it.", most_runs)}, 1));
   if (campaign.runs > most_runs)
     root.reject("runs", fmt::format("{} is out of range", campaign.runs),
                 fmt::format("at most {}", most_runs));
-  campaign.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
+  campaign.seed = static_cast<std::uint64_t>(
+      root.integer({"seed", "Seed of all random numbers, in place of the scenarios'."}, 0));
   const std::vector<Given> given = read_variants(root);
   const std::vector<Setting> sweep = read_sweep(root, given);
   if (const auto error = root.error()) return tl::unexpected(*error);
@@ -273,7 +280,7 @@ std::vector<std::size_t> variants_of(const Campaign& campaign, const Metric& met
   for (std::size_t i = 0; i < campaign.variants.size(); ++i) {
     const std::string& name = campaign.variants[i].given;
     const bool wanted = metric.variants.empty()
-                            ? name != other  // nobody is compared with himself unasked
+                            ? name != other  // a variant is compared with itself only on request
                             : std::ranges::find(metric.variants, name) != metric.variants.end();
     if (wanted) chosen.push_back(i);
   }

@@ -10,11 +10,11 @@
 namespace canhil::campaign {
 namespace {
 
-// Why the system refused, where SQLite's words do not say: 0 if it does not know.
+// The system's errno where SQLite's message lacks it; 0: unknown.
 int reason_of(int code, const std::string& file, sqlite3* database) {
   int reason = 0;
   if (code == SQLITE_IOERR) sqlite3_file_control(database, "main", SQLITE_FCNTL_LAST_ERRNO, &reason);
-  if (code == SQLITE_CANTOPEN) {  // SQLite's own errno is that of another try, to read only
+  if (code == SQLITE_CANTOPEN) {  // SQLite's own errno belongs to its second attempt, to open for reading
     const std::filesystem::path path = std::filesystem::absolute(file);
     const bool there = std::filesystem::exists(std::filesystem::symlink_status(path));
     if (access((there ? path : path.parent_path()).c_str(), W_OK) != 0) reason = errno;
@@ -28,7 +28,7 @@ Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3*
   const int code = error.getErrorCode() & 0xFF;
   if (code == SQLITE_BUSY) return {fmt::format("{}: is in use by another program", file)};
   if (code == SQLITE_NOTADB)
-    return {fmt::format("{}: is no SQLite file, expected results of a campaign", file)};
+    return {fmt::format("{}: is not an SQLite file, expected results of a campaign", file)};
   const int reason = reason_of(code, file, database);
   return {fmt::format("{}: cannot be read or written: {}{}", file, error.what(),
                       reason == 0 ? "" : fmt::format(" ({})", std::strerror(reason)))};
@@ -37,7 +37,7 @@ Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3*
 Result<SQLite::Database> open_database(const std::filesystem::path& path, int flags) {
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);
-  if (std::filesystem::is_fifo(status) || std::filesystem::is_directory(status)) {  // SQLite waits for a pipe
+  if (std::filesystem::is_fifo(status) || std::filesystem::is_directory(status)) {  // SQLite blocks on a pipe
     return failure(fmt::format("{}: is a {}, expected results of a campaign", path.string(),
                                std::filesystem::is_fifo(status) ? "pipe" : "folder"));
   }
@@ -45,7 +45,7 @@ Result<SQLite::Database> open_database(const std::filesystem::path& path, int fl
     return failure(fmt::format("{}: cannot be read ({}), expected results of a campaign", path.string(),
                                std::strerror(ENOENT)));
   try {
-    return SQLite::Database(path.string(), flags | SQLite::OPEN_NOMUTEX);  // one thread at a time
+    return SQLite::Database(path.string(), flags | SQLite::OPEN_NOMUTEX);  // used by one thread at a time
   } catch (const SQLite::Exception& error) {
     return tl::unexpected(in_words(error, path.string(), nullptr));
   }

@@ -1,4 +1,4 @@
-// A file of SQLite that a user named: what is wrong with it, in one line.
+// SQLite files named by a user: describes what is wrong with one in a single line.
 #pragma once
 
 #include <SQLiteCpp/Database.h>
@@ -11,7 +11,7 @@
 
 namespace canhil::campaign {
 
-/// What SQLite does not mind is wrong with a file: in words, without its name.
+/// A file is wrong in a way that SQLite accepts: the reason, without the file's name.
 struct Unfit : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -19,13 +19,13 @@ struct Unfit : std::runtime_error {
 /// `flags`: those of SQLite::Database.
 Result<SQLite::Database> open_database(const std::filesystem::path& path, int flags);
 
-/// Unfit: the file has not the size that it says it has: its end is missing, or it grew.
+/// Throws Unfit if the size of the file differs from the size in its header: its end is missing, or it grew.
 void check_size(const SQLite::Database& database);
 
-/// In words, what SQLite said of a file; `database`: null where it could not be opened.
+/// SQLite's error as text; `database`: null if it could not be opened.
 Error in_words(const SQLite::Exception& error, const std::string& file, sqlite3* database);
 
-/// What `work` on an open file gives: exceptions end here.
+/// Runs `work` on an open file and turns its exceptions into an Error.
 template <class Work>
 auto attempt(const SQLite::Database& database, const Work& work) -> Result<decltype(work())> {
   try {

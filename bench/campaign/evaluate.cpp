@@ -8,13 +8,13 @@
 namespace canhil::campaign {
 namespace {
 
-// Of all that its estimator tells: what it does not tell is NaN.
+// Checks only the quantities that its estimator reports: the others are NaN.
 bool finite(const quantities::Samples& samples) {
   const auto columns = samples.layout().kept;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t column = 0; column < columns.size(); ++column) {
       const double value = samples.values(i)[column];
-      if (!std::isfinite(value) && !(columns[column]->may_be_untold && std::isnan(value))) return false;
+      if (!std::isfinite(value) && !(columns[column]->nan_allowed && std::isnan(value))) return false;
     }
   }
   return true;
@@ -62,7 +62,7 @@ std::string Evaluation::not_judged() const {
     });
   };
   if (!judged(nullptr)) return "nothing was judged: no [[metric]] has a bar";
-  // What never flew may be compared with, and looks worse than anything.
+  // A variant without completed runs may serve for comparison, where it counts as the worst.
   for (const Endings& one : endings) {
     if (one.completed == 0 && !judged(&one.variant))
       return fmt::format(

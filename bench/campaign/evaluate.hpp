@@ -1,4 +1,4 @@
-// The answers to a campaign's questions, with the verdict of their bars.
+// Answers the questions of a campaign, with the verdict of its bars.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct Endings {
   std::string variant;
   std::size_t runs = 0;
   std::size_t completed = 0;
-  std::size_t not_finite = 0;  ///< completed, but with values that are no numbers
+  std::size_t not_finite = 0;  ///< completed, but with values that are not finite
   std::string first_fault;     ///< "run 17: ..."; empty: none
 };
 
@@ -25,12 +25,12 @@ struct Evaluation {
   std::string target{};  ///< see Identity
   std::vector<Endings> endings;
   std::vector<Answer> answers;
-  /// Why nothing failed and it is no pass all the same; empty: something failed, or all was judged.
+  /// Why a campaign without failures still did not pass; empty: something failed, or everything was judged.
   [[nodiscard]] std::string not_judged() const;
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// Gives the runs of a variant.
+/// Loads the runs of a variant.
 using Load = std::function<Result<std::vector<RunSeries>>(std::size_t)>;
 /// Error: results cannot be read, or runs are missing.
 Result<Evaluation> evaluate(const Campaign& campaign, const Load& load);

@@ -19,7 +19,7 @@ namespace {
 
 constexpr auto commit_interval = std::chrono::milliseconds(200);
 
-/// From the workers to the one thread that writes.
+/// Passes finished runs from the workers to the single writing thread.
 class Finishing {
  public:
   explicit Finishing(std::size_t workers) : workers_(workers) {}
@@ -36,7 +36,8 @@ class Finishing {
     const std::scoped_lock lock(mutex_);
     if (--workers_ == 0) ended_.notify_one();
   }
-  /// What has come until the workers end, or for a commit interval; none: all has been taken.
+  /// Waits for a commit interval, or until the workers end, and returns what has arrived; none: no more to
+  /// come.
   std::optional<std::vector<Finished>> take() {
     std::unique_lock lock(mutex_);
     const bool ended = ended_.wait_for(lock, commit_interval, [&] { return workers_ == 0; });
@@ -56,11 +57,11 @@ class Finishing {
   std::optional<Error> error_;
 };
 
-/// What the workers share: read only, but for the place of the next task.
+/// Shared by the workers: read only, except for the index of the next task.
 struct Work {
   const Campaign& campaign;
   const std::string& target;                               ///< see Options
-  std::vector<std::optional<world::FlightRecord>> truths;  ///< of the variants that fly
+  std::vector<std::optional<world::FlightRecord>> truths;  ///< for the variants to be flown
   std::vector<Key> tasks;
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> halt = false;
@@ -73,9 +74,9 @@ Error in_variant(const Campaign& campaign, std::size_t variant, const Error& err
 
 void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
   while (!stop && !work.halt) {
-    const std::size_t place = work.next++;
-    if (place >= work.tasks.size()) break;
-    const auto [variant, run] = work.tasks[place];
+    const std::size_t index = work.next++;
+    if (index >= work.tasks.size()) break;
+    const auto [variant, run] = work.tasks[index];
     const world::FlightRecord& truth = *work.truths[variant];
     const scenario::Scenario& scenario = work.campaign.variants[variant].scenario;
     const auto flown = work.target.empty()
@@ -91,7 +92,7 @@ void fly(Work& work, Finishing& finishing, const std::atomic<bool>& stop) {
   finishing.worker_ends();
 }
 
-/// All runs of the shard that are not stored yet: run by run, so that pairs are complete early.
+/// All runs of the shard that are not stored yet, ordered by run, so that pairs are complete early.
 std::vector<Key> open_tasks(const Campaign& campaign, const Shard& shard, std::vector<Key> stored) {
   std::ranges::sort(stored);
   std::vector<Key> tasks;
@@ -115,7 +116,7 @@ Result<void> compute_truths(Work& work) {
   return {};
 }
 
-/// Commits what the workers finish, until they end.
+/// Commits the workers' results until the workers end.
 Result<void> write_all(Store& store, Finishing& finishing, Progress& progress, const Options& options) {
   while (const auto runs = finishing.take()) {
     if (!runs->empty()) {
@@ -208,7 +209,7 @@ Result<Execution> execute(const Campaign& campaign, const Options& options, cons
   if (!written) return tl::unexpected(written.error());
   store->close();
   if (const auto error = finishing.error()) {
-    // A file of no runs would be in the way of the next try.
+    // An empty results file would block the next attempt.
     std::error_code ignored;
     if (progress.stored + progress.done == 0) std::filesystem::remove(options.file, ignored);
     return tl::unexpected(*error);

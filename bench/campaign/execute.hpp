@@ -1,5 +1,5 @@
-// Flies a campaign, or one shard of it, on all cores. What comes out depends on (campaign, variant, run)
-// alone, never on threads, shards or interruptions.
+// Flies a campaign, or one shard of it, on all cores. Results depend on (campaign, variant, run) alone, not
+// on threads, shards or interruptions.
 #pragma once
 
 #include <atomic>
@@ -22,21 +22,22 @@ struct Shard {
 
 /// "i/N" with 0 <= i < N.
 Result<Shard> parse_shard(const std::string& text);
-/// The place in a Slurm job array, from SLURM_ARRAY_TASK_ID, _COUNT, _MIN and _STEP; all runs outside one.
+/// The index in a Slurm job array, from SLURM_ARRAY_TASK_ID, _COUNT, _MIN and _STEP; outside of an array: all
+/// runs.
 Result<Shard> shard_of_environment();
 
-/// Where a campaign stands.
+/// Progress of a campaign.
 struct Progress {
   std::size_t done = 0;    ///< in this call
-  std::size_t stored = 0;  ///< found finished
+  std::size_t stored = 0;  ///< stored before this call
   std::size_t total = 0;
 };
 
 struct Options {
-  std::filesystem::path file;  ///< where the results go
+  std::filesystem::path file;  ///< the results file
   Shard shard;
-  unsigned threads = 0;  ///< 0: as many as there are cores
-  bool resume = false;   ///< go on with the file if it is there
+  unsigned threads = 0;  ///< 0: one per core
+  bool resume = false;   ///< continue an existing file
   std::string
       target{};  ///< a program to fly against, over a bus in lockstep; empty: a Device in this process
   /// Called with what was committed, then with where the campaign stands; from one thread.
@@ -46,8 +47,8 @@ struct Options {
 
 enum class Execution : std::uint8_t { complete, interrupted };
 
-/// Runs what the file does not hold yet; every finished run is committed within half a second. `stop` ends it
-/// early, in good order. Error: one line; what was committed before remains.
+/// Flies the runs that the file lacks; every finished run is committed within half a second. `stop` ends it
+/// early and cleanly. Error: one line; runs committed before are kept.
 Result<Execution> execute(const Campaign& campaign, const Options& options, const std::atomic<bool>& stop);
 
 }  // namespace canhil::campaign

@@ -8,7 +8,7 @@
 namespace canhil::campaign {
 namespace {
 
-// A field in quotes where it holds what separates fields.
+// Quotes a field that contains a separator.
 std::string field(std::string_view text) {
   if (text.find_first_of(",\"\n") == std::string_view::npos) return std::string(text);
   std::string quoted = "\"";

@@ -1,4 +1,4 @@
-// Results as a table that anybody can read.
+// Results as CSV.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 
 namespace canhil::campaign {
 
-/// Gives lines of comma-separated values: variant, run, t_s, quantity, unit, value, in SI and rad; a line a
-/// sample and quantity, variant by variant. What was not told has no line. Of samples by time to go t_s is
-/// minus the time to go. Error: the results cannot be read.
+/// Writes comma-separated values: variant, run, t_s, quantity, unit, value, in SI and rad. One line per
+/// sample and quantity, variant by variant; values that were not reported have no line. For samples by time
+/// to go, t_s is minus the time to go. Error: the results cannot be read.
 Result<void> export_csv(const Campaign& campaign, const Store& store,
                         const std::function<Result<void>(std::string_view text)>& give);
 

@@ -15,12 +15,13 @@ namespace {
 struct Shards {
   std::vector<Store> stores;
   std::vector<std::string> names;
-  std::map<Key, std::vector<std::size_t>> holders;  ///< of a run: places in `stores`
+  std::map<Key, std::vector<std::size_t>> holders;  ///< for each run: indices in `stores`
 };
 
-/// Error: a file is given twice, under whatever name: then another one has probably been forgotten.
+/// Error: a file is given twice, possibly under different names. Then another one has probably been
+/// forgotten.
 Result<void> check_distinct(std::span<const std::filesystem::path> files) {
-  std::error_code ignored;  // what is not there is told when it is opened
+  std::error_code ignored;  // a missing file is reported when it is opened
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (!std::filesystem::equivalent(files[k], files[i], ignored)) continue;
@@ -50,7 +51,7 @@ Result<Shards> open_all(std::span<const std::filesystem::path> files) {
   return shards;
 }
 
-/// Error: some runs are nowhere.
+/// Error: some runs are missing.
 Result<void> check_complete(const Shards& shards, const Campaign& campaign) {
   const std::uint64_t runs = shards.stores[0].identity().runs;
   const std::size_t total = campaign.variants.size() * runs;
@@ -87,7 +88,7 @@ Result<Finished> take(const Shards& shards, const Key& key) {
   return Finished{.variant = key.variant, .series = std::move(*first)};
 }
 
-/// One transaction a variant: the bytes of the file depend on it.
+/// One transaction for each variant: the bytes of the file depend on it.
 Result<void> write(const std::filesystem::path& file, const Shards& shards, const Campaign& campaign) {
   const Identity& identity = shards.stores[0].identity();
   auto merged = Store::create(file, identity, shards.stores[0].sources());
@@ -105,7 +106,7 @@ Result<void> write(const std::filesystem::path& file, const Shards& shards, cons
   return {};
 }
 
-/// Error: something else than results of this campaign would be lost.
+/// Error: the file holds something else than results of this campaign, and would be overwritten.
 Result<void> check_replaceable(const std::filesystem::path& out, const Identity& identity) {
   if (!std::filesystem::exists(out)) return {};
   const auto old = Store::open(out);

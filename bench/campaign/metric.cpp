@@ -16,26 +16,26 @@ namespace {
 using scenario::Limits;
 using scenario::Section;
 
-/// What the readers of all kinds need to know of the campaign.
+/// Facts about the campaign for the readers of all kinds.
 struct Context {
   const std::vector<std::string>& variants;
   std::int64_t duration_us;
 };
 
-/// Whether campaigns keep a quantity: some of single runs they do not.
+/// Whether campaigns store a quantity; some exist in single runs only.
 bool is_sampled(const Quantity& quantity) {
-  if (mapping::find_truth(quantity.name) != nullptr) return true;
+  if (mapping::find_reference_quantity(quantity.name) != nullptr) return true;
   return std::ranges::any_of(estimators::all(), [&](const estimators::Estimator* one) {
-    return quantities::tells(one->layout, quantity);
+    return quantities::has(one->layout, quantity);
   });
 }
 
-/// Those of the project's estimators, and those that a mapped target may tell.
+/// The quantities of the bench's estimators and those that a mapped target may report.
 std::span<const Quantity* const> every_quantity() {
   static const std::vector<const Quantity*> all = [] {
     const auto own = estimators::every_quantity();
     std::vector<const Quantity*> known(own.begin(), own.end());
-    for (const mapping::Truthed& one : mapping::truths()) {
+    for (const mapping::ReferenceQuantity& one : mapping::reference_quantities()) {
       if (std::ranges::find(known, one.quantity) == known.end()) known.push_back(one.quantity);
     }
     return known;
@@ -43,12 +43,12 @@ std::span<const Quantity* const> every_quantity() {
   return all;
 }
 
-/// The quantity that `quantity` names, of those that campaigns keep and that are wanted.
+/// The quantity that `quantity` names: one that campaigns store and that is wanted here.
 template <class Wanted>
 const Quantity* read_quantity(Section& section, Wanted&& wanted) {
   return checks::read_quantity(section, every_quantity(), [&](const Quantity& one) -> std::string {
-    if (!is_sampled(one)) return "is of single runs, which campaigns do not keep";
-    return wanted(one) ? "" : "is none that this kind asks for";
+    if (!is_sampled(one)) return "exists in single runs only, not in campaigns";
+    return wanted(one) ? "" : "cannot be used with this kind";
   });
 }
 
@@ -56,14 +56,14 @@ const Quantity* read_error(Section& section) {
   return read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom == 0; });
 }
 
-std::optional<double> optional_number(Section& section, std::string_view key, Limits limits) {
-  if (section.has(key)) return section.number(key, limits);
-  section.optional(key);
+std::optional<double> optional_number(Section& section, const scenario::Key& key, Limits limits) {
+  if (section.has(key.name)) return section.number(key, limits);
+  section.optional(key.name);
   return std::nullopt;
 }
 
-/// The bars STEM_at_least and STEM_at_most with what their keys end in; nothing could hold them in descending
-/// order.
+/// The bars STEM_at_least and STEM_at_most with their suffix. Bars in descending order are rejected: no value
+/// could meet both.
 template <class Value>
 void expect_bars_ordered(Section& section, std::string_view stem, std::string_view ending,
                          const std::optional<Value>& at_least, const std::optional<Value>& at_most) {
@@ -78,28 +78,36 @@ RmsCurve read(Section& section, const Context& /*context*/, RmsCurve rule) {
 
 TimeWithin read(Section& section, const Context& /*context*/, TimeWithin rule) {
   rule.quantity = read_error(section);
-  rule.within = section.number(checks::key_of("within", rule.quantity->unit), Limits::above(0));
-  rule.at_most_us = section.optional_time_us("at_most_s", Limits::at_least(0));
-  rule.never_before_us = section.optional_time_us("never_before_s", Limits::at_least(0));
+  rule.within = section.number(
+      {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS stays.", "within_UNIT"},
+      Limits::above(0));
+  rule.at_most_us = section.optional_time_us({"at_most_s", "Bar: the time is at most."}, Limits::at_least(0));
+  rule.never_before_us = section.optional_time_us({"never_before_s", "Bar: the time is at least, or never."},
+                                                  Limits::at_least(0));
   scenario::expect_ordered(section, "never_before_s", rule.never_before_us, "at_most_s", rule.at_most_us);
   return rule;
 }
 
 Lead read(Section& section, const Context& context, Lead rule) {
   rule.quantity = read_error(section);
-  rule.within = section.number(checks::key_of("within", rule.quantity->unit), Limits::above(0));
-  rule.other = section.one_of("other", context.variants);
-  rule.at_least_us = section.optional_time_us("at_least_s", Limits{});
+  rule.within = section.number(
+      {checks::key_of("within", rule.quantity->unit), "Bound within which the RMS stays.", "within_UNIT"},
+      Limits::above(0));
+  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants);
+  rule.at_least_us = section.optional_time_us({"at_least_s", "Bar: the lead is at least."}, Limits{});
   return rule;
 }
 
 ValueAt read(Section& section, const Context& context, ValueAt rule) {
   rule.quantity = read_error(section);
-  rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
-  rule.at_most =
-      optional_number(section, checks::key_of("at_most", rule.quantity->unit), Limits::at_least(0));
-  rule.at_least =
-      optional_number(section, checks::key_of("at_least", rule.quantity->unit), Limits::at_least(0));
+  rule.at_us = scenario::read_time(section, {"at_s", "The last update up to this time counts."},
+                                   Limits::at_least(0), context.duration_us);
+  rule.at_most = optional_number(
+      section, {checks::key_of("at_most", rule.quantity->unit), "Bar: at most.", "at_most_UNIT"},
+      Limits::at_least(0));
+  rule.at_least = optional_number(
+      section, {checks::key_of("at_least", rule.quantity->unit), "Bar: at least.", "at_least_UNIT"},
+      Limits::at_least(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   return rule;
 }
@@ -107,32 +115,41 @@ ValueAt read(Section& section, const Context& context, ValueAt rule) {
 quantities::Unit read_unit(Section& section, const Quantity& quantity) {
   if (quantity.unit.name != "mrad") return quantity.unit;
   const std::vector<std::string> units{"mrad", "deg"};
-  return section.one_of("unit", units, "mrad") == "deg" ? quantities::degrees : quantity.unit;
+  return section.one_of({"unit", "Unit of the keys of an angle."}, units, "mrad") == "deg"
+             ? quantities::degrees
+             : quantity.unit;
 }
 
 Distribution read(Section& section, const Context& context, Distribution rule) {
   rule.quantity = read_error(section);
   rule.unit = read_unit(section, *rule.quantity);
-  rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
-  const auto bar = [&](std::string_view stem) {
-    return optional_number(section, fmt::format("{}{}", stem, rule.unit.ending), Limits::at_least(0));
+  rule.at_us = scenario::read_time(section, {"at_s", "The last update up to this time counts."},
+                                   Limits::at_least(0), context.duration_us);
+  const auto bar = [&](std::string_view stem, std::string_view meaning) {
+    return optional_number(
+        section, {fmt::format("{}{}", stem, rule.unit.ending), meaning, fmt::format("{}_UNIT", stem)},
+        Limits::at_least(0));
   };
-  rule.below = bar("below");
-  rule.rms_at_most = bar("rms_at_most");
-  rule.rms_at_least = bar("rms_at_least");
-  rule.median_at_most = bar("median_at_most");
-  rule.median_at_least = bar("median_at_least");
-  rule.p90_at_most = bar("p90_at_most");
-  rule.fraction_at_least = optional_number(section, "fraction_at_least", Limits::between(0, 1));
-  rule.fraction_at_most = optional_number(section, "fraction_at_most", Limits::between(0, 1));
+  rule.below = bar("below", "Bound of the fraction.");
+  rule.rms_at_most = bar("rms_at_most", "Bar: the RMS is at most.");
+  rule.rms_at_least = bar("rms_at_least", "Bar: the RMS is at least.");
+  rule.median_at_most = bar("median_at_most", "Bar: the median is at most.");
+  rule.median_at_least = bar("median_at_least", "Bar: the median is at least.");
+  rule.p90_at_most = bar("p90_at_most", "Bar: nine tenths of the runs are at most.");
+  rule.fraction_at_least = optional_number(
+      section, {"fraction_at_least", "Bar: the fraction of runs is at least."}, Limits::between(0, 1));
+  rule.fraction_at_most = optional_number(
+      section, {"fraction_at_most", "Bar: the fraction of runs is at most."}, Limits::between(0, 1));
   expect_bars_ordered(section, "rms_", rule.unit.ending, rule.rms_at_least, rule.rms_at_most);
   expect_bars_ordered(section, "median_", rule.unit.ending, rule.median_at_least, rule.median_at_most);
   expect_bars_ordered(section, "fraction_", "", rule.fraction_at_least, rule.fraction_at_most);
   if (!rule.below && (rule.fraction_at_least || rule.fraction_at_most)) {
     section.reject(rule.fraction_at_least ? "fraction_at_least" : "fraction_at_most",
-                   "is of no use without a bound", fmt::format("below{} beside it", rule.unit.ending));
+                   "has no effect without a bound", fmt::format("below{} beside it", rule.unit.ending));
   }
-  rule.batch = section.optional_integer("batch", 2).value_or(rule.batch);
+  rule.batch =
+      section.optional_integer({"batch", "Runs of a batch, of which the range of the RMS is drawn."}, 2)
+          .value_or(rule.batch);
   return rule;
 }
 
@@ -141,44 +158,60 @@ WindowMoments read(Section& section, const Context& context, WindowMoments rule)
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.mean_at_most =
-      optional_number(section, checks::key_of("mean_at_most", rule.quantity->unit), Limits::at_least(0));
-  rule.standard_deviation_at_most = optional_number(
-      section, checks::key_of("standard_deviation_at_most", rule.quantity->unit), Limits::at_least(0));
+  rule.mean_at_most = optional_number(
+      section,
+      {checks::key_of("mean_at_most", rule.quantity->unit), "Bar: the mean is at most.", "mean_at_most_UNIT"},
+      Limits::at_least(0));
+  rule.standard_deviation_at_most =
+      optional_number(section,
+                      {checks::key_of("standard_deviation_at_most", rule.quantity->unit),
+                       "Bar: the standard deviation is at most.", "standard_deviation_at_most_UNIT"},
+                      Limits::at_least(0));
   return rule;
 }
 
 Paired read(Section& section, const Context& context, Paired rule) {
   rule.quantity = read_error(section);
-  rule.other = section.one_of("other", context.variants);
-  rule.at_us = scenario::read_time(section, "at_s", Limits::at_least(0), context.duration_us);
-  rule.confidence = section.number("confidence", Limits::between(0.5, 0.999999), rule.confidence);
-  rule.at_most = optional_number(section, "at_most", Limits::between(0, 1));
-  rule.at_least = optional_number(section, "at_least", Limits::between(0, 1));
+  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants);
+  rule.at_us = scenario::read_time(section, {"at_s", "The last update up to this time counts."},
+                                   Limits::at_least(0), context.duration_us);
+  rule.confidence = section.number({"confidence", "Confidence of the interval of the fraction."},
+                                   Limits::between(0.5, 0.999999), rule.confidence);
+  rule.at_most = optional_number(section, {"at_most", "Bar: at most."}, Limits::between(0, 1));
+  rule.at_least = optional_number(section, {"at_least", "Bar: at least."}, Limits::between(0, 1));
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
 
 Consistency read(Section& section, const Context& context, Consistency rule) {
   if (section.has("statistic"))
-    section.reject("statistic", "is a key of before", "quantity = the name of a normalised error squared");
+    section.reject("statistic", "is a former key", "quantity = the name of a normalised error squared");
   rule.quantity = read_quantity(section, [](const Quantity& one) { return one.degrees_of_freedom > 0; });
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.probability = section.number("probability", Limits::between(0.5, 0.999999), rule.probability);
-  if (section.has("mean_between")) rule.mean_between = section.interval("mean_between", Limits::at_least(0));
+  rule.probability =
+      section.number({"probability", "Probability that the central chi-square interval holds."},
+                     Limits::between(0.5, 0.999999), rule.probability);
+  if (section.has("mean_between"))
+    rule.mean_between =
+        section.interval({"mean_between", "Bar: the mean lies between."}, Limits::at_least(0));
   section.optional("mean_between");
-  rule.inside_at_least = optional_number(section, "inside_at_least", Limits::between(0, 1));
+  rule.inside_at_least =
+      optional_number(section, {"inside_at_least", "Bar: the fraction inside the interval is at least."},
+                      Limits::between(0, 1));
   return rule;
 }
 
 Diverged read(Section& section, const Context& /*context*/, Diverged rule) {
   rule.quantity = read_error(section);
-  rule.beyond = section.number(checks::key_of("beyond", rule.quantity->unit), Limits::above(0));
-  rule.from_us = section.optional_time_us("from_s", Limits{});  // of samples by the time to go minus it
-  rule.at_most = section.optional_integer("at_most", 0);
-  rule.at_least = section.optional_integer("at_least", 0);
+  rule.beyond = section.number(
+      {checks::key_of("beyond", rule.quantity->unit), "An error beyond this is a divergence.", "beyond_UNIT"},
+      Limits::above(0));
+  rule.from_us = section.optional_time_us({"from_s", "From this time on, in place of the end of the run."},
+                                          Limits{});  // for samples by time to go, minus the time to go
+  rule.at_most = section.optional_integer({"at_most", "Bar: at most."}, 0);
+  rule.at_least = section.optional_integer({"at_least", "Bar: at least."}, 0);
   expect_bars_ordered(section, "", "", rule.at_least, rule.at_most);
   return rule;
 }
@@ -188,41 +221,52 @@ RunMean read(Section& section, const Context& context, RunMean rule) {
   const auto [from_us, to_us] = scenario::read_window(section, context.duration_us);
   rule.from_us = from_us;
   rule.to_us = to_us;
-  rule.at_most =
-      optional_number(section, checks::key_of("at_most", rule.quantity->unit), Limits::at_least(0));
-  rule.at_least =
-      optional_number(section, checks::key_of("at_least", rule.quantity->unit), Limits::at_least(0));
-  rule.other = section.one_of("other", context.variants, "");
-  rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::above(0));
-  rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::above(0));
+  rule.at_most = optional_number(
+      section, {checks::key_of("at_most", rule.quantity->unit), "Bar: at most.", "at_most_UNIT"},
+      Limits::at_least(0));
+  rule.at_least = optional_number(
+      section, {checks::key_of("at_least", rule.quantity->unit), "Bar: at least.", "at_least_UNIT"},
+      Limits::at_least(0));
+  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants, "");
+  rule.ratio_at_most =
+      optional_number(section, {"ratio_at_most", "Bar: the ratio to `other` is at most."}, Limits::above(0));
+  rule.ratio_at_least = optional_number(section, {"ratio_at_least", "Bar: the ratio to `other` is at least."},
+                                        Limits::above(0));
   expect_bars_ordered(section, "", rule.quantity->unit.ending, rule.at_least, rule.at_most);
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if ((rule.ratio_at_most || rule.ratio_at_least) && rule.other.empty()) {
-    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "is of no use alone",
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has no effect alone",
                    "other = a variant beside it");
   }
   return rule;
 }
 
 ToGo read(Section& section, const Context& context, ToGo rule) {
-  // Of a whole run there is no time to go.
+  // Quantities of a whole run have no time to go.
   rule.quantity = read_quantity(section, [](const Quantity& one) {
     return !one.of_whole_run && std::ranges::any_of(estimators::all(), [&](const auto* estimator) {
-      return estimator->layout.to_go_stretch_us > 0 && quantities::tells(estimator->layout, one);
+      return estimator->layout.to_go_stretch_us > 0 && quantities::has(estimator->layout, one);
     });
   });
-  std::tie(rule.least, rule.most) = section.interval("time_to_go_s", Limits::at_least(0));
-  rule.other = section.one_of("other", context.variants, "");
-  rule.rms_at_most =
-      optional_number(section, checks::key_of("rms_at_most", rule.quantity->unit), Limits::at_least(0));
+  std::tie(rule.least, rule.most) =
+      section.interval({"time_to_go_s", "Window of the time to go."}, Limits::at_least(0));
+  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants, "");
+  rule.rms_at_most = optional_number(
+      section,
+      {checks::key_of("rms_at_most", rule.quantity->unit), "Bar: the RMS is at most.", "rms_at_most_UNIT"},
+      Limits::at_least(0));
   const std::string mean_between = checks::key_of("mean_between", rule.quantity->unit);
-  if (section.has(mean_between)) rule.mean_between = section.interval(mean_between, Limits::at_least(0));
+  if (section.has(mean_between))
+    rule.mean_between = section.interval({mean_between, "Bar: the mean lies between.", "mean_between_UNIT"},
+                                         Limits::at_least(0));
   section.optional(mean_between);
-  rule.ratio_at_most = optional_number(section, "ratio_at_most", Limits::at_least(0));
-  rule.ratio_at_least = optional_number(section, "ratio_at_least", Limits::at_least(0));
+  rule.ratio_at_most = optional_number(section, {"ratio_at_most", "Bar: the ratio to `other` is at most."},
+                                       Limits::at_least(0));
+  rule.ratio_at_least = optional_number(section, {"ratio_at_least", "Bar: the ratio to `other` is at least."},
+                                        Limits::at_least(0));
   expect_bars_ordered(section, "ratio_", "", rule.ratio_at_least, rule.ratio_at_most);
   if (rule.other.empty() && (rule.ratio_at_most || rule.ratio_at_least)) {
-    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "compares with nothing",
+    section.reject(rule.ratio_at_most ? "ratio_at_most" : "ratio_at_least", "has nothing to compare with",
                    "other beside it");
   }
   return rule;
@@ -230,8 +274,8 @@ ToGo read(Section& section, const Context& context, ToGo rule) {
 
 RmsRatio read(Section& section, const Context& context, RmsRatio rule) {
   rule.quantity = read_error(section);
-  rule.other = section.one_of("other", context.variants);
-  rule.at_most = optional_number(section, "at_most", Limits::at_least(0));
+  rule.other = section.one_of({"other", "Variant that is compared with."}, context.variants);
+  rule.at_most = optional_number(section, {"at_most", "Bar: at most."}, Limits::at_least(0));
   return rule;
 }
 
@@ -241,7 +285,7 @@ std::string in_unit(double value, const Quantity& quantity) {
   return fmt::format("{:g} {}", value / quantity.unit.factor, quantity.unit.name);
 }
 
-/// What tells a metric from others of its kind and quantity.
+/// Distinguishes metrics of the same kind and quantity.
 std::string subject(const RmsCurve& /*rule*/) { return {}; }
 std::string subject(const TimeWithin& rule) { return " " + in_unit(rule.within, *rule.quantity); }
 std::string subject(const Lead& rule) {
@@ -252,7 +296,7 @@ std::string subject(const Distribution& rule) { return fmt::format(" at {:g} s",
 std::string subject(const Paired& rule) {
   return fmt::format(" at {:g} s against {}", seconds(rule.at_us), rule.other);
 }
-/// Of a rule with a window.
+/// For a rule with a window.
 template <class Windowed>
 std::string subject(const Windowed& rule) {
   return fmt::format(" {:g} to {:g} s", seconds(rule.from_us), seconds(rule.to_us));
@@ -267,7 +311,7 @@ std::string subject(const ToGo& rule) {
 }
 std::string subject(const RmsRatio& rule) { return " against " + rule.other; }
 
-/// Whoever is compared with himself is as good, whatever he does.
+/// Comparing a variant with itself always passes.
 void expect_another(Section& section, const Metric& metric, const std::vector<std::string>& variants) {
   const std::string other = other_of(metric);
   if (other.empty()) return;
@@ -294,11 +338,20 @@ std::string other_of(const Metric& metric) {
       metric.rule);
 }
 
+std::vector<MetricKind> metric_kinds() {
+  return []<std::size_t... i>(std::index_sequence<i...>) {
+    return std::vector<MetricKind>{
+        {std::variant_alternative_t<i, Rule>::kind, std::variant_alternative_t<i, Rule>::meaning}...};
+  }
+  (std::make_index_sequence<std::variant_size_v<Rule>>{});
+}
+
 Metric read_metric(Section& section, const std::vector<std::string>& variants, std::int64_t duration_us) {
   Metric metric;
-  const std::string wanted = section.one_of("kind", scenario::kinds<Rule>());
-  metric.requirement = section.text("requirement", "");
-  metric.variants = section.some_of("variants", variants);
+  const std::string wanted = section.one_of({"kind", "Kind of the metric."}, scenario::kinds<Rule>());
+  metric.requirement = section.text({"requirement", "Id that reports carry."}, "");
+  metric.variants =
+      section.some_of({"variants", "Names of the variants that it is for; by default all."}, variants);
   const Context context{.variants = variants, .duration_us = duration_us};
   metric.rule =
       scenario::read_rule<Rule>(wanted, [&](const auto& rule) { return read(section, context, rule); });
@@ -306,9 +359,10 @@ Metric read_metric(Section& section, const std::vector<std::string>& variants, s
   const std::string by_default = std::visit(
       [](const auto& rule) { return fmt::format("{} {}{}", rule.kind, rule.quantity->name, subject(rule)); },
       metric.rule);
-  metric.name = section.text(
-      "name", metric.variants.empty() ? by_default
-                                      : fmt::format("{}: {}", by_default, fmt::join(metric.variants, ", ")));
+  metric.name = section.text({"name", "Unique name, by default kind and quantity."},
+                             metric.variants.empty()
+                                 ? by_default
+                                 : fmt::format("{}: {}", by_default, fmt::join(metric.variants, ", ")));
   section.finish();
   return metric;
 }

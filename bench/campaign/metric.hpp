@@ -1,4 +1,4 @@
-// [[metric]]: what a campaign is asked, and the bars that make a verdict of the answer. A new kind is a
+// [[metric]]: the questions of a campaign, and the bars that turn answers into a verdict. A new kind is a
 // struct here, its reader in metric.cpp, and its answer in answer.cpp.
 #pragma once
 
@@ -21,21 +21,25 @@ namespace canhil::campaign {
 /// RMS over runs against time: for reports, without a bar.
 struct RmsCurve {
   static constexpr std::string_view kind = "rms_curve";
+  static constexpr std::string_view meaning = "RMS over runs against time. It has no bars.";
   const Quantity* quantity = &quantities::attitude_heading;
 };
 
-/// When the RMS over runs is within for good.
+/// The time from which the RMS over runs stays within a limit.
 struct TimeWithin {
   static constexpr std::string_view kind = "time_within";
+  static constexpr std::string_view meaning =
+      "The first update from which the RMS stays within the bound to the end, or never.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;                            ///< [SI]
   std::optional<std::int64_t> at_most_us;       ///< 'never' fails
   std::optional<std::int64_t> never_before_us;  ///< 'never' passes
 };
 
-/// How much earlier than `other` a variant's RMS is within for good.
+/// How much earlier than `other` the RMS of a variant stays within a limit.
 struct Lead {
   static constexpr std::string_view kind = "lead";
+  static constexpr std::string_view meaning = "How much earlier than `other` that is.";
   const Quantity* quantity = &quantities::attitude_heading;
   double within = 0;  ///< [SI]
   std::string other;
@@ -45,45 +49,53 @@ struct Lead {
 /// RMS over runs at the last update at or before a time.
 struct ValueAt {
   static constexpr std::string_view kind = "value_at";
+  static constexpr std::string_view meaning = "RMS at the last update up to a time.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   std::optional<double> at_most, at_least;  ///< [SI]
 };
 
-/// How |quantity| is spread over runs at a time: of each run the last update at or before it.
+/// The distribution of |quantity| over runs at a time: for each run its last update at or before it.
 struct Distribution {
   static constexpr std::string_view kind = "distribution";
+  static constexpr std::string_view meaning =
+      "RMS with its 5 % to 95 % range, median, p90, mean, and the fraction of runs below a bound, at each "
+      "run's last update up to a time.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t at_us = 0;
   quantities::Unit unit;        ///< mrad or deg for angles
-  std::optional<double> below;  ///< asks for the fraction of runs below it [SI]
-  std::int64_t batch = 100;     ///< runs of the Monte Carlo whose RMS has the bootstrap range
+  std::optional<double> below;  ///< reports the fraction of runs below it [SI]
+  std::int64_t batch = 100;     ///< number of runs for the bootstrap range of the RMS
   std::optional<double> rms_at_most, rms_at_least, median_at_most, median_at_least, p90_at_most;  ///< [SI]
   std::optional<double> fraction_at_least, fraction_at_most;
 };
 
-/// Mean and standard deviation over runs and a time window.
+/// Mean and standard deviation over all runs and updates in a time window.
 struct WindowMoments {
   static constexpr std::string_view kind = "window";
+  static constexpr std::string_view meaning = "Mean and standard deviation over runs and a time window.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> mean_at_most;  ///< of |mean| [SI]
   std::optional<double> standard_deviation_at_most;
 };
 
-/// Mean of |quantity| over a time window of each run; its mean and standard deviation over the runs.
+/// The mean of |quantity| over a time window of each run; mean and standard deviation of these means.
 struct RunMean {
   static constexpr std::string_view kind = "run_mean";
+  static constexpr std::string_view meaning =
+      "Mean of the absolute value over a window of each run; mean and standard deviation of it over runs.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::int64_t from_us = 0, to_us = 0;
   std::optional<double> at_most, at_least;              ///< of the mean over runs [SI]
-  std::string other;                                    ///< empty: compared with none
+  std::string other;                                    ///< empty: no comparison
   std::optional<double> ratio_at_most, ratio_at_least;  ///< of the mean to that of `other`
 };
 
-/// RMS and mean over runs and a window of the time to go, and how they compare with another variant's.
+/// RMS and mean over runs in a window of the time to go, and their ratio to another variant's.
 struct ToGo {
   static constexpr std::string_view kind = "to_go";
+  static constexpr std::string_view meaning = "RMS and mean over runs and a window of the time to go.";
   const Quantity* quantity = nullptr;  ///< of samples by time to go
   double least = 0, most = 0;          ///< [s]
   std::string other;                   ///< may be empty
@@ -92,17 +104,21 @@ struct ToGo {
   std::optional<double> ratio_at_most, ratio_at_least;  ///< of the RMS to that of `other`
 };
 
-/// RMS over runs at their ends over that of `other`.
+/// RMS over runs at their ends, divided by that of `other`.
 struct RmsRatio {
   static constexpr std::string_view kind = "rms_ratio";
+  static constexpr std::string_view meaning = "RMS over runs at their ends over that of `other`.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::optional<double> at_most;
 };
 
-/// Fraction of runs in which |quantity| is smaller than that of `other` with the same random numbers.
+/// Fraction of runs in which |quantity| is smaller than in the run of `other` with the same random numbers.
 struct Paired {
   static constexpr std::string_view kind = "paired";
+  static constexpr std::string_view meaning =
+      "Fraction of runs in which the absolute error is smaller than that of `other`, with its "
+      "Clopper-Pearson interval.";
   const Quantity* quantity = &quantities::attitude_heading;
   std::string other;
   std::int64_t at_us = 0;
@@ -113,16 +129,22 @@ struct Paired {
 /// Mean NEES or NIS with chi-square bounds.
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
+  static constexpr std::string_view meaning =
+      "Mean NEES or NIS, and the fraction of updates whose mean over runs lies in the central chi-square "
+      "interval.";
   const Quantity* quantity = &quantities::innovation_nis;
   std::int64_t from_us = 0, to_us = 0;
   double probability = 0.95;
   std::optional<std::pair<double, double>> mean_between;
-  std::optional<double> inside_at_least;  ///< fraction of the updates whose mean lies within the bounds
+  std::optional<double>
+      inside_at_least;  ///< required fraction of the updates whose mean lies within the bounds
 };
 
-/// Runs that went astray: at their end, or at any time from one on.
+/// Diverged runs: beyond a limit at their end, or at any time from a given one on.
 struct Diverged {
   static constexpr std::string_view kind = "divergence";
+  static constexpr std::string_view meaning =
+      "Runs that ended early, or whose error is beyond a bound or no number.";
   const Quantity* quantity = &quantities::attitude_heading;
   double beyond = 0;                              ///< [SI]
   std::optional<std::int64_t> from_us;            ///< none: at the end
@@ -131,7 +153,7 @@ struct Diverged {
 
 struct Metric {
   std::string name;                   ///< unique; by default kind and subject
-  std::string requirement;            ///< id carried to the reports; may be empty
+  std::string requirement;            ///< id for the reports; may be empty
   std::vector<std::string> variants;  ///< names as in the file, before the sweep; empty: all
   std::variant<RmsCurve, TimeWithin, Lead, ValueAt, Distribution, WindowMoments, Paired, Consistency,
                Diverged, ToGo, RmsRatio, RunMean>
@@ -143,7 +165,13 @@ const Quantity& quantity_of(const Metric& metric);
 /// The variant that a metric compares with, as named in the file; empty: none.
 std::string other_of(const Metric& metric);
 
-/// `variants`: the names that the metric may use; `duration_us`: the shortest of theirs.
+/// A kind of metric, and what it asks for.
+struct MetricKind {
+  std::string_view name, meaning;
+};
+std::vector<MetricKind> metric_kinds();
+
+/// `variants`: the names that the metric may use; `duration_us`: the shortest duration of these variants.
 Metric read_metric(scenario::Section& section, const std::vector<std::string>& variants,
                    std::int64_t duration_us);
 

@@ -92,7 +92,7 @@ Finished read_row(const SQLite::Statement& row, std::uint64_t runs) {
       estimator != nullptr ? &estimator->layout : mapping::find_layout(columns);
   if (kind < 0 || kind > static_cast<std::int64_t>(drive::Ending::last_kind))
     throw damaged(row, fmt::format("has ending {}", kind));
-  if (layout == nullptr) throw damaged(row, "has columns that no estimator tells");
+  if (layout == nullptr) throw damaged(row, "has columns that no estimator reports");
   const SQLite::Column blob = row.getColumn(7);
   const std::span bytes(static_cast<const std::uint8_t*>(blob.getBlob()),
                         static_cast<std::size_t>(blob.getBytes()));

@@ -1,4 +1,4 @@
-// A run as a row of the results: what is written, and what is believed of what was read.
+// A run as a row of the results file: writing, and validated reading.
 #pragma once
 
 #include <compare>
@@ -15,7 +15,7 @@ class Statement;
 
 namespace canhil::campaign {
 
-/// A run of a variant, by place in Campaign::variants.
+/// A run of a variant, by index in Campaign::variants.
 struct Key {
   std::size_t variant = 0;
   std::uint64_t run = 0;
@@ -25,22 +25,22 @@ struct Finished {
   std::size_t variant = 0;
   RunSeries series;
 };
-/// The place of a run in the file, whoever wrote it, where each variant has so many runs.
+/// The id of a run's row, if each variant has `runs` runs; independent of who wrote it.
 std::int64_t row_id(const Key& key, std::uint64_t runs);
 
-/// FNV-1a over values one after the other, each with its length.
+/// FNV-1a over a sequence of values, each with its length.
 class Digest {
  public:
   Digest& add(std::int64_t value);
   Digest& add(std::string_view text);
-  /// As SQLite holds it.
+  /// In SQLite's integer type.
   [[nodiscard]] std::int64_t value() const;
 
  private:
   std::string bytes_;
 };
 
-/// What the table of runs consists of (columns: the quantities of its samples, in their order), for `create
+/// The schema of the table of runs (columns: the quantities of its samples, in their order) for `create
 /// table`, and its columns for `select`.
 inline constexpr std::string_view row_schema =
     "id integer primary key, variant integer, run integer, ending integer, end_us integer, detail text, "
@@ -52,10 +52,11 @@ inline constexpr std::string_view key_columns = "id, variant, run";
 
 /// Binds the columns of a row.
 void bind_row(SQLite::Statement& statement, std::uint64_t runs, const Finished& finished);
-/// The key of a row that a statement for key_columns, or row_columns, has reached. Unfit: it is none of the
-/// file's, which was damaged.
+/// The key of the row that a statement for key_columns or row_columns has reached. Throws Unfit if the row is
+/// not valid: the file was damaged.
 Key key_of(const SQLite::Statement& row, std::uint64_t runs);
-/// The run in a row that a statement for row_columns has reached. Unfit: it is not as it was written.
+/// The run in the row that a statement for row_columns has reached. Throws Unfit if it was changed since it
+/// was written.
 Finished read_row(const SQLite::Statement& row, std::uint64_t runs);
 
 }  // namespace canhil::campaign

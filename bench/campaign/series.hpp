@@ -1,5 +1,5 @@
-// What one run of a campaign leaves behind, from decoded frames and the truth alone: samples of the
-// quantities that its estimator tells.
+// The series of one run of a campaign, from decoded frames and the truth alone: samples of the quantities
+// that its estimator reports.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ using quantities::Quantity;
 /// One run of one variant.
 struct RunSeries {
   std::uint64_t run = 0;
-  drive::Ending ending;  ///< a run that did not complete keeps the samples it gave
+  drive::Ending ending;  ///< a run that did not complete keeps its samples
   quantities::Samples samples{};
   quantities::Freshness freshness{};
 };
 
-/// The series of a finished run. `truth` is that of its variant, `estimator` that of its scenario; no samples
-/// where the run has no truth to hold the answers against.
+/// The series of a finished run. `truth`: of its variant, `estimator`: of its scenario. Without a truth there
+/// are no samples.
 RunSeries series_of(std::uint64_t run_index, const drive::Collected& finished,
                     const world::FlightRecord& truth, const estimators::Estimator& estimator);
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// At least one value.
+// Requires at least one value.
 double median(std::vector<double> values) {
   std::ranges::sort(values);
   const std::size_t above = values.size() / 2, below = (values.size() - 1) / 2;
@@ -30,7 +30,7 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// About the mean, with n - 1; NaN of too few values.
+// About the mean, with n - 1; NaN for too few values.
 double variance(const std::vector<double>& values, double mean) {
   if (values.size() < 2) return nan;
   double squares = 0;
@@ -38,7 +38,7 @@ double variance(const std::vector<double>& values, double mean) {
   return squares / static_cast<double>(values.size() - 1);
 }
 
-// Of the root of the mean of some squares, by their own scatter: d(sqrt(m)) = dm / (2 sqrt(m)).
+// Standard error of the RMS from the scatter of the squares: d(sqrt(m)) = dm / (2 sqrt(m)).
 double standard_error_of_rms(const std::vector<double>& squares, double mean) {
   if (mean <= 0) return nan;
   return std::sqrt(variance(squares, mean) / static_cast<double>(squares.size())) / (2 * std::sqrt(mean));
@@ -79,7 +79,7 @@ std::optional<double> time_within(std::span<const CurvePoint> curve, double thre
   const auto outside = std::find_if(curve.rbegin(), curve.rend(), [&](const CurvePoint& point) {
     return point.missing > 0 || !(point.rms <= threshold);  // NaN is outside
   });
-  if (outside == curve.rbegin()) return std::nullopt;  // at the end, or there is no end
+  if (outside == curve.rbegin()) return std::nullopt;  // outside at the end, or the curve is empty
   return seconds(outside.base()->t_us);
 }
 
@@ -148,7 +148,7 @@ RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, st
     double sum = 0;
     for (auto i = from; i < to; ++i)
       sum += std::abs(run.samples.value(static_cast<std::size_t>(i), quantity));
-    const double mean = sum / static_cast<double>(to - from);  // NaN of none
+    const double mean = sum / static_cast<double>(to - from);  // NaN if empty
     const bool completed = run.ending.kind == drive::Ending::Kind::completed;
     if (completed && std::isfinite(mean) && answers_throughout(run, from_us, to_us)) means.push_back(mean);
   }
@@ -220,7 +220,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
                                   std::int64_t from_us, std::int64_t to_us, double probability) {
   ConsistencyStatistics statistics;
   if (runs.empty()) return {.mean = nan};
-  // Central intervals of the mean over so many runs.
+  // Central intervals of the mean, by number of runs.
   std::map<std::size_t, std::pair<double, double>> intervals;
   const auto interval_of = [&](std::size_t some) {
     const auto [place, is_new] = intervals.try_emplace(some);
@@ -238,10 +238,10 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
   std::size_t count = 0, inside = 0;
   for (const std::int64_t t_us : update_times(runs, from_us, to_us)) {
     double sum_here = 0;
-    std::size_t here = 0, untold = 0;
+    std::size_t here = 0, not_asked = 0;
     for (const RunSeries& run : runs) {
       if (is_untold(run, quantity, t_us, from_us)) {
-        ++untold;
+        ++not_asked;
         continue;
       }
       const double value = value_at(run, quantity, t_us);
@@ -249,7 +249,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
       sum_here += value;
       ++here;
     }
-    const std::size_t asked = runs.size() - untold;
+    const std::size_t asked = runs.size() - not_asked;
     if (asked == 0) continue;
     ++statistics.updates;
     statistics.missing += asked - here;
@@ -267,7 +267,7 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
 
 namespace {
 
-// The largest |quantity| of the samples from a time on; NaN: one is no number, or there is none.
+// The largest |quantity| of the samples from a time on; NaN: one of them is NaN, or there is none.
 double largest_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t from_us) {
   const auto times = run.samples.times();
   const auto from = static_cast<std::size_t>(std::ranges::lower_bound(times, from_us) - times.begin());

@@ -1,5 +1,5 @@
 // Statistics over the runs of a variant. A run that is missing at a time (it ended early, or its last update
-// is stale) or has no finite value there is counted, never ignored: where one is missing, no bar is met.
+// is stale) or has no finite value there is counted, never ignored: if any run is missing, no bar is met.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace canhil::campaign {
 
-/// Over all runs at one update.
+/// All runs at one update time.
 struct CurvePoint {
   std::int64_t t_us = 0;
   double rms = 0;  ///< of the finite values [SI]; NaN if there is none
@@ -22,8 +22,8 @@ struct CurvePoint {
   std::size_t missing = 0;                                      ///< runs without one
 };
 
-/// Root mean square over the runs of a quantity, at every update time that any run has, ascending. Of each
-/// run its last update at or before it counts: one that was lost leaves the one before.
+/// Root mean square of a quantity over the runs, at every update time of any run, ascending. Each run
+/// contributes its last update at or before that time, so a lost update leaves the previous one.
 std::vector<CurvePoint> rms_curve(std::span<const RunSeries> runs, const Quantity& quantity);
 
 /// The last point at or before a time; none: the curve begins later.
@@ -33,19 +33,19 @@ std::optional<CurvePoint> value_at(std::span<const CurvePoint> curve, std::int64
 /// missing; none: never.
 std::optional<double> time_within(std::span<const CurvePoint> curve, double threshold);
 
-/// How a magnitude is spread over the runs at a time. Of each run its last update at or before it counts; a
-/// run that had ended by then, or has no finite value, is missing.
+/// The distribution of a magnitude over the runs at a time. Each run contributes its last update at or before
+/// it; a run that had ended by then, or has no finite value, is missing.
 struct RunDistribution {
   double rms = 0, mean = 0;          ///< of the finite values [SI]
-  double median = 0;                 ///< of an even number: the mean of the two middles
+  double median = 0;                 ///< of an even number: the mean of the two middle values
   double p90 = 0;                    ///< by nearest rank
   double below = 0;                  ///< fraction of all runs below a bound
   double rms_low = 0, rms_high = 0;  ///< 5 % and 95 % quantile of the RMS of `batch` runs
-  std::size_t batch = 0;             ///< as asked for, or all runs if there are fewer
+  std::size_t batch = 0;             ///< as requested, or all runs if there are fewer
   std::size_t missing = 0;
 };
-/// `batch`: runs drawn with replacement for each of 2000 bootstrap samples (Efron, Tibshirani (1993), chapter
-/// 6), from a fixed seed: the same runs give the same figures.
+/// `batch`: number of runs drawn with replacement for each of 2000 bootstrap samples (Efron, Tibshirani
+/// (1993), chapter 6), from a fixed seed, so that results are reproducible.
 RunDistribution run_distribution(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t t_us,
                                  double bound, std::size_t batch);
 
@@ -54,24 +54,23 @@ struct WindowStatistics {
   double mean = 0;
   double standard_deviation = 0;  ///< about the mean, with n - 1
   std::size_t count = 0;          ///< finite values
-  std::size_t missing = 0;        ///< not finite, or of runs that had ended or fallen silent
+  std::size_t missing = 0;        ///< not finite, or from runs that had ended or become silent
 };
 WindowStatistics window_statistics(std::span<const RunSeries> runs, const Quantity& quantity,
                                    std::int64_t from_us, std::int64_t to_us);
 
-/// The mean of |quantity| over a window of each run, and how these means are spread over the runs.
+/// The mean of |quantity| over a window of each run, and the distribution of these means over the runs.
 struct RunMeans {
   double mean = 0;
   double standard_deviation = 0;  ///< with n - 1
   double largest = 0;
-  std::size_t missing =
-      0;  ///< runs that had ended early, have no update there, or a value that is not finite
+  std::size_t missing = 0;  ///< runs that ended early, have no update there, or a value that is not finite
 };
 RunMeans run_means(std::span<const RunSeries> runs, const Quantity& quantity, std::int64_t from_us,
                    std::int64_t to_us);
 
-/// RMS and mean over all runs and samples that lie within a window of the time to go [s], by which the
-/// samples are.
+/// RMS and mean over all runs and samples within a window of the time to go [s]; the samples are by time to
+/// go.
 struct ToGoStatistics {
   double rms = 0, mean = 0;  ///< of the finite values [SI]
   std::size_t count = 0;     ///< finite values
@@ -80,20 +79,21 @@ struct ToGoStatistics {
 ToGoStatistics to_go_statistics(std::span<const RunSeries> runs, const Quantity& quantity, double least,
                                 double most);
 
-/// In how many pairs of runs with the same random numbers one variant is better.
+/// The fraction of pairs of runs with the same random numbers in which one variant is better.
 struct PairedFraction {
-  std::size_t better = 0;  ///< runs with |quantity| of `a` < that of `b`; no value is worse than any
+  std::size_t better = 0;  ///< runs with |quantity| of `a` < that of `b`; no value counts as the worst
   std::size_t pairs = 0;
   double fraction = 0;
   double low = 0, high = 0;  ///< Clopper-Pearson interval of the probability
 };
-/// Compares at the last update at or before a time. `a` and `b`: in order of runs. Runs that only one of
-/// them has are no pair. Confidence in (0, 1).
+/// Compares at the last update at or before a time. `a` and `b`: ordered by run. A run without a counterpart
+/// does not count. Confidence in (0, 1).
 PairedFraction paired_fraction(std::span<const RunSeries> a, std::span<const RunSeries> b,
                                const Quantity& quantity, std::int64_t t_us, double confidence);
 
-/// Normalised errors squared against chi-square, over a window. Errors of one run are correlated in time, so
-/// the bounds are for the mean over runs at one update (Bar-Shalom, Li, Kirubarajan (2001), section 5.4.2).
+/// Tests normalised errors squared against chi-square over a window. Errors within one run are correlated in
+/// time, so the bounds apply to the mean over runs at one update (Bar-Shalom, Li, Kirubarajan (2001), section
+/// 5.4.2).
 struct ConsistencyStatistics {
   double mean = 0;           ///< over all runs and updates
   double low = 0, high = 0;  ///< central interval of chi2(k n) / n, n: runs, k: degrees of freedom
@@ -108,11 +108,11 @@ ConsistencyStatistics consistency(std::span<const RunSeries> runs, const Quantit
 /// Runs that ended early, or whose |quantity| at their last update is above a bound (SI) or not finite.
 struct Divergence {
   std::size_t faulted = 0;
-  std::size_t beyond = 0;  ///< of those that came to their end
+  std::size_t beyond = 0;  ///< of the completed runs
   std::size_t runs = 0;
-  double largest = 0;  ///< |quantity| of the runs that came to their end, where it was judged
+  double largest = 0;  ///< the largest |quantity| of the completed runs
 };
-/// `from_us`: at any sample from then on; none: at the end.
+/// `from_us`: judged for any sample from this time on; none: at the end.
 Divergence divergence(std::span<const RunSeries> runs, const Quantity& quantity, double bound,
                       std::optional<std::int64_t> from_us = std::nullopt);
 

@@ -17,7 +17,7 @@ constexpr int format = 6;
 constexpr int any_format = 0x43484300;  // "CHC": canhil campaign
 constexpr int application_id = any_format + '0' + format;
 
-// identity.hash: of its row and of all sources.
+// identity.hash covers its row and all sources.
 std::string schema() {
   return fmt::format(
       "create table identity (campaign_hash text, dbc_hash text, program text, target text, runs integer, "
@@ -32,7 +32,7 @@ std::string with_hash(std::string_view name, const std::string& program) {
   return fmt::format("{}+{:016x}", name, file ? file->hash : 0);
 }
 
-// A target's command, each file of it by its name and hash: wherever it lies it is the same one.
+// The target's command with each file in it as name and hash: independent of the file's folder.
 std::string with_hashes(const std::string& target) {
   std::string text;
   const auto words = drive::target_words(target);
@@ -61,7 +61,7 @@ std::int64_t hash_of(const Identity& identity, const Sources& sources) {
   return digest.value();
 }
 
-// As they are kept: without the folder in which the campaign was.
+// The sources as they are stored: without the campaign's folder.
 Sources kept_of(const Sources& sources) {
   Sources kept = sources;
   kept.file = std::filesystem::path(sources.file).filename().string();
@@ -191,7 +191,7 @@ Result<Store> Store::create(const std::filesystem::path& path, const Identity& i
     return failure(fmt::format("{}: exists already, expected a new file (or --resume)", path.string()));
   }
   auto store = resume(path, identity, sources);
-  if (!store) {  // a file without tables would be in the way of the next try
+  if (!store) {  // a file without tables would block the next attempt
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
     std::filesystem::remove(path.string() + "-journal", ignored);
@@ -205,7 +205,7 @@ Result<Store> Store::resume(const std::filesystem::path& path, const Identity& i
   if (!database) return tl::unexpected(database.error());
   Store store(std::move(*database));
   return attempt(store.database_, [&] {
-    // A transaction is on the disk when it is committed. The lock is held until close(): one writer a file.
+    // A committed transaction is on the disk. The lock is held until close(): one writer per file.
     store.database_.exec(
         "pragma page_size = 4096; pragma auto_vacuum = none; pragma synchronous = normal;"
         "pragma locking_mode = exclusive; begin immediate; commit");

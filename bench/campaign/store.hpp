@@ -1,5 +1,5 @@
-// Results of a campaign in one SQLite file: a row a run and variant, committed as runs finish. Shards, and
-// what they are merged into, have the same form; the texts of the campaign are inside.
+// Results of a campaign in one SQLite file: one row for each run and variant, committed as runs finish.
+// Shards and merged files have the same format and contain the texts of the campaign.
 #pragma once
 
 #include <SQLiteCpp/Database.h>
@@ -18,45 +18,44 @@
 
 namespace canhil::campaign {
 
-/// What results must have in common to be put together.
+/// Results can be merged only if their identities are equal.
 struct Identity {
   std::uint64_t campaign_hash = 0;
   std::uint64_t dbc_hash = 0;
   Rounding rounding = Rounding::as_on_the_bus;
-  std::string program;  ///< version and hash of the program that ran it
-  std::string
-      target{};  ///< name and hash of the program that it was flown against; empty: a Device of its own
+  std::string program;   ///< version and hash of the program that ran it
+  std::string target{};  ///< name and hash of the target program; empty: the bench's own Device
   std::uint64_t runs = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };
-/// Of results that this program makes of a campaign. `target`: see Options.
+/// The identity of results that this program would make for a campaign. `target`: see Options.
 Identity identity_of(const Campaign& campaign, const std::string& target = {});
 
-/// One line that says in what a store's identity differs from what is expected; empty: in nothing.
+/// One line about how the identity of a store differs from the expected one; empty: it does not.
 std::string difference(const Identity& found, const Identity& expected);
 
 class Store {
  public:
-  /// A new file. Error: it exists, or cannot be written.
+  /// Creates a file. Error: it exists or cannot be written.
   static Result<Store> create(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// For more runs; a new file if there is none. Error: another campaign's, in use, or not writable.
+  /// Opens a file to add runs, or creates it. Error: of another campaign, in use, or not writable.
   static Result<Store> resume(const std::filesystem::path& path, const Identity& identity,
                               const Sources& sources);
-  /// For reading only. Error: not readable, or damaged.
+  /// Opens a file for reading only. Error: not readable, or damaged.
   static Result<Store> open(const std::filesystem::path& path);
 
   [[nodiscard]] const Identity& identity() const { return identity_; }
   [[nodiscard]] const Sources& sources() const { return sources_; }
-  /// What is there, ascending. Errors of this and of load(): a row is not as it was written.
+  /// The stored runs, ascending. Error, also of load(): a row was changed since it was written.
   [[nodiscard]] Result<std::vector<Key>> keys() const;
   /// All series of a variant, in order of runs.
   [[nodiscard]] Result<std::vector<RunSeries>> load(std::size_t variant) const;
   [[nodiscard]] Result<RunSeries> load(const Key& key) const;
 
-  /// Commits runs, all or none.
+  /// Commits all of these runs, or none.
   Result<void> add(std::span<const Finished> runs);
-  /// Writes everything to the disk and lets go of the file.
+  /// Writes everything to the disk and closes the file.
   void close();
 
  private:

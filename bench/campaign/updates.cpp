@@ -13,11 +13,11 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// When a run can have answered last.
+// The latest time at which a run can have answered.
 std::int64_t end_of(const RunSeries& run) {
   if (run.samples.empty()) return run.freshness.end_us;
   const std::size_t last = run.samples.size() - 1;
-  // A flight that did not come to what ends it has no time that is the end.
+  // A flight without its final event (such as the passage) has no end time.
   const Quantity* known_by = run.samples.layout().end_known_by;
   const bool open = known_by != nullptr && std::isnan(run.samples.value(last, *known_by));
   return open ? run.samples.times()[last] : run.freshness.end_us;
@@ -27,7 +27,7 @@ bool had_ended(const RunSeries& run, std::int64_t t_us) {
   return run.ending.kind != drive::Ending::Kind::completed && run.ending.t_us < t_us;
 }
 
-// Adds the times from which on the last of these updates is stale, up to the end.
+// Adds the times at which these updates become stale, up to the end.
 std::vector<std::int64_t> with_stale(const std::vector<std::int64_t>& times, std::int64_t end_us,
                                      std::int64_t age_limit_us) {
   std::vector<std::int64_t> all;
@@ -50,7 +50,7 @@ std::int64_t end_of_all(std::span<const RunSeries> runs) {
   return end_us;
 }
 
-// Update times that any run has, ascending.
+// The update times of all runs, ascending.
 std::vector<std::int64_t> all_times(std::span<const RunSeries> runs) {
   std::vector<std::int64_t> times;
   for (const RunSeries& run : runs) {
@@ -61,7 +61,7 @@ std::vector<std::int64_t> all_times(std::span<const RunSeries> runs) {
   return times;
 }
 
-// Whether a run's update is too old to say anything of a time, or of the end, if that comes first.
+// Whether a run's update is stale at a time, or at the end if that comes first.
 bool stale(const RunSeries& run, const Quantity& quantity, std::int64_t updated_us, std::int64_t t_us) {
   if (quantity.of_whole_run) return false;
   const std::int64_t until_us = std::min(t_us, end_of(run));
@@ -98,17 +98,17 @@ double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_u
 
 bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us) {
   const auto times = run.samples.times();
-  auto place = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
-  if (place == times.size() || times[place] != t_us) {
-    const std::int64_t heard_us = place == 0 ? from_us : std::max(from_us, times[place - 1]);
+  auto index = static_cast<std::size_t>(std::ranges::lower_bound(times, t_us) - times.begin());
+  if (index == times.size() || times[index] != t_us) {
+    const std::int64_t heard_us = index == 0 ? from_us : std::max(from_us, times[index - 1]);
     return !had_ended(run, t_us) && !stale(run, quantity, heard_us, t_us);
   }
-  const auto untold = [&] { return std::isnan(run.samples.value(place, quantity)); };
-  if (!quantity.may_be_untold || !untold()) return false;
-  // A filter that coasts on and on says nothing of its updates.
+  const auto not_asked = [&] { return std::isnan(run.samples.value(index, quantity)); };
+  if (!quantity.nan_allowed || !not_asked()) return false;
+  // A filter that only coasts does not report updates.
   if (run.samples.layout().answers_untold) return true;
-  while (place > 0 && t_us - times[--place] <= run.freshness.age_limit_us) {
-    if (!untold()) return true;
+  while (index > 0 && t_us - times[--index] <= run.freshness.age_limit_us) {
+    if (!not_asked()) return true;
   }
   return false;
 }

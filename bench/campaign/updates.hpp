@@ -1,5 +1,5 @@
-// When the runs of a variant were updated, and what they said of a time. An update that is stale by then, by
-// the rule of its estimator (bench/estimators), says nothing.
+// Update times and values of a variant's runs. An update that is stale at a time, by the rule of its
+// estimator (bench/estimators), has no value there.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,27 @@
 
 namespace canhil::campaign {
 
-/// Update times [us] that any run has, ascending, and those from which on all runs are stale.
+/// All update times [us] of any run, ascending, plus the times from which on all runs are stale.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, const Quantity& quantity);
-/// Those within a window; runs that have not begun are stale too.
+/// The same within a window; runs that have not begun are stale too.
 std::vector<std::int64_t> update_times(std::span<const RunSeries> runs, std::int64_t from_us,
                                        std::int64_t to_us);
 
-/// The quantity of a run's update at exactly that time; NaN: it has none, or no finite value.
+/// The quantity in a run's update at exactly that time; NaN: no update, or no finite value.
 double value_at(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
-/// Whether a run has no value of the quantity at that time and none was due: it has no update there, as one
-/// that was lost, and its last one, or the beginning of the window if that is later, is not stale; or the
-/// update was not asked for the quantity, as a fix that was not used has no NIS.
+/// Whether a run has no value of the quantity at that time and none was due. Either it has no update there
+/// (it was lost) while its last update, or the beginning of the window if that is later, is not stale; or the
+/// update does not need the quantity: an unused fix has no NIS.
 bool is_untold(const RunSeries& run, const Quantity& quantity, std::int64_t t_us, std::int64_t from_us);
-/// The quantity of a run's own last update at or before a time; NaN: none, a stale one, no finite value, or
-/// the run had ended.
+/// The quantity in a run's last update at or before a time; NaN: none, stale, not finite, or the run had
+/// ended.
 double last_value(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 /// Its magnitude.
 double last_magnitude(const RunSeries& run, const Quantity& quantity, std::int64_t t_us);
 
-/// Whether a run leaves no stretch of a window unanswered.
+/// Whether a run has answers in every stretch of a window.
 bool answers_throughout(const RunSeries& run, std::int64_t from_us, std::int64_t to_us);
-/// How many samples a window of the time to go [s] should have, as far as it is flown; 0: not known.
+/// The expected number of samples in a window of the time to go [s], as far as it is flown; 0: unknown.
 double samples_to_go(const quantities::Freshness& freshness, double least, double most);
 
 }  // namespace canhil::campaign

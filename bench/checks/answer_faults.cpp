@@ -8,7 +8,7 @@
 namespace canhil::checks {
 namespace {
 
-// The places of each group of the target, in the order of transmission.
+// The indices of the messages of each answer group, in the order of transmission.
 std::map<std::string_view, std::vector<std::size_t>> groups_of_answers(const Observations& seen) {
   std::map<std::string_view, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < seen.timing.messages.size(); ++i) {
@@ -35,7 +35,7 @@ std::string wrong_causes(const AnswerTiming& timing) {
   return line;
 }
 
-// What keeps a group from becoming whole.
+// Why no whole group was formed.
 std::string to_blame(const Observations& seen, const std::vector<std::size_t>& group) {
   std::string line;
   for (const std::size_t index : group) {

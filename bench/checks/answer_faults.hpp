@@ -1,4 +1,4 @@
-// What is wrong with the target's answers before anybody looks at their values.
+// Structural faults in the target's answers, found before any value is judged.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace canhil::checks {
 
-/// Of the check that is there when answers name causes that the bench did not send.
+/// The implied check that fails when answers name causes that the bench did not send.
 inline constexpr std::string_view causes_kind = "causes";
-/// Of the check that is there when the messages of a group of answers never make a whole group.
+/// The implied check that fails when the messages of an answer group never form a whole group.
 inline constexpr std::string_view groups_kind = "answer_groups";
 
-/// Answers whose time is that of no stimulus, and answers with the counter of another stimulus than that of
-/// their time, by group: one line; empty: none.
+/// By group: answers whose cause time matches no stimulus, and answers whose counter belongs to another
+/// stimulus than their time. One line; empty: none.
 std::string wrong_causes(const Observations& seen);
 
-/// Groups of answers of which messages came and not one group was whole, and which message is to blame: one
-/// line; empty: none.
+/// Groups whose messages arrived without ever forming a whole group, and the message to blame. One line;
+/// empty: none.
 std::string broken_groups(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -38,7 +38,7 @@ Load bus_load(std::span<const wire::BitLength> seconds, wire::BitRates rates) {
   return load;
 }
 
-std::string words(const wire::BitRates& rates) {
+std::string to_text(const wire::BitRates& rates) {
   const auto kbit = [](std::int64_t rate) { return static_cast<double>(rate) * 1e-3; };
   const std::string data = rates.data > 0 ? fmt::format(" and {:g}", kbit(rates.data)) : "";
   return fmt::format("{:g}{} kbit/s", kbit(rates.nominal), data);

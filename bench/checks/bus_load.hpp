@@ -1,4 +1,4 @@
-// How much of a bus the frames of a run take.
+// The bus load of a run.
 #pragma once
 
 #include <span>
@@ -9,10 +9,10 @@
 
 namespace canhil::checks {
 
-/// Shares of the time for which the bus is busy: 1 is a full bus.
+/// Fractions of the time in which the bus is busy: 1 is a full bus.
 struct Load {
   double mean = 0;
-  double busiest = 0;  ///< of a second
+  double busiest = 0;  ///< in the busiest second
 };
 
 /// The load over time: by second, of a long run the busiest of each stretch of several.
@@ -22,16 +22,16 @@ struct LoadLine {
 };
 LoadLine load_line(std::span<const wire::BitLength> seconds, wire::BitRates rates);
 
-/// What the bus carried by second; the second in which the run ended is not a whole one and left out, unless
-/// it is the only one.
+/// Bits on the bus in each second. The second in which the run ended is incomplete and left out, unless it is
+/// the only one.
 std::span<const wire::BitLength> whole_seconds(std::span<const wire::BitLength> seconds);
 std::span<const wire::BitLength> whole_seconds(const Observations& seen);
 
-/// Of the whole run at a bit rate [bit/s], in its whole_seconds().
+/// Over the whole_seconds() of a run, at a bit rate [bit/s].
 Load bus_load(std::span<const wire::BitLength> whole_seconds, wire::BitRates rates);
 Load bus_load(const Observations& seen, wire::BitRates rates);
 
 /// "500 kbit/s", "500 and 2000 kbit/s".
-std::string words(const wire::BitRates& rates);
+std::string to_text(const wire::BitRates& rates);
 
 }  // namespace canhil::checks

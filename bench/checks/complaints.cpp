@@ -9,12 +9,12 @@ namespace {
 
 constexpr std::string_view error = "error_", e2e = "e2e_";
 
-// The name of an error bit without what all have in common; empty: it is none.
+// The name of an error bit without the common prefix; empty: the signal is not an error bit.
 std::string_view error_in(const SignalInfo& signal) {
   return signal.name.starts_with(error) ? signal.name.substr(error.size()) : std::string_view();
 }
 
-// Every signal that is set in one message, beside its value in another.
+// Visits every signal that is set in one message, with its value in another.
 template <class Message, class Visit>
 void compare(const Message& now, const Message& before, Visit visit) {
   std::vector<double> then;
@@ -54,7 +54,7 @@ void Complaints::end(std::int64_t now_us) {
     silences_.push_back({.from_us = last_beat_us_, .to_us = now_us});
 }
 
-std::vector<std::string_view> Complaints::words() {
+std::vector<std::string_view> Complaints::names() {
   std::vector<std::string_view> words{"degraded"};
   for (const SignalInfo& signal : messages::TargetHeartbeat::signals()) {
     if (const std::string_view what = error_in(signal); !what.empty()) words.push_back(what);

@@ -1,5 +1,5 @@
-// What a target says of itself beside its answers: the errors of its heartbeat, its counters; and whether it
-// says anything.
+// Errors that a target reports besides its answers: error bits of its heartbeat and its counters, and
+// stretches without a heartbeat.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace canhil::checks {
 
-/// Times are the bench's, of the last Sync.
+/// Times are the bench's: the time of the last Sync.
 class Complaints {
  public:
   struct Said {
@@ -23,18 +23,19 @@ class Complaints {
 
   void hear(const messages::TargetHeartbeat& beat, std::int64_t now_us);
   void hear(const messages::TargetCounters& counters, std::int64_t now_us);
-  /// The run is over: a silence at its end is one too.
+  /// Ends the run: a silence at its end counts too.
   void end(std::int64_t now_us);
 
-  /// Errors as they rise, as a target keeps them up to the end; `degraded` with each heartbeat that has it.
+  /// Error bits when they rise; the target keeps them set to the end. `degraded` with each heartbeat that has
+  /// it set.
   [[nodiscard]] const std::vector<Said>& of_heartbeats() const { return of_heartbeats_; }
-  /// Counters as they grow.
+  /// Counters when they increase.
   [[nodiscard]] const std::vector<Said>& of_counters() const { return of_counters_; }
-  /// Stretches without a heartbeat that are longer than any may be (silence.hpp).
+  /// Stretches without a heartbeat longer than the limit (silence.hpp).
   [[nodiscard]] const std::vector<scenario::Window>& silences() const { return silences_; }
 
-  /// Every `what` there may be.
-  static std::vector<std::string_view> words();
+  /// Every possible `what`.
+  static std::vector<std::string_view> names();
 
  private:
   std::vector<Said> of_heartbeats_, of_counters_;

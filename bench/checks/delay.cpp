@@ -6,18 +6,18 @@
 namespace canhil::checks {
 namespace {
 
-using quantities::Told;
+using quantities::TrackPoint;
 
 constexpr std::size_t fewest = 20;
 constexpr double least_s = -0.2, most_s = 1.0, step_s = 0.01;  // of the search
 
 double seconds(std::int64_t t_us) { return 1e-6 * static_cast<double>(t_us); }
 
-// The truth between answers: the cubic through the four about it, and its slope.
+// The truth between answers: the cubic through the four nearest points, and its slope.
 class Curve {
  public:
-  explicit Curve(const Spool<Told>& told) {
-    for (const Told& one : told) {
+  explicit Curve(const Spool<TrackPoint>& points) {
+    for (const TrackPoint& one : points) {
       if (!one.truth || (!t_.empty() && seconds(one.t_us) <= t_.back())) continue;
       t_.push_back(seconds(one.t_us));
       x_.push_back(*one.truth);
@@ -27,7 +27,7 @@ class Curve {
   struct At {
     double value = 0, slope = 0;
   };
-  /// `after`: how many are not after t, for times that are asked for in their order: at first 0.
+  /// `after`: an index that the caller keeps, 0 at first. It makes queries in ascending order of time cheap.
   [[nodiscard]] At at(double t, std::ptrdiff_t& after) const {
     while (after < std::ssize(t_) && time(after) <= t) ++after;
     const auto first = std::clamp<std::ptrdiff_t>(after - 2, 0, std::ssize(t_) - 4);
@@ -55,12 +55,12 @@ struct Point {
   double t = 0, estimate = 0;
 };
 
-// Of one delay, with the offset that fits best.
+// The fit for one delay, with the best offset.
 struct Fit {
   double squares = 0;      // of the residuals
-  double step = 0;         // of Gauss and Newton, towards a better delay
+  double step = 0;         // Gauss-Newton step towards a better delay
   double excitation = 0;   // sum of the squared rates about their mean
-  double correlation = 0;  // of a residual with the next
+  double correlation = 0;  // of successive residuals
 };
 
 Fit fit(const Curve& curve, const Spool<Point>& points, double delay) {
@@ -91,9 +91,9 @@ Fit fit(const Curve& curve, const Spool<Point>& points, double delay) {
 }  // namespace
 
 std::optional<Delay> delay_of(const quantities::Track& track, const scenario::Window& window) {
-  const Curve curve(track.told);
-  Spool<Point> points;  // whose truth is known for every delay that is looked at
-  for (const Told& one : track.told) {
+  const Curve curve(track.points);
+  Spool<Point> points;  // only points whose truth is known for every delay that the search tries
+  for (const TrackPoint& one : track.points) {
     const double t = seconds(one.t_us);
     const bool inside = one.t_us >= window.from_us && one.t_us <= window.to_us;
     if (inside && one.estimate && std::isfinite(*one.estimate) && curve.covers(t - most_s) &&

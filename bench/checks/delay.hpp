@@ -1,5 +1,5 @@
-// How late a quantity is told, by the truth itself: of answers that do not say what they answer there is no
-// other way to know.
+// The delay of a reported quantity, estimated against the truth: answers without a cause allow no other
+// measurement.
 #pragma once
 
 #include <optional>
@@ -10,14 +10,14 @@
 namespace canhil::checks {
 
 struct Delay {
-  double delay_s = 0;       ///< positive: what is told is of an earlier time
-  double half_width_s = 0;  ///< of the interval that holds it with 95 %
+  double delay_s = 0;       ///< positive: the reported value belongs to an earlier time
+  double half_width_s = 0;  ///< of the 95 % interval
 };
 
 /// The delay d, with an offset b, for which estimate(t) = truth(t - d) + b fits best within a window, by
-/// least squares. Its variance is that of the residuals over the sum of the squared rates of the truth, times
-/// (1 + r)/(1 - r) for residuals correlated by r from one to the next. None: fewer than 20 answers, or the
-/// truth moves too little to know it within `coarsest_delay_s`.
+/// least squares. Its variance is the variance of the residuals over the sum of the squared rates of the
+/// truth, times (1 + r)/(1 - r), where r is the correlation of successive residuals. None: fewer than 20
+/// answers, or the truth moves too little to determine the delay within `coarsest_delay_s`.
 std::optional<Delay> delay_of(const quantities::Track& track, const scenario::Window& window);
 inline constexpr double coarsest_delay_s = 0.05;
 

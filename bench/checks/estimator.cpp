@@ -11,10 +11,10 @@ void give_tracks(const Estimator& of, const checks::Observations& seen, const Tr
   of.tracks(seen, truth, [&](quantities::Track track) {
     if (!track.quantity->white) {
       if (track.kind == quantities::Track::Kind::statistic) return;
-      for (std::size_t place = 0; place < track.told.size(); ++place) {
-        quantities::Told& told = track.told[place];
-        told.value = std::numeric_limits<double>::quiet_NaN();
-        told.truth.reset();
+      for (std::size_t index = 0; index < track.points.size(); ++index) {
+        quantities::TrackPoint& point = track.points[index];
+        point.value = std::numeric_limits<double>::quiet_NaN();
+        point.truth.reset();
       }
     }
     give(std::move(track));

@@ -1,5 +1,5 @@
-// What the bench knows of an estimator. All of it stands in the estimator's folder (bench/estimators); the
-// rest of the bench asks the registry, or is given what it may ask, and knows quantities.
+// The bench's interface to an estimator. The implementation is in the estimator's folder (bench/estimators);
+// the rest of the bench uses this interface and knows only quantities.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ struct Scenario;
 
 namespace canhil::estimators {
 
-/// What answers are held against.
+/// The truth that answers are compared with.
 struct Truth {
   const world::FlightRecord& flight;
   std::int64_t duration_us = 0;                         ///< of the run
@@ -34,13 +34,13 @@ struct Truth {
   const world::GlideRecord* glide = nullptr;            ///< null: not flown
 };
 
-/// Answers that say the same of themselves: an outcome, a flag.
+/// Answers that report the same outcome or flag.
 struct Mark {
   std::string_view name;
   Spool<std::int64_t> t_us{};  ///< times of their causes, ascending
 };
 
-/// A track, and whose it is.
+/// A track and its estimator.
 struct OwnTrack {
   std::string_view estimator;
   quantities::Track track;
@@ -48,40 +48,42 @@ struct OwnTrack {
 
 struct Estimator {
   std::string_view name;                                 ///< as in the DBC's value table Estimator
-  scenario::EstimatorFacts facts;                        ///< what a scenario has to know
-  const quantities::Layout& layout;                      ///< of its samples
-  std::span<const quantities::Quantity* const> of_runs;  ///< what its tracks tell
-  /// Puts its answers together, for a run.
+  scenario::EstimatorFacts facts;                        ///< facts that a scenario needs
+  const quantities::Layout& layout;                      ///< of its campaign samples
+  std::span<const quantities::Quantity* const> of_runs;  ///< quantities of its tracks in a run
+  /// Assembles its answers during a run.
   std::unique_ptr<Reception> (*reception)() = nullptr;
-  /// The samples that a run leaves behind; none where it has no truth to be held against.
+  /// The samples that a run contributes to a campaign; none where there is no truth.
   quantities::Samples (*samples)(const checks::Observations& seen, const Truth& truth) = nullptr;
-  /// Gives each quantity over a run that has a truth to hold the answers against.
+  /// Calls the sink with each track of the run for which truth exists.
   void (*tracks)(const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give) = nullptr;
-  /// All its marks, with no times where there are none. The first, "answers", is of all answers.
+  /// All its marks; a mark that never occurred has no times. The first, "answers", counts all answers.
   std::vector<Mark> (*marks)(const checks::Observations& seen) = nullptr;
-  /// Of these, beside "answers", those that say nothing of trouble: updates, how the estimator sets out.
+  /// Marks besides "answers" that signal no trouble, such as updates or the start of the estimator.
   std::span<const std::string_view> plain_marks{};
-  /// What people are told of a run. `algorithm`: that the target runs.
+  /// Result lines of a run for people. `algorithm`: the one that the target runs.
   std::vector<ResultLine> (*results)(const checks::Observations& seen, const Truth& truth,
                                      std::string_view algorithm) = nullptr;
   std::span<const std::string_view> closing;  ///< the last message of each group of its answers
-  /// The group that keeps an interval of its own where its stimuli come faster: output_interval_ms.
+  /// The group that keeps its own interval where its stimuli come faster: output_interval_ms.
   std::string_view of_own_interval{};
-  std::span<const scenario::CheckKind> check_kinds{};               ///< that nobody else can have
-  std::span<const scenario::FormerCheckKind> former_check_kinds{};  ///< that only it had
-  /// How long they hold, by the rule of the checks (bench/checks/silence.hpp), in runs of a scenario.
+  std::span<const scenario::CheckKind> check_kinds{};  ///< checks that exist for this estimator only
+  std::span<const scenario::FormerCheckKind>
+      former_check_kinds{};  ///< former checks that existed for this estimator only
+  /// How long its answers stay valid, by the rule of the checks (bench/checks/silence.hpp), in runs of a
+  /// scenario.
   quantities::Freshness (*freshness)(const scenario::Scenario& scenario) = nullptr;
 };
 
-/// The tracks of an estimator over a run. Of a flight that is not known they tell no error and no truth, only
-/// what was estimated; those that are errors alone are left out.
+/// The tracks of an estimator over a run. If the truth of the flight is unknown they hold estimates only,
+/// without error and truth; tracks that consist of errors alone are then left out.
 void give_tracks(const Estimator& of, const checks::Observations& seen, const Truth& truth,
                  const quantities::TrackSink& give);
 
-/// The one of this name; none: null.
+/// The estimator of this name, or null.
 const Estimator* find(std::span<const Estimator* const> estimators, std::string_view name);
-/// Every quantity that any of these tells, each once, in their order.
+/// Every quantity that any of these estimators reports, each once, in their order.
 std::vector<const quantities::Quantity*> quantities_of(std::span<const Estimator* const> estimators);
 
 }  // namespace canhil::estimators

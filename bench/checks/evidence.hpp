@@ -1,4 +1,4 @@
-// What a rule may look at.
+// The evidence that a rule may use.
 #pragma once
 
 #include <span>
@@ -15,21 +15,22 @@ struct Evidence {
   const Observations& seen;
   estimators::Truth truth;
   std::span<const estimators::Estimator* const> estimators{};  ///< whose answers may be judged
-  std::string ended_early{};                   ///< why the run did not come to its end; empty: it did
-  std::string timing_unfit{};                  ///< why timing cannot be judged; empty: it can
-  std::vector<estimators::OwnTrack> tracks{};  ///< of what the rules look at; judge() puts them in
+  std::string ended_early{};   ///< why the run did not come to its end; empty: it did
+  std::string timing_unfit{};  ///< why timing cannot be judged; empty: it can
+  std::vector<estimators::OwnTrack>
+      tracks{};  ///< of the quantities that the rules ask for; judge() fills them in
 };
 
-/// Tracks of a quantity, or of each of its parts, as an estimator told it; empty: it has no truth to be held
-/// against.
+/// The tracks of a quantity, or of each of its parts, of an estimator; empty: there is no truth to compare
+/// with.
 std::vector<const quantities::Track*> tracks_of(const Evidence& evidence, std::string_view estimator,
                                                 const quantities::Quantity& quantity);
 
-/// Why timing with a bar [s] that is judged at a quantile cannot be judged; empty: it can. The bench must
-/// keep its own deadlines to judge those of the target.
+/// Why timing with a bar [s] at a quantile cannot be judged; empty: it can. The bench must keep its own
+/// deadlines to judge those of the target.
 std::string unfit(const Evidence& evidence, double quantile, double bar_s);
-/// A host that keeps the bench waiting for more than this share of a bar, as often as the bar is judged for,
-/// may keep the target waiting just as long.
+/// If the host delays the bench by more than this fraction of a bar, at the quantile of the bar, it may delay
+/// the target as much.
 inline constexpr double lateness_share = 0.5;
 
 /// "max", "99 % quantile".

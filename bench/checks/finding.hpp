@@ -1,4 +1,4 @@
-// What a check found, and what all that judge share.
+// The result of a check, and what all judges share.
 #pragma once
 
 #include <string>

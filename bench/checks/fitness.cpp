@@ -1,4 +1,4 @@
-// Whether a run can be judged by its timing at all.
+// Whether the timing of a run can be judged at all.
 #include <fmt/format.h>
 
 #include "bench/checks/judge.hpp"
@@ -6,10 +6,11 @@
 namespace canhil::checks {
 namespace {
 
-// A process of a few hundred frames a second that is ready to run and is not let run, for this share of the
-// run, meets a CPU that has no room for it; nor, on the same machine, for the target.
+// The bench sends a few hundred frames a second. If it waits for a CPU for more than this fraction of the
+// run, the machine has no room for the bench, and none for a target on the same machine.
 constexpr double most_waited = 0.05;
-// A machine that loses this share of its time to others does so at instants that nobody on it sees.
+// A machine that loses this fraction of its time to other guests loses it at instants that its own programs
+// cannot see.
 constexpr double most_stolen = 0.05;
 
 }  // namespace

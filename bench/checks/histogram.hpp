@@ -1,4 +1,4 @@
-// Distributions of times and their course, in a memory that does not grow with the run.
+// Distributions of times and their course over the run, in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -6,9 +6,9 @@
 
 namespace canhil::checks {
 
-/// Counts of times: buckets of 1 us below 10 ms, of 10 us below 100 ms, of 100 us below 1 s, of 1 ms below
-/// 10 s, and one for all above. At most 37 001 buckets (296 kB), of which those up to the largest time are
-/// held. Minimum, maximum and count are exact.
+/// Counts of times: buckets of 1 us below 10 ms, of 10 us below 100 ms, of 100 us below 1 s, of 1 ms below 10
+/// s, and one for all above. At most 37 001 buckets (296 kB); only those up to the largest time are
+/// allocated. Minimum, maximum and count are exact.
 class Histogram {
  public:
   /// A bucket that is not empty.
@@ -18,13 +18,13 @@ class Histogram {
     friend bool operator==(const Bucket&, const Bucket&) = default;
   };
 
-  /// Counts a time so many times. A time before 0 (a clock that was set) counts in the first bucket.
+  /// Counts a time `times` times. A time before 0 (a clock that was set) counts in the first bucket.
   void add(std::int64_t t_ns, std::uint64_t times = 1);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
   [[nodiscard]] std::int64_t min_ns() const { return min_ns_; }
   [[nodiscard]] std::int64_t max_ns() const { return max_ns_; }
-  /// Nearest rank [ns], 0 < q <= 1: the middle of its bucket, never outside of minimum and maximum, so that a
+  /// Nearest rank [ns], 0 < q <= 1: the middle of its bucket, limited to the minimum and maximum, so a
   /// quantile below 10 ms is off by at most half a microsecond. 0 if empty.
   [[nodiscard]] double quantile_ns(double q) const;
   /// In ascending order.
@@ -37,20 +37,20 @@ class Histogram {
   std::int64_t max_ns_ = 0;
 };
 
-/// Width [us] of the bucket that begins at a time; that above 10 s has none: 0.
+/// Width [us] of the bucket that begins at a time; 0 for the bucket above 10 s.
 std::int64_t bucket_width_us(std::int64_t from_us);
 
-/// The largest of the values in each stretch of time. When the stretches no longer reach, each becomes twice
-/// as long.
+/// The largest value in each stretch of time. When the fixed number of stretches no longer covers the run,
+/// the length of each doubles.
 class TimeLine {
  public:
   static constexpr std::size_t max_stretches = 512;
 
-  /// Values in any order of time; those of a time before 0 count as of 0.
+  /// Values may come in any order of time; a time before 0 counts as 0.
   void add(std::int64_t t_ns, std::int64_t value_ns);
 
   [[nodiscard]] std::int64_t stretch_ns() const { return stretch_ns_; }
-  /// By stretch from time 0 on; -1 where there was no value.
+  /// By stretch from time 0 on; -1 for a stretch without a value.
   [[nodiscard]] const std::vector<std::int64_t>& largest_ns() const { return largest_ns_; }
 
  private:

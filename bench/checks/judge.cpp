@@ -14,7 +14,7 @@
 namespace canhil::checks {
 namespace {
 
-// A bus that failed fails a run that says nothing of it.
+// The implied check of the bus: a bus failure fails every run whose scenario has no bus_errors check.
 std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, const Evidence& evidence) {
   const bool said = std::ranges::find(scenario.checks, BusErrorLimits::kind, &scenario::Check::kind) !=
                     scenario.checks.end();
@@ -26,7 +26,7 @@ std::optional<scenario::Check> bus_check(const scenario::Scenario& scenario, con
                          .rule = std::make_shared<RuleOf<BusErrorLimits>>(rule)};
 }
 
-// The tracks that the checks look at: a run has many more, and each may be long.
+// Only the tracks that the checks use: a run has many more, and each may be long.
 std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>& checks,
                                              const Evidence& evidence) {
   std::vector<Subject> wanted;
@@ -51,14 +51,14 @@ std::vector<estimators::OwnTrack> tracks_for(const std::vector<scenario::Check>&
   return tracks;
 }
 
-// Why a rule cannot be judged, as there is no truth for what it looks at; empty: it can.
+// Why a rule cannot be judged for lack of truth; empty: it can.
 std::string why_no_truth(const scenario::Scenario& scenario, const checks::Rule& rule,
                          const Evidence& evidence) {
   const std::vector<std::string> held = rule.held_against_truth();
   const std::vector<Subject> subjects = rule.subjects();
   for (const estimators::Estimator* one : evidence.estimators) {
     std::string why = scenario::why_no_truth(scenario, one->facts);
-    // What is no error may hang on the truth too: when which sample was how far from the end.
+    // A quantity that is not an error may still need the truth, as for the time to go of each sample.
     const auto is_untold = [&](const Subject& subject) {
       return subject.estimator == one->name && tracks_of(evidence, one->name, *subject.quantity).empty();
     };
@@ -111,7 +111,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
       finding.outcome = Outcome::not_measured;
       finding.measured = std::move(why);
     }
-    if (!evidence.ended_early.empty()) {  // what was seen until then proves nothing either way
+    if (!evidence.ended_early.empty()) {  // evidence up to then proves nothing either way
       finding.outcome = Outcome::not_measured;
       finding.measured = "the run ended early";
     }
@@ -132,8 +132,7 @@ Verdict judge(const scenario::Scenario& scenario, Evidence evidence) {
                               .measured = std::move(found),
                               .expected = std::string(expected)});
   };
-  // With others on the bus in their names, neither bench nor target can be shown to have met a check, nor to
-  // have missed one.
+  // If others send under the names of bench or target, a check proves neither success nor failure.
   const Outcome fault = evidence.seen.bus.intruded.empty() ? Outcome::fail : Outcome::not_measured;
   imply(causes_kind, fault, wrong_causes(evidence.seen), "each answer with time and counter of its cause");
   imply(groups_kind, fault, broken_groups(evidence.seen), "all messages of an answer, with one counter");

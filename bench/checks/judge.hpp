@@ -1,4 +1,4 @@
-// The checks of a scenario against what was seen.
+// Judges the checks of a scenario against what the bench observed.
 #pragma once
 
 #include <span>
@@ -15,20 +15,21 @@ namespace canhil::checks {
 /// Judges every check of the scenario. A run that ended early fails, whatever its checks say.
 Verdict judge(const scenario::Scenario& scenario, Evidence evidence);
 
-/// Whether judge() adds a check of this kind where it does not pass, though the scenario has none.
+/// Whether judge() adds a check of this kind by itself when it does not pass.
 bool is_implied(std::string_view kind);
 
-/// The windows, each once, for which the checks ask for the timing of a message: empty, to be filled.
+/// The windows, each once, for which checks need the timing of a message: empty, to be filled by the
+/// stopwatch.
 std::vector<TimedWindow> timed_windows(const std::vector<scenario::Check>& checks,
                                        std::span<const MessageInfo> messages = messages::all_messages);
 
-/// Every kind of check that a scenario may have: those of this folder and the estimators' own.
+/// Every kind of check that a scenario may have: those of this folder and those of the estimators.
 std::vector<scenario::CheckKind> kinds(std::span<const estimators::Estimator* const> estimators);
-/// Those of before, each with what is written in its place now.
+/// Former kinds, each with its replacement.
 std::vector<scenario::FormerCheckKind> former_kinds(std::span<const estimators::Estimator* const> estimators);
 
-/// Why no timing of this run can be judged: frames of the target were lost on the way. Empty: it can, as far
-/// as the bench kept its own deadlines, which each check asks by its bar.
+/// Why no timing of this run can be judged, for example because frames of the target were lost. Empty: it
+/// can, provided that the bench kept its own deadlines, which each check examines with its own bar.
 std::string unfit_for_timing(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -1,4 +1,4 @@
-// A line a kind of check.
+// One line for each kind of check.
 #include <array>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// What a receiver must have counted of the frames that the bench sent (TargetCounters, docs/report.md).
+// The losses that a receiver of the bench's frames must have counted (TargetCounters, docs/report.md).
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,12 @@ struct LossCounts {
   std::uint64_t late = 0;
 };
 
-/// More than any target counts.
+/// Larger than any count of a target.
 inline constexpr std::uint32_t any_count = 1'000'000;
 
-/// The limits of the counts that the target last sent. They differ where the bench cannot know how far the
-/// target had read when it sent them, and where the contract lets an estimator refuse a group or use it.
+/// Limits for the counts that the target sent last. Lower and upper limit differ where the bench cannot know
+/// how far the target had read when it sent the counts, and where the protocol leaves it to the estimator
+/// whether to use a group.
 struct ExpectedCounts {
   LossCounts least{}, most{};
 };

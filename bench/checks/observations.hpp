@@ -1,4 +1,4 @@
-// What a run showed: the target's answers, and the stamps of everything that passed.
+// Observations of a run: the target's answers and the time stamps of all frames.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 
 namespace canhil::checks {
 
-/// The stimuli of a sample group, by time of validity.
+/// Counts of the stimuli of a sample group.
 struct StimulusCount {
   std::uint64_t count = 0;
   std::int64_t first_us = 0;
@@ -41,7 +41,7 @@ struct Observations {
   explicit Observations(std::span<const MessageInfo> on_bus)
       : answers(on_bus.size()), from_target(on_bus.size()), timing(on_bus) {}
 
-  /// What an estimator answered, in the type of its folder; what was not touched yet is empty.
+  /// The answers of an estimator, in the type of its folder; created empty at first use.
   template <class Answers>
   [[nodiscard]] Answers& of() {
     std::any& own = answered[typeid(Answers)];
@@ -56,20 +56,20 @@ struct Observations {
   }
   std::map<std::type_index, std::any> answered;  ///< by type
 
-  std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group, those that are answered
-  std::vector<std::uint64_t> answers;                 ///< by place in timing.messages
-  std::vector<Sighting> from_target;                  ///< by place in timing.messages
-  /// The least interval [s] that groups of answers keep where their stimuli come faster.
+  std::map<std::string_view, StimulusCount> stimuli;  ///< by sample group; only groups that are answered
+  std::vector<std::uint64_t> answers;                 ///< by index in timing.messages
+  std::vector<Sighting> from_target;                  ///< by index in timing.messages
+  /// The minimum interval [s] that answer groups keep where their stimuli come faster.
   std::map<std::string_view, double> own_interval_s{};
   std::int64_t first_ns = 0;            ///< stamp of the bench's first transmission
   std::int64_t last_ns = 0;             ///< and of its last one
-  wire::BitRates bit_rates{};           ///< of the bus; nominal 0: not known, or it has none
-  TimingRecord timing;                  ///< empty where no times are taken
-  bool transmit_stamps_echoed = false;  ///< stamps of stimuli are the bus's, not the bench's
+  wire::BitRates bit_rates{};           ///< of the bus; nominal 0: unknown, or the bus has none
+  TimingRecord timing;                  ///< empty where no times are measured
+  bool transmit_stamps_echoed = false;  ///< stamps of stimuli come from the bus, not from the bench
 
   std::optional<messages::TargetCounters> counters;  ///< the last one
   Complaints complaints;                             ///< of the target, beside its answers
-  ExpectedCounts expected_counts{};                  ///< of them
+  ExpectedCounts expected_counts{};                  ///< for `counters`
   std::vector<wire::BitLength> length_by_second{};   ///< of all frames on the bus; see observe::LoadMeter
   std::uint32_t target_frames_lost = 0;              ///< by the E2E counters of the target's messages
   std::uint32_t target_bad_crc = 0;

@@ -1,4 +1,4 @@
-// Whether bench and target were the only ones to speak in their own names.
+// Whether bench and target were the only senders of their own messages.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace canhil::checks {
 
-/// Of the check that is there when somebody did.
+/// The implied check that fails when they were not.
 inline constexpr std::string_view senders_kind = "senders";
 
-/// Who else sent what only the bench sends, or answered what had been answered: one line; empty: nobody.
-/// What was measured then need not be what was meant.
+/// Who else sent frames of the bench or repeated answers of the target: one line; empty: nobody. If anybody
+/// did, the measurements may not be the target's.
 std::string other_senders(const Observations& seen);
 
 }  // namespace canhil::checks

@@ -1,11 +1,13 @@
-// Quantiles and bounds of distributions, from Boost.Math: it takes seconds to compile, in one unit.
+// Quantiles and bounds of distributions, from Boost.Math. One source includes it because it takes seconds to
+// compile.
 #pragma once
 
 namespace canhil::checks {
 
 /// x with P(chi-squared of k degrees of freedom <= x) = p.
 double chi_squared_quantile(double degrees_of_freedom, double p);
-/// x with P(chi-squared of k degrees of freedom > x) = p. Of a small p more exact than the quantile of 1 - p.
+/// x with P(chi-squared of k degrees of freedom > x) = p. For small p more accurate than the quantile of 1 -
+/// p.
 double chi_squared_quantile_above(double degrees_of_freedom, double p);
 
 /// P(Z > z) of a standard normal Z.
@@ -14,7 +16,7 @@ double normal_above(double z);
 /// P(T > t) of Student's T.
 double student_t_above(double degrees_of_freedom, double t);
 
-/// Clopper-Pearson bounds of the probability of a success: each is passed with probability `tail`.
+/// Clopper-Pearson bounds of the probability of a success: each is exceeded with probability `tail`.
 struct SuccessBounds {
   double low, high;
 };

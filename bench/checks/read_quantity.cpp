@@ -31,10 +31,10 @@ const Quantity* read_quantity(scenario::Section& section, std::span<const Quanti
         section.reject(key, fmt::format("'{}' {}", word, why),
                        fmt::format("one of: {}", fmt::join(words, ", ")));
     } else if (!word.empty() && once != known.end()) {
-      section.reject(key, fmt::format("'{}' is a name of before", word), fmt::format("'{}'", (*once)->name));
+      section.reject(key, fmt::format("'{}' is a former name", word), fmt::format("'{}'", (*once)->name));
     }
   }
-  const std::string word = section.one_of(key, words);
+  const std::string word = section.one_of({key, "A quantity (quantities.md)."}, words);
   const auto found = std::ranges::find(known, std::string_view(word), &Quantity::name);
   return found == known.end() ? known.front() : *found;
 }

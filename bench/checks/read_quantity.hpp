@@ -14,12 +14,12 @@ class Section;
 
 namespace canhil::checks {
 
-/// The key that begins with `stem` and ends in a unit.
+/// The key that consists of `stem` and the suffix of a unit.
 std::string key_of(std::string_view stem, const quantities::Unit& unit);
 
-/// The quantity of `known` that the key `quantity` names. `refused`: why one may not be named here, after
-/// "'NAME' "; empty: it may. Error: none may be named so, or under this name no more; then a quantity that is
-/// harmless.
+/// The quantity of `known` that the key `quantity` names. `refused`: why a quantity is not allowed here, to
+/// follow "'NAME' "; empty: it is allowed. Error: an unknown, former or refused name; the return value is
+/// then an allowed quantity.
 const quantities::Quantity* read_quantity(
     scenario::Section& section, std::span<const quantities::Quantity* const> known,
     const std::function<std::string(const quantities::Quantity&)>& refused);

@@ -1,4 +1,4 @@
-// What people and programs are told of a run, apart from its checks: lines of figures.
+// Results of a run for people and programs besides the checks: lines of figures.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@ namespace canhil::estimators {
 
 struct Figure {
   std::string name;               ///< for programs: "heading"
-  std::optional<double> value{};  ///< [SI]; none: there is none
-  std::string words;              ///< for people, with its unit: "heading +1.234 mrad"; empty: not for them
+  std::optional<double> value{};  ///< [SI]; none: no value
+  std::string text;               ///< for people, with its unit: "heading +1.234 mrad"; empty: not shown
 };
 
 struct ResultLine {
@@ -19,8 +19,8 @@ struct ResultLine {
   std::string what;  ///< for people: "error at the end"
   std::vector<Figure> figures{};
 
-  void add(std::string figure, std::optional<double> value, std::string words) {
-    figures.push_back({.name = std::move(figure), .value = value, .words = std::move(words)});
+  void add(std::string figure, std::optional<double> value, std::string text) {
+    figures.push_back({.name = std::move(figure), .value = value, .text = std::move(text)});
   }
 };
 

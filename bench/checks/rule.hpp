@@ -1,16 +1,16 @@
-// A rule of a scenario: what a kind of check is put together from.
+// A rule of a scenario: the parts of a kind of check.
 //
-// A kind is a struct with a constant `kind`, its fields, and
+// A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), its fields, and
 //   static Kind read(scenario::Section&, const scenario::CheckContext&)
 //   Finding judge(const Evidence&) const         an absent answer is a failure of the target, never a pass
-// and, where they say something,
-//   std::string subject() const                  what tells one check of the kind from another
-//   std::vector<Subject> subjects() const        the quantities that it looks at
+// and, where they apply,
+//   std::string subject() const                  distinguishes the checks of one kind
+//   std::vector<Subject> subjects() const        the quantities that it uses
 //   std::vector<std::string> held_against_truth() const
-//                                                the estimators whose truth it takes; without it: those of
-//                                                its subjects that are no innovations
-//   std::optional<Bar> bar() const               what it asks of them, for pictures
-//   std::vector<Timed> timed() const             the messages whose times it looks at, and when
+//                                                the estimators whose truth it needs; without this function:
+//                                                those of its subjects, innovations excepted
+//   std::optional<Bar> bar() const               its limits, for pictures
+//   std::vector<Timed> timed() const             the messages whose times it needs, and when
 #pragma once
 
 #include <memory>
@@ -28,22 +28,22 @@ namespace canhil::checks {
 
 struct Evidence;
 
-/// A quantity that an estimator tells.
+/// A quantity of an estimator.
 struct Subject {
   std::string estimator;
   const quantities::Quantity* quantity = nullptr;
-  std::string words{};  ///< "attitude.heading", and whose it is where several tell it
+  std::string text{};  ///< "attitude.heading", with the estimator where several report it
 };
 
-/// Part of a run, by time of validity or, where the flight has an end that it goes to, by the time to go.
+/// Part of a run, by time of validity or, if the flight goes to a target, by time to go.
 struct Stretch {
   scenario::Window window;
   std::optional<std::pair<double, double>> to_go_s{};  ///< [least, most)
 };
 
-/// |quantity| is to be below a value.
+/// The limit |quantity| < below.
 struct Bar {
-  std::vector<Subject> of;
+  std::vector<Subject> judged;
   Stretch stretch;
   double below = 0;  ///< [SI]
   std::string_view statistic{};
@@ -110,8 +110,9 @@ scenario::RuleRead read_rule(scenario::Section& section, const scenario::CheckCo
   return {std::make_shared<RuleOf<Kind>>(std::move(rule)), std::move(subject)};
 }
 
-/// The line of a registry.
+/// The entry of a registry.
 template <class Kind>
-inline constexpr scenario::CheckKind check_kind{.name = Kind::kind, .read = read_rule<Kind>};
+inline constexpr scenario::CheckKind check_kind{
+    .name = Kind::kind, .meaning = Kind::meaning, .read = read_rule<Kind>};
 
 }  // namespace canhil::checks

@@ -1,4 +1,4 @@
-// What came under the id of a message of the target, right or wrong.
+// Counts of the frames that came under the id of a message of the target, valid or not.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,20 @@
 
 namespace canhil::checks {
 
-/// Frames, by what was wrong with them.
+/// Frames by kind of defect.
 struct Sighting {
   std::uint64_t right = 0;
   std::uint64_t wrong_size = 0;
   std::uint64_t wrong_crc = 0;
-  std::uint64_t wrong_counter = 0;  ///< CRC right, but a counter that end-to-end protection does not use
-  std::uint64_t repeated = 0;       ///< with the counter of the one before, of a target with a mapping
-  std::uint64_t lost = 0;           ///< by what the counters left out, of a target with a mapping
-  std::uint8_t size = 0;            ///< of the last one of a wrong size
-  std::uint8_t counter = 0;         ///< of the last one with a wrong counter
+  std::uint64_t wrong_counter =
+      0;                       ///< CRC valid, but a counter value that end-to-end protection does not use
+  std::uint64_t repeated = 0;  ///< with the counter of the previous frame; mapped targets only
+  std::uint64_t lost = 0;      ///< gaps in the counters; mapped targets only
+  std::uint8_t size = 0;       ///< of the last frame of a wrong size
+  std::uint8_t counter = 0;    ///< of the last frame with a wrong counter
 };
 
-/// "50 with a wrong CRC, 3 of 7 bytes, expected 8"; empty: nothing was wrong.
+/// "50 with a wrong CRC, 3 of 7 bytes, expected 8"; empty: no defects.
 std::string faults_of(const Sighting& sighting, const MessageInfo& message);
 
 }  // namespace canhil::checks

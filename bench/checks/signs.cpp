@@ -25,7 +25,7 @@ void add(std::vector<Sign>& signs, const std::vector<Complaints::Said>& said, st
 
 }  // namespace
 
-std::string Sign::words() const { return fmt::format("{} in {}", name, by); }
+std::string Sign::to_text() const { return fmt::format("{} in {}", name, by); }
 
 std::vector<Sign> signs_in(const Observations& seen,
                            std::span<const estimators::Estimator* const> estimators) {
@@ -52,7 +52,7 @@ std::vector<std::string> sign_names(std::span<const estimators::Estimator* const
       if (!is_plain(*one, mark.name)) name(mark.name);
     }
   }
-  for (const std::string_view word : Complaints::words()) name(word);
+  for (const std::string_view word : Complaints::names()) name(word);
   return names;
 }
 
@@ -69,7 +69,7 @@ std::optional<SignAt> first_in(std::span<const Sign> signs, std::int64_t from_us
   for (const Sign& sign : signs) {
     const auto at = std::ranges::lower_bound(sign.t_us, from_us);
     if (at == sign.t_us.end() || *at > to_us || (first && first->t_us <= *at)) continue;
-    first = SignAt{.t_us = *at, .words = sign.words()};
+    first = SignAt{.t_us = *at, .text = sign.to_text()};
   }
   return first;
 }
@@ -78,7 +78,7 @@ std::optional<SignAt> last_after(std::span<const Sign> signs, std::int64_t t_us)
   std::optional<SignAt> last;
   for (const Sign& sign : signs) {
     if (sign.t_us.empty() || sign.t_us.back() <= t_us || (last && last->t_us >= sign.t_us.back())) continue;
-    last = SignAt{.t_us = sign.t_us.back(), .words = sign.words()};
+    last = SignAt{.t_us = sign.t_us.back(), .text = sign.to_text()};
   }
   return last;
 }

@@ -1,5 +1,5 @@
-// Silence never passes: how long an answer may be waited for. One rule for the checks of a run and for the
-// metrics of a campaign.
+// Silence never passes: the longest time to wait for an answer. The checks of a run and the metrics of a
+// campaign share this rule.
 #pragma once
 
 #include <algorithm>
@@ -10,20 +10,21 @@
 
 namespace canhil::checks {
 
-/// So many fixes in a row may go unanswered.
+/// This many fixes in a row may go unanswered.
 inline constexpr int tolerated_fixes = 2;
-/// Samples of a seeker may be lost on purpose, but this share of them must be answered.
+/// Seeker samples may be lost on purpose, but at least this fraction must be answered.
 inline constexpr double least_answered = 0.5;
 
-/// The longest time from one answer to the next that is no silence [us]: then so many periods of the answers
-/// have passed, and for a second at least an answer was due that did not come.
+/// The longest time [us] between two answers that does not count as silence: `periods` periods of the
+/// answers, and at least one second in which an answer was due.
 constexpr double longest_wait_us(double period_us, double periods = 2) {
   constexpr double second_us = 1e6;
   return std::max(second_us + period_us, periods * period_us);
 }
 
-/// The first stretch of a window without an answer that is longer than `longest_us`; none: nowhere. `times`:
-/// those of the answers in the window, ascending [us]; `end_us`: of the run, after which nobody answers.
+/// The first stretch of a window without an answer that is longer than `longest_us`; none: there is none.
+/// `times`: of the answers in the window, ascending [us]; `end_us`: after this time of the run no answers are
+/// expected.
 template <class Times>
 std::optional<scenario::Window> silent_stretch(const Times& times, const scenario::Window& window,
                                                std::int64_t end_us, double longest_us) {

@@ -20,7 +20,7 @@ const AnswerTiming& timing_of(const Observations& seen, const MessageInfo& info)
   return seen.timing.answers[place_of(seen, info)];
 }
 
-// What a message answers in this run: the stimuli of each group that was sent.
+// The stimuli that a message answers in this run: those of each group that was sent.
 std::vector<StimulusCount> all_stimuli_of(const Observations& seen, const MessageInfo& info) {
   std::vector<StimulusCount> all;
   for (const std::string_view group : info.answers) {
@@ -34,7 +34,7 @@ bool same(const scenario::Window& a, const scenario::Window& b) {
   return a.from_us == b.from_us && a.to_us == b.to_us;
 }
 
-// The place of a quantile, by the nearest rank, in a sample in order.
+// The index of a quantile (nearest rank) in a sorted sample.
 std::size_t place_of(double q, std::size_t count) {
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(count)));
   return std::max<std::size_t>(rank, 1) - 1;

@@ -1,4 +1,4 @@
-// The timing of a run, message by message, in a memory that does not grow with it.
+// The timing of a run, message by message, in bounded memory.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace canhil::checks {
 /// One arrival of a message of the target.
 struct Arrival {
   std::int64_t t_ns = 0;         ///< stamp of the port
-  std::int64_t hardware_ns = 0;  ///< the controller's own, on a clock of its own; 0: none
+  std::int64_t hardware_ns = 0;  ///< the controller's own stamp, on its own clock; 0: none
 };
 
 /// The last frame of a sample group that the bench sent.
@@ -26,8 +26,8 @@ struct Stimulus {
   std::int64_t valid_us = 0;
   std::uint8_t counter = 0;      ///< E2E counter of the group
   std::int64_t t_ns = 0;         ///< transmit stamp: the port's echo where it gives one
-  std::int64_t hardware_ns = 0;  ///< the controller's own, of the echo; 0: none
-  std::int64_t due_ns = 0;       ///< when it was to be sent, by the clock of t_ns
+  std::int64_t hardware_ns = 0;  ///< the controller's own stamp of the echo; 0: none
+  std::int64_t due_ns = 0;       ///< its deadline, on the clock of t_ns
 };
 
 /// Time [ns] from one stamp to a later one: by the controller's clock where it stamped both.
@@ -37,83 +37,85 @@ constexpr std::int64_t elapsed_ns(const From& from, const To& to) {
   return hardware ? to.hardware_ns - from.hardware_ns : to.t_ns - from.t_ns;
 }
 
-/// Of a message of the target.
+/// Timing of a message of the target.
 struct AnswerTiming {
   Histogram latency;  ///< from the last frame of the stimulus group to the answer, both on the bus
-  /// |deviation| of the time between two arrivals from what it should be: between the deadlines of the two
-  /// stimuli, or the cycle time of a message that answers nothing.
+  /// deviation| of the time between two arrivals from its nominal value: the time between the deadlines of
+  /// the two stimuli, or the cycle time of a message that answers nothing.
   Histogram jitter;
-  TimeLine latency_line;                     ///< over the time of arrival
-  std::uint64_t count = 0;                   ///< arrivals
-  std::uint64_t unpaired = 0;                ///< answers to what the bench did not send
-  std::uint64_t repeated = 0;                ///< to what was answered before
-  std::optional<std::int64_t> nearest_us{};  ///< of `unpaired`: how near the time of a cause came to one sent
+  TimeLine latency_line;       ///< over the time of arrival
+  std::uint64_t count = 0;     ///< arrivals
+  std::uint64_t unpaired = 0;  ///< answers to stimuli that the bench did not send
+  std::uint64_t repeated = 0;  ///< answers to stimuli that were answered before
+  std::optional<std::int64_t>
+      nearest_us{};  ///< for `unpaired`: the smallest difference between a cause's time and a stimulus
   std::uint64_t wrong_counter = 0;  ///< answers that name the time of one cause and the counter of another
-  std::uint8_t counter_told = 0, counter_sent = 0;  ///< of the first of them
+  std::uint8_t counter_told = 0, counter_sent = 0;  ///< of the first such answer
   std::int64_t reply_wire_ns =
-      0;  ///< over all of `latency`: the frames of the answer up to this one on the wire
+      0;  ///< over all of `latency`: time on the wire of the answer's frames up to this one
   std::optional<std::int64_t> last_ns{};  ///< its last arrival
   std::int64_t longest_silence_ns = 0;    ///< before an arrival
 };
 
-/// Of a message of the bench: how long after its deadline.
+/// Lateness of a message of the bench.
 struct TransmitTiming {
-  Histogram handed_over;  ///< to the bus
-  Histogram echoed;       ///< it had passed the bus; empty where the bus echoes nothing
+  Histogram handed_over;  ///< when handed to the bus
+  Histogram echoed;       ///< when it had passed the bus; empty where the bus has no echo
 };
 
-/// How long frames took from being queued to their end on the bus. Of one of the bench from the hand-over to
-/// the echo (a container is handed over with its last message; of one that lacks it nobody saw when it went);
-/// of one of the target at least so long: from the beginning of the first frame of its answer, as nobody else
-/// saw when it was queued.
+/// Time of a frame from being queued to its end on the bus. For a frame of the bench: from hand-over to echo.
+/// A container is handed over with its last message; if that message is missing, the time is unknown. For a
+/// frame of the target the value is a lower bound, from the beginning of the first frame of its answer,
+/// because the bench cannot see when the target queued the frame.
 struct WireResponse {
   std::uint64_t count = 0;
   std::int64_t max_ns = 0;
 };
 
-/// A message within a window of the run, by the time of validity of what it answers, for a check that asks.
-/// Of a message that answers nothing the window is the whole run.
+/// A message within a window of the run, by the time of validity of its cause, as a check requires. For a
+/// message that answers nothing the window is the whole run.
 struct TimedWindow {
-  std::size_t message = 0;  ///< place in TimingRecord::messages
+  std::size_t message = 0;  ///< index in TimingRecord::messages
   scenario::Window window{};
   Histogram latency{};
   Histogram period{};  ///< from one arrival to the next
-  /// How long after its deadline each stimulus was on the bus: what the host takes by itself.
+  /// How long after its deadline each stimulus was on the bus: the delay that the host causes.
   Histogram lateness{};
-  /// How far the bench was off the period of what the message answers: by stimulus, the time between two on
-  /// the bus less that between their deadlines; one in whose place several were due counts as many times.
+  /// The bench's own deviation from the period that the message answers: by stimulus, the time between two on
+  /// the bus minus the time between their deadlines. A stimulus that stands for several due ones counts as
+  /// many times.
   Histogram stimulus_deviation{};
   std::optional<Arrival> last_arrival{};
-  std::optional<std::int64_t> last_stimulus_ns{};  ///< of those valid up to the end of the window
+  std::optional<std::int64_t> last_stimulus_ns{};  ///< of the stimuli valid up to the end of the window
 };
 
-/// TargetTiming saturates here: what it tells as so long took at least so long [us].
-inline constexpr std::uint16_t most_told_us = 8191;
+/// TargetTiming saturates here [us]: such a value is a lower bound.
+inline constexpr std::uint16_t most_reported_us = 8191;
 
-/// Where the time of the answered stimuli went. Sums over them, from the hand-over of the last frame of a
-/// stimulus to the last frame that answers it.
-struct LatencySplit {
-  std::uint64_t stimuli = 0;           ///< that were answered
-  std::uint64_t echoed = 0;            ///< of those: whose passage over the bus was seen
+/// The parts of the latency of answered stimuli. Sums over the stimuli, from the hand-over of a stimulus's
+/// last frame to the last frame that answers it.
+struct LatencyBreakdown {
+  std::uint64_t stimuli = 0;           ///< answered stimuli
+  std::uint64_t echoed = 0;            ///< of those: stimuli whose echo was seen
   std::int64_t to_echo_ns = 0;         ///< from the hand-over to the end of the frame on the bus
-  std::int64_t stimulus_wire_ns = 0;   ///< of that: the frame itself
+  std::int64_t stimulus_wire_ns = 0;   ///< of that: the frame's own time on the wire
   std::int64_t latency_ns = 0;         ///< from there to the end of the last frame of the answer
-  std::int64_t reply_wire_ns = 0;      ///< of that: the frames of the answer themselves
-  std::uint64_t told = 0;              ///< stimuli that the target accounted for (TargetTiming)
-  std::int64_t target_queue_ns = 0;    ///< of those: from the target's stamp to its turn
-  std::int64_t target_compute_ns = 0;  ///< and the work
-  bool queue_clipped = false;          ///< means that it was told of were at most_told_us: it is longer
+  std::int64_t reply_wire_ns = 0;      ///< of that: the answer's own time on the wire
+  std::uint64_t accounted = 0;         ///< stimuli that the target accounted for (TargetTiming)
+  std::int64_t target_queue_ns = 0;    ///< for those: from the target's stamp to the start of its work
+  std::int64_t target_compute_ns = 0;  ///< and the computing
+  bool queue_clipped = false;  ///< some reported means were at most_reported_us: the true time is longer
   bool compute_clipped = false;
 };
 
-/// The same of the stimuli of one sample group. The target accounts for all groups together: of one alone it
-/// tells nothing.
-struct GroupSplit {
+/// The same for the stimuli of one sample group. The target accounts for all groups together and reports
+/// nothing for one alone.
+struct GroupBreakdown {
   std::string_view group{};
-  LatencySplit split{};
+  LatencyBreakdown breakdown{};
 };
 
-/// The slowest answer, and what the target said of the window it fell into.
+/// The slowest answer, and what the target reported for the window of that answer.
 struct SlowestAnswer {
   std::string_view message{};
   std::int64_t t_ns = 0;  ///< its arrival, from the first transmission on
@@ -125,22 +127,22 @@ struct SlowestAnswer {
 
 struct TimingRecord {
   TimingRecord() : TimingRecord(canhil::messages::all_messages) {}
-  /// `bus`: its messages.
+  /// `bus`: the messages of the bus.
   explicit TimingRecord(std::span<const MessageInfo> bus)
       : messages(bus), answers(bus.size()), transmit(bus.size()), responses(bus.size()) {}
 
   std::span<const MessageInfo> messages;
   WireFacts wire{};
-  std::vector<AnswerTiming> answers;      ///< by place in `messages`
-  std::vector<TransmitTiming> transmit;   ///< by place in `messages`
+  std::vector<AnswerTiming> answers;      ///< by index in `messages`
+  std::vector<TransmitTiming> transmit;   ///< by index in `messages`
   std::vector<WireResponse> responses;    ///< by wire::Carrier::first
   Histogram lateness;                     ///< of all messages of the bench when handed over
   TimeLine lateness_line;                 ///< the same over time
   std::array<std::uint64_t, 5> stamps{};  ///< frames of the target by StampSource
-  std::vector<TimedWindow> windows{};     ///< that checks ask for
-  LatencySplit split{};
-  std::vector<GroupSplit> split_by_group{};  ///< in the order of their first answers
-  SlowestAnswer slowest{};                   ///< of those that the target accounted for
+  std::vector<TimedWindow> windows{};     ///< as the checks require
+  LatencyBreakdown breakdown{};
+  std::vector<GroupBreakdown> breakdown_by_group{};  ///< in the order of their first answers
+  SlowestAnswer slowest{};                           ///< of those that the target accounted for
   std::uint64_t stimuli_with_hardware_stamp = 0;
   std::uint64_t without_hardware_stamp = 0;  ///< stimuli and frames of the target
 };

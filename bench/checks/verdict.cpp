@@ -7,7 +7,7 @@
 namespace canhil::checks {
 namespace {
 
-// The first of the checks with this outcome.
+// The names of the checks with this outcome.
 std::string names(const Verdict& verdict, Outcome outcome) {
   constexpr int shown = 3;
   int found = 0;

@@ -1,4 +1,4 @@
-// What the checks say of a run.
+// The verdict of a run and its checks.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ constexpr std::string_view name(Outcome outcome) {
   return "?";
 }
 
-/// Of several: fail if any did; else not measured if any was not, or there is none.
+/// Combines outcomes: fail if any failed; otherwise not measured if any was not measured or there is none;
+/// otherwise pass.
 template <class Parts, class Projection>
 constexpr Outcome outcome_of(const Parts& parts, Projection projection) {
   Outcome all = std::begin(parts) == std::end(parts) ? Outcome::not_measured : Outcome::pass;
@@ -40,21 +41,21 @@ constexpr Outcome outcome_of(const Parts& parts, Projection projection) {
 struct CheckResult {
   std::string name;
   std::string kind;
-  std::string requirement;  ///< id of the requirement it shows; may be empty
+  std::string requirement;  ///< id of the requirement that it verifies; may be empty
   Outcome outcome = Outcome::not_measured;
   std::string measured;  ///< with its unit, or why it was not measured
   std::string expected;
 };
 
-/// Of a whole run: fail if anything failed; else not measured if anything was not; else pass.
+/// The verdict of a whole run: fail if anything failed; otherwise not measured if anything was not; otherwise
+/// pass.
 struct Verdict {
   Outcome outcome = Outcome::not_measured;
   std::string reason;  ///< one line
   std::vector<CheckResult> checks;
 };
 
-/// Sets outcome and reason by the checks; `ended_early`: why the run did not come to its end, empty if it
-/// did.
+/// Sets outcome and reason from the checks; `ended_early`: why the run ended early, empty: it did not.
 void conclude(Verdict& verdict, const std::string& ended_early);
 
 }  // namespace canhil::checks

@@ -22,7 +22,7 @@ bool was_seen(const TimingRecord& timing, std::size_t index) {
   return timing.transmit[index].handed_over.count() > 0 || timing.answers[index].last_ns;
 }
 
-// The least time between two: of what is sent or answered faster than the DBC says, as it was.
+// The minimum period: the DBC's, or the observed one for messages that were sent faster.
 std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   const std::int64_t cycle_ns = info.cycle_time_us * 1000;
   double sent_s = nominal_period_s(seen, info.name);
@@ -36,7 +36,7 @@ std::int64_t period_ns(const Observations& seen, const MessageInfo& info) {
   return std::min(cycle_ns, sent_ns);
 }
 
-// How many of a message come together: each estimator of a target has a heartbeat of its own.
+// How many frames of a message are queued together: each estimator of a target sends its own heartbeat.
 std::int64_t together(const Observations& seen, const AnswerTiming& timing, std::int64_t period_ns) {
   const std::int64_t run_ns = seen.last_ns - seen.first_ns;
   if (timing.count == 0 || run_ns <= 0) return 1;
@@ -45,7 +45,7 @@ std::int64_t together(const Observations& seen, const AnswerTiming& timing, std:
   return std::max<std::int64_t>(1, std::llround(in_a_period));
 }
 
-// All that the bench plays goes through one queue. The messages of a container are sent together, as often.
+// All frames of the bench go through one queue. The messages of a container are sent together, at one rate.
 Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
   const std::size_t index = carrier.first;
   const MessageInfo& info = seen.timing.messages[index];
@@ -56,11 +56,11 @@ Stream stream_of(const Observations& seen, const wire::Carrier& carrier) {
           .extended = info.extended,
           .sender = is_targets(info) ? "target" : "bench",
           .period_ns = period / burst,
-          .jitter_ns = (burst - 1) * (period / burst),  // so that so many may be queued at once
+          .jitter_ns = (burst - 1) * (period / burst),  // so that this many may be queued at once
           .length = carrier.longest};
 }
 
-// R is from becoming due, J before being queued.
+// R counts from release, J is the release jitter before queueing.
 std::optional<std::int64_t> from_queued(const Stream& stream, const schedulability::Response& response) {
   if (!response.response_ns) return std::nullopt;
   return *response.response_ns - stream.jitter_ns;

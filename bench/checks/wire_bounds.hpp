@@ -1,4 +1,4 @@
-// What the frames of a run took to pass the bus, beside the bound of theory.
+// Measured bus response times of a run beside their theoretical bounds.
 #pragma once
 
 #include <optional>
@@ -10,23 +10,23 @@
 
 namespace canhil::checks {
 
-/// A message of the bus's contract, on CAN FD a container, its longest response (see WireResponse) and the
-/// bound: of theory for the order of the bus's queues and the messages that were seen, each as often as it
-/// was sent or as the DBC says, whichever is more often. From being queued on, so that the lateness of the
-/// bench and the target's computing are in neither.
+/// A message of the bus's DBC (on CAN FD a container), its longest response (see WireResponse) and its bound.
+/// The bound follows from the analysis for the order of the bus's queues and the observed messages, each at
+/// its observed rate or at the rate of the DBC, whichever is higher. Both begin when the frame is queued, so
+/// they contain neither the bench's lateness nor the target's computing.
 struct WireBound {
   std::string_view message{};
-  bool of_target = false;  ///< its response is a least one
+  bool of_target = false;  ///< its response is a lower bound
   std::uint64_t count = 0;
   std::int64_t longest_ns = 0;
-  std::int64_t frame_ns = 0;               ///< the longest that such a frame can be
-  std::optional<std::int64_t> bound_ns{};  ///< none: the analysis finds none
+  std::int64_t frame_ns = 0;               ///< the longest time of such a frame on the wire
+  std::optional<std::int64_t> bound_ns{};  ///< none: the analysis finds no bound
 };
 
 /// By priority. Empty where the bit rate of the bus is not known.
 std::vector<WireBound> wire_bounds(const Observations& seen);
 
-/// Why bounds mean nothing in this run; empty: they do.
+/// Why bounds are not valid for this run; empty: they are.
 std::string no_bounds(const Observations& seen);
 
 }  // namespace canhil::checks

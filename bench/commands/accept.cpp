@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string suites = data_folder("acceptance");
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
@@ -49,7 +49,7 @@ Result<std::vector<accept::Suite>> read(const Arguments& arguments) {
   }
   for (const std::string& name : arguments.families) {
     if (std::ranges::find(accept::families, name) == accept::families.end())
-      return failure(fmt::format("--family '{}': is none, expected one of: {}", name,
+      return failure(fmt::format("--family '{}': is unknown, expected one of: {}", name,
                                  fmt::join(accept::families, ", ")));
   }
   for (const std::string& name : arguments.estimators) {
@@ -106,7 +106,7 @@ ExitCode execute(const Arguments& arguments) {
     options.progress = progress;
     auto one = accept::accept(suite, options, interrupted);
     if (!one) return complain(one.error());
-    if (one->findings.empty()) continue;  // has none of the families that are asked for
+    if (one->findings.empty()) continue;  // it has none of the selected families
     all.suites.push_back(std::move(*one));
     if (interrupted || (arguments.first && all.outcome() == checks::Outcome::fail)) break;
   }

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t most_threads = 1024;
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string file;
   std::string out;
@@ -79,7 +79,7 @@ std::string progress_text(const campaign::Progress& progress, double elapsed_s) 
   return text;
 }
 
-// --out names the file, or the folder of a file named after the campaign and the shard.
+// --out is the file, or a folder for a file named after the campaign and the shard.
 Result<fs::path> results_file(const Arguments& arguments, const campaign::Shard& shard) {
   const fs::path out = arguments.out;
   if (out == report::to_stdout) return failure("--out -: expected a folder or a file, not standard output");
@@ -97,7 +97,7 @@ Result<void> make_folder(const Arguments& arguments) {
   return {};
 }
 
-// What is read must not be written over.
+// Input files must not be overwritten.
 Result<void> check_distinct(const campaign::Campaign& campaign, std::vector<std::string> outputs) {
   outputs.push_back(campaign.sources.file);
   const fs::path folder = fs::path(campaign.sources.file).parent_path();
@@ -204,7 +204,7 @@ ExitCode merge(const MergeArguments& arguments) {
   return merged ? ExitCode::pass : complain(merged.error());
 }
 
-// The campaign whose results these are.
+// The campaign to which these results belong.
 Result<campaign::Campaign> campaign_of(const campaign::Store& store) {
   auto campaign = campaign::parse_campaign(store.sources());
   if (!campaign) return campaign;
@@ -245,7 +245,7 @@ ExitCode replay(const ReplayArguments& arguments) {
     variant = &*found;
   }
   if (*arguments.run >= campaign->runs) {
-    return complain({fmt::format("{}: run {} is none of the campaign's, expected 0 to {}", arguments.file,
+    return complain({fmt::format("{}: run {} is not in the campaign, expected 0 to {}", arguments.file,
                                  *arguments.run, campaign->runs - 1)});
   }
   drive::Options options;
@@ -307,7 +307,7 @@ void add_replay(command_line::Command campaign, int& code) {
   command.on_given([&code, arguments] { code = static_cast<int>(replay(*arguments)); });
 }
 
-// The papers are a program of their own.
+// Papers are a separate program.
 int reproduce(const PaperArguments& paper, const Arguments& arguments) {
   std::vector<std::string> words{paper.paper};
   if (!arguments.out.empty()) words.insert(words.end(), {"--out", arguments.out});
@@ -331,7 +331,7 @@ void add_campaign(command_line::Command app, int& code) {
                          "i/N: only runs with run % N == i (default: the task of a Slurm array, or all)");
   command.add_number("--runs", arguments->runs, "another number of runs than the campaign's", 1,
                      campaign::most_runs);
-  const auto resume = command.add_flag("--resume", arguments->resume, "go on with results that are there");
+  const auto resume = command.add_flag("--resume", arguments->resume, "continue with existing results");
   const auto target = command.add_option("--target", arguments->target,
                                          "program to fly against, with its arguments, as one word; over a "
                                          "bus in lockstep (default: the target's own "

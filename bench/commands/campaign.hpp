@@ -1,4 +1,4 @@
-// The subcommands of hil-bench that are a program of their own, and what hil-bench itself says of them.
+// The subcommands that are separate programs, with their summaries in hil-bench's help.
 #pragma once
 
 #include <string_view>
@@ -16,8 +16,15 @@ inline constexpr std::string_view faults_name = "faults";
 inline constexpr std::string_view faults_summary =
     "what a target does when something goes wrong, fault by fault";
 
-/// `hil-bench faults` and its subcommand merge: a flight a fault, and how the target responds. Exit code 1 if
-/// it does what no fault excuses.
+inline constexpr std::string_view reference_name = "reference";
+inline constexpr std::string_view reference_summary =
+    "every key of scenario and campaign files: unit, range, default, meaning";
+
+/// `hil-bench reference`: the page docs/scenario-reference.md.
+void add_reference(command_line::Command app, int& code);
+
+/// `hil-bench faults` and its subcommand merge: one flight for each fault, and the target's response. Exit
+/// code 1 if the target violates what no fault excuses.
 void add_faults(command_line::Command app, int& code);
 
 /// `hil-bench accept`: the suites of bench/acceptance against a target. Exit code 1 if a requirement is not

@@ -25,15 +25,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string target = drive::quoted_word(own_folder() + "/hil-target");
-  std::string estimator;  // empty: what the target says, or takes
-  std::string scenario;   // empty: the quick flight of the estimator
+  std::string estimator;  // empty: the one that the target reports or accepts
+  std::string scenario;   // empty: the estimator's short flight
   std::string json, junit;
 };
 
-// The quick flights of the project: one an estimator.
+// The project's short flights: one for each estimator.
 Result<std::vector<scenario::Scenario>> quick_flights() {
   std::vector<fs::path> files;
   std::error_code error;
@@ -136,7 +136,7 @@ void add_conformance(command_line::Command app, int& code) {
       "--estimator", arguments->estimator,
       "as which it is talked to (default: what its heartbeat names, else the first that it takes)");
   command.add_option("--scenario", arguments->scenario,
-                     "what it hears in flight (default: the quick flight of the estimator)");
+                     "its inputs in flight (default: the quick flight of the estimator)");
   command.add_option("--json", arguments->json,
                      "write the report as JSON to a file; -: to stdout, in place of the text");
   command.add_option("--junit", arguments->junit,

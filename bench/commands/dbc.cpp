@@ -1,4 +1,4 @@
-// hil-bench dbc: what can be asked of a DBC file, also of somebody else's.
+// hil-bench dbc: checks and displays DBC files, including those of others.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace canhil::commands {
 namespace {
 
-// As typed.
+// As given on the command line.
 struct LintArguments {
   std::vector<std::string> files;
   std::string sarif;
@@ -76,7 +76,7 @@ ExitCode lint(const LintArguments& arguments) {
   return std::ranges::any_of(files, is_refused) ? ExitCode::fail : ExitCode::pass;
 }
 
-// What of the file is not shown must not go unnoticed.
+// Warnings about the file that are not shown here must be mentioned.
 void say_warnings(const dbc::Inspection& inspection, const std::string& file) {
   const auto warnings =
       std::ranges::count(inspection.findings, dbc::Severity::warning,
@@ -108,9 +108,9 @@ std::string text_of(const mapping::Mapping& mapping, const std::vector<mapping::
                         one.subject, one.what);
   }
   text += fmt::format(
-      "{}: {} messages played, {} heard, {} quantities told; bus load", mapping.file,
+      "{}: {} messages played, {} heard, {} quantities reported; bus load", mapping.file,
       std::ranges::count_if(mapping.messages, [](const MessageInfo& m) { return m.sender == "Bench"; }),
-      mapping.hears.size(), mapping.told.size());
+      mapping.hears.size(), mapping.quantities.size());
   std::string_view separator = "";
   for (const std::int64_t kbitps : {125, 250, 500, 1000}) {
     const double load = mapping::load_of(mapping, {.nominal = kbitps * 1000, .data = 4000 * kbitps});

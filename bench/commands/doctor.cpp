@@ -31,7 +31,7 @@ using doctor::Line;
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 constexpr std::int64_t listen_ns = ns_per_s;  // ten heartbeats
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string bus;
   std::string loop;
@@ -41,7 +41,7 @@ struct Arguments {
   std::string json;
 };
 
-// All that was found.
+// All findings.
 struct Examination {
   std::vector<Line> lines;
   std::vector<double> jitter_s;
@@ -60,7 +60,7 @@ Result<std::unique_ptr<Port>> open(const std::string& bus) {
   return join_or_host(bus, std::move(options), BusFormat::classic);
 }
 
-// Refuses what is no name of a bus; whether there is one is a finding.
+// Rejects malformed bus names; a missing bus is reported as a finding.
 Result<void> check_name(const std::string& option, const std::string& bus) {
   if (is_local(bus)) {
     if (auto opened = open(bus); !opened) return tl::unexpected(opened.error());
@@ -70,7 +70,7 @@ Result<void> check_name(const std::string& option, const std::string& bus) {
   return {};
 }
 
-// None where the kernel knows of none, as of an embedded bus.
+// None if the kernel does not know it, as for an embedded bus.
 std::optional<doctor::Interface> interface_of(const std::string& bus) {
   return is_local(bus) ? std::nullopt : doctor::find_interface(bus);
 }
@@ -95,7 +95,7 @@ std::vector<Line> pair_lines(const std::string& bus, const std::string& loop) {
   return lines;
 }
 
-// Enters real time if it may: what follows is measured as a run with --realtime would find it.
+// Enters real time if permitted, so that the measurements apply to runs with --realtime.
 std::vector<Line> machine_lines(const Arguments& arguments) {
   const std::vector<int> cpus = realtime::cpus();
   const auto entered = realtime::enter({.cpu = arguments.cpu});
@@ -118,7 +118,7 @@ Line jitter_line(const Arguments& arguments, Examination& found) {
 std::vector<Line> who_is_there(const std::string& bus) {
   auto port = open_port(bus, {.node_name = "hil-bench doctor"});
   if (!port) {
-    if (!is_local(bus)) return {};  // the interface's line has said why
+    if (!is_local(bus)) return {};  // the interface's line has given the reason
     return {{Grade::weak, "target", "nobody hosts this bus now", "the bench will, when it runs"}};
   }
   return doctor::listen(**port, listen_ns, stop);
@@ -180,7 +180,7 @@ std::string json(const Arguments& arguments, const Examination& found) {
 }
 
 ExitCode execute(Arguments arguments) {
-  // local: and local:?bitrate=500000 stand for a bus of this process alone, as with hil-bench run.
+  // local: and local:?bitrate=500000 stand for a private bus of this process, as with hil-bench run.
   for (std::string* bus : {&arguments.bus, &arguments.loop})
     *bus = named_local(*bus, fmt::format("canhil-{}", getpid()));
   if (auto fine = check_name("--bus", arguments.bus); !fine) return complain(fine.error());
@@ -212,7 +212,7 @@ ExitCode execute(Arguments arguments) {
 void add_doctor(command_line::Command app, int& code) {
   auto arguments = std::make_shared<Arguments>();
   const auto command = app.add_subcommand(
-      "doctor", "tell what this machine and its CAN interface can do; exit code 1 if something is bad");
+      "doctor", "report what this machine and its CAN interface can do; exit code 1 if something is bad");
   command.add_option("--bus", arguments->bus, "can0, vcan0, local:NAME, or local: for a private one")
       .required();
   command.add_option("--loop", arguments->loop,

@@ -1,4 +1,4 @@
-// What the process tells its caller.
+// The exit codes of the bench's programs.
 #pragma once
 
 #include <cstdio>
@@ -24,7 +24,7 @@ constexpr checks::Outcome outcome_of(ExitCode code) {
                                   : checks::Outcome::not_measured;
 }
 
-/// Says on stderr, in one line, why nothing was done.
+/// Reports an error on stderr in one line.
 inline ExitCode complain(const Error& error) {
   std::fprintf(stderr, "hil-bench: %s\n", command_line::one_line(error.message).c_str());
   return ExitCode::usage;

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t most_threads = 1024, most_runs = 100'000;
 
-// As typed.
+// As given on the command line.
 struct Shown {
   std::string json, html;
   bool markdown = false;
@@ -54,7 +54,7 @@ void add_shown(command_line::Command command, Shown& shown) {
 Result<void> check_outputs(const Shown& shown, std::vector<std::string> files, const fs::path& out) {
   files.insert(files.end(), {shown.json, shown.html});
   if (auto distinct = report::check_distinct(files); !distinct) return distinct;
-  std::error_code error;  // they may lie in it
+  std::error_code error;  // they may be in that folder
   if (!out.empty()) fs::create_directories(out, error);
   if (error) return failure(fmt::format("{}: cannot be a folder: {}", out.string(), error.message()));
   for (const std::string& path : {shown.json, shown.html}) {
@@ -138,7 +138,7 @@ ExitCode execute(const Arguments& arguments) {
     batch.rate_per_s = static_cast<double>(done) / elapsed.count();
     batch.add({.name = fmt::format("{} · {}", plan->rows[finished.row].name(),
                                    plan->columns[finished.column].scenario.title),
-               .result = fault_matrix::words(finished.response),
+               .result = fault_matrix::to_text(finished.response),
                .failed = violated});
     view->get()->show(batch);
   };
@@ -212,7 +212,7 @@ void add_faults(command_line::Command app, int& code) {
   command.add_option(
       "--shard", arguments->shard,
       "i/N: only each N-th flight from the i-th on (default: the task of a Slurm array, or all)");
-  command.add_flag("--resume", arguments->resume, "go on with results that are there");
+  command.add_flag("--resume", arguments->resume, "continue with existing results");
   command.add_option("--target", arguments->target,
                      "program to fly against, with its arguments, as one word; in lockstep (default: the "
                      "target's own code in process)");

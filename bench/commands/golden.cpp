@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string folder;
   std::vector<std::string> scenarios;
@@ -31,7 +31,7 @@ struct Arguments {
   std::string json;
 };
 
-// What is kept of a flight: the scenario, as it was, and every frame.
+// The stored data of a flight: the scenario and every frame.
 struct Golden {
   fs::path scenario, log;
   [[nodiscard]] std::string name() const { return scenario.stem().string(); }
@@ -41,7 +41,7 @@ Golden golden(const fs::path& folder, const fs::path& scenario) {
   return {.scenario = folder / (name + ".toml"), .log = folder / (name + ".log")};
 }
 
-// In lockstep on a bus of its own. Error: it was not flown to the end, in one line.
+// Flies in lockstep on a private bus. Error, one line: the flight was not completed.
 Result<void> fly(const scenario::Scenario& scenario, const Arguments& arguments, const fs::path& log) {
   drive::Options options = drive::in_lockstep_against(arguments.target);
   options.log_path = log.string();
@@ -67,7 +67,7 @@ ExitCode record(const Arguments& arguments) {
     if (!read) return complain(read.error());
     if (read->recordings_hash != 0)
       return complain(
-          {fmt::format("{}: flies recordings, which are not kept beside it, expected a scenario "
+          {fmt::format("{}: uses recordings, which are not kept with it, expected a scenario "
                        "without 'recorded'",
                        scenario)});
     std::error_code unknown;
@@ -95,7 +95,7 @@ ExitCode record(const Arguments& arguments) {
   return ExitCode::pass;
 }
 
-// Where and how the answers left those that are kept; empty: nowhere.
+// The first difference between the answers and the stored ones; empty: none.
 std::string difference(const observe::Comparison& comparison) {
   if (!comparison.first) return {};
   const observe::Divergence& first = *comparison.first;
@@ -121,7 +121,7 @@ ExitCode check(const Arguments& arguments) {
   std::vector<scenario::Scenario> scenarios;
   for (const fs::path& file : files) {
     auto read = drive::read_scenario(file);
-    if (!read) return complain(read.error());  // the target had no part in it: bad input
+    if (!read) return complain(read.error());  // the input is wrong, not the target
     scenarios.push_back(std::move(*read));
   }
   auto results = nlohmann::ordered_json::array();
@@ -154,7 +154,7 @@ ExitCode check(const Arguments& arguments) {
                what.empty() ? fmt::format("{} frames as recorded", frames) : what);
   }
   if (!arguments.json.empty()) {
-    // Names of files need not be UTF-8.
+    // File names need not be UTF-8.
     const std::string text =
         results.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     if (auto written = report::write(arguments.json, text); !written) return complain(written.error());

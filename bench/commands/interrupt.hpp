@@ -1,4 +1,4 @@
-// Ctrl-C, a polite kill and a terminal that goes away end a command in good order.
+// Ctrl-C, SIGTERM and a closed terminal end a command cleanly.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// hil-bench log, decode, replay, check: what can be done with recorded frames.
+// hil-bench log, decode, replay, check: commands for recorded frames.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -29,7 +29,7 @@ namespace {
 
 constexpr double slowest = 1e-3, fastest = 1e3;
 
-// As typed.
+// As given on the command line.
 struct DecodeArguments {
   std::string log, dbc, format = "text", out{report::to_stdout};
   std::vector<std::string> only;
@@ -76,7 +76,7 @@ ExitCode decode(const DecodeArguments& arguments) {
   Result<recordings::LeftOut> decoded = recordings::LeftOut{};
   Result<void> written;
   if (to_stdout) {
-    std::signal(SIGPIPE, SIG_DFL);  // `| head` ends it without a word
+    std::signal(SIGPIPE, SIG_DFL);  // `| head` then ends the program silently
     std::string some;
     decoded = recordings::decode(arguments.log, *database, options, [&](std::string_view part) {
       constexpr std::size_t enough = 1 << 16;

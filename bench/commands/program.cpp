@@ -24,7 +24,7 @@ namespace {
 using command_line::Command;
 using command_line::Program;
 
-/// What CLI11 makes of a word that is no subcommand says neither which there are nor which one was meant.
+/// For an unknown subcommand CLI11's own message lists neither the choices nor the likely intent.
 std::string unknown_subcommand(const Command& program, std::string_view word) {
   std::vector<std::string> names;
   for (const Command& command : program.subcommands()) names.push_back(command.name());
@@ -33,7 +33,7 @@ std::string unknown_subcommand(const Command& program, std::string_view word) {
                      scenario::expected_instead(word, names));
 }
 
-/// The same of a word that is no option of the command.
+/// The same for an unknown option of the command.
 std::string unknown_option(const Command& command, std::span<const std::string> words) {
   const std::vector<std::string> names = command.long_options();
   for (const std::string& word : words) {
@@ -45,7 +45,7 @@ std::string unknown_option(const Command& command, std::span<const std::string> 
   return {};
 }
 
-/// What was wrong, and where to read what is right.
+/// The error, and where to find help.
 std::string complaint(const Program& program, std::span<const std::string> words, std::string_view error) {
   std::string path = "hil-bench";
   Command command = program;
@@ -84,7 +84,7 @@ int run(int argc, char** argv, std::span<const AddCommand> add_commands) {
 }  // namespace
 
 int guarded(const std::function<int()>& run) {
-  // A disk that is full or a reader that has gone is told of, and costs no other report.
+  // A full disk or a closed pipe is reported as an error, and other reports are still written.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   try {
@@ -112,7 +112,7 @@ std::string data_folder(const std::string& name) {
 
 int become(const std::string& program, std::vector<std::string> words) {
   const std::string path = own_folder() + "/" + program;
-  words.insert(words.begin(), "hil-bench");  // the name that it goes by in help
+  words.insert(words.begin(), "hil-bench");  // the program's name in the help text
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());

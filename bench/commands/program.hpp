@@ -1,6 +1,5 @@
-// A program of the bench: the subcommands it has, what it says of words that are none, and the programs that
-// it goes on as: who flies single runs need not build campaigns with their statistics, nor who flies
-// campaigns the papers.
+// A program of the bench: its subcommands, its messages for unknown words, and the programs that continue it.
+// Single runs do not need campaigns with their statistics, and campaigns do not need the papers.
 #pragma once
 
 #include <functional>
@@ -15,22 +14,22 @@ namespace canhil::commands {
 /// Adds a subcommand to the program; `code` is its exit code, once it has run.
 using AddCommand = void (*)(command_line::Command program, int& code);
 
-/// Runs what main is to do. What is thrown, such as that there is no memory, ends with one line and exit code
+/// Runs the body of main. An exception, such as lack of memory, ends the program with one line and exit code
 /// 2; a file at its size limit is an error of write(), not a signal.
 int guarded(const std::function<int()>& run);
 
-/// Parses the command line, runs what it names, and returns the exit code.
+/// Parses the command line, runs the selected subcommand, and returns the exit code.
 int run_program(int argc, char** argv, std::span<const AddCommand> add_commands);
 
-/// Where this program lies.
+/// The folder of this program.
 std::string own_folder();
 
-/// The project's own data, "flights" or "acceptance": installed, share/canhil beside this program's bin; else
-/// in the source tree that it was built from.
+/// The folder of the project's data, "flights" or "acceptance": if installed, share/canhil beside this
+/// program's bin; otherwise in the source tree of the build.
 std::string data_folder(const std::string& name);
 
-/// Replaces this process by a program beside it, with these words for its command line (without its name).
-/// Returns only where that cannot be started: the exit code, after one line that says why.
+/// Replaces this process by a program in the same folder, with these words as its command line (without its
+/// name). Returns only if that program cannot be started: the exit code, after one line with the reason.
 int become(const std::string& program, std::vector<std::string> words);
 
 }  // namespace canhil::commands

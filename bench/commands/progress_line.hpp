@@ -1,4 +1,4 @@
-// A line on stderr that renews itself, on a terminal only.
+// A progress line on stderr, on a terminal only.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Shows what `text()` gives in place of the line before.
+  /// Replaces the line by the result of `text()`.
   template <class Text>
   void show(Text&& text) const {
     if (shown_) fmt::print(stderr, "\r\033[K  {}", text());

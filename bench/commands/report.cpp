@@ -16,18 +16,18 @@
 namespace canhil::commands {
 namespace {
 
-// A report's page stands beside it.
+// A report's page is written beside it.
 std::string page_path(const std::string& report) {
   return std::filesystem::path(report).replace_extension(".html").string();
 }
 
-// Not beside a pipe: that is in a folder of devices.
+// A pipe is rejected: it is in a folder of devices.
 Result<void> has_room_for_a_page(const std::string& path) {
   std::error_code unknown;
   const auto status = std::filesystem::status(path, unknown);
   if (std::filesystem::is_other(status))
-    return failure(
-        fmt::format("file '{}': is no regular file, expected one, as its page is to stand beside it", path));
+    return failure(fmt::format(
+        "file '{}': is not a regular file, expected one, as its page is to stand beside it", path));
   return report::check_writable(page_path(path));
 }
 
@@ -51,7 +51,7 @@ ExitCode rebuild_all(const std::vector<std::string>& paths) {
   return ExitCode::pass;
 }
 
-// As typed.
+// As given on the command line.
 struct Sides {
   std::string a, b;
   std::vector<std::string> before, after;
@@ -77,7 +77,7 @@ ExitCode compare_sides(Sides sides) {
     sides.before = {sides.a};
     sides.after = {sides.b};
   }
-  // A run that counts twice makes a side look steadier than it is.
+  // A run that is counted twice would hide scatter.
   for (const auto* side : {&sides.before, &sides.after}) {
     if (auto distinct = report::check_distinct(*side); !distinct) return complain(distinct.error());
   }

@@ -1,4 +1,4 @@
-// The files in which a run is reported, as options of a command.
+// The report files of a run, as options of a command.
 #pragma once
 
 #include <string>
@@ -16,14 +16,14 @@ struct Reports {
 /// --json, --junit, --html, --csv. `reports` must outlive parsing.
 void add_reports(command_line::Command command, Reports& reports);
 
-/// Whether they can be written, and none is one of `others`. Error: one line.
+/// Whether they can be written and differ from all of `others`. Error: one line.
 Result<void> check_outputs(const Reports& reports, std::vector<std::string> others);
 
-/// A run that has begun leaves no report of an earlier one that could be taken for its own, however it ends.
+/// Removes reports of an earlier run, so that none can be mistaken for a report of this run, however it ends.
 void remove_earlier(const Reports& reports);
 
-/// A report on stdout stands in place of the text. One that cannot be written costs none of the others.
-/// Error: of the first.
+/// A report on stdout replaces the text. If one cannot be written, the others still are. Error: the first
+/// one.
 Result<void> write_reports(const Reports& reports, const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::commands

@@ -31,16 +31,16 @@
 namespace canhil::commands {
 namespace {
 
-constexpr std::size_t heap_bytes = 64 << 20;  // what a run of some minutes records
+constexpr std::size_t heap_bytes = 64 << 20;  // enough for a recording of several minutes
 
-// As typed.
+// As given on the command line.
 struct Arguments {
   std::string scenario;
   std::string bus{local_prefix};    // a private one
   std::vector<std::string> bus_of;  // NODE=BUS
   std::string target;               // empty: the hil-target beside this program
   std::string dbc;                  // empty: the scenario's
-  std::string faults;               // empty: the scenario's alone
+  std::string faults;               // empty: only the scenario's
   bool lockstep = false;
   std::optional<std::uint64_t> seed;
   realtime::Options realtime;
@@ -52,14 +52,15 @@ struct Arguments {
   bool terminal = false;
 };
 
-// gps, GPS and Gps are one node, as are master_ins and MasterIns.
+// gps, GPS and Gps name the same node, and so do master_ins and MasterIns.
 std::string plain(std::string name) {
   std::erase(name, '_');
   for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return name;
 }
 
-// NODE=BUS with the node as the DBC names it. The bench's own frames and the target's stay on --bus.
+// Parses NODE=BUS; the node gets its name in the DBC. Frames of the bench itself and of the target stay on
+// --bus.
 Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text) {
   std::vector<std::string_view> nodes;
   for (const MessageInfo& info : messages::all_messages) {
@@ -79,7 +80,7 @@ Result<std::pair<std::string, std::string>> node_and_bus(const std::string& text
   return std::pair(std::string(*node), bus);
 }
 
-// What the kernel knows of an interface's controller.
+// The kernel's facts about an interface's controller.
 WireFacts controller_of(const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
   if (!interface || !interface->controller) return {};
@@ -92,7 +93,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   options.format = format;
   const bool external = arguments.target == "none";
   options.bus = std::move(bus);
-  // Nobody else can know the name of a private bus, so two benches on one machine do not meet.
+  // A private bus has an unpredictable name, so two benches on one machine do not meet.
   options.bus.text = named_local(options.bus.text, external ? "canhil" : fmt::format("canhil-{}", getpid()));
   if (!external)
     options.target =
@@ -103,7 +104,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
   options.realtime = arguments.realtime.request();
   if (options.realtime) {
     options.realtime->heap_bytes = heap_bytes;
-    // Another program inherits policy and priority; ours also locks its memory.
+    // Another program inherits policy and priority; hil-target also locks its memory.
     if (arguments.target.empty())
       options.target_arguments = {"--realtime", "--priority", std::to_string(options.realtime->priority)};
   }
@@ -130,7 +131,7 @@ void remove_earlier(const Arguments& arguments) {
 }
 
 Result<void> check_outputs(const Arguments& arguments) {
-  // What is read must not be written over: --dbc and --target may name files too.
+  // Input files must not be overwritten; --dbc and --target may name files too.
   std::vector<std::string> files = drive::files_of_target(arguments.target);
   files.insert(files.end(), {arguments.scenario, arguments.faults, arguments.dbc, arguments.log});
   if (auto fine = check_outputs(arguments.reports, std::move(files)); !fine) return fine;
@@ -160,7 +161,8 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
       return failure(
           fmt::format("--bus-of '{}': is the bus of all others, expected another than --bus", text));
   }
-  // Two wires deliver in an order of their own: the answer to a step could miss what the other brings.
+  // Two wires have no common order of frames: the answer to a step could come before a sample on the other
+  // wire.
   if (!arguments.bus_of.empty() && (arguments.lockstep || here))
     return failure("--bus-of: one step over two buses has no order, expected real time");
   if (arguments.lockstep && bus.wire && bus.wire->order == QueueOrder::priority)
@@ -182,7 +184,7 @@ Result<void> check_bus(const Arguments& arguments, const drive::BusName& bus) {
   return {};
 }
 
-// The contract of the bus: by the command line, by the scenario, or by both alike.
+// The format of the bus: from the command line, from the scenario, or from both if they agree.
 Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario& scenario) {
   if (arguments.dbc.empty()) return drive::format_of(scenario);
   if (scenario.foreign != nullptr)
@@ -197,7 +199,7 @@ Result<BusFormat> format_of(const Arguments& arguments, const scenario::Scenario
   return named;
 }
 
-// Where bit rates differ, or nobody else is there, the controller is in trouble before a word is understood.
+// If bit rates differ or no other node is present, the controller's state explains why nothing is received.
 Error with_controller(Error error, const std::string& bus) {
   const auto interface = doctor::find_interface(bus);
   if (!interface) return error;
@@ -208,7 +210,7 @@ Error with_controller(Error error, const std::string& bus) {
   return error;
 }
 
-// A node with a bus of its own is one of the scenario's.
+// A node with its own bus must be in the scenario.
 Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& scenario) {
   for (const std::string& text : arguments.bus_of) {
     const std::string name = node_and_bus(text)->first;

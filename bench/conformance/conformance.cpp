@@ -10,15 +10,15 @@ namespace {
 
 using namespace messages;
 
-// The algorithm that a target takes of a scenario's estimator: the scenario's, or else any; none: it has not
-// this estimator.
+// The algorithm with which the target accepts a scenario's estimator: the scenario's, or else any; none: the
+// target does not have this estimator.
 std::optional<Algorithm> algorithm_of(Talk& talk) {
   TargetCommand reset = talk.command(Command::reset);
   std::vector<Algorithm> candidates{reset.algorithm};
   candidates.insert(candidates.end(), enumerators<Algorithm>.begin(), enumerators<Algorithm>.end());
   for (const Algorithm algorithm : candidates) {
     reset.algorithm = algorithm;
-    talk.tell(reset);
+    talk.send(reset);
     const auto beat = talk.hear<TargetHeartbeat>([&](const auto& one) {
       return one.algorithm == algorithm && (one.estimator == reset.estimator || one.error_command != 0);
     });
@@ -58,7 +58,7 @@ Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& can
   for (const scenario::Scenario& candidate : candidates) {
     scenario::Scenario chosen = candidate;
     chosen.targets.resize(1);
-    chosen.targets.front().parameters.clear();  // another target may have others
+    chosen.targets.front().parameters.clear();  // parameters differ between targets
     auto talk = Talk::open(chosen, target);
     if (!talk) return tl::unexpected(talk.error());
     scenario::TargetSetup& setup = chosen.targets.front();
@@ -70,7 +70,8 @@ Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& can
     setup.algorithm = std::string(name_of(*algorithm));
     return chosen;
   }
-  return failure(fmt::format("target '{}': takes none of the estimators {}", target, fmt::join(names, ", ")));
+  return failure(
+      fmt::format("target '{}': accepts none of the estimators {}", target, fmt::join(names, ", ")));
 }
 
 }  // namespace canhil::conformance

@@ -1,4 +1,4 @@
-// Whether a target keeps the protocol: the rules, asked of a program over an embedded bus of its own.
+// Whether a target keeps the protocol: tests the rules with a program over its own embedded bus.
 #pragma once
 
 #include <atomic>
@@ -14,26 +14,26 @@
 
 namespace canhil::conformance {
 
-/// A rule, and what was wrong; empty: nothing.
+/// A rule and its violation; empty: none.
 struct Finding {
   Rule rule;
   std::string wrong;
 };
 
-/// Asks the rules, one after another, of a program that is started for it. `scenario`: whose estimator the
-/// target is to be. Error: it does not start.
+/// Tests the rules one after another with a program started for this. `scenario`: selects the estimator.
+/// Error: the program does not start.
 Result<std::vector<Finding>> ask(
     const std::vector<Rule>& rules, const scenario::Scenario& scenario, const std::string& target,
     std::span<const Parameter> parameters, const std::optional<std::pair<std::string, double>>& apply,
     const std::atomic<bool>& stop, const std::function<void(const Rule&)>& progress = [](const Rule&) {});
 
-/// The scenario, with the algorithm and without parameters, as whose estimator a target can be talked to:
-/// what its heartbeat names, else the first of the candidates that it takes. Error: it does not start, or
-/// takes none.
+/// The scenario, with its algorithm and without parameters, for the estimator that the target is tested as:
+/// the one in its heartbeat, otherwise the first of the candidates that it accepts. Error: it does not start,
+/// or accepts none.
 Result<scenario::Scenario> subject_of(const std::vector<scenario::Scenario>& candidates,
                                       const std::string& target);
 
-/// What was found of one target.
+/// The findings for one target.
 struct Report {
   std::string target;  ///< its command
   std::string estimator, algorithm;
@@ -43,7 +43,7 @@ struct Report {
   [[nodiscard]] checks::Outcome outcome() const;
 };
 
-/// A line a rule; what was wrong below it.
+/// One line for each rule, followed by its violation.
 std::string text(const Report& report);
 std::string json(const Report& report);
 std::string junit(const Report& report);

@@ -1,4 +1,4 @@
-// Flights in which one sample is spoiled.
+// Flights in which one sample is damaged.
 #include <fmt/format.h>
 
 #include "bench/conformance/groups.hpp"
@@ -9,36 +9,36 @@ namespace {
 
 using namespace messages;
 
-constexpr double most_counted = 8191;  // of TargetCounters, whose counts stay there
+constexpr double most_counted = 8191;  // TargetCounters saturate here
 
-/// What is sent in place of the k-th of n messages of the sample.
+/// The frames sent in place of the k-th of n messages of the sample.
 using Spoil = void (*)(const Frame& frame, std::size_t k, std::size_t n, std::vector<Frame>& instead);
 
 struct Seen {
-  int answers = 0;  ///< to the sample that was spoiled
+  int answers = 0;  ///< to the damaged sample
   std::size_t messages = 0;
-  TargetCounters counted;  ///< by the fault
+  TargetCounters counted;  ///< because of the fault
   TargetHeartbeat beat;
 };
 
-// Flies with one sample of the middle spoiled, that was answered without the fault.
+// Flies with one sample damaged in mid-flight, one that is answered without the fault.
 Result<Seen> flown_with(Subject& subject, Spoil spoil) {
   const auto known = undisturbed(subject);
   if (!known) return tl::unexpected(known.error());
   const Undisturbed& other = **known;
   const auto ids = ids_of(other.sample);
   if (auto wrong = made_to_run(subject); !wrong.empty()) return failure(wrong);
-  std::size_t begun = 0;  // samples of its name
+  std::size_t begun = 0;  // samples of this group so far
   subject.talk.fly(flight_us, [&](const Frame& frame, std::vector<Frame>& instead) {
     const auto place = std::ranges::find(ids, frame.id);
     if (place == ids.end() || frame.extended) return instead.push_back(frame);
     if (place == ids.begin()) ++begun;
-    if (begun != other.place + 1) return instead.push_back(frame);
+    if (begun != other.index + 1) return instead.push_back(frame);
     spoil(frame, static_cast<std::size_t>(place - ids.begin()), ids.size(), instead);
   });
-  const auto before = subject.talk.first_heard<TargetCounters>();
-  const auto after = subject.talk.last_heard<TargetCounters>();
-  const auto beat = subject.talk.last_heard<TargetHeartbeat>();
+  const auto before = subject.talk.first_received<TargetCounters>();
+  const auto after = subject.talk.last_received<TargetCounters>();
+  const auto beat = subject.talk.last_received<TargetHeartbeat>();
   if (!before || !after || !beat) return failure("no counters or no heartbeat in flight");
   const auto more = [](std::uint16_t now, std::uint16_t then) {
     return static_cast<std::uint16_t>(now - then);
@@ -63,8 +63,8 @@ std::string unless(bool right, const Seen& seen, const char* expected) {
       described(seen.beat), expected);
 }
 
-// The last message: without it the sample is not whole, whoever takes a group for whole when its end is
-// there.
+// The last message, because a receiver may consider a group complete when its last message arrives: without
+// it the sample is incomplete for every implementation.
 std::string drops_a_wrong_crc(Subject& subject) {
   const auto seen = flown_with(subject, [](const Frame& frame, std::size_t k, std::size_t n, auto& instead) {
     instead.push_back(frame);
@@ -134,7 +134,7 @@ constexpr Rule all[] = {
      counts_what_is_lost},
     {"P-HALF", "protocol", "A sample of which a message is missing is not answered and counted in bad_group.",
      answers_no_half_sample},
-    {"P-COUNT", "protocol", "Counters of losses stay at their end.", counts_to_the_end},
+    {"P-COUNT", "protocol", "Counters of losses stay at their largest value.", counts_to_the_end},
 };
 
 }  // namespace

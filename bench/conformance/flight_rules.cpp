@@ -1,4 +1,4 @@
-// Flights without faults: what the target sends, and when.
+// Flights without faults: the frames of the target and their times.
 #include <fmt/format.h>
 
 #include <set>
@@ -60,7 +60,7 @@ std::string protects_what_it_sends(Subject& subject) {
   std::map<std::uint32_t, e2e::Receiver> receivers;
   for (const Frame& frame : (*flown)->heard) {
     const MessageInfo* info = find_message(frame.id, frame.extended);
-    if (info == nullptr) return fmt::format("a frame with id {:x}, which is none of the DBC's", frame.id);
+    if (info == nullptr) return fmt::format("a frame with id {:x}, which is not in the DBC", frame.id);
     e2e::Receiver& receiver = receivers[frame.id];
     switch (receiver.check(frame.payload(), info->e2e_data_id)) {
       case e2e::Check::wrong_crc:
@@ -97,7 +97,7 @@ std::string sends_whole_groups(Subject& subject) {
 
 enum class Cause { time, time_and_counter };
 
-// Of what was flown last.
+// In the last flight.
 std::string causes(const Talk& talk, Cause asked) {
   const auto samples = groups_in(talk.flown());
   std::set<std::tuple<std::string_view, double, double>> answered;
@@ -148,7 +148,7 @@ std::string repeats_bit_for_bit(Subject& subject) {
   return "";
 }
 
-// 32 bits of microseconds, which all times but Sync's travel in, end after 71.6 minutes.
+// Times other than Sync's are 32 bits of microseconds and wrap after 71.6 minutes.
 std::string bears_the_wrap_of_time(Subject& subject) {
   const auto flown = undisturbed(subject);
   if (!flown) return flown.error().message;
@@ -187,7 +187,7 @@ constexpr Rule all[] = {
      sends_whole_groups},
     {"P-CAUSE", "protocol",
      "Every answer names time and counter of a sample that was sent, and answers it once.", names_its_cause},
-    {"P-REPLAY", "protocol", "The same flight brings the same bits.", repeats_bit_for_bit},
+    {"P-REPLAY", "protocol", "The same flight gives the same bits.", repeats_bit_for_bit},
     {"P-WRAP", "protocol", "The time base may pass 2^32 us in flight.", bears_the_wrap_of_time},
 };
 

@@ -19,7 +19,7 @@ bool closes_step(const Frame& frame) {
   return frame.id == messages::Sync::info.id || frame.id == messages::StepDone::info.id;
 }
 
-// Adds to a signal's raw bits, modulo what they can hold. The times of the contract are little-endian.
+// Adds to a signal's raw value, modulo its range. The time signals of canhil's DBC are little-endian.
 void add_raw(Frame& frame, const SignalInfo& signal, std::int64_t steps) {
   const auto old = wire::load_le<0, 8>(frame.data.data());
   const std::uint64_t field = wire::mask(signal.length) << signal.start_bit;
@@ -41,7 +41,7 @@ std::optional<double> Group::value(std::string_view signal) const {
 
 std::vector<std::uint32_t> ids_of(std::string_view group) {
   std::vector<std::uint32_t> ids;
-  for (const MessageInfo& info : messages::all_messages) {  // by id
+  for (const MessageInfo& info : messages::all_messages) {  // ascending by id
     if (info.sample_group == group) ids.push_back(info.id);
   }
   return ids;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace messages;
 
-// The first rule of all: no command was sent yet.
+// Must be the first rule: no command has been sent yet.
 std::string beats(Subject& subject) {
   constexpr std::int64_t period_ns = TargetHeartbeat::info.cycle_time_us * 1000;
   constexpr int attempts = 3;  // the host may be busy with something else
@@ -41,7 +41,7 @@ std::string refuses_another_contract(Subject& subject) {
   if (auto wrong = talk.make_ready(); !wrong.empty()) return wrong;
   TargetCommand start = talk.command(Command::start);
   start.dbc_hash ^= 1U;
-  talk.tell(start);
+  talk.send(start);
   const auto beat = talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_dbc_mismatch != 0; });
   if (!beat) return "start with another contract's hash: no heartbeat says dbc_mismatch";
   return beat->state == TargetState::running ? "runs: " + described(beat) : "";
@@ -49,20 +49,19 @@ std::string refuses_another_contract(Subject& subject) {
 
 std::string refuses_another_estimator(Subject& subject) {
   TargetCommand reset = subject.talk.command(Command::reset);
-  reset.estimator = Estimator{0b111};  // the last one that the signal can name: the DBC has no such
-  subject.talk.tell(reset);
+  reset.estimator = Estimator{0b111};  // the largest value of the signal: not in the DBC
+  subject.talk.send(reset);
   const auto beat =
       subject.talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
   return beat && beat->state == TargetState::idle
              ? ""
-             : "a reset with an estimator that nobody has: " + described(beat) +
-                   ", expected idle and error_command";
+             : "a reset with an unknown estimator: " + described(beat) + ", expected idle and error_command";
 }
 
 std::string refuses_an_unknown_command(Subject& subject) {
   Talk& talk = subject.talk;
   if (auto wrong = talk.make_ready(); !wrong.empty()) return wrong;
-  talk.tell(talk.command(Command{0b111}));
+  talk.send(talk.command(Command{0b111}));
   const auto beat = talk.hear<TargetHeartbeat>([](const auto& one) { return one.error_command != 0; });
   return beat && beat->state == TargetState::ready
              ? ""
@@ -71,7 +70,7 @@ std::string refuses_an_unknown_command(Subject& subject) {
 }
 
 std::string not_started(Talk& talk, const std::string& when) {
-  talk.tell(talk.command(Command::start));
+  talk.send(talk.command(Command::start));
   const auto beat = talk.hear<TargetHeartbeat>(
       [](const auto& one) { return one.error_not_initialised != 0 || one.state == TargetState::running; });
   if (beat && beat->state != TargetState::running) return "";
@@ -91,11 +90,11 @@ std::string takes_its_state_whole(Subject& subject) {
 
 std::string hears_a_repeated_command(Subject& subject) {
   if (auto wrong = made_to_run(subject); !wrong.empty()) return wrong;
-  // A bench that starts anew may have come to the same counter.
+  // A bench that restarts may use the same counter again.
   subject.talk.repeat(subject.talk.command(Command::stop));
   return subject.talk.waits_for(TargetState::idle)
              ? ""
-             : "a stop with the counter of the start before it: not heard";
+             : "a stop with the counter of the start before it: ignored";
 }
 
 std::string tells_its_state(Subject& subject) {
@@ -111,7 +110,7 @@ std::string is_quiet_before_the_start(Subject& subject) {
 
 std::string stops(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
-  subject.talk.tell(subject.talk.command(Command::stop));
+  subject.talk.send(subject.talk.command(Command::stop));
   if (!subject.talk.waits_for(TargetState::idle)) return "stop: its state does not become idle";
   const int answers = subject.talk.fly(2 * some_flight_us);
   return answers == 0 ? "" : fmt::format("{} answers after the stop", answers);
@@ -119,7 +118,7 @@ std::string stops(Subject& subject) {
 
 std::string starts_again(Subject& subject) {
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
-  subject.talk.tell(subject.talk.command(Command::stop));
+  subject.talk.send(subject.talk.command(Command::stop));
   if (!subject.talk.waits_for(TargetState::idle)) return "stop: its state does not become idle";
   const std::string wrong = flies(subject);
   return wrong.empty() ? "" : "after a stop: " + wrong;
@@ -142,7 +141,7 @@ std::string forgets(Subject& subject) {
   subject.talk.fly(some_flight_us);
   if (auto wrong = flies(subject); !wrong.empty()) return wrong;
   const auto counted = subject.talk.hear_in_flight<TargetCounters>(some_flight_us);
-  const auto beat = subject.talk.last_heard<TargetHeartbeat>();
+  const auto beat = subject.talk.last_received<TargetHeartbeat>();
   if (!counted || !beat) return "no counters or no heartbeat in flight";
   if (counted->bad_crc != 0)
     return fmt::format("after a reset {} frames with a bad CRC are counted", counted->bad_crc);
@@ -163,14 +162,14 @@ constexpr Rule all[] = {
      "A command that the DBC does not name changes nothing and is answered with error_command.",
      refuses_an_unknown_command},
     {"P-STATE", "protocol",
-     "The target says idle, ready and running as it is told to, and answers from the start on.",
+     "The target reports idle, ready and running as commanded, and answers from the start on.",
      tells_its_state},
     {"P-NO-STATE", "protocol",
-     "An estimator that was given no initial state does not start, and says not_initialised.",
+     "An estimator without an initial state does not start, and reports not_initialised.",
      starts_only_when_told_its_state},
-    {"P-WHOLE-STATE", "protocol", "An initial state of which a message is missing is none.",
+    {"P-WHOLE-STATE", "protocol", "An initial state with a missing message is ignored.",
      takes_its_state_whole},
-    {"P-REPEAT", "protocol", "A command is heard though its counter is that of the one before.",
+    {"P-REPEAT", "protocol", "A command is obeyed even if its counter repeats the previous one.",
      hears_a_repeated_command},
     {"P-BEFORE", "protocol", "Before the start no sample is answered.", is_quiet_before_the_start},
     {"P-STOP", "protocol", "After a stop nothing is answered.", stops},
@@ -178,7 +177,7 @@ constexpr Rule all[] = {
     {"P-IN-FLIGHT", "protocol",
      "An initial state that comes in flight changes nothing, and is reported as error_command.",
      takes_no_state_while_it_runs},
-    {"P-RESET", "protocol", "A reset forgets errors and counts.", forgets},
+    {"P-RESET", "protocol", "A reset clears errors and counts.", forgets},
 };
 
 }  // namespace

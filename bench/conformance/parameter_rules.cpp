@@ -1,4 +1,4 @@
-// Parameters: ranges, read-back, when they may be set.
+// Parameters: ranges, read-back, and when they may be set.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,20 +13,20 @@ namespace {
 using namespace messages;
 
 constexpr double far_out = 3e38;                                      // near the largest float
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // in no range
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // outside every range
 
 messages::Parameter named(const Parameter& parameter) {
   return from_name<messages::Parameter>(parameter.name).value_or(messages::Parameter{});
 }
 
-// The value in force of a parameter that the target has; none: it has none of that name.
+// The value in force of a parameter; none: the target does not have it.
 std::optional<double> in_force(Talk& talk, messages::Parameter parameter) {
   const auto ack = talk.set(parameter, nothing);
   if (!ack || ack->status == ParameterStatus::unknown) return std::nullopt;
   return static_cast<double>(ack->value);
 }
 
-// Near a value, and another one as a float.
+// A value nearby that differs also as a float.
 double beside(double value) { return value == 0 ? 1 : value * 1.25; }
 
 std::string read_back(Talk& talk, messages::Parameter parameter) {
@@ -86,7 +86,7 @@ std::string a_reset_brings_them_back(Subject& subject) {
   return "";
 }
 
-// What a parameter owes before the start.
+// What a parameter must do before the start.
 std::string takes_its_range(Talk& talk, const Parameter& parameter) {
   const auto expect = [&](double value, ParameterStatus status, double in_force_then) -> std::string {
     const auto ack = talk.set(named(parameter), value);
@@ -101,7 +101,7 @@ std::string takes_its_range(Talk& talk, const Parameter& parameter) {
   const double inside =
       parameter.whole ? std::floor(parameter.least + width / 2) : parameter.least + 0.3 * width;
   const double beyond = parameter.whole ? 1 : std::max(0.01 * width, 1e-3 * std::abs(parameter.most));
-  // The ends themselves are rounded to the bus's float: a little inside of them.
+  // The limits are rounded to float on the bus, so values slightly inside them are used.
   const double low = parameter.whole ? parameter.least : parameter.least + 1e-6 * width;
   const double high = parameter.whole ? parameter.most : parameter.most - 1e-6 * width;
   for (const double value : {low, high, inside}) {
@@ -151,7 +151,7 @@ std::string parameters_hold_in_flight(Subject& subject) {
   return "";
 }
 
-// The same flight twice, once with a parameter set on the way.
+// The same flight twice, once with a parameter changed in flight.
 std::string parameters_take_effect_in_flight(Subject& subject) {
   std::vector<Frame> without;
   const auto parameter = from_name<messages::Parameter>(subject.apply->first);
@@ -175,12 +175,13 @@ constexpr Rule all[] = {
     {"P-INITIAL", "parameters", "A reset brings the parameters back to their initial values.",
      a_reset_brings_them_back},
     {"P-RANGE", "parameters",
-     "Each parameter takes its whole range and reads it back; beyond it, and a fraction where a whole number "
+     "Each parameter takes its whole range and reads it back; a value beyond it, or a fraction where a whole "
+     "number "
      "is due, is refused, and the value in force is reported.",
      parameters_have_ranges, Needs::parameters},
     {"P-UNKNOWN", "parameters", "A parameter of another estimator is unknown.", other_parameters_are_unknown,
      Needs::parameters},
-    {"P-HOLD", "parameters", "In flight those parameters are refused that may not change.",
+    {"P-HOLD", "parameters", "In flight, parameters that may not change are refused.",
      parameters_hold_in_flight, Needs::parameters},
     {"P-EFFECT", "parameters", "A parameter that may be set in flight takes effect there.",
      parameters_take_effect_in_flight, Needs::apply},

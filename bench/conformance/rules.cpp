@@ -47,7 +47,7 @@ Result<const Undisturbed*> undisturbed(Subject& subject) {
   subject.talk.fly(flight_us);
   Undisturbed flown{.heard = subject.talk.heard(), .sample = {}};
   const auto samples = groups_in(subject.talk.flown());
-  std::map<std::string_view, std::set<double>> times_of;  // of the answered samples, by their group
+  std::map<std::string_view, std::set<double>> times_of;  // times of the answered samples, by group
   for (const Group& answer : groups_in(flown.heard)) {
     const auto cause = answer.value("cause_time_us");
     for (const Group& sample : samples) {
@@ -65,7 +65,7 @@ Result<const Undisturbed*> undisturbed(Subject& subject) {
   for (const Group& sample : samples) {
     if (sample.name != flown.sample) continue;
     if (sample.value("time_of_validity_us") == flown.time_us) break;
-    ++flown.place;
+    ++flown.index;
   }
   return &subject.undisturbed.emplace(std::move(flown));
 }

@@ -1,4 +1,4 @@
-// The rules of the protocol that every target owes, whatever it estimates.
+// The protocol rules that every target must keep, whatever it estimates.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace canhil::conformance {
 
-/// A parameter as it is sent over the bus, before the start.
+/// A parameter in its form on the bus, before the start.
 struct Parameter {
   std::string name;
   double least = 0, most = 0;
@@ -20,19 +20,19 @@ struct Parameter {
   bool in_flight = false;  ///< may be set while the estimator runs
 };
 
-/// A flight without faults, to hold others against.
+/// A flight without faults, for comparison.
 struct Undisturbed {
   std::vector<Frame> heard;
   std::string_view sample;  ///< the sample group that is answered most often
-  std::size_t place = 0;    ///< among its samples, of one in the middle that is answered
-  double time_us = 0;       ///< of validity, of that one
+  std::size_t index = 0;    ///< of an answered sample in mid-flight
+  double time_us = 0;       ///< its time of validity
 };
 
-/// A target that is asked, and what is known of it.
+/// The target under test, and what is known of it.
 struct Subject {
   Talk& talk;
-  std::span<const Parameter> parameters{};                ///< all that it has; empty: not known
-  std::optional<std::pair<std::string, double>> apply{};  ///< one that takes effect in flight
+  std::span<const Parameter> parameters{};                ///< all that it has; empty: unknown
+  std::optional<std::pair<std::string, double>> apply{};  ///< a parameter that takes effect in flight
   std::optional<Undisturbed> undisturbed{};               ///< once it has been flown
 };
 
@@ -42,7 +42,7 @@ struct Rule {
   const char* id;
   const char* family;  ///< protocol or parameters
   const char* text;    ///< a sentence
-  /// What was wrong; empty: nothing.
+  /// Tests the rule; returns the violation, empty: none.
   std::string (*ask)(Subject& subject);
   Needs needs = Needs::nothing;
 };
@@ -51,19 +51,19 @@ std::span<const Rule> handshake_rules();
 std::span<const Rule> flight_rules();
 std::span<const Rule> fault_rules();
 std::span<const Rule> parameter_rules();
-/// Those of all four that can be asked of a target of which the parameters, or one to apply, are known.
+/// All rules that can be tested, depending on whether the target's parameters and one to apply are known.
 std::vector<Rule> rules(bool parameters_known, bool apply_known);
 
 inline constexpr std::int64_t flight_us = 1'000'000, some_flight_us = 500'000;
 
-/// A reset, the initial state, a start; what was wrong.
+/// Sends a reset, the initial state and a start; returns the violation.
 std::string made_to_run(Subject& subject);
-/// The same, and flies for some_flight_us: answers come.
+/// The same, then flies for some_flight_us and expects answers.
 std::string flies(Subject& subject);
 /// "state idle, none kalman, errors: none", for people.
 std::string described(const std::optional<messages::TargetHeartbeat>& beat);
 
-/// The flight without faults; flown when it is asked for first. Error: it cannot be flown.
+/// The flight without faults, flown at the first call. Error: it cannot be flown.
 Result<const Undisturbed*> undisturbed(Subject& subject);
 
 }  // namespace canhil::conformance

@@ -42,7 +42,7 @@ Talk::Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive:
       port_(std::move(buses.port)),
       link_(*port_),
       target_(std::move(target)),
-      attached_(link_, ear_) {}
+      attached_(link_, listener_) {}
 
 TargetCommand Talk::command(Command what) const {
   const scenario::TargetSetup& setup = scenario_.targets.front();
@@ -65,7 +65,7 @@ void Talk::send(Frame frame) {
 }
 
 void Talk::tell_state(const std::function<bool(const Frame&)>& sent) {
-  ear_.frames.clear();
+  listener_.frames.clear();
   out_.clear();
   drive::send(flight_.initial.front(), out_);
   for (const Frame& frame : out_.frames()) {
@@ -74,19 +74,19 @@ void Talk::tell_state(const std::function<bool(const Frame&)>& sent) {
 }
 
 void Talk::tell_time() {
-  ear_.frames.clear();
+  listener_.frames.clear();
   send(to_frame(Sync{.lockstep = 1},
-                e2e::counter_period - 1));  // the flight's first one has the next counter, 0
+                e2e::counter_period - 1));  // so that the first counter of the flight is 0
 }
 
 void Talk::tell_damaged(int frames) {
   Frame frame = to_frame(ParamSet{}, 0);
   frame.data[0] ^= 0xFFU;
-  constexpr int at_once = 128;  // a bus drops a node that keeps it waiting: the target is to catch up
+  constexpr int at_once = 128;  // a bus drops a node that blocks it, so the target must be able to catch up
   for (int i = 0; i < frames; ++i) {
     static_cast<void>(link_.send(frame, patience_ns));
     if (i % at_once != at_once - 1) continue;
-    tell(command(Command::none));
+    send(command(Command::none));
     static_cast<void>(hear<TargetHeartbeat>([](const auto&) { return true; }));
   }
 }
@@ -96,18 +96,18 @@ bool Talk::waits_for(TargetState state) {
 }
 
 std::optional<ParamAck> Talk::set(messages::Parameter parameter, double value) {
-  tell(ParamSet{.parameter = parameter, .value = static_cast<float>(value)});
+  send(ParamSet{.parameter = parameter, .value = static_cast<float>(value)});
   return hear<ParamAck>([&](const auto& one) { return one.parameter == parameter; });
 }
 
 std::string Talk::reset() {
   const TargetCommand wanted = command(Command::reset);
-  tell(wanted);
+  send(wanted);
   const auto beat = hear<TargetHeartbeat>([&](const auto& one) {
     return one.state == TargetState::idle && one.estimator == wanted.estimator &&
            one.algorithm == wanted.algorithm;
   });
-  if (!beat) return "reset: no heartbeat says idle with the estimator and algorithm told";
+  if (!beat) return "reset: no heartbeat says idle with the commanded estimator and algorithm";
   for (const scenario::Parameter& parameter : scenario_.targets.front().parameters) {
     const auto name = from_name<messages::Parameter>(parameter.name);
     const auto ack = name ? set(*name, parameter.value) : std::nullopt;
@@ -126,12 +126,13 @@ std::string Talk::make_ready() {
 }
 
 std::string Talk::start() {
-  tell(command(Command::start));
+  send(command(Command::start));
   return waits_for(TargetState::running) ? "" : "start: no heartbeat says running";
 }
 
 void Talk::begin_flight() {
-  schedule_.reset(new drive::Schedule(drive::make_schedule(scenario_, truth_, flight_.own_truth, 0, true)));
+  schedule_.reset(
+      new drive::Schedule(drive::make_schedule(scenario_, truth_, flight_.per_run_truth, 0, true)));
   flown_us_ = 0;
   closed_ = true;
 }
@@ -140,8 +141,8 @@ void Talk::begin_flight() {
 bool Talk::closes(std::uint16_t step) {
   const std::int64_t deadline_ns = link_.now_ns() + step_ns;
   const auto closed = [&] {
-    for (auto one = ear_.frames.rbegin(); one != ear_.frames.rend(); ++one) {
-      if (const auto done = observe::heard<StepDone>(*one)) return done->step == step;
+    for (auto one = listener_.frames.rbegin(); one != listener_.frames.rend(); ++one) {
+      if (const auto done = observe::decode_from_target<StepDone>(*one)) return done->step == step;
     }
     return false;
   };
@@ -153,7 +154,7 @@ bool Talk::closes(std::uint16_t step) {
 }
 
 int Talk::fly(std::int64_t duration_us, const Tamper& tamper) {
-  ear_.frames.clear();
+  listener_.frames.clear();
   flown_.clear();
   flown_us_ += duration_us;
   std::vector<Frame> instead;
@@ -178,14 +179,14 @@ int Talk::fly(std::int64_t duration_us, const Tamper& tamper) {
 
 std::vector<Frame> Talk::heard() const {
   std::vector<Frame> all;
-  for (const Received& received : ear_.frames) all.push_back(received.frame);
+  for (const Received& received : listener_.frames) all.push_back(received.frame);
   while (!all.empty() && all.back().id != StepDone::info.id) all.pop_back();
   return all;
 }
 
 std::vector<Frame> Talk::answers() const {
   std::vector<Frame> all;
-  for (const Received& received : ear_.frames) {
+  for (const Received& received : listener_.frames) {
     const MessageInfo* info = find_message(received.frame.id, received.frame.extended);
     if (info != nullptr && !info->answers.empty()) all.push_back(received.frame);
   }

@@ -1,4 +1,4 @@
-// A target of its own, on a bus of its own, to which commands are sent one by one.
+// A dialogue with a target of its own on its own bus, command by command.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,52 +15,53 @@
 #include "bench/drive/link.hpp"
 #include "bench/drive/schedule.hpp"
 #include "bench/drive/target_process.hpp"
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 #include "bench/observe/heartbeat_errors.hpp"
 
 namespace canhil::conformance {
 
 class Talk {
  public:
-  /// Starts the target and waits for its first heartbeat. `scenario`: whose estimator it is to be, and what
-  /// it then hears; must outlive the talk. `target`: a command. Error: it does not start, or the scenario
-  /// cannot be flown.
+  /// Starts the target and waits for its first heartbeat. `scenario`: the estimator, and the inputs of the
+  /// target; must outlive the talk. `target`: a command. Error: it does not start, or the scenario cannot be
+  /// flown.
   static Result<std::unique_ptr<Talk>> open(const scenario::Scenario& scenario, const std::string& target);
 
-  /// For the scenario's estimator and algorithm.
+  /// A command for the scenario's estimator and algorithm.
   [[nodiscard]] messages::TargetCommand command(messages::Command what) const;
 
   template <class Message>
-  void tell(const Message& message) {
-    ear_.frames.clear();
+  void send(const Message& message) {
+    listener_.frames.clear();
     out_.clear();
     out_.send(message);
     send();
   }
-  /// A message with the counter of the last one of its kind.
+  /// Sends a message again with the counter of its predecessor.
   template <class Message>
   void repeat(const Message& message) {
-    ear_.frames.clear();
+    listener_.frames.clear();
     const Frame frame = to_frame(message, last_counter_);
     static_cast<void>(link_.send(frame, patience_ns));
   }
-  /// The scenario's initial state; of its frames those for which `sent` holds.
+  /// Sends the scenario's initial state: those of its frames for which `sent` holds.
   void tell_state(const std::function<bool(const Frame&)>& sent = [](const Frame&) { return true; });
-  /// Parameters with a wrong CRC.
+  /// Sends parameter frames with a wrong CRC.
   void tell_damaged(int frames);
-  /// From now on every time that is sent, of the time base or of validity, is so much later.
+  /// From now on shifts every time that is sent (time base or time of validity).
   void shift_time(std::int64_t shift_us) { shift_us_ = shift_us; }
-  /// The time base as it is before a flight: a time of validity of 32 bits is taken as the one next to it.
+  /// Sends the time base before a flight, so that the target resolves a 32-bit time of validity to the
+  /// nearest time.
   void tell_time();
 
-  /// Waits for a message that a condition holds of, after what was sent last; none: it did not come.
+  /// Waits for a message that satisfies a condition, after the last transmission; none: it did not come.
   template <class Message, class Condition>
   std::optional<Message> hear(Condition condition) {
     const std::int64_t deadline_ns = link_.now_ns() + answer_ns;
     for (;;) {
       static_cast<void>(link_.drain());
-      for (; !ear_.frames.empty(); ear_.frames.pop_front()) {
-        const auto message = observe::heard<Message>(ear_.frames.front());
+      for (; !listener_.frames.empty(); listener_.frames.pop_front()) {
+        const auto message = observe::decode_from_target<Message>(listener_.frames.front());
         if (message && condition(*message)) return message;
       }
       if (link_.now_ns() >= deadline_ns) return std::nullopt;
@@ -68,10 +69,10 @@ class Talk {
     }
   }
   bool waits_for(messages::TargetState state);
-  /// Hears for so long, and gives what came of a message, with its stamp.
+  /// Listens for a time and returns the received messages of a type, with stamps.
   template <class Message>
   std::vector<std::pair<std::int64_t, Message>> hear_all(std::int64_t duration_ns) {
-    ear_.frames.clear();
+    listener_.frames.clear();
     const std::int64_t deadline_ns = link_.now_ns() + duration_ns;
     while (link_.now_ns() < deadline_ns) {
       static_cast<void>(link_.drain());
@@ -79,52 +80,53 @@ class Talk {
     }
     static_cast<void>(link_.drain());
     std::vector<std::pair<std::int64_t, Message>> all;
-    for (const Received& received : ear_.frames) {
-      if (const auto message = observe::heard<Message>(received)) all.emplace_back(received.t_ns, *message);
+    for (const Received& received : listener_.frames) {
+      if (const auto message = observe::decode_from_target<Message>(received))
+        all.emplace_back(received.t_ns, *message);
     }
     return all;
   }
-  /// Sets a parameter, and gives its acknowledgement.
+  /// Sets a parameter and returns its acknowledgement.
   std::optional<messages::ParamAck> set(messages::Parameter parameter, double value);
 
-  // Each says what was wrong; empty: nothing.
+  // Each returns the violation; empty: none.
   std::string reset();
   std::string make_ready();  ///< a reset, then the initial state
   std::string start();
 
-  /// What is sent in place of a frame: nothing, it, something else, several.
+  /// The frames sent in place of a frame: none, the same, another one, several.
   using Tamper = std::function<void(const Frame& frame, std::vector<Frame>& instead)>;
 
-  /// Flies on for so long, in lockstep; how many answers to samples came. A step that the target does not
-  /// close ends the flight.
+  /// Continues the flight for a time, in lockstep; returns the number of answers to samples. A step that the
+  /// target does not close ends the flight.
   int fly(std::int64_t duration_us, const Tamper& tamper = {});
-  /// What was flown last: the frames as the nodes made them; what the target sent up to the last StepDone, as
+  /// The last flight: the frames as the nodes made them; the target's frames up to the last StepDone, because
   /// nobody waits for more; whether each step was closed.
   [[nodiscard]] const std::vector<Frame>& flown() const { return flown_; }
   [[nodiscard]] std::vector<Frame> heard() const;
   [[nodiscard]] bool closed() const { return closed_; }
-  /// The answers of the last flight on.
+  /// The answers of the last flight.
   [[nodiscard]] std::vector<Frame> answers() const;
-  /// The first and the last one that came while it flew on.
+  /// The first and the last message of a type during the flight.
   template <class Message>
-  std::optional<Message> first_heard() const {
-    for (const Received& received : ear_.frames) {
-      if (const auto message = observe::heard<Message>(received)) return message;
+  std::optional<Message> first_received() const {
+    for (const Received& received : listener_.frames) {
+      if (const auto message = observe::decode_from_target<Message>(received)) return message;
     }
     return std::nullopt;
   }
   template <class Message>
-  std::optional<Message> last_heard() const {
+  std::optional<Message> last_received() const {
     std::optional<Message> last;
-    for (const Received& received : ear_.frames) {
-      if (const auto message = observe::heard<Message>(received)) last = message;
+    for (const Received& received : listener_.frames) {
+      if (const auto message = observe::decode_from_target<Message>(received)) last = message;
     }
     return last;
   }
   template <class Message>
   std::optional<Message> hear_in_flight(std::int64_t duration_us) {
     fly(duration_us);
-    return last_heard<Message>();
+    return last_received<Message>();
   }
 
   Talk(const scenario::Scenario& scenario, world::FlightRecord truth, drive::Flight flight,
@@ -134,7 +136,7 @@ class Talk {
   static constexpr std::int64_t answer_ns = 2'000'000'000, step_ns = 3'000'000'000,
                                 patience_ns = 5'000'000'000;
 
-  struct Ear final : observe::Observer {
+  struct NodeListener final : observe::Observer {
     void received(const Received& received) override {
       if (!received.own) frames.push_back(received);
     }
@@ -154,7 +156,7 @@ class Talk {
   drive::Link link_;
   drive::TargetProcess target_;
   nodes::Transmission out_;
-  Ear ear_;
+  NodeListener listener_;
   drive::Attached attached_;
   std::unique_ptr<drive::Schedule> schedule_;
   std::int64_t flown_us_ = 0, shift_us_ = 0;

@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-// A value as the kernel wrote it; zeros where it wrote less.
+// A value in the kernel's representation; missing bytes are zero.
 template <class T>
 T value_of(Bytes payload) {
   T value{};
@@ -106,7 +106,7 @@ void read_link_info(Bytes info, Interface& interface) {
   read_statistics(statistics, *interface.controller);
 }
 
-// One ethtool request; false if the driver does not know it.
+// One ethtool request; false: the driver does not support it.
 template <class Request>
 bool ethtool(const std::string& name, Request& request) {
   const Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));

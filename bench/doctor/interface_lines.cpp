@@ -13,10 +13,11 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone stays under half of it
-// The kernel's own choice is 75 % above 800 kbit/s and 87.5 % at 500 kbit/s and below, as CiA recommends.
+constexpr std::uint32_t least_bitrate = 500'000;  // transfer alignment alone loads less than half of it
+// The kernel's default is 75 % above 800 kbit/s and 87.5 % at 500 kbit/s and below, as CiA recommends.
 constexpr std::uint32_t earliest_sample_permille = 750, latest_sample_permille = 900;
-// The largest group of the contract must fit; a frame at the end of a long queue waits for all before it.
+// The queue must hold the largest group of the DBC; but a frame at the end of a long queue waits for all
+// before it.
 constexpr std::uint32_t shortest_queue = 10, longest_queue = 1000;
 
 Line state_line(const std::string& name, const Controller& controller) {
@@ -89,7 +90,7 @@ Line restart_line(const std::string& name, const Controller& controller) {
 
 Line errors_line(const Controller& controller) {
   const std::string found =
-      fmt::format("{} bus errors, {} warnings, {} passive, {} bus-off, {} restarts since it exists",
+      fmt::format("{} bus errors, {} warnings, {} passive, {} bus-off, {} restarts since it was created",
                   controller.bus_errors, controller.warnings, controller.passives, controller.bus_offs,
                   controller.restarts);
   const bool none =
@@ -116,12 +117,12 @@ Line stamps_line(const Interface& interface) {
   const auto has = [&](std::uint32_t flags) { return (interface.stamping.value_or(0) & flags) == flags; };
   if (has(SOF_TIMESTAMPING_RX_HARDWARE | SOF_TIMESTAMPING_RAW_HARDWARE))
     return {Grade::good, "time stamps", "by the controller, and by the kernel"};
-  // The kernel stamps every frame that a driver hands up, whether the driver says so or not.
+  // The kernel stamps every frame that a driver delivers, whether the driver reports it or not.
   if (!interface.controller) return {Grade::good, "time stamps", "by the kernel; there is no controller"};
   const bool usb = interface.driver.find("usb") != std::string::npos;
   if (!usb) return {Grade::good, "time stamps", "by the kernel, when the driver hands a frame over"};
   return {Grade::weak, "time stamps", "by the kernel, when USB brings a frame: up to a millisecond late",
-          "a kernel or adapter whose driver stamps in hardware (`ethtool -T` tells), or one on PCIe or SPI"};
+          "a kernel or adapter whose driver stamps in hardware (see `ethtool -T`), or one on PCIe or SPI"};
 }
 
 }  // namespace
@@ -176,7 +177,7 @@ Line no_interface(const std::string& name) {
     return {Grade::bad, "interface", fmt::format("{}: this kernel has no CAN", name),
             "`modprobe can-raw`, a kernel that has it, or local:NAME"};
   return {Grade::bad, "interface", fmt::format("{}: there is no such interface", name),
-          "plug the adapter in and load its driver (`dmesg` tells), or `ip link add dev vcan0 type vcan`"};
+          "plug the adapter in and load its driver (see `dmesg`), or `ip link add dev vcan0 type vcan`"};
 }
 
 }  // namespace canhil::doctor

@@ -10,7 +10,7 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr double good_p99_s = 100e-6, good_max_s = 1e-3;  // a tenth of a period; never a whole one
+constexpr double good_p99_s = 100e-6, good_max_s = 1e-3;  // a tenth of a period; and never a whole period
 constexpr double weak_p99_s = 1e-3;
 
 }  // namespace
@@ -23,10 +23,11 @@ std::vector<double> measure_jitter(std::int64_t duration_ns, const std::function
   const std::int64_t end_ns = due_ns + duration_ns;
   while (due_ns < end_ns && !stop()) {
     const timespec due{.tv_sec = due_ns / ns_per_s, .tv_nsec = due_ns % ns_per_s};
-    if (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0) continue;  // a signal
+    if (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr) != 0)
+      continue;  // interrupted by a signal
     const std::int64_t late_ns = clock_ns(CLOCK_MONOTONIC) - due_ns;
     late_s.push_back(static_cast<double>(late_ns) * 1e-9);
-    // Periods that passed meanwhile are left out: they would count one delay several times.
+    // Periods missed meanwhile are skipped; otherwise one delay would count several times.
     due_ns += jitter_period_ns * (1 + late_ns / jitter_period_ns);
   }
   return late_s;

@@ -1,4 +1,4 @@
-// What the doctor finds: one line a subject.
+// The findings of the doctor: one line for each subject.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct Line {
   std::string remedy{};  ///< empty when good
 };
 
-/// The worst of the lines.
+/// The worst grade of the lines.
 inline Grade worst(const std::vector<Line>& lines) {
   const auto found = std::ranges::max_element(lines, {}, &Line::grade);
   return found == lines.end() ? Grade::good : found->grade;

@@ -16,11 +16,11 @@ using messages::TargetHeartbeat;
 Line target_line(const std::optional<TargetHeartbeat>& beat) {
   if (!beat)
     return {
-        Grade::weak, "target", "no heartbeat heard",
+        Grade::weak, "target", "no heartbeat received",
         "start it (`hil-target --bus ...`), or let the bench start one; then look at wiring and bit rate"};
   const std::string found =
       fmt::format("{}, DBC hash {:06x}", messages::name_of(beat->state), beat->dbc_hash);
-  if (beat->dbc_hash == messages::dbc_hash24) return {Grade::good, "target", found + " as this bench has"};
+  if (beat->dbc_hash == messages::dbc_hash24) return {Grade::good, "target", found + " as in this bench"};
   return {Grade::bad, "target", fmt::format("{}, this bench has {:06x}", found, messages::dbc_hash24),
           "build target and bench from the same DBC file"};
 }

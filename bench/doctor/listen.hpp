@@ -1,4 +1,4 @@
-// Who is on the bus.
+// Which nodes are on the bus.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace canhil::doctor {
 
-/// Listens for `duration_ns`, or until stop(), without sending, and tells of traffic and of a target's
+/// Listens for `duration_ns`, or until stop(), without sending, and reports the traffic and a target's
 /// heartbeat.
 std::vector<Line> listen(Port& port, std::int64_t duration_ns, const std::function<bool()>& stop);
 

@@ -12,15 +12,15 @@
 namespace canhil::doctor {
 namespace {
 
-constexpr std::int64_t patience_ns = 100'000'000;  // some thousand frame times at 1 Mbit/s
+constexpr std::int64_t patience_ns = 100'000'000;  // about a thousand frame times at 1 Mbit/s
 constexpr std::uint8_t classic_size = 8;
-constexpr int settling_looks = 10;                // a hub lets nodes in while it looks for frames
-constexpr int hopeless = 10;                      // lost in a row: there is no way across
-constexpr std::uint32_t least_urgent_id = 0x7EF;  // those above were not allowed once, CAN 2.0 part A
+constexpr int settling_looks = 10;                // a hub accepts nodes while it checks for frames
+constexpr int hopeless = 10;                      // this many lost in a row: there is no connection
+constexpr std::uint32_t least_urgent_id = 0x7EF;  // higher ids were not allowed originally, CAN 2.0 part A
 constexpr double good_p99_s = 1e-3;               // two frames at 500 kbit/s take 0.5 ms
-constexpr double weak_p99_s = 10e-3;              // USB: some milliseconds a way
+constexpr double weak_p99_s = 10e-3;              // USB: a few milliseconds each way
 
-// The `nth` id from the end that no message of the DBC has.
+// The `nth` unused id, counted from the end.
 std::uint32_t free_id(int nth) {
   std::uint32_t id = least_urgent_id + 1;
   do {
@@ -39,7 +39,7 @@ bool send(Port& port, const Frame& frame, std::int64_t deadline_ns) {
   }
 }
 
-// Until this very frame has come.
+// Waits until exactly this frame arrives.
 std::optional<Received> await(Port& port, const Frame& frame, std::int64_t deadline_ns) {
   while (clock_ns(CLOCK_MONOTONIC) < deadline_ns && !port.closed()) {
     const auto received = port.receive();

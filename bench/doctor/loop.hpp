@@ -1,4 +1,4 @@
-// Frames from one interface to another and back.
+// Measures frames from one interface to another and back.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace canhil::doctor {
 
-/// What became of the frames.
+/// The results of the frames.
 struct LoopResult {
   int sent = 0;
   int lost = 0;                               ///< without an answer in time
@@ -18,12 +18,12 @@ struct LoopResult {
   StampSource source = StampSource::process;  ///< of the stamps on the frames that came back
 };
 
-/// Sends frames of eight bytes one after the other from `near` to `far`, which answers each; `frames` of
-/// them, fewer when stop() says so or when many in a row are lost. Their ids are the two least urgent ones
-/// that the DBC leaves free.
+/// Sends eight-byte frames one after the other from `near` to `far`, which answers each: `frames` of them, or
+/// fewer if stop() is true or many in a row are lost. Their ids are the two lowest-priority ones that the DBC
+/// does not use.
 LoopResult measure_loop(Port& near, Port& far, int frames, const std::function<bool()>& stop);
 
-/// Its figures.
+/// The line for this result.
 Line loop_line(const LoopResult& result, const std::string& near, const std::string& far);
 
 }  // namespace canhil::doctor

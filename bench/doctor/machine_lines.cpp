@@ -40,7 +40,7 @@ Line cpus_line(const Machine& machine) {
                   machine.isolated.empty() ? "none" : machine.isolated);
   if (machine.cpus.size() > 1) return {Grade::good, "CPUs", found};
   return {Grade::weak, "CPUs", found,
-          "two or more, so that the bench need not share one with its target or with other work"};
+          "two or more, so that the bench does not share one with its target or with other work"};
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 static_assert(std::ranges::all_of(messages::all_messages, &MessageInfo::can_travel_unrounded));
 
-// Without a wire there is no bus, and frames travel as they are in both contracts.
+// Without a wire there is no bus, and frames are the same with both DBCs.
 Result<std::unique_ptr<Port>> open_in_process(const BusName& bus, BusFormat format) {
   const bool wireless = bus.rounding == Rounding::none || (bus.wire && bus.wire->rates.nominal == 0);
   if (wireless) return std::make_unique<InProcessPort>(bus.rounding);
@@ -28,7 +28,7 @@ Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat 
   const auto notes = std::make_shared<std::vector<std::string>>();
   const auto with_notes = [&](std::unique_ptr<Port> port) { return OpenBuses{notes, std::move(port)}; };
   if (bus.in_process) return open_in_process(bus, format).map(with_notes);
-  std::vector<std::string> names{bus.text};  // each once
+  std::vector<std::string> names{bus.text};  // no duplicates
   for (const auto& [node, own] : bus_of) {
     if (std::ranges::find(names, own) == names.end()) names.push_back(own);
   }

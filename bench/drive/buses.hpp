@@ -1,4 +1,4 @@
-// From the names of buses to one port.
+// Opens the buses that the command line names as one port.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,12 @@
 
 namespace canhil::drive {
 
-/// Virtual time, the device in this process. With '?bitrate=' and more a simulated wire lies between.
+/// Virtual time, with the device in this process. '?bitrate=...' adds a simulated wire.
 inline constexpr std::string_view in_process_bus = "in-process";
-/// The same with frames that round nothing.
+/// The same with unrounded frames.
 inline constexpr std::string_view unrounded_bus = "in-process?unrounded";
 
-/// A bus as the command line names it, read once, to be opened. What the bus can do is then asked of its
-/// port.
+/// A bus as given on the command line, parsed and ready to open. Its properties are those of its port.
 struct BusName {
   explicit BusName(std::string name = {})
       : text(std::move(name)),
@@ -29,18 +28,19 @@ struct BusName {
   std::string text;           ///< as given to --bus
   bool in_process;            ///< no bus: the device is in this process
   Rounding rounding;          ///< of its frames
-  Result<WireSettings> wire;  ///< what follows '?'
+  Result<WireSettings> wire;  ///< the part after '?'
 };
 
-/// Nodes of the DBC, each with a bus of its own.
+/// Nodes of the DBC with buses of their own.
 using BusOf = std::vector<std::pair<std::string, std::string>>;
 
 struct OpenBuses {
-  std::shared_ptr<std::vector<std::string>> notes;  ///< whom the bench as a host turned away, a line each
-  std::unique_ptr<Port> port;                       ///< over all of them
+  std::shared_ptr<std::vector<std::string>>
+      notes;                   ///< peers that the bench as a host turned away, one line each
+  std::unique_ptr<Port> port;  ///< combines all buses
 };
 
-/// A frame goes to the bus of its sender. A local bus is hosted by the bench, unless somebody does already.
+/// A frame is sent on the bus of its sender. The bench hosts a local bus unless another program already does.
 /// Error: one line.
 Result<OpenBuses> open_buses(const BusName& bus, const BusOf& bus_of, BusFormat format);
 

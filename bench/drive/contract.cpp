@@ -23,15 +23,15 @@ std::vector<std::string> names() {
   return all;
 }
 
-scenario::Contract make_contract() {
-  scenario::Contract contract{.estimators = names<messages::Estimator>(),
-                              .algorithms = names<messages::Algorithm>(),
-                              .parameters = names<messages::Parameter>(),
-                              .messages = {},
-                              .answers = {},
-                              .check_kinds = checks::kinds(estimators::all()),
-                              .known = estimators::all(),
-                              .former_check_kinds = checks::former_kinds(estimators::all())};
+scenario::DbcVocabulary make_contract() {
+  scenario::DbcVocabulary contract{.estimators = names<messages::Estimator>(),
+                                   .algorithms = names<messages::Algorithm>(),
+                                   .parameters = names<messages::Parameter>(),
+                                   .messages = {},
+                                   .answers = {},
+                                   .check_kinds = checks::kinds(estimators::all()),
+                                   .known = estimators::all(),
+                                   .former_check_kinds = checks::former_kinds(estimators::all())};
   contract.facts = estimators::facts();
   contract.nodes = nodes::tables();
   contract.fault_kinds = faults::kinds();
@@ -48,8 +48,8 @@ scenario::Contract make_contract() {
 
 }  // namespace
 
-scenario::Contract contract() {
-  static const scenario::Contract built_in = make_contract();
+scenario::DbcVocabulary contract() {
+  static const scenario::DbcVocabulary built_in = make_contract();
   return built_in;
 }
 
@@ -72,7 +72,7 @@ Result<void> add_faults(scenario::Scenario& scenario, const std::string& file) {
 
 Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, const std::string& name,
                         const scenario::FaultPlaces* some) {
-  scenario::Contract by = contract();
+  scenario::DbcVocabulary by = contract();
   if (scenario.foreign != nullptr) {
     by.foreign = scenario.foreign;
     by.messages.clear();

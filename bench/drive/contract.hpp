@@ -1,4 +1,4 @@
-// The names that scenarios may use, from the DBC that this bench was built with.
+// The vocabulary of scenarios from the DBC that this bench was built with.
 #pragma once
 
 #include <optional>
@@ -13,20 +13,19 @@
 namespace canhil::drive {
 
 /// Value tables and messages of the built-in DBC.
-scenario::Contract contract();
+scenario::DbcVocabulary contract();
 
-/// Reads a scenario by the contract that it is of: that of the mapping which its [target] names, or the
-/// project's. As scenario::parse() and read_file().
-/// `folder`: see scenario::parse(). `read`: gives mapping and DBC.
+/// Reads a scenario with its vocabulary: that of the mapping in its [target], or that of canhil's own DBC.
+/// Like scenario::parse() and read_file(). `folder`: see scenario::parse(). `read`: loads mapping and DBC.
 Result<scenario::Scenario> parse_scenario(std::string_view text, const std::string& name,
                                           std::span<const scenario::Setting> settings = {},
                                           std::optional<std::string> folder = {},
                                           const mapping::ReadText& read = mapping::read_from_disk);
 Result<scenario::Scenario> read_scenario(const std::string& file);
 
-/// Adds the [[fault]] tables of a file to those of the scenario. Error: one line.
+/// Adds the [[fault]] tables of a file to the scenario. Error: one line.
 Result<void> add_faults(scenario::Scenario& scenario, const std::string& file);
-/// The same of the text of a file, or some of them.
+/// The same for the text of a file, or for some of its faults.
 Result<void> add_faults(scenario::Scenario& scenario, std::string_view text, const std::string& name,
                         const scenario::FaultPlaces* some = nullptr);
 

@@ -9,7 +9,7 @@
 namespace canhil::drive {
 namespace {
 
-constexpr std::int64_t four_heartbeats_ns = 400'000'000;  // a dead target is named within 0.5 s
+constexpr std::int64_t four_heartbeats_ns = 400'000'000;  // a dead target is reported within 0.5 s
 
 class ContractDialect final : public Dialect {
  public:
@@ -18,7 +18,7 @@ class ContractDialect final : public Dialect {
   [[nodiscard]] std::span<const MessageInfo> messages() const override { return messages::all_messages; }
   std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) override {
     return std::unique_ptr<Schedule>(
-        new Schedule(make_schedule(of_.scenario, of_.truth, of_.flight.own_truth, of_.run_index,
+        new Schedule(make_schedule(of_.scenario, of_.truth, of_.flight.per_run_truth, of_.run_index,
                                    of_.virtual_time, of_.rounding, std::move(faults))));
   }
   [[nodiscard]] bool watches_frames_alone() const override { return true; }

@@ -1,5 +1,5 @@
-// How a session talks to its target: in the project's contract, with its handshake and its time base, or in
-// the target's own words, as a mapping tells them.
+// The dialect between a session and its target: canhil's own DBC, with handshake and time base, or the
+// target's own messages, through a mapping.
 #pragma once
 
 #include <atomic>
@@ -19,14 +19,14 @@
 
 namespace canhil::drive {
 
-/// What is known of a run before it begins.
+/// The properties of a run before it begins.
 struct Setting {
   const scenario::Scenario& scenario;
   const world::FlightRecord& truth;
   Flight& flight;
   std::uint64_t run_index = 0;
-  bool in_process = false;    ///< the target is the device of this process
-  bool virtual_time = false;  ///< in steps that the target closes
+  bool in_process = false;    ///< the target is the device in this process
+  bool virtual_time = false;  ///< time advances in steps that the target completes
   Rounding rounding = Rounding::as_on_the_bus;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};
@@ -39,28 +39,28 @@ class Dialect {
   Dialect& operator=(const Dialect&) = delete;
   virtual ~Dialect() = default;
 
-  /// Of the bus.
+  /// The messages of the bus.
   [[nodiscard]] virtual std::span<const MessageInfo> messages() const = 0;
-  /// `faults`: of the run.
+  /// `faults`: the faults of the run.
   virtual std::unique_ptr<Schedule> schedule(std::unique_ptr<faults::Faults> faults) = 0;
   virtual std::unique_ptr<observe::Watcher> watcher(bool with_times) = 0;
   /// Whether watchers may be in other threads: they look at nothing but frames.
   [[nodiscard]] virtual bool watches_frames_alone() const = 0;
   /// `alone`: nobody else can be on the bus.
   virtual std::unique_ptr<observe::TargetWatch> target_watch(bool alone) = 0;
-  /// Makes the target ready. `gone` says why there is no point in waiting any more, if so. Error: one line.
+  /// Configures the target. `gone`: why waiting is pointless, if it is. Error: one line.
   virtual Result<void> configure(Link& link, nodes::Transmission& out,
                                  const std::function<std::optional<std::string>()>& gone) = 0;
   /// The run is over.
   virtual void stop(Link& link, nodes::Transmission& out) = 0;
-  /// What is to be known of the run beside its observations, a line each.
+  /// Remarks on the run besides its observations, one line each.
   [[nodiscard]] virtual std::vector<std::string> notes() const { return {}; }
-  /// In real time a target that says nothing for so long is gone.
+  /// In real time, a target that is silent for longer counts as gone.
   [[nodiscard]] virtual std::int64_t silence_limit_ns() const = 0;
 };
 
-/// That of the scenario. What the setting refers to must outlive it. Error: one line; the scenario does not
-/// fit its mapping.
+/// The dialect of the scenario. Everything that the setting refers to must outlive it. Error: one line; the
+/// scenario does not fit its mapping.
 Result<std::unique_ptr<Dialect>> make_dialect(const Setting& setting);
 std::unique_ptr<Dialect> contract_dialect(const Setting& setting);
 Result<std::unique_ptr<Dialect>> mapped_dialect(const Setting& setting);

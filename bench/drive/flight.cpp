@@ -13,7 +13,7 @@
 namespace canhil::drive {
 namespace {
 
-/// What a carrier tells a glider that it lets go: the truth with the errors that this run draws.
+/// The state that a carrier transfers to the glider at release: the truth with the errors drawn for this run.
 InitialState state_at_release(const world::GlideTruth& truth, const scenario::Glide& config,
                               const scenario::InitialSigma& sigma, world::Stream& stream) {
   const scenario::ReleaseError& error = config.release;
@@ -32,11 +32,11 @@ InitialState state_at_release(const world::GlideTruth& truth, const scenario::Gl
 
 bool starts_by_own_truth(const scenario::TargetSetup& target) {
   const estimators::Estimator* estimator = estimators::find(target.estimator);
-  return estimator != nullptr && estimator->facts.start == scenario::Start::own_truth;
+  return estimator != nullptr && estimator->facts.start == scenario::Start::per_run_truth;
 }
 
-Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
-  OwnTruth own;
+Result<PerRunTruth> make_per_run_truth(const scenario::Scenario& scenario, std::uint64_t run_index) {
+  PerRunTruth own;
   if (scenario.glide) {
     const auto stream = [&](std::string_view name) { return world::Stream(scenario.seed, run_index, name); };
     own.glide.emplace(scenario.glide->plan, scenario.duration_us, stream("glide.coefficients"),
@@ -55,19 +55,19 @@ Result<OwnTruth> make_own_truth(const scenario::Scenario& scenario, std::uint64_
     });
   };
   own.glide_is_sampled = !is_recorded(scenario::TruthOf::glide);
-  // A recorded seeker flies nothing.
+  // With a recorded seeker there is no simulated engagement.
   if (scenario.engagement && !is_recorded(scenario::TruthOf::engagement)) own.engagement.emplace();
   return own;
 }
 
-/// The period of the node that samples every epoch, whether it is on the bus or not.
+/// The period of the node that samples every epoch, whether or not it is on the bus.
 std::int64_t epoch_interval_us(const scenario::Scenario& scenario) {
   const nodes::Kind& kind = **std::ranges::find_if(nodes::all(), &nodes::Kind::at_every_epoch);
   const scenario::NodeSettings* node = scenario.node(kind.table.key);
   return node == nullptr ? kind.table.closes.cycle_time_us : node->period_us();
 }
 
-/// What a vehicle does between samples of its flight nobody knows: an IMU would not feel it.
+/// The motion between recorded samples is unknown, so an IMU must not sample much faster than the recording.
 Result<void> check_density(const scenario::Scenario& scenario) {
   constexpr std::int64_t most_intervals = 10;
   const auto* recorded = std::get_if<world::Recorded>(&scenario.truth.motion);
@@ -83,7 +83,8 @@ Result<void> check_density(const scenario::Scenario& scenario) {
 
 }  // namespace
 
-estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us) {
+estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
+                           std::int64_t duration_us) {
   return {.flight = flight,
           .duration_us = duration_us,
           .engagement = own.engagement ? &*own.engagement : nullptr,
@@ -98,7 +99,7 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
     if (node == nullptr || node->is_recorded() || kind->fits == nullptr) continue;
     if (auto fits = kind->fits(*node, scenario, truth); !fits) return tl::unexpected(fits.error());
   }
-  // What every run tells its target; its draws are checked run by run.
+  // The initial state is checked for every run; draws are checked run by run.
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream none(0, 0, "none");
     const auto start = initial_solution(truth.epochs().front(), world::InitialErrorModel{}, none);
@@ -110,10 +111,10 @@ Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario) {
 
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index) {
-  auto own_truth = make_own_truth(scenario, run_index);
-  if (!own_truth) return tl::unexpected(own_truth.error());
-  Flight flight{.own_truth = std::move(*own_truth), .initial = {}};
-  flight.initial = initial_states(scenario, truth, flight.own_truth, run_index, 0);
+  auto per_run_truth = make_per_run_truth(scenario, run_index);
+  if (!per_run_truth) return tl::unexpected(per_run_truth.error());
+  Flight flight{.per_run_truth = std::move(*per_run_truth), .initial = {}};
+  flight.initial = initial_states(scenario, truth, flight.per_run_truth, run_index, 0);
   for (const InitialState& state : flight.initial) {
     if (auto fits = check_fits(state); !fits) return tl::unexpected(fits.error());
   }
@@ -121,10 +122,10 @@ Result<Flight> make_flight(const scenario::Scenario& scenario, const world::Flig
 }
 
 std::vector<InitialState> initial_states(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                         const OwnTruth& own_truth, std::uint64_t run_index,
+                                         const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us) {
   std::vector<InitialState> states;
-  const auto& glide = own_truth.glide;
+  const auto& glide = per_run_truth.glide;
   for (const scenario::TargetSetup& target : scenario.targets) {
     world::Stream stream(scenario.seed, run_index, "initial_error");
     const world::InitialErrorModel error = target.initial_error.value_or(scenario.initial_error);
@@ -138,15 +139,15 @@ std::vector<InitialState> initial_states(const scenario::Scenario& scenario, con
 }
 
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep, Rounding rounding,
+                       PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep, Rounding rounding,
                        std::unique_ptr<faults::Faults> faults) {
   if (faults == nullptr)
     faults = std::make_unique<faults::Faults>(scenario, run_index, messages::all_messages);
   auto nodes = nodes::make({.scenario = scenario,
                             .index = run_index,
                             .flight = truth,
-                            .glide = own_truth.glide ? &*own_truth.glide : nullptr,
-                            .engagement = own_truth.engagement ? &*own_truth.engagement : nullptr,
+                            .glide = per_run_truth.glide ? &*per_run_truth.glide : nullptr,
+                            .engagement = per_run_truth.engagement ? &*per_run_truth.engagement : nullptr,
                             .faults = faults.get()});
   return {std::move(nodes), std::make_unique<nodes::TimeKeeper>(truth.end_us(), lockstep), rounding,
           std::move(faults)};

@@ -1,4 +1,4 @@
-// A scenario made ready to run: its truth, its nodes, and what the target is told at the start.
+// Prepares a scenario for running: its truth, its nodes, and the initial state for the target.
 #pragma once
 
 #include <cstdint>
@@ -16,42 +16,44 @@
 
 namespace canhil::drive {
 
-/// The truth of a scenario on the grid of its IMU. The same for every run: compute it once. Error: one line,
-/// if no run of the scenario can be flown.
+/// The truth of a scenario on the grid of its IMU. It is the same for every run, so compute it once. Error:
+/// one line, if no run of the scenario can be flown.
 Result<world::FlightRecord> make_truth(const scenario::Scenario& scenario);
 
-/// What a run flies by itself, because it draws it or its answers steer it.
-struct OwnTruth {
-  std::optional<world::EngagementRecord> engagement{};  ///< none: not in the scenario; filled as it goes on
-  std::optional<world::GlideRecord> glide{};            ///< none: not in the scenario
-  bool glide_is_sampled = true;  ///< false: its nodes send what was recorded of another
+/// Truth that differs from run to run, because errors are drawn or the answers steer the flight.
+struct PerRunTruth {
+  std::optional<world::EngagementRecord>
+      engagement{};                           ///< none: not in the scenario; filled during the flight
+  std::optional<world::GlideRecord> glide{};  ///< none: not in the scenario
+  bool glide_is_sampled = true;               ///< false: its nodes send a recording of another glide
 };
 
-/// All of it, as answers are held against it. `duration_us`: of the run.
-estimators::Truth truth_of(const world::FlightRecord& flight, const OwnTruth& own, std::int64_t duration_us);
+/// The complete truth, for comparison with answers. `duration_us`: of the run.
+estimators::Truth truth_of(const world::FlightRecord& flight, const PerRunTruth& own,
+                           std::int64_t duration_us);
 
-/// What one run draws before it begins.
+/// What is drawn for a run before it begins.
 struct Flight {
-  OwnTruth own_truth;
-  /// What each estimator of the target is told: the truth with the errors that this run draws, the same draw
-  /// for each.
+  PerRunTruth per_run_truth;
+  /// The initial state for each estimator of the target: the truth with the errors drawn for this run, the
+  /// same draw for each.
   std::vector<InitialState> initial;
 };
 
-/// The flight of run `run_index`. Error: one line, if it ends before the run, or the bus cannot carry what
-/// the target is told.
+/// The flight of run `run_index`. Error: one line, if the flight ends before the run, or the bus cannot carry
+/// the initial state.
 Result<Flight> make_flight(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            std::uint64_t run_index);
 
-/// What each estimator of the target is told at a time of the run: the errors are those of its start.
+/// The initial state for each estimator at a time of the run, with the errors of the start.
 std::vector<InitialState> initial_states(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                                         const OwnTruth& own_truth, std::uint64_t run_index,
+                                         const PerRunTruth& per_run_truth, std::uint64_t run_index,
                                          std::int64_t t_us);
 
-/// The nodes of run `run_index`, in the order of precedence. All but the index must outlive the schedule.
-/// `faults`: of the run; null: those of the scenario that need no more than the frames.
+/// The nodes of run `run_index` in order of precedence. Everything but the index must outlive the schedule.
+/// `faults`: of the run; null: the faults of the scenario that need nothing but frames.
 Schedule make_schedule(const scenario::Scenario& scenario, const world::FlightRecord& truth,
-                       OwnTruth& own_truth, std::uint64_t run_index, bool lockstep,
+                       PerRunTruth& per_run_truth, std::uint64_t run_index, bool lockstep,
                        Rounding rounding = Rounding::as_on_the_bus,
                        std::unique_ptr<faults::Faults> faults = nullptr);
 

@@ -21,7 +21,7 @@ TargetCommand command(Command what, Estimator estimator, Algorithm algorithm) {
   return {.command = what, .estimator = estimator, .algorithm = algorithm, .dbc_hash = dbc_hash24};
 }
 
-// What hil-target takes; another target may take something else.
+// For hil-target; another target may accept another range.
 std::string range_of(Estimator estimator, Parameter parameter) {
   const auto range = target::Device().range(estimator, parameter);
   if (!range) return "a value in its range";
@@ -29,7 +29,7 @@ std::string range_of(Estimator estimator, Parameter parameter) {
                      range->maximum);
 }
 
-// What hil-target offers; another target may offer something else.
+// For hil-target; another target may offer others.
 std::string algorithms_of(Estimator estimator) {
   target::Device device;
   Outbox<1> out;
@@ -43,7 +43,7 @@ std::string algorithms_of(Estimator estimator) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-// Why, what was expected, and what becomes of the old value.
+// The reason, the expectation, and the value that stays in force.
 std::string refusal(const ParamAck& ack, Estimator estimator) {
   const auto in_force = static_cast<double>(ack.value);
   switch (ack.status) {
@@ -57,7 +57,7 @@ std::string refusal(const ParamAck& ack, Estimator estimator) {
     case ParameterStatus::accepted:
       break;
   }
-  return fmt::format("status {}, which is none of the DBC's", static_cast<int>(ack.status));
+  return fmt::format("status {}, which is not in the DBC", static_cast<int>(ack.status));
 }
 
 Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenario::Parameter& wanted) {
@@ -78,7 +78,7 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
     return failure(fmt::format("{}: {:g} was sent and refused by the target: {}", wanted.where,
                                static_cast<double>(value), refusal(ack, estimator)));
   }
-  // Read-back: the value in force is the one sent, up to the rounding of a conversion of units in the target.
+  // The value read back must equal the one sent, except for rounding by a unit conversion in the target.
   if (std::abs(ack.value - value) > 1e-6F * std::abs(value)) {
     return failure(fmt::format("{}: {:g} was sent, the target reads back {:g}", wanted.where,
                                static_cast<double>(value), static_cast<double>(ack.value)));
@@ -86,7 +86,7 @@ Result<void> set_parameter(Dialogue& dialogue, Estimator estimator, const scenar
   return {};
 }
 
-// Finds the target: the only one on the bus, and of this DBC.
+// Finds the target: the only one on the bus, and built from this DBC.
 Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) {
   const Mailbox& box = dialogue.mailbox();
   auto found = dialogue.until(
@@ -97,7 +97,7 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   if (!box.heartbeat) {
     const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
     return failure(
-        fmt::format("target on '{}': answers in {}, expected {}", bus, words(other), words(format)));
+        fmt::format("target on '{}': answers in {}, expected {}", bus, to_text(other), to_text(format)));
   }
   if (box.heartbeat->state == TargetState::running) dialogue.listen(several_syncs_ns);
   if (box.other_bench) {
@@ -112,7 +112,8 @@ Result<void> find(Dialogue& dialogue, const std::string& bus, BusFormat format) 
   return {};
 }
 
-// Selects an estimator, by a reset that forgets all others or beside them, and makes it ready.
+// Selects an estimator, either by a reset, which removes all others, or in addition to them, and configures
+// it.
 Result<void> prepare(Dialogue& dialogue, const std::string& bus, Command selection,
                      const scenario::TargetSetup& setup, const InitialState& initial) {
   const auto estimator = from_name<Estimator>(setup.estimator);

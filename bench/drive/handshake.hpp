@@ -1,4 +1,4 @@
-// Before a run: find the target, make sure it was built from the same DBC, configure it, start it.
+// The handshake before a run: find the target, check its DBC hash, configure it, start it.
 #pragma once
 
 #include <functional>
@@ -16,18 +16,18 @@
 namespace canhil::drive {
 
 /// Waits for the target's heartbeat and checks its DBC hash; selects each estimator, sets and reads back its
-/// parameters, sends its initial state with its sigmas; starts them all. Each step is repeated until it is
-/// acknowledged. A target that is observe::heard in the other format than the bus's `format` is named as
-/// such. `initial` is in the order of `estimators`. `gone` says why there is no point in waiting any more, if
-/// so ("target: exited with 1"). Error: one line.
+/// parameters, sends its initial state with sigmas; then starts all estimators. Each step is repeated until
+/// it is acknowledged. A target that answers in another format than the bus's `format` is reported. `initial`
+/// is in the order of `estimators`. `gone`: why waiting is pointless, if it is ("target: exited with 1").
+/// Error: one line.
 Result<void> configure(Link& link, nodes::Transmission& out,
                        std::span<const scenario::TargetSetup> estimators,
                        std::span<const InitialState> initial,
                        const std::function<std::optional<std::string>()>& gone,
                        BusFormat format = BusFormat::classic);
 
-/// Stops the estimators, and waits a moment for the heartbeat of each that says so: they belong to the
-/// session's record.
+/// Stops the estimators and waits briefly for the heartbeats that confirm it, so that they are in the
+/// session's log.
 void stop(Link& link, nodes::Transmission& out, std::span<const scenario::TargetSetup> estimators);
 
 }  // namespace canhil::drive

@@ -1,4 +1,4 @@
-// A Device held directly: the bus without a bus.
+// A port without a bus: it calls a Device directly.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace canhil::drive {
 
-/// A port whose other end is a Device in this process: send() runs the device, receive() gives its answers.
-/// The host's clock plays no part: every stamp is the virtual time that the port was told last.
+/// A port whose other end is a Device in this process: send() runs the device, receive() returns its answers.
+/// The host's clock is not used: every stamp is the virtual time set last.
 class InProcessPort final : public Port {
  public:
   explicit InProcessPort(Rounding rounding)
@@ -35,29 +35,29 @@ class InProcessPort final : public Port {
     ++counters_.received;
     return Received{.frame = answers_[next_++], .t_ns = now_ns_, .source = StampSource::virtual_time};
   }
-  /// What there is to receive came when we sent.
+  /// Everything to receive arrived during send().
   bool wait_for_frame(std::int64_t /*deadline_ns*/) override { return true; }
   [[nodiscard]] int descriptor() const override { return -1; }
   [[nodiscard]] RoomWait room_wait() const override { return {}; }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] PortCounters counters() const override { return counters_; }
   [[nodiscard]] Capabilities capabilities() const override {
-    return {.in_process = true, .time = BusTime::told, .rounding = rounding_};
+    return {.in_process = true, .time = BusTime::set, .rounding = rounding_};
   }
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] std::int64_t now_ns() const override { return now_ns_; }
-  void tell_time(std::int64_t t_ns) override { now_ns_ = t_ns; }
+  void set_time(std::int64_t t_ns) override { now_ns_ = t_ns; }
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
   void append(std::span<const Frame> frames) {
-    for (const Frame& frame : frames) answers_.push_back(frame);  // mostly none, or three
+    for (const Frame& frame : frames) answers_.push_back(frame);  // usually none or three
   }
 
   target::Device device_;
   Rounding rounding_;
   std::vector<Frame> answers_;
-  std::size_t next_ = 0;  // the first of answers_ that was not received yet
+  std::size_t next_ = 0;  // the first of answers_ that has not been received
   std::int64_t now_ns_ = 0;
   PortCounters counters_;
   std::string name_;

@@ -18,7 +18,8 @@ InProcessWire::InProcessWire(std::string name, const WireSettings& settings, Bus
       fd_(format == BusFormat::fd),
       facts_(settings.facts()),
       wire_(settings.rates,
-            {{.order = settings.order, .told = true}, {.order = settings.order, .told = true}},
+            {{.order = settings.order, .reports_errors = true},
+             {.order = settings.order, .reports_errors = true}},
             disturbance(settings)) {}
 
 SendOutcome InProcessWire::send(const Frame& frame) {
@@ -54,7 +55,7 @@ std::int64_t InProcessWire::next_event_ns() const {
   return std::max(now_ns_, std::min(wire_.next_event_ns(), idle_heartbeat_due_ns_));
 }
 
-/// Lets time pass: what happens on the wire until then happens.
+/// Advances the time and processes the events on the wire until then.
 void InProcessWire::pass(std::int64_t until_ns) {
   now_ns_ = std::max(now_ns_, until_ns);
   if (idle_heartbeat_due_ns_ <= now_ns_) {
@@ -83,7 +84,7 @@ void InProcessWire::arrive(const Carried& carried) {
     put(device_.receive(frame), carried.delivered_ns);
 }
 
-/// Hands over what the device sends.
+/// Queues the frames that the device sends.
 void InProcessWire::put(std::span<const Frame> answers, std::int64_t t_ns) {
   const auto onto_wire = [&](const Frame& frame) { queue(frame, t_ns); };
   for (const Frame& frame : answers) fd_ ? packer_.pack(frame, onto_wire) : onto_wire(frame);
@@ -93,7 +94,7 @@ void InProcessWire::queue(const Frame& frame, std::int64_t t_ns) {
   if (!waiting_.empty() || !wire_.queue(device, frame, t_ns)) waiting_.push_back(frame);
 }
 
-/// The device waits for room as hil-target does: while its queue is full, or it is off the bus.
+/// Like hil-target, the device waits for room while its queue is full or it is off the bus.
 void InProcessWire::queue_waiting() {
   while (!waiting_.empty() && wire_.queue(device, waiting_.front(), now_ns_)) waiting_.pop_front();
 }

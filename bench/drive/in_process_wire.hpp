@@ -1,5 +1,5 @@
-// A Device behind a simulated CAN wire, in virtual time: what a real-time run would be on a bus of this bit
-// rate with a target that computes in no time, as fast as it can be computed.
+// A Device behind a simulated CAN wire, in virtual time: equals a real-time run on a bus of this bit rate
+// with an infinitely fast target, but runs as fast as it can be computed.
 #pragma once
 
 #include <deque>
@@ -12,13 +12,13 @@
 
 namespace canhil::drive {
 
-/// The bench's port on that wire. Time begins at 0 and passes while somebody waits, from one event on the
-/// wire to the next: same frames sent, same bits and same stamps, whatever the host does. Stamps are the end
-/// of a frame on the wire, of the bench's own too; the device answers at the end of the frame that it
+/// The bench's port on that wire. Time begins at 0 and advances during waits, from one event on the wire to
+/// the next: the same frames give the same bits and stamps, whatever the host does. A stamp is the end of the
+/// frame on the wire, also for the bench's own frames; the device answers at the end of the frame that it
 /// answers.
 class InProcessWire final : public Port {
  public:
-  /// Frames on the wire are those of the format's contract.
+  /// Frames on the wire have the DBC of the format.
   InProcessWire(std::string name, const WireSettings& settings, BusFormat format);
 
   SendOutcome send(const Frame& frame) override;
@@ -53,10 +53,10 @@ class InProcessWire final : public Port {
   WireFacts facts_;
   SimulatedWire wire_;
   target::Device device_;
-  FdPacker packer_;            // of the device's frames
-  std::deque<Frame> waiting_;  // of the device, for room on the wire
+  FdPacker packer_;            // for the device's frames
+  std::deque<Frame> waiting_;  // of the device, waiting for room on the wire
   std::int64_t now_ns_ = 0;
-  std::int64_t idle_heartbeat_due_ns_ = 0;  // no bench has spoken yet
+  std::int64_t idle_heartbeat_due_ns_ = 0;  // until a bench sends
   std::deque<Received> ready_;
   PortCounters counters_;
 };

@@ -1,4 +1,4 @@
-// What the target is told of its state at the start.
+// The initial state that the bench sends to the target.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace canhil::drive {
 
-/// Group TargetInit in the order of transmission.
+/// Group TargetInit, in the order of transmission.
 using InitialNavigation =
     std::tuple<messages::TargetInitLatitude, messages::TargetInitLongitude, messages::TargetInitVelocityNE,
                messages::TargetInitAttitude, messages::TargetInitSigma, messages::TargetInitVelocityD>;
@@ -20,7 +20,8 @@ using InitialNavigation =
 using InitialAir = std::tuple<messages::TargetInitRate, messages::TargetInitAirVelocity>;
 
 struct InitialState {
-  std::optional<InitialAir> air;  ///< of a glider; sent first, as the other group makes the target ready
+  std::optional<InitialAir>
+      air;  ///< for a glider; sent first, because the other group makes the target ready
   InitialNavigation navigation;
 };
 
@@ -29,11 +30,11 @@ InitialState initial_state(const world::NavigationSolution& initial, const scena
 /// Rates [rad/s] and velocity through the air [m/s], body axes.
 InitialAir initial_air(const world::Vector3& rates, const world::Vector3& air_velocity);
 
-/// Appends its messages in the order that makes the target ready.
+/// Appends the messages in the order that makes the target ready.
 void send(const InitialState& state, nodes::Transmission& out);
 
-/// Every value within its signal's range, and no value but zero below its resolution: it would be saturated,
-/// or rounded to nothing, in silence. Error: one line.
+/// Checks that every value lies within its signal's range and that no value except zero is below its
+/// resolution; otherwise it would be saturated or rounded to zero unnoticed. Error: one line.
 Result<void> check_fits(const InitialState& state);
 
 }  // namespace canhil::drive

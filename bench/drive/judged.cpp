@@ -7,8 +7,8 @@ namespace canhil::drive {
 
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario) {
-  // A changed value may make an estimator refuse a group that is otherwise right, another order find it
-  // late; and who believes a time of the future finds late what comes until then.
+  // A changed value may make an estimator refuse a group that is otherwise valid, a changed order may make it
+  // late, and after a time in the future everything up to that time is late.
   const faults::Tally befallen = faults.tally();
   seen.expected_counts.most.bad_group += befallen.changed * scenario.targets.size();
   seen.expected_counts.most.late += befallen.overtaken * scenario.targets.size();
@@ -21,7 +21,7 @@ checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::Flig
                            const Collected& flown, const std::string& timing_unfit) {
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown.seen,
-                               .truth = truth_of(truth, flown.own_truth, scenario.duration_us),
+                               .truth = truth_of(truth, flown.per_run_truth, scenario.duration_us),
                                .estimators = estimators::in(scenario),
                                .ended_early = flown.ending.detail,
                                .timing_unfit = timing_unfit});

@@ -1,4 +1,4 @@
-// What a flight's observations come to, whether it is flown or was recorded.
+// Judges the observations of a flight, simulated or recorded.
 #pragma once
 
 #include "bench/drive/session.hpp"
@@ -6,11 +6,11 @@
 
 namespace canhil::drive {
 
-/// The observations with what the faults of the run make a target count.
+/// The observations, extended by the counts that the faults of the run cause in a target.
 checks::Observations expecting(checks::Observations seen, const faults::Faults& faults,
                                const scenario::Scenario& scenario);
 
-/// Of a flight that came to its end, or did not.
+/// The verdict on a flight, whether or not it was completed.
 checks::Verdict verdict_of(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                            const Collected& flown, const std::string& timing_unfit);
 

@@ -10,9 +10,9 @@ constexpr std::int64_t late_in_queue_ns = messages::Sync::info.cycle_time_us * 1
 }  // namespace
 
 LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional<std::int64_t> due_ns) {
-  std::int64_t deadline_ns = 0;  // looked up when it matters: most frames are taken at once
+  std::int64_t deadline_ns = 0;  // computed on demand: most frames are accepted at once
   for (;;) {
-    // The stamp is taken before: the answer of a fast target must not precede it.
+    // The stamp is taken first: the answer of a fast target must not precede it.
     const std::int64_t t_ns = port_.now_ns();
     const std::int64_t late_ns = due_ns ? port_.monotonic_ns() - *due_ns : 0;
     const SendOutcome outcome = port_.send(frame);
@@ -32,11 +32,11 @@ LinkState Link::send(const Frame& frame, std::int64_t patience_ns, std::optional
       while_waiting_.emplace();
     }
     if (now_ns >= deadline_ns) {
-      crowd_ = while_waiting_->frames() == 0 ? "" : while_waiting_->words();
+      crowd_ = while_waiting_->frames() == 0 ? "" : while_waiting_->to_text();
       while_waiting_.reset();
       return may_return ? LinkState::down : LinkState::congested;
     }
-    // What fills the queue may be a target that waits for us to read its answers.
+    // The queue may be full because a target waits for the bench to read its answers.
     if (drain() == LinkState::down) return LinkState::down;
     if (!backlog_.more()) wait(port_, WaitFor::room, deadline_ns);
   }
@@ -55,7 +55,7 @@ LinkState Link::drain() {
   const bool more = looked_at == most_at_once;
   if (more || backlog_.stands()) {
     const std::uint64_t before = overflowed_;
-    if (more) overflowed_ = port_.counters().overflowed;  // a system call: not asked without a reason
+    if (more) overflowed_ = port_.counters().overflowed;  // a system call, so only on demand
     backlog_.pause(more, overflowed_ > before, port_.monotonic_ns());
   }
   look_at_interface();
@@ -68,7 +68,7 @@ void Link::look_at_interface() {
   for (observe::Observer* observer : observers_) observer->interface_changed(up_, port_.now_ns());
 }
 
-// A port that has taken several frames in at once says nothing of those which it still holds.
+// A port that has read several frames at once does not signal those that it still holds.
 bool Link::wait_until(std::int64_t deadline_ns) {
   return backlog_.more() || wait(port_, WaitFor::frame, deadline_ns);
 }

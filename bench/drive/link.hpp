@@ -1,4 +1,4 @@
-// The bench's access to the bus: every frame that passes is shown to the observers, in order.
+// The bench's access to the bus. Observers see every frame that passes, in order.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace canhil::drive {
 
-/// Result of handing over a frame.
+/// Result of sending a frame.
 enum class LinkState : std::uint8_t { up, congested, down };
 
 /// A port with its observers.
@@ -23,37 +23,37 @@ class Link {
   void attach(observe::Observer& observer) { observers_.push_back(&observer); }
   void detach(observe::Observer& observer) { std::erase(observers_, &observer); }
 
-  /// Hands a frame to the bus. While the bus has no room, or its interface is down, it receives, until
-  /// `patience_ns` from now; then `congested` or `down`. `due_ns`: its deadline, if it has one; waiting for
-  /// room makes it late.
+  /// Sends a frame. While the bus has no room or its interface is down, it receives, for up to `patience_ns`;
+  /// then it returns `congested` or `down`. `due_ns`: the frame's deadline, if any; waiting for room makes
+  /// the frame late.
   LinkState send(const Frame& frame, std::int64_t patience_ns,
                  std::optional<std::int64_t> due_ns = std::nullopt);
 
-  /// Shows waiting frames to the observers, without blocking; `down` once the bus is gone. A bus may bring
-  /// frames for ever, so it is `most_at_once` at most: who calls looks at its deadline, and whether it is to
-  /// stop, before it calls again. A wait returns at once while more are there.
+  /// Passes waiting frames to the observers without blocking; `down` once the bus is gone. A bus may deliver
+  /// frames without end, so one call takes at most `most_at_once`: before the next call the caller must check
+  /// its deadline and whether to stop. A wait returns at once while more frames are waiting.
   LinkState drain();
-  static constexpr int most_at_once = 256;  ///< a few of the target's groups; less than a millisecond's work
+  static constexpr int most_at_once = 256;  ///< several groups of the target; less than a millisecond of work
 
-  /// After `congested`: what came while there was no room, as observe::Shares::words(); empty: nothing.
+  /// After `congested`: the frames that arrived meanwhile, as observe::Shares::to_text(); empty: none.
   [[nodiscard]] const std::string& crowd() const { return crowd_; }
 
-  /// The longest time for which frames came faster than they could be looked at; none: they never did.
+  /// The longest time for which frames came faster than they could be processed; none: never.
   [[nodiscard]] const std::optional<observe::Flood>& flood() const { return backlog_.flood(); }
 
-  /// Now on the clock of all deadlines here: Port::monotonic_ns().
+  /// The current time on the clock of all deadlines: Port::monotonic_ns().
   [[nodiscard]] std::int64_t now_ns() const { return port_.monotonic_ns(); }
 
-  /// Port::tell_time(), and the observers.
+  /// Passes the virtual time to the port and the observers.
   void tell_time(std::int64_t t_ns) {
-    port_.tell_time(t_ns);
+    port_.set_time(t_ns);
     for (observe::Observer* observer : observers_) observer->time_told(t_ns);
   }
 
-  /// Sleeps until a frame arrives: true; or until `deadline_ns`, or a signal: false.
+  /// Sleeps until a frame arrives (true), or until `deadline_ns` or a signal (false).
   bool wait_until(std::int64_t deadline_ns);
 
-  /// Frames that waited for room for longer than a period of Sync after they were due.
+  /// Frames that waited for room beyond their deadline for more than a period of Sync.
   [[nodiscard]] std::uint64_t late_in_queue() const { return late_in_queue_; }
 
   [[nodiscard]] const Port& port() const { return port_; }
@@ -65,13 +65,13 @@ class Link {
   std::vector<observe::Observer*> observers_;
   bool up_ = true;
   std::uint64_t late_in_queue_ = 0;
-  std::uint64_t overflowed_ = 0;  // when last asked
+  std::uint64_t overflowed_ = 0;  // at the last check
   observe::Backlog backlog_;
-  std::optional<observe::Shares> while_waiting_;  // for room
+  std::optional<observe::Shares> while_waiting_;  // for room in the queue
   std::string crowd_;
 };
 
-/// Keeps an observer attached while it lives.
+/// Keeps an observer attached during its lifetime.
 class Attached {
  public:
   Attached(Link& link, observe::Observer& observer) : link_(link), observer_(observer) {

@@ -1,4 +1,4 @@
-// A schedule in virtual time: as fast as the target answers.
+// Runs a schedule in virtual time: as fast as the target answers.
 #pragma once
 
 #include <atomic>
@@ -10,9 +10,9 @@
 
 namespace canhil::drive {
 
-/// Sends each step's frames; the watch says which closes the step, and when the next may be opened.
-/// The frames and their order are those of run_real_time. A step that is not answered within `step_limit_ns`
-/// ends the run.
+/// Sends the frames of each step; the watch decides which frame closes the step and when the next may begin.
+/// Frames and their order are those of run_real_time. A step without an answer within `step_limit_ns` ends
+/// the run.
 Ending run_lockstep(Link& link, Schedule& schedule, observe::TargetWatch& watch, std::int64_t step_limit_ns,
                     const std::atomic<bool>& stop, const Progress& progress);
 

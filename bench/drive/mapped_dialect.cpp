@@ -1,5 +1,5 @@
-// Without a handshake: the target lives by itself, is given time to settle, and shows by its own messages
-// that it is there.
+// There is no handshake: the target runs independently, gets time to settle, and shows by its own messages
+// that it is present.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/wait.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t find_limit_ns = 5'000'000'000;  // a target may still be starting
 constexpr std::int64_t poll_ns = 20'000'000;
 
-// Sends nothing: on this bus the bench keeps no time base. It makes a run last to its end.
+// Sends nothing, because the bench keeps no time base on this bus. It only makes the run last to its end.
 class EndOfRun final : public nodes::Node {
  public:
   explicit EndOfRun(std::int64_t end_us) : end_us_(end_us) {}
@@ -31,22 +31,23 @@ class EndOfRun final : public nodes::Node {
   bool over_ = false;
 };
 
-// Any of its messages shows that it is there; the echo of a play, in virtual time, that it is done with it.
+// Any message of the target shows that it is present; in virtual time the echo of a play shows that the
+// target has processed it.
 class MappedWatch final : public observe::TargetWatch {
  public:
   explicit MappedWatch(const mapping::Conversation& conversation)
       : conversation_(conversation), places_(conversation.mapping), passing_(conversation) {}
 
   void received(const Received& received) override {
-    const std::size_t place = places_(received.frame);
-    if (received.own || place == MessagePlaces::nowhere) return;
+    const std::size_t index = places_(received.frame);
+    if (received.own || index == MessagePlaces::nowhere) return;
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
-      if (hear.of.place != place) continue;
+      if (hear.of.index != index) continue;
       heard_ = true;
       if (received.frame.size != hear.of.message->size || !hear.echo || *hear.answers != awaited_play_)
         continue;
       const mapping::Sent* cause = mapping::cause_of(conversation_, hear, received.frame);
-      if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(place);
+      if (cause != nullptr && cause->valid_us == awaited_us_) waits_for_.erase(index);
     }
   }
   bool heard() override { return std::exchange(heard_, false); }
@@ -57,7 +58,7 @@ class MappedWatch final : public observe::TargetWatch {
     if (!whole) return false;
     waits_for_.clear();
     for (const mapping::Hear& hear : conversation_.mapping.hears) {
-      if (hear.echo && *hear.answers == whole->play) waits_for_.insert(hear.of.place);
+      if (hear.echo && *hear.answers == whole->play) waits_for_.insert(hear.of.index);
     }
     awaited_play_ = whole->play;
     awaited_us_ = whole->sent->valid_us;
@@ -78,10 +79,10 @@ class MappedWatch final : public observe::TargetWatch {
   bool heard_ = false;
   std::size_t awaited_play_ = 0;
   std::int64_t awaited_us_ = 0;
-  std::set<std::size_t> waits_for_;  // messages that are to echo the play, by place
+  std::set<std::size_t> waits_for_;  // indices of messages that must still echo the play
 };
 
-// What passes while nobody of the mapping is heard.
+// The other frames on the bus while no message of the mapping arrives.
 class Strangers final : public observe::Observer {
  public:
   explicit Strangers(const mapping::Places& places) : places_(places) {}
@@ -89,14 +90,14 @@ class Strangers final : public observe::Observer {
     if (!received.own && !received.frame.error && places_(received.frame) == MessagePlaces::nowhere)
       ids_.insert(received.frame.id);
   }
-  [[nodiscard]] std::string words() const {
-    if (ids_.empty()) return "nothing was heard";
+  [[nodiscard]] std::string to_text() const {
+    if (ids_.empty()) return "nothing was received";
     constexpr std::size_t most = 8;
     std::vector<std::string> some;
     for (const std::uint32_t id : ids_) {
       if (some.size() < most) some.push_back(fmt::format("{:X}", id));
     }
-    return fmt::format("only frames of other ids were heard: {}{}", fmt::join(some, ", "),
+    return fmt::format("only frames of other ids were received: {}{}", fmt::join(some, ", "),
                        ids_.size() > most ? ", ..." : "");
   }
 
@@ -107,7 +108,7 @@ class Strangers final : public observe::Observer {
 
 Result<void> run_command(std::string_view key, const std::string& command) {
   if (command.empty()) return {};
-  const int status = std::system(command.c_str());  // NOLINT(concurrency-mt-unsafe): before and after a run
+  const int status = std::system(command.c_str());  // before and after a run only
   if (status != -1 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   return failure(fmt::format("key 'target.{}': '{}' ended with {}, expected 0", key, command,
                              status != -1 && WIFEXITED(status) ? WEXITSTATUS(status) : -1));
@@ -128,13 +129,13 @@ class MappedDialect final : public Dialect {
     std::vector<std::unique_ptr<nodes::Node>> players;
     players.push_back(std::make_unique<mapping::Player>(
         conversation_,
-        nodes::Run{
-            .scenario = of_.scenario,
-            .index = of_.run_index,
-            .flight = of_.truth,
-            .glide = of_.flight.own_truth.glide ? &*of_.flight.own_truth.glide : nullptr,
-            .engagement = of_.flight.own_truth.engagement ? &*of_.flight.own_truth.engagement : nullptr,
-            .faults = faults.get()}));
+        nodes::Run{.scenario = of_.scenario,
+                   .index = of_.run_index,
+                   .flight = of_.truth,
+                   .glide = of_.flight.per_run_truth.glide ? &*of_.flight.per_run_truth.glide : nullptr,
+                   .engagement =
+                       of_.flight.per_run_truth.engagement ? &*of_.flight.per_run_truth.engagement : nullptr,
+                   .faults = faults.get()}));
     return std::make_unique<Schedule>(std::move(players), std::make_unique<EndOfRun>(of_.truth.end_us()),
                                       Rounding::as_on_the_bus, std::move(faults));
   }
@@ -160,7 +161,7 @@ class MappedDialect final : public Dialect {
     const auto& hears = conversation_.mapping.hears;
     const bool speaks_first =
         std::ranges::any_of(hears, [](const mapping::Hear& hear) { return !hear.answers; });
-    bool there = !speaks_first;  // one that only answers says nothing yet
+    bool there = !speaks_first;  // a target that only answers is silent so far
     const std::int64_t settled_ns = link.now_ns() + start_.settle_us * 1000;
     const std::int64_t limit_ns = std::max(settled_ns, link.now_ns() + find_limit_ns);
     while (link.now_ns() < settled_ns || !there) {
@@ -193,7 +194,7 @@ class MappedDialect final : public Dialect {
       if (!hear.answers) names.push_back(hear.of.message->name);
     }
     return fmt::format("target on '{}': none of {} within 5 s; {}", link.port().name(),
-                       fmt::join(names, ", "), strangers.words());
+                       fmt::join(names, ", "), strangers.to_text());
   }
 
   Setting of_;

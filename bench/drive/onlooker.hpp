@@ -17,7 +17,7 @@ namespace canhil::drive {
 struct Departure {
   const scenario::Scenario& scenario;
   const world::FlightRecord& truth;
-  const OwnTruth& own_truth;  ///< its engagement grows, in the thread of the flight
+  const PerRunTruth& per_run_truth;  ///< its engagement grows, in the thread of the flight
   bool real_time = false;
   BusFormat format = BusFormat::classic;
   WireFacts wire{};

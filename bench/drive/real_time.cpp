@@ -10,12 +10,13 @@ namespace canhil::drive {
 namespace {
 
 constexpr std::int64_t ns_per_us = 1000;
-constexpr std::int64_t lead_ns = 20'000'000;             // from here to the first deadline
-constexpr std::int64_t last_answers_ns = 150'000'000;    // longer than a heartbeat period
-constexpr std::int64_t outage_limit_ns = 5'000'000'000;  // an interface down and up, a restart after bus-off
+constexpr std::int64_t lead_ns = 20'000'000;           // before the first deadline
+constexpr std::int64_t last_answers_ns = 150'000'000;  // longer than a heartbeat period
+constexpr std::int64_t outage_limit_ns =
+    5'000'000'000;  // for an interface that goes down and up, or a restart after bus-off
 constexpr std::int64_t progress_period_us = 100'000;
 
-// A bus that carried much all the while is full, and by whom is worth knowing.
+// A bus that was busy all the time is full; the message then says whose frames fill it.
 std::string took_none(const Link& link, std::int64_t due_us) {
   return fmt::format("the bus took no frame since t={:.3f} s{}{}", static_cast<double>(due_us) * 1e-6,
                      link.crowd().empty() ? "" : " and carried ", link.crowd());
@@ -34,8 +35,8 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
   const Attached bus_attached(link, bus);
   std::int64_t progress_due_us = 0;
 
-  // Nobody can be heard, nor hear, while the bus is away or the target is held by a fault: then, and for as
-  // long after as always, silence says nothing.
+  // While the bus is away or a fault stops the target, and for the usual limit afterwards, silence has no
+  // meaning.
   const auto excused_until_ns = [&] {
     if (watch.heard()) heard_ns = link.now_ns();
     if (bus.outage()) return bus.outage()->since_ns + outage_limit_ns;
@@ -49,7 +50,7 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
                   fmt::format("{} since t={:.3f} s", bus.outage() ? bus.outage()->what : "target silent",
                               static_cast<double>(since_us) * 1e-6)};
   };
-  // Receives until `deadline_ns`; says why the run is over, if it is.
+  // Receives until `deadline_ns`; returns why the run is over, if it is.
   const auto receive_until = [&](std::int64_t deadline_ns) -> std::optional<Ending> {
     for (;;) {
       const LinkState state = link.drain();
@@ -61,7 +62,7 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
       if (now >= deadline_ns) return std::nullopt;
       if (now >= deadline_ns - spin_ns) continue;
       const bool heard = link.wait_until(std::min(deadline_ns - spin_ns, excused_until_ns() + 1));
-      if (!heard && link.now_ns() >= deadline_ns) return std::nullopt;  // on time, with nothing to look at
+      if (!heard && link.now_ns() >= deadline_ns) return std::nullopt;  // on time, nothing to process
     }
   };
 
@@ -79,7 +80,7 @@ Ending run_real_time(Link& link, Schedule& schedule, observe::TargetWatch& watch
         case LinkState::up:
           break;
         case LinkState::congested:
-          if (link.now_ns() > excused_until_ns()) {  // a target that reads no more fills the bus
+          if (link.now_ns() > excused_until_ns()) {  // a target that no longer reads fills the bus
             Ending ending = silent();
             ending.detail += ", " + took_none(link, due_us);
             return ending;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::string_view unknown_lateness = "a recording does not say when its frames were due";
 
-// What was done to the target and to the interface shows in the recorded frames.
-class NoHands final : public faults::Hands {
+// The effects on target and interface are already in the recorded frames.
+class NoRigControl final : public faults::RigControl {
  public:
   void pause_target() override {}
   void resume_target() override {}
@@ -36,7 +36,7 @@ const MessageInfo* find(std::span<const MessageInfo> messages, const Frame& fram
   return found == messages.end() ? nullptr : &*found;
 }
 
-// The entries of a log, the next one in sight.
+// Reads the entries of a log, with a look-ahead of one.
 class Frames {
  public:
   static Result<Frames> open(const std::string& log) {
@@ -60,14 +60,15 @@ class Frames {
   std::optional<LogEntry> next_;
 };
 
-// How the run was flown, by its frames.
+// How the run was flown, derived from its frames.
 struct Manner {
   bool lockstep = false;
   bool in_process = false;
   BusFormat format = BusFormat::classic;
 };
 
-// The first Sync says whether in lockstep, a frame of CAN FD that the contract was packed into such frames.
+// The first Sync shows whether it was in lockstep; a CAN FD frame shows that the DBC's messages were packed
+// in containers.
 Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scenario) {
   auto reader = LogReader::open(log);
   if (!reader) return tl::unexpected(reader.error());
@@ -78,7 +79,7 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
     const auto entry = reader->next();
     if (!entry) return tl::unexpected(entry.error());
     if (!*entry) {
-      // A mapping has no Sync that says so: virtual time goes faster than the clock of the stamps.
+      // A mapping has no such Sync: it was virtual time if it ran faster than the clock of the stamps.
       const std::int64_t span_ns = last_ns - first_ns.value_or(0);
       if (scenario.foreign != nullptr) manner.lockstep = span_ns < scenario.duration_us * 1000 / 2;
       return manner;
@@ -99,7 +100,7 @@ Result<Manner> manner_of(const std::string& log, const scenario::Scenario& scena
 }
 
 observe::LoadBy load_by(const scenario::Scenario& scenario, const Manner& manner) {
-  if (scenario.foreign != nullptr) return observe::LoadBy::told;
+  if (scenario.foreign != nullptr) return observe::LoadBy::virtual_time;
   return manner.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
 }
 
@@ -140,8 +141,8 @@ class Recording {
     seen.length_by_second = load_.lengths();
     return Collected{.ending = std::move(*ending),
                      .seen = std::move(seen),
-                     .own_truth = std::move(flight_.own_truth),
-                     .faults = schedule_->faults()->told()};
+                     .per_run_truth = std::move(flight_.per_run_truth),
+                     .faults = schedule_->faults()->reports()};
   }
   [[nodiscard]] double wall_s() const { return static_cast<double>(last_ns_ - first_ns_) / 1e9; }
   [[nodiscard]] std::int64_t started_s() const { return first_ns_ / 1'000'000'000; }
@@ -150,7 +151,8 @@ class Recording {
   Result<Ending> replay() {
     std::int64_t t_us = 0;
     while (schedule_->due_us() != nodes::never_us) {
-      if (auto heard = hear(); !heard) return tl::unexpected(heard.error());  // before the nodes speak again
+      if (auto heard = hear(); !heard)
+        return tl::unexpected(heard.error());  // before the nodes transmit again
       t_us = schedule_->due_us();
       load_.time_told(t_us * 1000);
       for (const Frame& frame : schedule_->take()) {
@@ -171,7 +173,7 @@ class Recording {
                   fmt::format("the recording ends at t={:.3f} s", static_cast<double>(t_us) / 1e6)};
   }
 
-  // What came up to the bench's next frame. The handshake is no part of the flight.
+  // Processes the frames up to the bench's next one. The handshake is not part of the flight.
   Result<void> hear() {
     for (; frames_.next();) {
       const LogEntry& entry = *frames_.next();
@@ -210,7 +212,7 @@ class Recording {
     }
     last_ns_ = entry.t_ns;
     if (manner_.lockstep) target_->closes_step(frame);
-    // After its deadline, if the first frame left at its own.
+    // Relative to its deadline, assuming that the first frame was on time.
     const std::int64_t late_ns =
         std::max<std::int64_t>(entry.t_ns - first_ns_ - (t_us - first_us_) * 1000, 0);
     for (observe::Observer* observer : observers_)
@@ -224,7 +226,7 @@ class Recording {
   Frames frames_;
   std::string log_;
   Manner manner_;
-  NoHands hands_;
+  NoRigControl hands_;
   std::unique_ptr<Dialect> dialect_;
   std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<observe::Watcher> watcher_;
@@ -233,7 +235,7 @@ class Recording {
   std::vector<observe::Observer*> observers_;
   bool begun_ = false;
   std::int64_t first_ns_ = 0, last_ns_ = 0;  // stamps
-  std::int64_t first_us_ = 0;                // when the first frame was due
+  std::int64_t first_us_ = 0;                // deadline of the first frame
 };
 
 }  // namespace
@@ -259,7 +261,7 @@ Result<Run> judge_recording(const scenario::Scenario& scenario, const std::strin
              .ending = std::move(flown->ending),
              .seen = std::move(flown->seen),
              .truth = std::move(*truth),
-             .own_truth = std::move(flown->own_truth),
+             .per_run_truth = std::move(flown->per_run_truth),
              .faults = std::move(flown->faults),
              .options = std::move(options),
              .clock = manner->lockstep ? ClockKind::lockstep : ClockKind::real_time,

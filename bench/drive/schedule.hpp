@@ -1,4 +1,4 @@
-// Which node transmits next: the one order of transmissions, for real time and for lockstep.
+// The order of all transmissions, the same in real time and in lockstep.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 
 namespace canhil::drive {
 
-/// The nodes of a bus in order of precedence: of those due at the same time the earlier one transmits first.
-/// What faults of bus and target do at that time comes before.
+/// The nodes of a bus in order of precedence: of nodes due at the same time the earlier one transmits first.
+/// Faults of bus and target act before the nodes at that time.
 class Schedule final : public observe::Observer {
  public:
-  /// `keeper` closes every step, so it comes last among equals; when it is done all are. `faults`: of the
-  /// run; null: none.
+  /// `keeper` closes every step, so it comes last among those due at the same time; when it is finished, so
+  /// is the schedule. `faults`: of the run; null: none.
   Schedule(std::vector<std::unique_ptr<nodes::Node>> sensors, std::unique_ptr<nodes::Node> keeper,
            Rounding rounding = Rounding::as_on_the_bus, std::unique_ptr<faults::Faults> faults = nullptr)
       : nodes_(std::move(sensors)), out_(rounding), faults_(std::move(faults)) {
@@ -31,15 +31,15 @@ class Schedule final : public observe::Observer {
     find_next();
   }
 
-  /// When the next transmission is due; nodes::never_us after the last one.
+  /// The time of the next transmission; nodes::never_us after the last one.
   [[nodiscard]] std::int64_t due_us() const {
     return due_us_.back() == nodes::never_us ? nodes::never_us : std::min(due_us_[next_], injected_us_);
   }
 
-  /// Takes the next transmission; the frames are valid until the next call.
+  /// Makes the next transmission; its frames are valid until the next call.
   std::span<const Frame> take() {
     const std::int64_t t_us = due_us();
-    std::size_t injected = 0;  // those that have had their turn
+    std::size_t injected = 0;  // faults that have acted at this time
     if (injected_us_ == t_us) {
       frames_.clear();
       injected = static_cast<std::size_t>(first_injector() - injectors_.begin());
@@ -57,29 +57,29 @@ class Schedule final : public observe::Observer {
     return frames_;
   }
 
-  /// Until when the target's silence is the doing of a fault.
+  /// Until when a fault explains silence of the target.
   [[nodiscard]] std::int64_t silent_until_us() const {
     std::int64_t until_us = std::numeric_limits<std::int64_t>::min();
     for (const auto& injector : injectors_) until_us = std::max(until_us, injector->silent_until_us());
     return until_us;
   }
 
-  /// Whether any node does.
+  /// Whether any node listens to others.
   [[nodiscard]] bool listens() const { return !listeners_.empty(); }
-  /// The nodes that listen hear every frame of somebody else.
+  /// Passes frames of others to the nodes that listen.
   void received(const Received& received) override {
     if (received.own || received.frame.error) return;
     for (nodes::Node* node : listeners_) node->hear(received.frame);
   }
 
-  /// The run is over, however it ended: faults let go what they hold.
+  /// The run is over, however it ended: faults release what they hold.
   void end() {
     for (const auto& injector : injectors_) injector->end();
   }
-  /// Null: none.
+  /// Null: no faults.
   [[nodiscard]] const faults::Faults* faults() const { return faults_.get(); }
 
-  /// Counters of the bench's own messages live in the same outbox.
+  /// The outbox, which keeps the counters of the bench's own messages.
   nodes::Transmission& outbox() { return out_; }
 
  private:
@@ -93,14 +93,14 @@ class Schedule final : public observe::Observer {
   }
 
   std::vector<std::unique_ptr<nodes::Node>> nodes_;
-  std::vector<std::int64_t> due_us_;  // of each node
+  std::vector<std::int64_t> due_us_;  // for each node
   std::vector<nodes::Node*> listeners_;
   std::size_t next_ = 0;
   nodes::Transmission out_;
   std::vector<Frame> frames_;
   std::unique_ptr<faults::Faults> faults_;
   std::span<const std::unique_ptr<faults::Injector>> injectors_;
-  std::int64_t injected_us_ = nodes::never_us;  // when the first of them is due
+  std::int64_t injected_us_ = nodes::never_us;  // time of the first of them
 };
 
 }  // namespace canhil::drive

@@ -8,9 +8,9 @@
 #include "bench/checks/other_senders.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/drive/dialect.hpp"
-#include "bench/drive/hands.hpp"
 #include "bench/drive/judged.hpp"
 #include "bench/drive/lockstep.hpp"
+#include "bench/drive/rig_control.hpp"
 #include "bench/drive/target_process.hpp"
 #include "bench/estimators/of_scenario.hpp"
 #include "bench/estimators/registry.hpp"
@@ -33,7 +33,8 @@ Capabilities known_of(const Port& port, const WireFacts& controller) {
 }
 
 observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base) {
-  if (!time_base) return clock == ClockKind::lockstep ? observe::LoadBy::told : observe::LoadBy::stamps;
+  if (!time_base)
+    return clock == ClockKind::lockstep ? observe::LoadBy::virtual_time : observe::LoadBy::stamps;
   if (clock == ClockKind::lockstep)
     return bus.in_process ? observe::LoadBy::time_base_alone : observe::LoadBy::time_base;
   return bus.wire.rates.nominal > 0 ? observe::LoadBy::stamps : observe::LoadBy::time_base;
@@ -42,8 +43,8 @@ observe::LoadBy load_by(const Capabilities& bus, ClockKind clock, bool time_base
 // One run, stage by stage: open, configure, drive, collect.
 class Session {
  public:
-  // Enters real time, opens bus and log, starts the target: what the options ask for. All but the flight must
-  // outlive the session.
+  // Enters real time, opens bus and log, and starts the target, according to the options. Everything but the
+  // flight must outlive the session.
   static Result<std::unique_ptr<Session>> open(const scenario::Scenario& scenario,
                                                const world::FlightRecord& truth, Flight flight,
                                                const Options& options) {
@@ -77,7 +78,7 @@ class Session {
         bus_watch_(*port_),
         load_(options.format, load_by(bus_, clock_, scenario.foreign == nullptr)) {}
 
-  // Finds the words of the target. After this the session is whole.
+  // Creates the dialect. Then the session is complete.
   Result<void> speak() {
     auto dialect = make_dialect({.scenario = scenario_,
                                  .truth = truth_,
@@ -101,14 +102,14 @@ class Session {
     return {};
   }
 
-  // Makes the target ready and starts its estimators.
+  // Configures the target and starts its estimators.
   Result<void> configure(const std::atomic<bool>& stop) {
     auto ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(stop); });
     if (!ready) return failure(explained(ready.error().message) + log_of_the_handshake());
     return ready;
   }
 
-  // Flies to the end, or as far as it goes.
+  // Flies to the end, or as far as possible.
   void drive(const std::atomic<bool>& stop, const Progress& progress) {
     const Attached monitored(link_, *watcher_);
     std::optional<Attached> load_watched, host_watched;
@@ -124,7 +125,7 @@ class Session {
     std::optional<Attached> listening;
     if (schedule_->listens()) listening.emplace(link_, *schedule_);
     if (options_.realtime && target_)
-      static_cast<void>(realtime::own_memory_again());  // permitted: it entered
+      static_cast<void>(realtime::own_memory_again());  // it was permitted at the start
     const auto target = dialect_->target_watch(bus_.in_process);
     ending_ = clock_ == ClockKind::lockstep
                   ? run_lockstep(link_, *schedule_, *target, step_limit_ns, stop, progress)
@@ -144,23 +145,23 @@ class Session {
     if (ending_.kind != Ending::Kind::completed) ending_.detail = explained(ending_.detail);
     return Collected{.ending = std::move(ending_),
                      .seen = std::move(seen),
-                     .own_truth = std::move(flight_.own_truth),
-                     .faults = schedule_->faults()->told(),
+                     .per_run_truth = std::move(flight_.per_run_truth),
+                     .faults = schedule_->faults()->reports(),
                      .log_error = logged ? std::nullopt : std::optional(logged.error())};
   }
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
   [[nodiscard]] const auto& target_files() const { return target_files_; }
-  // What went wrong, and who flooded the bus, or was turned away from it: that may be why.
+  // The error, plus what flooded the bus or was turned away from it, which may be the cause.
   [[nodiscard]] std::string explained(const std::string& what) const {
-    if (link_.flood()) return fmt::format("{}; {}", what, words(*link_.flood()));
+    if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
     return notes_->empty() ? what : fmt::format("{}; {}", what, notes_->front());
   }
   // Why no timing can be judged; empty: it can.
   [[nodiscard]] std::string timing_unfit(const checks::Observations& seen) const {
     if (clock_ == ClockKind::lockstep) return "virtual time";
-    return link_.flood() ? words(*link_.flood()) : checks::unfit_for_timing(seen);
+    return link_.flood() ? to_text(*link_.flood()) : checks::unfit_for_timing(seen);
   }
 
  private:
@@ -173,7 +174,7 @@ class Session {
         });
   }
 
-  // Why there is no point in waiting for the target.
+  // Why waiting for the target is pointless.
   std::optional<std::string> gone(bool stop) {
     if (stop) return "interrupted";
     const auto why = target_ ? target_->ended() : std::nullopt;
@@ -183,7 +184,7 @@ class Session {
   [[nodiscard]] Departure departure() {
     Departure departure{.scenario = scenario_,
                         .truth = truth_,
-                        .own_truth = flight_.own_truth,
+                        .per_run_truth = flight_.per_run_truth,
                         .real_time = clock_ == ClockKind::real_time,
                         .format = options_.format,
                         .wire = bus_.wire,
@@ -193,7 +194,7 @@ class Session {
     return departure;
   }
 
-  // As faults see it.
+  // The properties of the run that faults depend on.
   [[nodiscard]] faults::Place place() const {
     const InterfaceFacts interface =
         scenario_.faults.empty() ? InterfaceFacts{} : interface_facts(options_.bus.text);
@@ -208,12 +209,12 @@ class Session {
             .wire = bus_.wire};
   }
 
-  // A fault's doing. What goes wrong with it ends the run, as the target stays silent.
+  // On behalf of a fault. If it fails, the target stays silent, which ends the run.
   void restart_target(std::int64_t t_us) {
     target_->kill_it();
     target_.reset();
     auto ready = start_target(target_cpus_);
-    flight_.initial = initial_states(scenario_, truth_, flight_.own_truth, options_.run_index, t_us);
+    flight_.initial = initial_states(scenario_, truth_, flight_.per_run_truth, options_.run_index, t_us);
     if (ready) ready = dialect_->configure(link_, schedule_->outbox(), [&] { return gone(false); });
     if (!ready) restart_error_ = "; restarted: " + ready.error().message;
     watcher_->target_restarted();
@@ -224,14 +225,14 @@ class Session {
     target_cpus_ = cpus;
     target_files_ = look_at_target(*options_.target);
     std::vector<std::string> arguments = options_.target_arguments;
-    // Every target is told, ours or another: it is to speak the same contract.
+    // Every target gets this option, so that it uses the same DBC.
     if (options_.format == BusFormat::fd)
       arguments.insert(arguments.end(), {"--dbc", std::string(name_of(options_.format))});
     return TargetProcess::start(*options_.target, options_.bus.text, arguments, cpus)
         .map([&](TargetProcess started) { target_.emplace(std::move(started)); });
   }
 
-  // What passed on the bus before a run that did not begin.
+  // The log of a run that did not begin.
   std::string log_of_the_handshake() {
     if (!log_) return {};
     const auto name = log_->close_early();
@@ -249,13 +250,13 @@ class Session {
     return load_.full_wire(ending_.t_us * 1000 + dialect_->silence_limit_ns(), bus_.wire.rates);
   }
 
-  // Who else is on the bus comes first of what is noted.
+  // Other senders on the bus come first among the notes.
   void add_watched(checks::Observations& seen) {
     seen.bus = bus_watch_.record();
     seen.bus.intruded = intruders_->frames();
     if (const std::string others = checks::other_senders(seen); !others.empty())
       notes_->insert(notes_->begin(), others);
-    // What the host did has no part in the times of a simulated wire.
+    // The host does not affect the times of a simulated wire.
     if (clock_ != ClockKind::simulated_wire) seen.host = host_->record();
     seen.bit_rates = bus_.wire.rates;
     seen.length_by_second = load_.lengths();
@@ -264,7 +265,7 @@ class Session {
     seen.bus.foreign = port_->counters().foreign;
     seen.bus.notes = *notes_;
     for (std::string& note : dialect_->notes()) seen.bus.notes.push_back(std::move(note));
-    if (link_.flood()) seen.bus.notes.push_back(words(*link_.flood()));
+    if (link_.flood()) seen.bus.notes.push_back(to_text(*link_.flood()));
     seen.receive_overflows = static_cast<std::uint32_t>(port_->counters().overflowed);
   }
 
@@ -276,7 +277,7 @@ class Session {
   Capabilities bus_;
   ClockKind clock_;
   const world::FlightRecord& truth_;
-  RunHands hands_;
+  RunRigControl hands_;
   Link link_;
   std::unique_ptr<Dialect> dialect_;
   std::unique_ptr<Schedule> schedule_;
@@ -293,7 +294,7 @@ class Session {
   Ending ending_;
 };
 
-// Without what only a verdict asks for.
+// Without the measurements that only a verdict needs.
 Result<Collected> fly_for_campaign(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                    std::uint64_t run_index, Options options) {
   static const std::atomic<bool> never = false;
@@ -322,11 +323,11 @@ BusFormat format_of(const scenario::Scenario& scenario) {
 
 ClockKind clock_of(BusTime time, bool lockstep) {
   if (time == BusTime::waits) return ClockKind::simulated_wire;
-  return lockstep || time == BusTime::told ? ClockKind::lockstep : ClockKind::real_time;
+  return lockstep || time == BusTime::set ? ClockKind::lockstep : ClockKind::real_time;
 }
 
 Options in_lockstep_against(std::string command) {
-  static std::atomic<std::uint64_t> buses = 0;  // of this process: flights in other threads have others
+  static std::atomic<std::uint64_t> buses = 0;  // in this process: flights in other threads use other buses
   Options options;
   options.bus =
       BusName(named_local(std::string(local_prefix), fmt::format("canhil-{}-{}", getpid(), buses++)));
@@ -363,7 +364,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
              .ending = std::move(flown.ending),
              .seen = std::move(flown.seen),
              .truth = std::move(*truth),
-             .own_truth = std::move(flown.own_truth),
+             .per_run_truth = std::move(flown.per_run_truth),
              .faults = std::move(flown.faults),
              .options = options,
              .clock = clock,
@@ -386,7 +387,7 @@ Result<Collected> run_in_process(const scenario::Scenario& scenario, const world
 Result<Collected> run_against(const std::string& target, const scenario::Scenario& scenario,
                               const world::FlightRecord& truth, std::uint64_t run_index) {
   Options options = in_lockstep_against(target);
-  // Of one that does not say what it answers virtual time would not know when to go on.
+  // If answers do not name their cause, virtual time cannot know when to advance.
   options.lockstep = scenario.foreign == nullptr || scenario.foreign->answers_by_name;
   options.format = format_of(scenario);
   return fly_for_campaign(scenario, truth, run_index, std::move(options));

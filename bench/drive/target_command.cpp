@@ -101,7 +101,7 @@ Result<void> check_target(const std::string& command) {
   const std::string path = program_path(words->front());
   if (look_at_program(path) && access(path.c_str(), X_OK) == 0) return {};
   return failure(
-      fmt::format("target '{}': is no program, expected the path of an executable file", words->front()));
+      fmt::format("target '{}': is not a program, expected the path of an executable file", words->front()));
 }
 
 }  // namespace canhil::drive

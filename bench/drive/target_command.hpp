@@ -1,4 +1,4 @@
-// What `--target` says: a program and its arguments.
+// Parses `--target`: a program and its arguments.
 #pragma once
 
 #include <string>
@@ -10,26 +10,26 @@
 
 namespace canhil::drive {
 
-/// The words of a target's command: "python3 my_target.py --gain 3". Blanks divide them, as in a shell; '...'
-/// and "..." hold a word together, and \ takes the next character as it is. Nothing else has a meaning: no
-/// variables, no patterns. Error: one line; no word, or a quote without its end.
+/// The words of a target's command: "python3 my_target.py --gain 3". Blanks separate words, as in a shell;
+/// '...' and "..." keep a word together, and \ takes the next character literally. There are no variables and
+/// no patterns. Error: one line; no word, or a quote without its end.
 Result<std::vector<std::string>> target_words(const std::string& command);
 
-/// A path as one word of such a command.
+/// Quotes a path as one word of such a command.
 std::string quoted_word(const std::string& path);
 
-/// The file that a command's first word starts: the word itself if it has a '/' or is a file here, else as
-/// PATH finds it; the word where that has none.
+/// The file that a command's first word starts: the word itself if it contains a '/' or is a file in the
+/// current folder, otherwise the program found through PATH; the word itself if there is none.
 std::string program_path(const std::string& word);
 
-/// The regular files that a command names, its program first, each once: the file that is started, and the
-/// arguments that are files.
+/// The regular files in a command, the program first, without duplicates: the program and all arguments that
+/// are files.
 std::vector<std::string> files_of_target(const std::string& command);
 
-/// What lies on the disk of these; program first. Empty where the program cannot be read.
+/// The state of these files on disk, the program first. Empty if the program cannot be read.
 std::vector<std::pair<std::string, ProgramFile>> look_at_target(const std::string& command);
 
-/// Error: a command that cannot be split, or whose first word is no executable file, in one line.
+/// Error, one line: the command cannot be split, or its first word is not an executable file.
 Result<void> check_target(const std::string& command);
 
 }  // namespace canhil::drive

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 #include "bench/observe/heartbeat_errors.hpp"
 #include "dbc/wire/transmit.hpp"
 
@@ -18,7 +18,7 @@ std::string parameter_name(Parameter parameter) {
   return known.empty() ? fmt::format("parameter {}", static_cast<int>(parameter)) : std::string(known);
 }
 
-std::string words(const TargetHeartbeat& beat) {
+std::string to_text(const TargetHeartbeat& beat) {
   return fmt::format("state {}, estimator {}, algorithm {}, errors: {}", name_of(beat.state),
                      name_of(beat.estimator), name_of(beat.algorithm), observe::errors_of(beat));
 }
@@ -26,12 +26,12 @@ std::string words(const TargetHeartbeat& beat) {
 }  // namespace
 
 void Mailbox::received(const Received& received) {
-  if (const auto beat = observe::heard<TargetHeartbeat>(received)) {
+  if (const auto beat = observe::decode_from_target<TargetHeartbeat>(received)) {
     heartbeat = beat;
     beats_[static_cast<std::size_t>(beat->estimator)] = *beat;
   }
-  if (const auto ack = observe::heard<ParamAck>(received)) acknowledgement = ack;
-  if (observe::heard<Sync>(received)) other_bench = true;
+  if (const auto ack = observe::decode_from_target<ParamAck>(received)) acknowledgement = ack;
+  if (observe::decode_from_target<Sync>(received)) other_bench = true;
 }
 
 void Mailbox::foreign(const Received& received) {
@@ -66,17 +66,17 @@ void Dialogue::listen(std::int64_t duration_ns) {
   while (link_.now_ns() < deadline_ns && link_.drain() == LinkState::up) link_.wait_until(deadline_ns);
 }
 
-// A target that beats and does not do as it is told has a reason; of one that nobody understands the frames
-// say more than the silence.
+// A target that sends heartbeats but does not obey reports a reason; if none of its frames are valid, the
+// frames say more than the silence.
 std::string Dialogue::complaint(const Step& step) const {
   const double limit_s = static_cast<double>(step.limit_ns) * 1e-9;
   const bool beats = mailbox_.heartbeat && sightings_.of(message_index<TargetHeartbeat>()).right > 0;
   if (!beats)
     return fmt::format("target on '{}': no answer within {:g} s while {}; seen: {}", link_.port().name(),
-                       limit_s, step.doing, sightings_.words());
+                       limit_s, step.doing, sightings_.to_text());
   std::string text =
       fmt::format("target on '{}': answers, but never says {} within {:g} s while {}: {}",
-                  link_.port().name(), step.awaited, limit_s, step.doing, words(*mailbox_.heartbeat));
+                  link_.port().name(), step.awaited, limit_s, step.doing, to_text(*mailbox_.heartbeat));
   if (const auto& ack = mailbox_.acknowledgement)
     text += fmt::format("; ParamAck for another parameter: {}", parameter_name(ack->parameter));
   const std::string seen = sightings_.faults();

@@ -1,4 +1,4 @@
-// What the bench asks of a target before a run, and what the target answers.
+// The requests of the bench to a target before a run, and the target's answers.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace canhil::drive {
 
-/// The latest answers of the target to commands.
+/// Keeps the target's latest answers to commands.
 class Mailbox final : public observe::Observer {
  public:
   void received(const Received& received) override;
@@ -35,23 +35,23 @@ class Mailbox final : public observe::Observer {
     beats_ = {};
   }
   std::optional<messages::TargetHeartbeat> heartbeat;  ///< the last one
-  std::optional<messages::ParamAck> acknowledgement;   ///< of this step
-  bool foreign_heartbeat = false;                      ///< in the format that this bus does not have
-  bool other_bench = false;                            ///< somebody else keeps the time base
+  std::optional<messages::ParamAck> acknowledgement;   ///< for this step
+  bool foreign_heartbeat = false;                      ///< in another format than this bus's
+  bool other_bench = false;                            ///< another bench keeps the time base
 
  private:
   std::array<std::optional<messages::TargetHeartbeat>, 8> beats_;  // by the three bits of the estimator
 };
 
-/// Sends requests and waits for what they should bring about.
+/// Sends requests and waits for their effects.
 class Dialogue {
  public:
-  /// Says why there is no point in waiting any more, if so.
+  /// Returns why waiting is pointless, if it is.
   using Gone = std::function<std::optional<std::string>()>;
   using Request = std::function<void(nodes::Transmission&)>;
   using Condition = std::function<bool(const Mailbox&)>;
 
-  /// One step: "being reset", and what the target is to say, "idle".
+  /// One step: "being reset", and the expected state of the target, "idle".
   struct Step {
     std::string doing;
     std::string awaited;
@@ -66,11 +66,11 @@ class Dialogue {
         second_attached_(link, second_),
         sightings_attached_(link, sightings_) {}
 
-  /// Waits until `condition` holds, sending `request` first and whenever it went unanswered for a while.
-  /// Error: one line that says what was seen instead.
+  /// Waits until `condition` holds; sends `request` first and again whenever it stays unanswered. Error: one
+  /// line with what was received instead.
   Result<void> until(const Step& step, const Request& request, const Condition& condition);
 
-  /// Hears whatever comes for a while.
+  /// Receives for a while.
   void listen(std::int64_t duration_ns);
 
   Mailbox& mailbox() { return mailbox_; }
@@ -84,13 +84,13 @@ class Dialogue {
   const Gone& gone_;
   Mailbox mailbox_;
   observe::SecondTarget second_;
-  observe::Sightings sightings_;  // of this step
+  observe::Sightings sightings_;  // during this step
   Attached attached_, second_attached_, sightings_attached_;
 };
 
-/// How long a request waits for its answer before it is sent again; longer than a heartbeat period.
+/// The time after which an unanswered request is repeated; longer than a heartbeat period.
 inline constexpr std::int64_t repeat_ns = 300'000'000;
-/// How long the target has for each step but the first.
+/// The time limit for each step except the first.
 inline constexpr std::int64_t answer_limit_ns = 2'000'000'000;
 
 }  // namespace canhil::drive

@@ -27,13 +27,14 @@ Result<TargetProcess> TargetProcess::start(const std::string& command, const std
                                strerror(reason)));
   };
   std::error_code ignored;
-  if (std::filesystem::is_directory(program, ignored)) return no_program(EISDIR);  // or execv says EACCES
+  if (std::filesystem::is_directory(program, ignored))
+    return no_program(EISDIR);  // execv would report EACCES
   words->insert(words->end(), {"--bus", bus});
   words->insert(words->end(), more.begin(), more.end());
   std::vector<char*> arguments;
   for (std::string& word : *words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  // Why the program did not start; it closes when it does.
+  // A pipe for the reason why the program did not start; it closes when the program starts.
   int refusal[2];
   if (pipe2(refusal, O_CLOEXEC) != 0)
     return failure(fmt::format("target '{}': cannot start a process: {}", name, strerror(errno)));
@@ -47,10 +48,11 @@ Result<TargetProcess> TargetProcess::start(const std::string& command, const std
   }
   if (pid == 0) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    std::signal(SIGPIPE, SIG_DFL);  // what the bench ignores is its own affair
+    std::signal(SIGPIPE, SIG_DFL);  // the target must not inherit the bench's signal settings
     if (getppid() != parent) _exit(127);
     if (!cpus.empty()) realtime::pin(cpus);
-    dup2(STDERR_FILENO, STDOUT_FILENO);  // standard output is the bench's: a report may go there
+    dup2(STDERR_FILENO,
+         STDOUT_FILENO);  // standard output belongs to the bench, which may write a report to it
     execv(program.c_str(), arguments.data());
     const int reason = errno;
     static_cast<void>(!write(refusal[1], &reason, sizeof reason));

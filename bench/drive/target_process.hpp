@@ -10,11 +10,11 @@
 
 namespace canhil::drive {
 
-/// A started hil-target; it is terminated with this object, and by the kernel should the bench die.
+/// A started target; it is terminated with this object, and by the kernel if the bench dies.
 class TargetProcess {
  public:
-  /// Starts `COMMAND --bus BUS` and what else it is to be told, on the given CPUs (empty: on those of the
-  /// bench). The command is split by target_words(). Error: the program cannot be started.
+  /// Starts `COMMAND --bus BUS` with further arguments on the given CPUs (empty: those of the bench). The
+  /// command is split by target_words(). Error: the program cannot be started.
   static Result<TargetProcess> start(const std::string& command, const std::string& bus,
                                      const std::vector<std::string>& more = {},
                                      const std::vector<int>& cpus = {});
@@ -24,13 +24,13 @@ class TargetProcess {
   TargetProcess& operator=(const TargetProcess&) = delete;
   ~TargetProcess();
 
-  /// How the process ended, if it has: one phrase for a person.
+  /// How the process ended, if it has: one phrase for people.
   std::optional<std::string> ended();
-  /// True while a signal holds it, as SIGSTOP does.
+  /// True while it is stopped by a signal such as SIGSTOP.
   [[nodiscard]] bool stopped() const;
-  /// If it still runs.
+  /// If it is still running.
   void send_signal(int signal);
-  /// At once, without asking it.
+  /// Kills it immediately.
   void kill_it();
 
  private:

@@ -1,5 +1,5 @@
-// What estimators of attitude and velocity have in common: what follows from their samples, their tracks, and
-// what people are told.
+// Shared by estimators of attitude and velocity: quantities derived from their samples, their tracks, and
+// results for people.
 #pragma once
 
 #include <algorithm>
@@ -20,21 +20,21 @@
 
 namespace canhil::estimators {
 
-/// The error of the heading over the sigma that the target tells.
-inline double heading_over_its_sigma(const quantities::Samples& samples, std::size_t place) {
-  return samples.value(place, quantities::attitude_heading) / samples.value(place, quantities::heading_sigma);
+/// The heading error divided by the sigma that the target reports.
+inline double heading_over_its_sigma(const quantities::Samples& samples, std::size_t index) {
+  return samples.value(index, quantities::attitude_heading) / samples.value(index, quantities::heading_sigma);
 }
 inline constexpr std::array alignment_derived{
     quantities::Derived{.quantity = &quantities::heading_over_sigma, .of = heading_over_its_sigma}};
 
-/// What give_alignment() gives of any of them, beside its innovations.
+/// The tracks that give_alignment() creates for each of them, innovations excepted.
 inline constexpr std::array<const quantities::Quantity*, 10> alignment_told{
     &quantities::attitude_heading,  &quantities::misalignment_north, &quantities::misalignment_east,
     &quantities::misalignment_down, &quantities::attitude_roll,      &quantities::attitude_pitch,
     &quantities::velocity_north,    &quantities::velocity_east,      &quantities::velocity_down,
     &quantities::velocity_norm};
 
-/// These and what one of them tells alone.
+/// These quantities plus those of one estimator.
 template <std::size_t count>
 constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, count>& own) {
   std::array<const quantities::Quantity*, alignment_told.size() + count> all{};
@@ -42,9 +42,9 @@ constexpr auto and_alignment_told(const std::array<const quantities::Quantity*, 
   return all;
 }
 
-/// What one of them answered.
+/// The answers of one of them.
 struct Alignment {
-  const quantities::Unit& angle;                            ///< in which people read its angles
+  const quantities::Unit& angle;                            ///< for people
   std::array<const quantities::Quantity*, 3> innovation{};  ///< north, east, down
   const Spool<NavigationAnswer>& navigation;
   const Spool<NavigationError>& errors;  ///< of these
@@ -52,36 +52,36 @@ struct Alignment {
   Answering filters;
 };
 
-/// Gives attitude, velocity and innovations. `filter`: the answers of the filter, with cause_us,
-/// attitude_sigma, velocity_sigma and innovation.
+/// Creates the tracks of attitude, velocity and innovations. `filter`: the answers of the filter, with
+/// cause_us, attitude_sigma, velocity_sigma and innovation.
 template <class Answers>
 void give_alignment(const Alignment& of, const Answers& filter, const quantities::TrackSink& give) {
   using namespace quantities;
-  // Errors with the sigma of the last filter answer before each, as long as that one is not stale.
+  // Each error gets the sigma of the last filter answer before it, unless that answer is stale.
   const auto fill = [&](Track track, auto error, auto sigma) {
     auto next = filter.begin();
     AnswerTo answer(of.navigation);
     for (const NavigationError& e : of.errors) {
       while (next != filter.end() && next->cause_us <= e.t_us) ++next;
-      Told told = error(e, answer(e.t_us));
-      told.t_us = e.t_us;
+      TrackPoint point = error(e, answer(e.t_us));
+      point.t_us = e.t_us;
       if (next != filter.begin()) {
         const auto& last = *std::prev(next);
         if (static_cast<double>(e.t_us - last.cause_us) <= of.filters.longest_wait_us)
-          told.sigma = sigma(last);
+          point.sigma = sigma(last);
       }
-      track.told.push_back(told);
+      track.points.push_back(point);
     }
     give(std::move(track));
   };
-  const auto untold = [](const auto&) { return std::optional<double>(); };
+  const auto no_sigma = [](const auto&) { return std::optional<double>(); };
   const auto angle = [&](const Quantity& quantity, std::string title) {
     Track track = of.navigates.track(quantity, std::move(title));
     track.unit = of.angle;
     return track;
   };
 
-  // Heading and its truth, without a jump where they pass south.
+  // Heading and its truth, unwrapped where they pass south.
   Track heading = judged(angle(attitude_heading, "heading error"));
   heading.estimate_title = "heading";
   heading.estimate_unit = degrees;
@@ -91,25 +91,27 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
       [&](const NavigationError& e, const NavigationAnswer& answer) {
         const double now = answer.angles.heading - e.angles.heading;
         truth += world::wrapped(now - truth);
-        return Told{.value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
+        return TrackPoint{.value = e.angles.heading, .estimate = truth + e.angles.heading, .truth = truth};
       },
       [](const auto& a) { return a.attitude_sigma.z(); });
-  each_axis({&misalignment_north, &misalignment_east, &misalignment_down},
-            [&](const Quantity& quantity, const std::string& name, int axis) {
-              fill(
-                  angle(quantity, "attitude error about " + name),
-                  [=](const NavigationError& e, const auto&) { return Told{.value = e.misalignment(axis)}; },
-                  [=](const auto& a) { return a.attitude_sigma(axis); });
-            });
-  // Sigmas of roll and pitch are not told: those of the tilts are.
+  each_axis(
+      {&misalignment_north, &misalignment_east, &misalignment_down},
+      [&](const Quantity& quantity, const std::string& name, int axis) {
+        fill(
+            angle(quantity, "attitude error about " + name),
+            [=](const NavigationError& e, const auto&) { return TrackPoint{.value = e.misalignment(axis)}; },
+            [=](const auto& a) { return a.attitude_sigma(axis); });
+      });
+  // The target reports sigmas of the tilts, not of roll and pitch.
   const auto give_angle = [&](const Quantity& quantity, std::string title, double world::Euler::*member) {
     fill(
         judged(angle(quantity, std::move(title))),
         [&](const NavigationError& e, const NavigationAnswer& answer) {
-          const double told = answer.angles.*member;
-          return Told{.value = e.angles.*member, .estimate = told, .truth = told - e.angles.*member};
+          const double estimate = answer.angles.*member;
+          return TrackPoint{
+              .value = e.angles.*member, .estimate = estimate, .truth = estimate - e.angles.*member};
         },
-        untold);
+        no_sigma);
   };
   give_angle(attitude_roll, "roll error", &world::Euler::roll);
   give_angle(attitude_pitch, "pitch error", &world::Euler::pitch);
@@ -118,23 +120,24 @@ void give_alignment(const Alignment& of, const Answers& filter, const quantities
               fill(
                   of.navigates.track(quantity, "velocity error " + name),
                   [=](const NavigationError& e, const NavigationAnswer& answer) {
-                    const double told = answer.v_eb_n(axis);
-                    return Told{.value = e.v_eb_n(axis), .estimate = told, .truth = told - e.v_eb_n(axis)};
+                    const double estimate = answer.v_eb_n(axis);
+                    return TrackPoint{
+                        .value = e.v_eb_n(axis), .estimate = estimate, .truth = estimate - e.v_eb_n(axis)};
                   },
                   [=](const auto& a) { return a.velocity_sigma(axis); });
             });
   fill(
       judged(of.navigates.track(velocity_norm, "velocity error norm")),
-      [](const NavigationError& e, const auto&) { return Told{.value = e.v_eb_n.norm()}; }, untold);
+      [](const NavigationError& e, const auto&) { return TrackPoint{.value = e.v_eb_n.norm()}; }, no_sigma);
   each_axis(of.innovation, [&](const Quantity& quantity, const std::string& name, int axis) {
     Track track = of.filters.track(quantity, "innovation " + name);
     track.kind = Track::Kind::innovation;
-    for (const auto& a : filter) track.told.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
+    for (const auto& a : filter) track.points.push_back({.t_us = a.cause_us, .value = a.innovation(axis)});
     give(std::move(track));
   });
 }
 
-/// When the heading error entered each band [angle] for good, and the errors of the last answer.
+/// The time from which the heading error stays in each band [angle], and the errors of the last answer.
 std::vector<ResultLine> alignment_results(const Spool<NavigationError>& errors, std::span<const double> bands,
                                           const quantities::Unit& angle);
 

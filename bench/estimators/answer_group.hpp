@@ -1,4 +1,4 @@
-// Groups of messages that tell answers, and how they are put together.
+// Assembles groups of messages that carry answers.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class AnswerGroup {
     return ((message_index<Messages>() == message) || ...);
   }
 
-  /// True: the group is whole now.
+  /// True: the group is now complete.
   bool put(const Frame& frame) {
     bool complete = false;
     const auto try_one = [&]<class Message>(std::type_identity<Message>) {
@@ -32,7 +32,7 @@ class AnswerGroup {
     (try_one(std::type_identity<Messages>{}), ...);
     return complete;
   }
-  /// What it answers, once it is whole.
+  /// The cause of a complete group.
   [[nodiscard]] Whole whole(std::int64_t now_us) const {
     using Last = std::tuple_element_t<sizeof...(Messages) - 1, std::tuple<Messages...>>;
     return {.messages = messages,
@@ -46,7 +46,7 @@ class AnswerGroup {
   }
 
  private:
-  // One of the messages carries it, if any does.
+  // Carried by one of the messages, if at all.
   [[nodiscard]] std::optional<std::uint8_t> cause_counter() const {
     std::optional<std::uint8_t> counter;
     const auto look_at = [&](const auto& message) {
@@ -61,8 +61,8 @@ class AnswerGroup {
   SampleGroup<Messages...> group_;
 };
 
-/// Of groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`. Of one
-/// run: `seen` is the same at every call.
+/// Groups whose answers are kept together: each is an AnswerGroup with `add(cause_us, answers)`. For one run:
+/// `seen` must be the same in every call.
 template <class Answers, class... Groups>
 class ReceptionOf : public Reception {
  public:

@@ -6,8 +6,8 @@
 namespace canhil::estimators {
 namespace {
 
-/// So many periods without a fix are no silence where each is lost with a probability: more in a row are not
-/// to be expected in a campaign.
+/// The number of periods without a fix that do not count as silence if each fix is lost with a given
+/// probability: in a campaign, more losses in a row are not expected.
 double periods_of_fixes(double loss_probability) {
   constexpr double improbable = 1e-6;
   constexpr double most_periods = 1e6;

@@ -1,4 +1,4 @@
-// How an estimator's folder makes its marks of its answers.
+// Building blocks for an estimator's marks.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace canhil::estimators {
 
-/// Times of the causes of those answers for which something holds.
+/// Cause times of the answers for which a condition holds.
 template <class Answers, class Holds>
 Spool<std::int64_t> times_of(const Answers& answers, Holds holds) {
   Spool<std::int64_t> times;
@@ -20,7 +20,7 @@ Spool<std::int64_t> times_of(const Answers& answers, Holds holds) {
 }
 inline constexpr auto every_answer = [](const auto&) { return true; };
 
-/// A mark for each value of an enumeration that the answers have as a member.
+/// One mark for each value of an enumeration that is a member of the answers.
 template <class Mark, class Enumeration, class Answers, class Values>
 void add_marks(std::vector<Mark>& marks, const Answers& answers, Enumeration Answers::value_type::*member,
                const Values& values) {

@@ -1,4 +1,4 @@
-// Names of the contract's values.
+// Names of values in the DBC's value tables.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 
 namespace canhil::estimators {
 
-/// Those of these values of an enumeration, in their order.
+/// The names of these values, in order.
 template <class... Values>
 constexpr std::array<std::string_view, sizeof...(Values)> names_of(Values... values) {
   return {name_of(values)...};

@@ -1,4 +1,4 @@
-// Answers that tell attitude and velocity, and their errors: what the alignments have in common.
+// Answers with attitude and velocity, and their errors: shared by the alignment estimators.
 #pragma once
 
 #include <cmath>
@@ -21,7 +21,7 @@ struct NavigationAnswer {
   bool coasting = false;
 };
 
-/// The group of messages that tells it; the names of their signals are the same in each of the contract's.
+/// The message group that carries it; its signals have the same names for each such estimator.
 template <class Attitude, class VelocityNE, class VelocityD>
 struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   template <class Answers>
@@ -39,7 +39,7 @@ struct NavigationGroup : AnswerGroup<Attitude, VelocityNE, VelocityD> {
   }
 };
 
-/// The cause of the last one; -1: there is none.
+/// The cause of the last answer; -1: there is none.
 inline std::int64_t last_cause_us(const Spool<NavigationAnswer>& navigation) {
   return navigation.empty() ? -1 : navigation.back().cause_us;
 }
@@ -52,23 +52,24 @@ struct NavigationError {
   world::Vector3 misalignment = world::Vector3::Zero();  ///< phi, NED: C_estimated = exp(-[phi x]) C_true
 };
 
-/// Errors of all navigation answers whose cause lies within the truth.
+/// Errors of all navigation answers whose cause lies in the time of the truth.
 Spool<NavigationError> navigation_errors(const Spool<NavigationAnswer>& answers,
                                          const world::FlightRecord& truth);
 
-/// The first navigation answer that knew of a filter update: of a late fix not those between its time of
-/// validity and its arrival. `navigation_us` is the cause of the last one before the update. None: nullptr.
+/// The first navigation answer that includes a filter update. For a late fix this excludes the answers
+/// between its time of validity and its arrival: `navigation_us` is the cause of the last answer before the
+/// update. None: nullptr.
 const NavigationError* first_after(const Spool<NavigationError>& errors, std::int64_t cause_us,
                                    std::int64_t navigation_us);
 
-/// error' P^-1 error, with P from the sigmas and correlations (north-east, north-down, east-down) that the
-/// bus carries. Infinite: P is not positive definite, as rounding may leave it, and explains no error at all.
+/// error' P^-1 error, with P from the sigmas and correlations (north-east, north-down, east-down) on the bus.
+/// Infinite if rounding made P not positive definite: such a P explains no error.
 double nees(const world::Vector3& error, const world::Vector3& sigma, const world::Vector3& correlation);
 
 /// (error / sigma)^2 of the heading (1 degree of freedom) after an update with cause_us, navigation_us and
-/// attitude_sigma, with the error from first_after(); added to `series` where there is one.
+/// attitude_sigma, with the error from first_after(); added to `series` if there is such an error.
 template <class Update>
-void add_heading_nees(Spool<quantities::Told>& series, const Spool<NavigationError>& errors,
+void add_heading_nees(Spool<quantities::TrackPoint>& series, const Spool<NavigationError>& errors,
                       const Update& update) {
   const NavigationError* after = first_after(errors, update.cause_us, update.navigation_us);
   if (after != nullptr)

@@ -1,4 +1,4 @@
-// What follows for the answers of a run from the estimators that its scenario runs.
+// Properties of a run's answers that follow from the estimators of its scenario.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ struct Scenario;
 
 namespace canhil::estimators {
 
-/// The least interval [us] between answers that a scenario sets (output_interval_ms); none: it sets none.
+/// The minimum interval [us] between answers that a scenario sets (output_interval_ms); none: not set.
 std::optional<double> output_interval_us(const scenario::TargetSetup& setup);
 
-/// By group of answers that keep an interval of their own: that interval [s], of the scenario or else the
-/// cycle time in the DBC.
+/// For answer groups that keep their own interval: that interval [s], from the scenario or else the cycle
+/// time in the DBC.
 std::map<std::string_view, double> own_intervals_s(const scenario::Scenario& scenario);
 
-/// By sample group of the bench: how many of the estimators that the scenario runs answer it.
+/// For each sample group of the bench: how many of the scenario's estimators answer it.
 std::map<std::string_view, std::uint64_t> takers(const scenario::Scenario& scenario);
 
 }  // namespace canhil::estimators

@@ -1,4 +1,4 @@
-// A line an estimator.
+// One line for each estimator.
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-// A line an estimator: registry.cpp.
+// The registry of estimators: registry.cpp has one line for each.
 #pragma once
 
 #include <map>
@@ -12,21 +12,21 @@ struct MessageInfo;
 
 namespace canhil::estimators {
 
-/// All of them. Of several in one scenario a campaign keeps the samples of the last.
+/// All estimators. If a scenario runs several, a campaign keeps the samples of the last in this order.
 std::span<const Estimator* const> all();
-/// Those that a scenario's target may be: all of them, or the one that a mapping describes.
+/// The estimators that may run in a scenario: all, or the one that a mapping describes.
 std::span<const Estimator* const> in(const scenario::Scenario& scenario);
-/// None: null.
+/// Null if there is none.
 const Estimator* find(std::string_view name);
-/// Whose samples have these columns (quantities::names); none: null.
+/// The estimator whose samples have these columns (quantities::names); null if there is none.
 const Estimator* telling(std::string_view columns);
-/// Who of them sends a message: its group is one of those that the estimator's messages close; none: null.
+/// The estimator that sends a message, one of the groups that its messages close; null if there is none.
 const Estimator* sending(const MessageInfo& message);
-/// Whose samples a campaign keeps of a scenario.
+/// The estimator whose samples a campaign keeps for a scenario.
 const Estimator& of(const scenario::Scenario& scenario);
-/// What scenarios have to know of them, by name, for scenario::Contract.
+/// Facts for scenarios by estimator name, for scenario::DbcVocabulary.
 std::map<std::string, scenario::EstimatorFacts, std::less<>> facts();
-/// Every quantity that any of them tells, each once, in the order of the registry.
+/// Every quantity that any of them reports, each once, in the order of the registry.
 std::span<const quantities::Quantity* const> every_quantity();
 
 }  // namespace canhil::estimators

@@ -1,4 +1,4 @@
-// How an estimator's folder makes its tracks of its answers.
+// Building blocks for an estimator's tracks.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace canhil::estimators {
 
-/// The longest time from one of these messages to the next that is no silence [us].
+/// The longest time between two of these messages that does not count as silence [us].
 inline double longest_wait_us(const checks::Observations& seen, std::string_view message) {
   return checks::longest_wait_us(1e6 * checks::nominal_period_s(seen, message));
 }
 
-/// Finds the answers to causes that are asked for in their order. There is one to each.
+/// Finds answers by cause, for causes in ascending order. One answer per cause.
 template <class Answers>
 class AnswerTo {
  public:
@@ -33,7 +33,7 @@ class AnswerTo {
   typename Answers::const_iterator next_;
 };
 
-/// Calls visit(quantity, the axis's name, its place) for north, east and down.
+/// Calls visit(quantity, the axis's name, its index) for north, east and down.
 template <class Visit>
 void each_axis(const std::array<const quantities::Quantity*, 3>& ned, Visit visit) {
   visit(*ned[0], std::string("north"), 0);
@@ -41,19 +41,19 @@ void each_axis(const std::array<const quantities::Quantity*, 3>& ned, Visit visi
   visit(*ned[2], std::string("down"), 2);
 }
 
-/// The same track, of no interest without a bar.
+/// The same track, drawn only if a check has a bar for it.
 inline quantities::Track judged(quantities::Track track) {
   track.only_if_judged = true;
   return track;
 }
 
-/// What the tracks of the same answers have in common; see quantities::Track.
+/// Properties shared by the tracks of the same answers; see quantities::Track.
 struct Answering {
   double longest_wait_us = 0;
   std::int64_t answers_end_us = 0;
   std::function<std::string(std::int64_t from_us, std::int64_t to_us)> unanswered{};
 
-  /// One that tells nothing yet.
+  /// A track without points.
   [[nodiscard]] quantities::Track track(const quantities::Quantity& quantity, std::string title) const {
     return {.quantity = &quantity,
             .unit = quantity.unit,
@@ -63,10 +63,10 @@ struct Answering {
             .answers_end_us = answers_end_us};
   }
   [[nodiscard]] quantities::Track statistic(const quantities::Quantity& quantity, std::string title,
-                                            Spool<quantities::Told> values) const {
+                                            Spool<quantities::TrackPoint> values) const {
     quantities::Track of = track(quantity, std::move(title));
     of.kind = quantities::Track::Kind::statistic;
-    of.told = std::move(values);
+    of.points = std::move(values);
     return of;
   }
 };

@@ -1,4 +1,4 @@
-// Delta debugging: the least that still shows something.
+// Delta debugging: the smallest input that still shows a property.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,9 @@
 
 namespace canhil::fault_matrix {
 
-/// The items that are needed for something to show: without any one of them it does not. `items` show it.
-/// Zeller and Hildebrandt, Simplifying and Isolating Failure-Inducing Input, IEEE TSE 28(2), 2002: ddmin.
+/// A minimal subset of the items that shows the property: without any one of its items it does not. `items`
+/// show it. Zeller and Hildebrandt, Simplifying and Isolating Failure-Inducing Input, IEEE TSE 28(2), 2002:
+/// ddmin.
 template <class Item>
 std::vector<Item> least_of(std::vector<Item> items,
                            const std::function<bool(const std::vector<Item>&)>& shows) {
@@ -29,7 +30,7 @@ std::vector<Item> least_of(std::vector<Item> items,
         items = std::move(subset);
         parts = 2;
         smaller = true;
-      } else if (parts > 2 && shows(complement)) {  // of two parts it is the other one
+      } else if (parts > 2 && shows(complement)) {  // with two parts the complement is the other part
         items = std::move(complement);
         parts = std::max<std::size_t>(parts - 1, 2);
         smaller = true;
@@ -42,8 +43,8 @@ std::vector<Item> least_of(std::vector<Item> items,
   return items;
 }
 
-/// A stretch within [from, to] that shows, of which no end can be cut by a step: by halves, the end first, in
-/// whole steps. The whole stretch shows.
+/// A stretch within [from, to] that shows the property and cannot be shortened by a step at either end: by
+/// bisection, the end first, in whole steps. The whole stretch shows it.
 inline std::pair<std::int64_t, std::int64_t> least_stretch(
     std::int64_t from, std::int64_t to, std::int64_t step,
     const std::function<bool(std::int64_t from, std::int64_t to)>& shows) {

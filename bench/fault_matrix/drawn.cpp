@@ -15,7 +15,7 @@
 namespace canhil::fault_matrix {
 namespace {
 
-// Random numbers of one fault.
+// The random numbers of one fault.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : engine_(seed) {}
@@ -31,7 +31,7 @@ class Draw {
   const auto& one_of(const Range& range) {
     return range[below(range.size())];
   }
-  /// Each power of ten as likely as another, with either sign.
+  /// Log-uniform magnitude with random sign.
   double of_any_size(double low, double high) {
     const double size = std::pow(10, between(std::log10(low), std::log10(high)));
     return between(0, 1) < 0.5 ? -size : size;
@@ -42,20 +42,20 @@ class Draw {
 };
 
 enum class Befalls : std::uint8_t {
-  frames,  // those of a node
-  value,   // a number of one of its messages
-  pair,    // two quantities of it
+  frames,  // all messages of a node
+  value,   // one signal of its messages
+  pair,    // two of its quantities
   node,
   bus
 };
 enum class Times : std::uint8_t { each, seldom, stretch, begins };
 
-// A further key of a kind, and between what its value is drawn.
+// A further key of a kind, and the distribution of its value.
 enum class Size : std::uint8_t {
   none,
   within,    // anywhere in the signal's range
-  range,     // a part of the signal's range, of any size and sign
-  positive,  // the same without a sign
+  range,     // a fraction of the signal's range, with log-uniform size and random sign
+  positive,  // the same, positive only
   number,
   whole
 };
@@ -130,7 +130,7 @@ double drawn_size(const Kind& kind, const SignalInfo* signal, Draw& draw) {
   return 0;
 }
 
-// A number that is more than a flag; whether one may be: `changed` befalls flags too.
+// Any signal with more values than a flag; `changed` affects flags too.
 const SignalInfo* draw_signal(const Kind& kind, const MessageInfo& message, Draw& draw) {
   std::vector<const SignalInfo*> signals = observe::signals_of(message);
   if (kind.size != Size::within)
@@ -138,7 +138,7 @@ const SignalInfo* draw_signal(const Kind& kind, const MessageInfo& message, Draw
   return signals.empty() ? nullptr : draw.one_of(signals);
 }
 
-// False: the node measures no two quantities of one unit.
+// False: the node does not measure two quantities of the same unit.
 bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   std::vector<std::pair<std::string, std::string>> pairs;
   for (const mapping::Stimulus& one : mapping::stimuli()) {
@@ -155,7 +155,8 @@ bool draw_pair(FaultText& fault, std::string_view node, Draw& draw) {
   return true;
 }
 
-// Within the flight, so that what was before is known, and there is time to recover; long enough to strike.
+// Within the flight, so that there is time before the fault for comparison and time after it to recover; long
+// enough to have an effect.
 void draw_times(FaultText& fault, Times times, double duration_s, double period_s, Draw& draw) {
   constexpr std::array often{1, 2, 5, 10}, seldom{5, 10, 20, 50};
   const double from_s = duration_s * draw.between(0.3, 0.6);
@@ -194,7 +195,7 @@ std::optional<FaultText> draw_fault(const Drawn& row, const Column& column, Draw
   }
   const double size = drawn_size(kind, signal, draw);
   if (kind.size == Size::number)
-    fault.set(kind.key, fmt::format("{:.3f}", size));  // of milliseconds whole microseconds
+    fault.set(kind.key, fmt::format("{:.3f}", size));  // milliseconds with whole microseconds
   else if (kind.size != Size::none)
     fault.set(kind.key, fmt::format("{:.6g}", size));
   const double period_s = node == nullptr ? 0 : 1e-6 * static_cast<double>(node->period_us());

@@ -1,4 +1,4 @@
-// What is drawn for the flights of a matrix that is made of its scenarios.
+// The random faults of a matrix that is generated from its scenarios.
 #pragma once
 
 #include <cstdint>
@@ -10,24 +10,24 @@
 
 namespace canhil::fault_matrix {
 
-/// A row of the matrix without its text: a kind of fault, and the node that it befalls; empty: the bus.
+/// A row of the matrix without details: a kind of fault and the affected node; empty: the bus.
 struct Drawn {
   std::string_view kind, node{};
   bool operator==(const Drawn&) const = default;
 };
-/// Each kind that works in virtual time and needs no bit rate, on each of these nodes and on the bus.
+/// Each kind that works in virtual time and needs no bit rate, for each of these nodes and for the bus.
 std::vector<Drawn> drawn_rows(const std::vector<std::string_view>& nodes);
 
-/// The fault of a cell, by seed, row, scenario and run alone. None: the scenario has no such node, or the
-/// node nothing that the fault could befall.
+/// The fault of a cell, determined by seed, row, scenario and run alone. None: the scenario has no such node,
+/// or the node has nothing that the fault could affect.
 std::optional<FaultText> drawn_fault(const Drawn& row, const Column& column, std::uint64_t seed,
                                      std::uint64_t run);
 
-/// Whether the scenario takes such a fault: a sensor may vouch for nothing. A look at one draw; it costs far
-/// more than the draw.
+/// Whether the scenario accepts such a fault: a sensor may lack a validity flag, for example. Tries one draw;
+/// this costs far more than the draw.
 bool fits(const Drawn& row, const Column& column, std::uint64_t seed);
 
-/// Of a cell with several faults: those of which rows is drawn too; all of them fit.
+/// For a cell with several faults: the rows are drawn too; all of them fit.
 std::vector<FaultText> drawn_faults(int count, const std::vector<Drawn>& rows, const Column& column,
                                     std::uint64_t seed, std::uint64_t run);
 

@@ -26,7 +26,7 @@ struct Flown {
   drive::Run run;
 };
 
-// One matrix being flown.
+// The flights of one matrix.
 class Flights {
  public:
   Flights(const Plan& plan, const Options& options, const std::atomic<bool>& stop)
@@ -39,20 +39,20 @@ class Flights {
     std::ranges::sort(needed);
     needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
     std::vector<Undisturbed> found(needed.size());
-    auto flown = each(needed.size(), [&](std::size_t place) -> Result<void> {
-      auto one = fly(plan_.columns[needed[place].first], needed[place].second, {}, 0);
+    auto flown = each(needed.size(), [&](std::size_t index) -> Result<void> {
+      auto one = fly(plan_.columns[needed[index].first], needed[index].second, {}, 0);
       if (!one) return tl::unexpected(one.error());
-      found[place] = undisturbed(one->scenario, one->run);
+      found[index] = undisturbed(one->scenario, one->run);
       return {};
     });
     if (!flown || stop_) return flown;
-    for (std::size_t place = 0; place < needed.size(); ++place)
-      undisturbed_.emplace(needed[place], std::move(found[place]));
-    return each(order.size(), [&](std::size_t place) { return fly_cell(order[place]); });
+    for (std::size_t index = 0; index < needed.size(); ++index)
+      undisturbed_.emplace(needed[index], std::move(found[index]));
+    return each(order.size(), [&](std::size_t index) { return fly_cell(order[index]); });
   }
 
  private:
-  // On all cores. Error: the first.
+  // Uses all cores. Error: the first one.
   Result<void> each(std::size_t count, const std::function<Result<void>(std::size_t)>& fly_one) {
     std::atomic<std::size_t> next = 0;
     std::optional<Error> error;
@@ -61,8 +61,8 @@ class Flights {
       std::vector<std::jthread> workers;
       for (std::size_t i = 0; i < std::clamp<std::size_t>(cores, 1, std::max<std::size_t>(count, 1)); ++i) {
         workers.emplace_back([&] {
-          for (std::size_t place = next++; place < count && !stop_; place = next++) {
-            const auto flown = fly_one(place);
+          for (std::size_t index = next++; index < count && !stop_; index = next++) {
+            const auto flown = fly_one(index);
             if (flown) continue;
             const std::scoped_lock lock(mutex_);
             if (!error) error = flown.error();
@@ -95,13 +95,13 @@ class Flights {
     return fly(std::move(*scenario), "");
   }
 
-  Result<void> fly_cell(std::size_t place) {
-    const Cell& cell = plan_.cells[place];
+  Result<void> fly_cell(std::size_t index) {
+    const Cell& cell = plan_.cells[index];
     const Undisturbed& before = undisturbed_.at({cell.column, cell.run});
     auto flown = fly(plan_.columns[cell.column], cell.run, cell.faults, 0);
     if (!flown) return tl::unexpected(flown.error());
     if (flown->run.ending.kind == drive::Ending::Kind::interrupted) return {};
-    Finished finished{.cell = place, .row = cell.row, .column = cell.column, .run = cell.run};
+    Finished finished{.cell = index, .row = cell.row, .column = cell.column, .run = cell.run};
     finished.response = response_of(flown->scenario, flown->run, cell.faults.empty() ? nullptr : &before);
     for (const FaultText& fault : cell.faults) finished.faults.push_back(fault.in_line());
     if (finished.response.kind == Response::Kind::violated) {
@@ -112,7 +112,7 @@ class Flights {
     return options_.finished(std::move(finished));
   }
 
-  // The least scenario that violates the same, and its log.
+  // Saves the minimal scenario with the same violation, and its log.
   Result<void> keep(const Cell& cell, const Undisturbed& before, const drive::Run& run,
                     Finished& finished) const {
     const Column& column = plan_.columns[cell.column];
@@ -121,7 +121,7 @@ class Flights {
     const auto shows = [&](const std::vector<FaultText>& faults, std::int64_t duration_us) {
       const auto flown = fly(column, cell.run, faults, duration_us);
       if (!flown || stop_) return false;
-      // By a check it shows where the check is judged: a run that ends early is not.
+      // A violated check must be judged: in a run that ends early it is not.
       if (by_a_check && flown->run.ending.kind != drive::Ending::Kind::completed) return false;
       const Response response =
           response_of(flown->scenario, flown->run, cell.faults.empty() ? nullptr : &before);
@@ -131,11 +131,11 @@ class Flights {
     const fs::path file = options_.folder / fmt::format("violation-{}.toml", finished.cell);
     fs::path log = file;
     log.replace_extension(".log");
-    // What no check judges ends the run, or is implied: a scenario has a check.
+    // A violation without an explicit check ends the run or is implied; a scenario needs at least one check.
     const std::string text =
         text_of(column, cell.run, least.faults, least.duration_us,
                 std::ranges::find(judged_by, check) == judged_by.end() ? "answering" : check,
-                fmt::format("# The least of '{}' that violates {}: hil-bench faults --seed {}.\n",
+                fmt::format("# The minimal form of '{}' that violates {}: hil-bench faults --seed {}.\n",
                             plan_.rows[cell.row].name(), check, plan_.seed));
     if (auto written = report::write_file(file.string(), text); !written) return written;
     auto scenario = drive::read_scenario(file.string());

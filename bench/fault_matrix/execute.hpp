@@ -1,5 +1,5 @@
-// Flies a matrix of faults, or one shard of it, on all cores. What comes out depends on the plan alone, never
-// on threads, shards or interruptions.
+// Flies a matrix of faults, or one shard of it, on all cores. The results depend on the plan alone, not on
+// threads, shards or interruptions.
 #pragma once
 
 #include <atomic>
@@ -16,15 +16,15 @@ namespace canhil::fault_matrix {
 
 struct Options {
   std::string target{};          ///< a program to fly against, in lockstep; empty: a Device in this process
-  std::filesystem::path folder;  ///< where the scenarios of violations go
-  unsigned threads = 0;          ///< 0: as many as there are cores
-  std::function<Result<void>(Finished)> finished;  ///< takes a cell; one call at a time
+  std::filesystem::path folder;  ///< for the scenarios of violations
+  unsigned threads = 0;          ///< 0: one per core
+  std::function<Result<void>(Finished)> finished;  ///< receives each finished cell; calls do not overlap
 };
 
-/// "hil-bench run FILE --bus in-process": what flies a kept violation again.
+/// The command that repeats a saved violation: "hil-bench run FILE --bus in-process".
 std::string replay_command(const std::string& file, const std::string& target);
 
-/// Flies these cells. Error: one line; a flight could not take place. `stop` ends it early, in good order.
+/// Flies these cells. Error: one line; a flight was not possible. `stop` ends it early and cleanly.
 Result<void> execute(const Plan& plan, const std::set<std::size_t>& cells, const Options& options,
                      const std::atomic<bool>& stop);
 

@@ -25,7 +25,7 @@ std::string seconds(std::int64_t t_us) { return fmt::format("{:.3f}", static_cas
 
 Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, const Shows& shows) {
   Minimised least{.faults = faults};
-  // A flight that ended early is cut before its end, so that its checks are judged.
+  // A flight that ended early is shortened to before its end, so that its checks are judged.
   const std::int64_t whole_us = flown_us / flight_step_us * flight_step_us;
   if (!shows(faults, 0)) {
     for (std::int64_t back_us = 0; back_us < 5 * flight_step_us && least.duration_us == 0;
@@ -33,7 +33,7 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       const std::int64_t cut_us = whole_us - back_us;
       if (cut_us > 0 && shows(faults, cut_us)) least.duration_us = cut_us;
     }
-    if (least.duration_us == 0) return least;  // it shows in no flight that goes to its end
+    if (least.duration_us == 0) return least;  // no complete flight shows it
   }
   least.faults = least_of<FaultText>(
       faults, [&](const std::vector<FaultText>& some) { return shows(some, least.duration_us); });
@@ -45,38 +45,38 @@ Minimised minimise(const std::vector<FaultText>& faults, std::int64_t flown_us, 
       });
   if (shortest_us != most_us || least.duration_us != 0) least.duration_us = shortest_us;
 
-  for (std::size_t place = 0; place < least.faults.size(); ++place) {
+  for (std::size_t index = 0; index < least.faults.size(); ++index) {
     const auto with = [&](FaultText fault) {
       std::vector<FaultText> all = least.faults;
-      all[place] = std::move(fault);
+      all[index] = std::move(fault);
       return all;
     };
     const auto within = [&](std::int64_t from_us, std::int64_t to_us) {
-      FaultText fault = least.faults[place];
+      FaultText fault = least.faults[index];
       fault.set("from_s", seconds(from_us));
       fault.set("to_s", seconds(to_us));
       return fault;
     };
-    const std::int64_t from_us = time_us(least.faults[place], "from_s", 0);
+    const std::int64_t from_us = time_us(least.faults[index], "from_s", 0);
     const std::int64_t to_us =
-        std::min(time_us(least.faults[place], "to_s", shortest_us), std::max(shortest_us, from_us));
+        std::min(time_us(least.faults[index], "to_s", shortest_us), std::max(shortest_us, from_us));
     if (shows(with(within(from_us, to_us)), least.duration_us)) {
       const auto [first_us, last_us] =
           least_stretch(from_us, to_us, window_step_us, [&](std::int64_t a_us, std::int64_t b_us) {
             return shows(with(within(a_us, b_us)), least.duration_us);
           });
-      least.faults[place] = within(first_us, last_us);
+      least.faults[index] = within(first_us, last_us);
     }
-    const FaultText dense = least.faults[place];
+    const FaultText dense = least.faults[index];
     const scenario::Setting* given = dense.find("every");
     std::int64_t every = given == nullptr ? 1 : std::atoll(given->value.c_str());
     for (; every < most_sparse; every *= 2) {
-      FaultText sparser = least.faults[place];
+      FaultText sparser = least.faults[index];
       sparser.set("every", std::to_string(2 * every));
       if (!shows(with(sparser), least.duration_us)) break;
-      least.faults[place] = std::move(sparser);
+      least.faults[index] = std::move(sparser);
     }
-    if (every >= most_sparse) least.faults[place] = dense;  // the first frame alone, which the window has
+    if (every >= most_sparse) least.faults[index] = dense;  // the window still contains the first frame
   }
   return least;
 }

@@ -22,7 +22,7 @@ using scenario::Setting;
 
 constexpr int at_once = 3;
 
-// What a row has for a cell; none: it does not fit the scenario.
+// The faults of a row in a cell; none: the row does not fit the scenario.
 using FaultsOf = std::function<std::optional<std::vector<FaultText>>(std::size_t row, std::size_t column,
                                                                      std::uint64_t run)>;
 
@@ -40,7 +40,7 @@ void add_cells(Plan& plan, const FaultsOf& faults_of) {
   }
 }
 
-// Why some faults of a set do not fit a scenario; none: they do.
+// Why some faults of a set do not fit a scenario; none: they fit.
 std::optional<Error> unfit(const Column& column, const std::string& set, const std::string& file,
                            const scenario::FaultPlaces& places) {
   scenario::Scenario scenario = column.scenario;
@@ -72,10 +72,10 @@ Plan made_plan(std::vector<Column> columns, std::uint64_t seed, std::uint64_t ru
   }
   add_cells(
       plan,
-      [&](std::size_t row, std::size_t place, std::uint64_t run) -> std::optional<std::vector<FaultText>> {
-        const Column& column = plan.columns[place];
-        if (row > drawn.size()) return drawn_faults(at_once, fitting[place], column, seed, run);
-        if (std::ranges::find(fitting[place], drawn[row - 1]) == fitting[place].end()) return std::nullopt;
+      [&](std::size_t row, std::size_t index, std::uint64_t run) -> std::optional<std::vector<FaultText>> {
+        const Column& column = plan.columns[index];
+        if (row > drawn.size()) return drawn_faults(at_once, fitting[index], column, seed, run);
+        if (std::ranges::find(fitting[index], drawn[row - 1]) == fitting[index].end()) return std::nullopt;
         auto fault = drawn_fault(drawn[row - 1], column, seed, run);
         if (!fault) return std::nullopt;
         return std::vector{std::move(*fault)};
@@ -93,8 +93,8 @@ Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, s
   std::vector<scenario::FaultPlaces> places{{}};
   Section root = Section::parse(*text, set_file);
   std::vector<Section> sections = root.tables("fault");
-  for (std::size_t place = 0; place < sections.size(); ++place) {
-    Section& section = sections[place];
+  for (std::size_t index = 0; index < sections.size(); ++index) {
+    Section& section = sections[index];
     const std::string kind = section.text("kind");
     const std::string name = section.text("name", fmt::format("{} {}", kind, sets.size()));
     const std::string row = section.text("together", name);
@@ -112,7 +112,7 @@ Result<Plan> plan_of(std::vector<Column> columns, const std::string& set_file, s
       section.reject("name", fmt::format("'{}' is there twice", row), "each once");
     }
     sets[at].push_back(std::move(fault));
-    places[at].push_back(place);
+    places[at].push_back(index);
   }
   root.finish();
   if (const auto error = root.error()) return tl::unexpected(*error);

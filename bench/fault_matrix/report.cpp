@@ -18,15 +18,15 @@ using checks::Outcome;
 using report::escaped;
 using Kind = Response::Kind;
 
-// A line for each cell of a kind.
-std::vector<std::string> told(const Results& results, Kind kind, const std::string& folder) {
+// One line for each cell of a kind.
+std::vector<std::string> lines_of(const Results& results, Kind kind, const std::string& folder) {
   std::vector<std::string> lines;
-  for (const auto& [place, cell] : results.cells) {
+  for (const auto& [index, cell] : results.cells) {
     if (cell.response.kind != kind) continue;
-    std::string line =
-        fmt::format("{}, {}{}: {}", results.identity.rows[cell.row].name(),
-                    head_of(results.identity.columns[cell.column]),
-                    results.identity.runs > 1 ? fmt::format(", run {}", cell.run) : "", words(cell.response));
+    std::string line = fmt::format("{}, {}{}: {}", results.identity.rows[cell.row].name(),
+                                   head_of(results.identity.columns[cell.column]),
+                                   results.identity.runs > 1 ? fmt::format(", run {}", cell.run) : "",
+                                   to_text(cell.response));
     lines.push_back(std::move(line));
     if (cell.replay.empty()) continue;
     for (const std::string& fault : cell.faults) lines.push_back("  flown: " + fault);
@@ -64,7 +64,7 @@ std::string target_words(const Identity& identity) {
   return identity.target.empty() ? "the target's own code, in process" : identity.target;
 }
 
-// The same with the sign and the colour of the worst.
+// The same with sign and colour of the worst response.
 std::string marked_summary(const Cells& cells) {
   if (cells.empty()) return summary(cells);
   const auto any = [&](Kind kind) {
@@ -91,7 +91,7 @@ std::string text(const Results& results, const std::string& folder) {
   for (const Row& row : identity.rows) widest = std::max(widest, row.name().size());
   std::string out = fmt::format("Faults and responses, seed {}, {} run{} a cell, against {}\n", identity.seed,
                                 identity.runs, identity.runs == 1 ? "" : "s", target_words(identity));
-  // A scenario after the other: cells say more than fits beside one another on a terminal.
+  // One scenario after another: cells are too wide for columns on a terminal.
   for (std::size_t column = 0; column < identity.columns.size(); ++column) {
     out += fmt::format("\n{} ({})\n", head_of(identity.columns[column]), identity.columns[column].estimators);
     for (std::size_t row = 0; row < identity.rows.size(); ++row) {
@@ -102,8 +102,8 @@ std::string text(const Results& results, const std::string& folder) {
   }
   for (const auto& [kind, title] :
        {std::pair(Kind::not_measured, "Not measured"),
-        std::pair(Kind::violated, "Violated, each with the least that shows it")}) {
-    const auto lines = told(results, kind, folder);
+        std::pair(Kind::violated, "Violated, each with the smallest scenario that shows it")}) {
+    const auto lines = lines_of(results, kind, folder);
     if (!lines.empty()) out += fmt::format("\n{}\n  {}\n", title, fmt::join(lines, "\n  "));
   }
   return out + fmt::format("\n{}: {}\n", checks::name(outcome_of(results)), counts(results));
@@ -133,7 +133,7 @@ std::string json(const Results& results) {
   for (const Identity::Column& column : identity.columns)
     columns.push_back(
         {{"scenario", column.file}, {"title", column.title}, {"estimators", column.estimators}});
-  for (const auto& [place, cell] : results.cells) {
+  for (const auto& [index, cell] : results.cells) {
     const Response& response = cell.response;
     Json json{{"row", identity.rows[cell.row].name()},
               {"fault", identity.rows[cell.row].fault},
@@ -142,7 +142,7 @@ std::string json(const Results& results) {
               {"run", cell.run},
               {"faults", cell.faults},
               {"response", name(response.kind)},
-              {"words", words(response)}};
+              {"words", to_text(response)}};
     if (response.detected_s) json["detected_s"] = *response.detected_s;
     if (!response.by.empty()) json["by"] = response.by;
     if (response.recovered_s) json["recovered_s"] = *response.recovered_s;
@@ -182,7 +182,7 @@ std::string html(const Results& results, const std::string& folder) {
   }
   for (const auto& [kind, title] :
        {std::pair(Kind::not_measured, "Not measured"), std::pair(Kind::violated, "Violated")}) {
-    const auto lines = told(results, kind, folder);
+    const auto lines = lines_of(results, kind, folder);
     if (!lines.empty())
       body += fmt::format("<section><h2>{}</h2>\n<pre style=\"white-space:pre-wrap\">{}</pre></section>\n",
                           title, escaped_lines(lines));

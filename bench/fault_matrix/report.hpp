@@ -1,4 +1,4 @@
-// A matrix of faults for people and programs. What is shown follows from the results alone.
+// Reports of a fault matrix for people and programs, derived from the results alone.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace canhil::fault_matrix {
 
-/// Fail if anything is violated; not measured if cells are missing, or could not be judged.
+/// Fail if anything is violated; not measured if cells are missing or could not be judged.
 checks::Outcome outcome_of(const Results& results);
 
-/// The matrix, and below it what ended a flight and what was violated, with the command that flies it again;
-/// `folder`: where the scenarios of violations lie.
+/// The matrix, followed by ended flights and violations, each with the command that repeats it; `folder`: the
+/// scenarios of violations.
 std::string text(const Results& results, const std::string& folder);
 /// The matrix as tables of Markdown.
 std::string markdown(const Results& results);

@@ -21,24 +21,25 @@ constexpr std::array<std::string_view, 5> names{"tolerated", "detected", "ended"
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
-// Up to where the flight went, judged as one that was to go no further: a target that gave up is to have kept
-// to the checks until then.
+// Judged up to the end of the flight, as if that had been its duration: a target that ended its estimation
+// must have met the checks until then.
 checks::Verdict verdict_to_its_end(const scenario::Scenario& scenario, const drive::Run& run) {
   if (run.ending.kind == Ending::Kind::completed) return run.verdict;
   return checks::judge(scenario, {.seen = run.seen,
-                                  .truth = drive::truth_of(run.truth, run.own_truth, run.ending.t_us),
+                                  .truth = drive::truth_of(run.truth, run.per_run_truth, run.ending.t_us),
                                   .estimators = estimators::in(scenario),
                                   .timing_unfit = run.timing_unfit});
 }
 
-// Whether each estimator has answers to be held against the truth: one that ended before its first has none.
+// Whether each estimator has answers to compare with the truth: one that ended before its first answer has
+// none.
 bool has_samples(const scenario::Scenario& scenario, const drive::Run& run) {
   return std::ranges::all_of(estimators::in(scenario), [&](const estimators::Estimator* one) {
-    return !one->samples(run.seen, drive::truth_of(run.truth, run.own_truth, run.ending.t_us)).empty();
+    return !one->samples(run.seen, drive::truth_of(run.truth, run.per_run_truth, run.ending.t_us)).empty();
   });
 }
 
-// What the flight without faults has at the same times, too, is taken away.
+// Removes the signs that the flight without faults has at the same times.
 std::vector<Sign> signs_beyond(std::vector<Sign> signs, const std::vector<Sign>& before) {
   for (Sign& sign : signs) {
     const auto same = std::ranges::find_if(
@@ -55,7 +56,7 @@ std::int64_t latency_us(const scenario::Scenario& scenario) {
   return longest;
 }
 
-// The errors of the heartbeat that ended it, without the words around them.
+// The heartbeat's error bits that ended the flight, without the surrounding words.
 std::string reason_of(const std::string& detail) {
   constexpr std::string_view before = "its errors: ";
   const std::size_t at = detail.find(before);
@@ -76,7 +77,7 @@ std::optional<Response::Kind> kind_named(std::string_view name) {
   return static_cast<Response::Kind>(found - names.begin());
 }
 
-std::string words(const Response& response) {
+std::string to_text(const Response& response) {
   switch (response.kind) {
     case Response::Kind::tolerated:
       return "tolerated";
@@ -129,7 +130,7 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
     return {.kind = Response::Kind::ended,
             .detected_s = seconds(std::max<std::int64_t>(run.ending.t_us - onset_us, 0)),
             .why = reason_of(run.ending.detail)};
-  for (const faults::Told& fault : run.faults) {
+  for (const faults::FaultReport& fault : run.faults) {
     if (fault.count == 0)
       return {.kind = Response::Kind::not_measured, .why = fmt::format("'{}' did not strike", fault.name)};
   }
@@ -142,9 +143,9 @@ Response response_of(const scenario::Scenario& scenario, const drive::Run& run, 
   if (!first) return {};
   Response response{.kind = Response::Kind::detected,
                     .detected_s = seconds(std::max<std::int64_t>(first->t_us - onset_us, 0)),
-                    .by = first->words};
+                    .by = first->text};
   const auto last = checks::last_after(signs, end_us);
-  constexpr std::int64_t quiet_us = 1'000'000;  // without a sign: it is over
+  constexpr std::int64_t quiet_us = 1'000'000;  // no sign for this long: recovered
   if (!last)
     response.recovered_s = 0;
   else if (last->t_us + quiet_us <= scenario.duration_us)

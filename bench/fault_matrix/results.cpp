@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view format = "canhil fault matrix 2";
 constexpr std::size_t most_bytes = std::size_t{1} << 28U;
 
-// Names of files need not be UTF-8.
+// File names need not be UTF-8.
 std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json json_of(const Finished& finished) {
@@ -160,7 +160,7 @@ Result<std::pair<Writer, Results>> Writer::open(const fs::path& file, const Iden
           fmt::format("{}: is of another matrix, program or target, expected another --out", file.string()));
     results.cells = std::move(before->cells);
   }
-  // Anew, without what was cut off.
+  // Rewrites the file without the truncated last line.
   Writer writer;
   writer.path_ = file;
   const fs::path anew = file.string() + ".new";

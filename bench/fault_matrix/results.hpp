@@ -1,5 +1,5 @@
-// What a matrix of faults came to: a file of JSON lines, the first of which says of what it is, each other a
-// finished cell. A run that was interrupted goes on with its file; files of shards are put together.
+// The results of a fault matrix: a file of JSON lines. The first line identifies the matrix, each other one
+// is a finished cell. An interrupted run resumes with its file; files of shards can be merged.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace canhil::fault_matrix {
 
-/// What results must have in common to be put together, as one line of JSON.
+/// Results can be merged only if their identities are equal. One line of JSON.
 struct Identity {
   std::string line;
   std::uint64_t seed = 0, runs = 1;
@@ -31,13 +31,13 @@ struct Identity {
 Identity identity_of(const Plan& plan, const std::string& target);
 
 struct Finished {
-  std::size_t cell = 0;  ///< its place in Plan::cells
+  std::size_t cell = 0;  ///< index in Plan::cells
   std::size_t row = 0, column = 0;
   std::uint64_t run = 0;
-  std::vector<std::string> faults{};  ///< each in one line
+  std::vector<std::string> faults{};  ///< one line each
   Response response{};
-  std::string replay{};              ///< of a violation: the least scenario that shows it
-  std::vector<std::string> least{};  ///< its faults
+  std::string replay{};              ///< for a violation: the minimal scenario that shows it
+  std::vector<std::string> least{};  ///< the faults of that scenario
 };
 
 struct Results {
@@ -45,17 +45,17 @@ struct Results {
   std::map<std::size_t, Finished> cells{};  ///< by Finished::cell
 };
 
-/// Of one file. Error: one line; not readable, or no such results. A last line that was cut off is left out.
+/// Reads one file. Error: one line; not readable, or not such results. A truncated last line is ignored.
 Result<Results> read_results(const std::filesystem::path& file);
 
-/// All of these files. Error: one line; of different matrices, or cells that are in no file.
+/// Merges files. Error: one line; different matrices, or cells that are in no file.
 Result<Results> merged(std::span<const std::filesystem::path> files);
 
-/// A file that grows by cells.
+/// A file to which finished cells are appended.
 class Writer {
  public:
-  /// A new file; with `resume`, one that is there too, whose cells are given. Error: one line; it is there,
-  /// or of another matrix, or cannot be written.
+  /// Creates a file; with `resume` also opens an existing one and returns its cells. Error: one line; it
+  /// exists, belongs to another matrix, or cannot be written.
   static Result<std::pair<Writer, Results>> open(const std::filesystem::path& file, const Identity& identity,
                                                  bool resume);
   /// Error: one line.

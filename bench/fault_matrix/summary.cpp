@@ -23,7 +23,7 @@ std::string several(std::vector<std::string> words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// What the cells of one kind have in common, in a few words.
+// A short summary of the cells of one kind.
 std::string short_words(Kind kind, const Cells& cells) {
   std::vector<double> detected_s, recovered_s;
   std::vector<std::string> what;
@@ -77,7 +77,7 @@ Table table_of(const Results& results, std::size_t column) {
 
 Cells cells_of(const Results& results, std::size_t row, std::size_t column) {
   Cells cells;
-  for (const auto& [place, cell] : results.cells) {
+  for (const auto& [index, cell] : results.cells) {
     if (cell.row == row && cell.column == column) cells.push_back(&cell);
   }
   return cells;

@@ -1,4 +1,4 @@
-// The cells of a matrix in a few words, and as tables for people.
+// Short summaries of the matrix's cells, and tables for people.
 #pragma once
 
 #include <array>
@@ -15,21 +15,21 @@ namespace canhil::fault_matrix {
 using Cells = std::vector<const Finished*>;
 Cells cells_of(const Results& results, std::size_t row, std::size_t column);
 
-/// The worst first.
+/// From worst to best.
 inline constexpr std::array kinds_by_weight{Response::Kind::violated, Response::Kind::not_measured,
                                             Response::Kind::ended, Response::Kind::detected,
                                             Response::Kind::tolerated};
-/// "1 violated honest; 2 detected in 0.020 s, recovered in 0.100 s", without counts of a single run; "-":
-/// none.
+/// "1 violated honest; 2 detected in 0.020 s, recovered in 0.100 s", without counts if there is a single run;
+/// "-": no cells.
 std::string summary(const Cells& cells);
 
-/// The scenario's file, without folder and ending.
+/// The name of the scenario's file, without folder and extension.
 std::string head_of(const Identity::Column& column);
 
-/// A fault a row; where faults are of nodes, a table for each scenario and a column for each of its nodes,
-/// else one table and a column for each scenario.
+/// One row per fault. If faults belong to nodes: a table for each scenario, with a column for each of its
+/// nodes; otherwise one table with a column for each scenario.
 struct Table {
-  std::string title{};  ///< empty: there is one
+  std::string title{};  ///< empty: the only table
   std::vector<std::string> heads{};
   std::vector<std::pair<std::string, std::vector<Cells>>> rows{};
 };

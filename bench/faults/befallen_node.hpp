@@ -1,4 +1,4 @@
-// A node, as faults of its sensors or of itself make it.
+// A node whose sensor, or which itself, has a fault.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace canhil::faults {
 
-/// Stands in the place of a node. Frames of others, where several nodes share a log, pass as they are.
+/// Wraps a node. Where several nodes share a log, frames of the others pass unchanged.
 class BefallenNode : public nodes::Node {
  public:
   BefallenNode(std::unique_ptr<nodes::Node> node, const scenario::NodeSettings& settings, const InRun& run)
@@ -26,13 +26,13 @@ class BefallenNode : public nodes::Node {
   void hear(const Frame& frame) final { node_->hear(frame); }
 
  protected:
-  /// Changes the frames of a transmission of the node, at its time.
+  /// Changes the frames of the node's transmission, at its time.
   virtual void befall(std::vector<Frame>& frames, std::int64_t t_us) = 0;
-  /// Has the node transmit, and puts what is left of it.
+  /// Lets the node transmit, and appends what remains after the fault.
   void sample(nodes::Transmission& out);
   /// Whether a frame is of the node's sample group.
   [[nodiscard]] bool is_own(const Frame& frame) const { return message_of(frame) != nullptr; }
-  /// Null: of another.
+  /// Null: a message of another node.
   [[nodiscard]] const MessageInfo* message_of(const Frame& frame) const;
   [[nodiscard]] std::int64_t node_due_us() const { return node_->due_us(); }
   Tally& tally() { return tally_; }
@@ -45,10 +45,11 @@ class BefallenNode : public nodes::Node {
   Tally& tally_;
 };
 
-/// Counters of a node that did not send all that was made for it. What it sent and lost stays a gap.
+/// Adjusts counters after samples that the node did not send, so that they leave no gap. Frames that were
+/// sent and lost still leave a gap.
 class Recount {
  public:
-  /// A frame that the node did not send: it did not count it either.
+  /// A frame that the node did not send and therefore did not count.
   void skip(const Frame& frame);
   /// The next frame of each message has counter 0.
   void begin_at_zero() { at_zero_ = true, offsets_.clear(); }
@@ -56,7 +57,7 @@ class Recount {
 
  private:
   bool at_zero_ = false;
-  std::map<std::uint32_t, int> offsets_;  // by id: to be added to the counters, modulo their period
+  std::map<std::uint32_t, int> offsets_;  // by id: offsets to the counters, modulo their period
 };
 
 }  // namespace canhil::faults

@@ -1,4 +1,4 @@
-// A number in a frame of the contract: read, and written so that counter and CRC are right.
+// Reads and writes a signal in a frame of canhil's DBC; after writing, counter and CRC are valid.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace canhil::faults {
 /// In the signal's unit; none: the frame has no such signal.
 std::optional<double> value_of(const Frame& frame, std::string_view signal);
 
-/// Writes a signal, rounded to its step and clamped to its range unless the frame rounds nothing; all others
-/// stay as they are.
+/// Writes a signal, rounded to its step and limited to its range unless the frame is unrounded; all other
+/// signals stay unchanged.
 void set(Frame& frame, std::string_view signal, double value);
 
-/// Whether a signal is the flag by which a sensor vouches for its sample.
+/// Whether a signal is the validity flag of a sensor's sample.
 bool is_validity(const MessageInfo& message, std::string_view signal);
 
-/// Whether a signal says when a sample is valid, or over how long.
+/// Whether a signal is the time of validity of a sample or its interval.
 bool is_time(std::string_view signal);
 
 /// Writes the counter of a message that has one, and its CRC.

@@ -15,29 +15,29 @@ Result<void> check(std::span<const scenario::Fault> faults, const Place& place) 
 }
 
 Faults::Faults(const scenario::Scenario& scenario, std::uint64_t run_index,
-               std::span<const MessageInfo> messages, Place place, Hands* hands)
+               std::span<const MessageInfo> messages, Place place, RigControl* hands)
     : scenario_(scenario),
       run_index_(run_index),
       messages_(messages),
       place_(std::move(place)),
-      hands_(hands),
+      rig_(hands),
       tallies_(scenario.faults.size()) {
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
-    if (!scenario.faults[i].rule->cannot(place_).empty()) continue;  // check() has told
+    if (!scenario.faults[i].rule->cannot(place_).empty()) continue;  // check() has reported it
     if (auto injector = scenario.faults[i].rule->injector(in_run(i)))
       injectors_.push_back(std::move(injector));
   }
 }
 
-InRun Faults::in_run(std::size_t place) {
-  return {.fault = scenario_.faults[place],
+InRun Faults::in_run(std::size_t index) {
+  return {.fault = scenario_.faults[index],
           .seed = scenario_.seed,
           .run_index = run_index_,
           .end_us = scenario_.duration_us,
           .messages = messages_,
           .place = place_,
-          .hands = hands_,
-          .tally = tallies_[place]};
+          .hands = rig_,
+          .tally = tallies_[index]};
 }
 
 std::unique_ptr<nodes::Node> Faults::befallen(std::unique_ptr<nodes::Node> node,
@@ -47,8 +47,8 @@ std::unique_ptr<nodes::Node> Faults::befallen(std::unique_ptr<nodes::Node> node,
   return node;
 }
 
-std::vector<Told> Faults::told() const {
-  std::vector<Told> all;
+std::vector<FaultReport> Faults::reports() const {
+  std::vector<FaultReport> all;
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     const scenario::Fault& fault = scenario_.faults[i];
     all.push_back({.name = fault.name,

@@ -1,4 +1,4 @@
-// The faults of a scenario in one run of it.
+// The faults of a scenario in one run.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace canhil::faults {
 
-/// What a report tells of a fault.
-struct Told {
+/// The report of a fault.
+struct FaultReport {
   std::string name, kind;
   Stage stage = Stage::bus;
   std::int64_t from_us = 0, to_us = 0;
@@ -29,26 +29,26 @@ class Faults final : public nodes::Befalling {
  public:
   /// `scenario`, `messages` (of the bus) and `hands` must outlive it.
   Faults(const scenario::Scenario& scenario, std::uint64_t run_index, std::span<const MessageInfo> messages,
-         Place place = {}, Hands* hands = nullptr);
+         Place place = {}, RigControl* hands = nullptr);
 
   std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                         const scenario::NodeSettings& settings) override;
-  /// Those between nodes and bus, in the order of the scenario.
+  /// The faults between nodes and bus, in the order of the scenario.
   [[nodiscard]] std::span<const std::unique_ptr<Injector>> injectors() const { return injectors_; }
 
-  [[nodiscard]] std::vector<Told> told() const;
-  /// Of all of them.
+  [[nodiscard]] std::vector<FaultReport> reports() const;
+  /// The sum over all faults.
   [[nodiscard]] Tally tally() const;
 
  private:
-  [[nodiscard]] InRun in_run(std::size_t place);
+  [[nodiscard]] InRun in_run(std::size_t index);
 
   const scenario::Scenario& scenario_;
   std::uint64_t run_index_;
   std::span<const MessageInfo> messages_;
   Place place_;
-  Hands* hands_;
-  std::vector<Tally> tallies_;  // of each fault
+  RigControl* rig_;
+  std::vector<Tally> tallies_;  // one for each fault
   std::vector<std::unique_ptr<Injector>> injectors_;
 };
 

@@ -1,5 +1,5 @@
-// What strikes between the nodes and the bus, or at the target: it changes frames on their way, and may have
-// a time of its own at which it sends frames or lays hands on something.
+// Faults between nodes and bus, or of the target: they change frames on their way, and may act at times of
+// their own, by sending frames or through RigControl.
 #pragma once
 
 #include <cstdint>
@@ -17,47 +17,47 @@
 
 namespace canhil::faults {
 
-/// What can be done to the target's process and to the interface; none of it is asked for where Place says
-/// that it cannot be.
-class Hands {
+/// Actions on the target's process and the interface. None is called in a run for which Place excludes it.
+class RigControl {
  public:
-  Hands() = default;
-  Hands(const Hands&) = delete;
-  Hands& operator=(const Hands&) = delete;
-  virtual ~Hands() = default;
+  RigControl() = default;
+  RigControl(const RigControl&) = delete;
+  RigControl& operator=(const RigControl&) = delete;
+  virtual ~RigControl() = default;
   virtual void pause_target() = 0;
   virtual void resume_target() = 0;
-  /// Kills it, starts it again and makes it ready with the state of that time of the run.
+  /// Kills the target, starts it again and configures it with the state at that time of the run.
   virtual void restart_target(std::int64_t t_us) = 0;
-  /// As the interface's driver would report it.
+  /// Reports an error frame as the interface's driver would.
   virtual void report_error(const Frame& error) = 0;
-  /// Sets it down, and up again after that time, whatever the bench does meanwhile: it may wait for it.
+  /// Sets the interface down, and up again after that time, even if the bench is blocked meanwhile waiting
+  /// for it.
   virtual void interface_down(std::int64_t for_us) = 0;
-  /// Waits until it is up again.
+  /// Waits until the interface is up again.
   virtual void interface_up() = 0;
 };
 
-/// What a fault did in a run.
+/// The effect of a fault in a run.
 struct Tally {
-  std::uint64_t count = 0;  ///< frames or samples that it befell, or times that it struck
-  /// Frames with a value that the node did not send, right by their protection; of those, with another time.
+  std::uint64_t count = 0;  ///< frames or samples affected, or the number of activations
+  /// Frames with a changed value but valid protection; of those, the ones with a changed time.
   std::uint64_t changed = 0, changed_times = 0;
-  /// Frames that came after a newer one of their message: by its time of validity a sample of one message is
-  /// then late.
+  /// Frames sent after a newer frame of their message: a one-message sample is then late by its time of
+  /// validity.
   std::uint64_t overtaken = 0;
 };
 
-/// A fault in a run. All that it refers to must outlive what is made of it.
+/// A fault in a run. Everything that it refers to must outlive the injectors made from it.
 struct InRun {
   const scenario::Fault& fault;
   std::uint64_t seed = 0, run_index = 0;
   std::int64_t end_us = 0;
   std::span<const MessageInfo> messages;  ///< of the bus
   const Place& place;
-  Hands* hands = nullptr;  ///< null: there is nothing to lay hands on
+  RigControl* hands = nullptr;  ///< null: not available
   Tally& tally;
 
-  /// Random numbers of this fault; `part`: of one of its parts, each of which has its own.
+  /// Random numbers of this fault; each `part` of a fault has its own stream.
   [[nodiscard]] world::Stream stream(std::string_view part = "") const;
 };
 
@@ -70,19 +70,19 @@ class Injector {
 
   /// Changes the frames of a transmission that is due at `t_us`.
   virtual void befall(std::vector<Frame>& /*frames*/, std::int64_t /*t_us*/) {}
-  /// When it does something by itself; nodes::never_us: no more.
+  /// When it acts next by itself; nodes::never_us: not any more.
   [[nodiscard]] virtual std::int64_t due_us() const { return nodes::never_us; }
-  /// Does it, and appends the frames that are then sent.
+  /// Acts, and appends the frames to be sent.
   virtual void transmit(std::vector<Frame>& /*out*/) {}
-  /// The run is over, however it ended: lets go what it holds.
+  /// Called when the run has ended, however it ended: releases what it holds.
   virtual void end() {}
-  /// Until when the target's silence is its doing.
+  /// Until when this fault explains silence of the target.
   [[nodiscard]] virtual std::int64_t silent_until_us() const {
     return std::numeric_limits<std::int64_t>::min();
   }
 };
 
-/// One that is on from the start of each stretch to its end.
+/// A fault that is active from the start of each stretch to its end.
 class Switched : public Injector {
  public:
   Switched(const When& when, const InRun& run);
@@ -100,7 +100,7 @@ class Switched : public Injector {
   virtual void on(std::int64_t for_us) = 0;
   virtual void off() = 0;
   [[nodiscard]] virtual bool silences() const { return false; }
-  Hands* const hands_;
+  RigControl* const rig_;
 
  private:
   When when_;
@@ -110,7 +110,7 @@ class Switched : public Injector {
   std::int64_t ended_us_ = std::numeric_limits<std::int64_t>::min();  // of the last stretch that began
 };
 
-/// One that does something every so often within its time.
+/// A fault that acts periodically during its time.
 class Repeated : public Injector {
  public:
   Repeated(const When& when, std::int64_t period_us, const InRun& run);

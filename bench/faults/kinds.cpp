@@ -1,4 +1,4 @@
-// A line a kind of fault.
+// One line for each kind of fault.
 #include "bench/faults/kinds.hpp"
 
 #include <array>

@@ -8,10 +8,10 @@
 
 namespace canhil::faults {
 
-/// All of them, stage by stage.
+/// All kinds, stage by stage.
 std::span<const Listed> listed_kinds();
 
-/// For scenario::Contract.
+/// The kinds for scenario::DbcVocabulary.
 std::vector<scenario::FaultKind> kinds();
 
 }  // namespace canhil::faults

@@ -1,4 +1,4 @@
-// A number that a node measures, in the frames of its sample.
+// A measured value of a node in the frames of its sample.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace canhil::faults {
 /// Whether a node sends a message.
 bool sends(const scenario::NodeTable& node, const MessageInfo& message);
 
-/// How long the sample of these frames took [s]: what they say, or else the node's period.
+/// The interval of the sample in these frames [s]: from the frames, or else the node's period.
 double interval_of(const std::vector<Frame>& frames, std::int64_t period_us);
 
 class MeasuredValue {
@@ -20,12 +20,13 @@ class MeasuredValue {
   explicit MeasuredValue(const Measured& of) : of_(of) {}
 
   [[nodiscard]] const Measured& of() const { return of_; }
-  /// The frame that has it; null: none of them.
+  /// The frame that carries the value; null: none.
   [[nodiscard]] Frame* in(std::vector<Frame>& frames) const;
   [[nodiscard]] double get(const Frame& frame, double interval_s) const;
-  /// An increment carries what rounding leaves into the next one: value' = value + remainder.
+  /// Writes the value. The rounding remainder of an increment is carried into the next: value' = value +
+  /// remainder.
   void put(Frame& frame, double value, double interval_s);
-  /// Whatever was left before.
+  /// Writes the value without any previous remainder.
   void put_exactly(Frame& frame, double value, double interval_s) const;
 
  private:

@@ -16,17 +16,17 @@ class OfFrames : public Injector {
   void befall(std::vector<Frame>& frames, std::int64_t t_us) final;
 
  protected:
-  // Of one message.
+  // The state for one message.
   struct Own {
     const MessageInfo* message = nullptr;
     Occasions occasions;
-    std::optional<std::uint8_t> counter{};  // for kinds that keep one
-    std::optional<Frame> held{};            // for kinds that keep one back
-    bool before = false;                    // the frame before was befallen
+    std::optional<std::uint8_t> counter{};  // for kinds that keep a counter
+    std::optional<Frame> held{};            // for kinds that keep a frame back
+    bool before = false;                    // the previous frame was affected
   };
-  /// Appends what becomes of a befallen frame.
+  /// Appends the result for an affected frame.
   virtual void put(Own& own, const Frame& frame, std::int64_t t_us, std::vector<Frame>& left) = 0;
-  /// The same of one that is not.
+  /// Appends the result for an unaffected frame.
   virtual void pass(Own& /*own*/, const Frame& frame, std::vector<Frame>& left) { left.push_back(frame); }
   Tally& tally() { return tally_; }
 
@@ -36,10 +36,10 @@ class OfFrames : public Injector {
   Tally& tally_;
 };
 
-/// What a fault does to one frame, whatever came before: appends what is left of it.
+/// The effect of a fault on a single frame, independent of earlier frames: appends the result.
 using Change = void (*)(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 
-/// A kind that is no more than that.
+/// A fault that consists of such a change.
 std::unique_ptr<Injector> change_frames(const OfMessages& of, const When& when, const InRun& run,
                                         Change change);
 

@@ -1,4 +1,4 @@
-// Keys that several kinds of faults have.
+// Keys shared by several kinds of faults.
 #pragma once
 
 #include <span>
@@ -15,44 +15,44 @@
 
 namespace canhil::faults {
 
-/// Messages that the nodes of the bench send, and how a scenario names them.
+/// Messages that the bench's nodes send, and the scenario's name for them.
 struct OfMessages {
   std::vector<const MessageInfo*> all{};
-  std::string words{};
+  std::string text{};
 };
-/// The key `messages`, by name, or `node`, all of that node's. Error: none, or one that the bench does not
-/// send.
+/// The key `messages`, by name, or `node`, all messages of that node. Error: none, or one that the bench does
+/// not send.
 OfMessages read_messages(scenario::Section& section, const scenario::FaultContext& context);
 
-/// The key `node`: one that is on the bus. Null: none of its name; that has been said.
+/// The key `node`: a node on the bus. Null: unknown, and the error is reported.
 const scenario::NodeTable* read_node(scenario::Section& section, const scenario::FaultContext& context);
 
-/// A number that a node measures.
+/// A measured value of a node.
 struct Measured {
   const MessageInfo* message = nullptr;
   const SignalInfo* signal = nullptr;
-  double factor = 1;      ///< from the signal's unit to that of the number
-  bool rate = false;      ///< the number is the signal by the time of a sample
-  std::string_view si{};  ///< the number's unit; empty: the signal's own
+  double factor = 1;      ///< from the signal's unit to that of the value
+  bool rate = false;      ///< the value is the signal divided by the sample's interval
+  std::string_view si{};  ///< the value's unit; empty: the signal's own
 };
 struct OfValues {
   std::vector<Measured> all{};
-  std::string words{};
+  std::string text{};
 };
 /// The key `quantity`, or `signal` of `messages`.
 OfValues read_values(scenario::Section& section, const scenario::FaultContext& context);
-/// Another quantity by this key. Null: none; that has been said.
+/// Another quantity, by this key. Null: unknown, and the error is reported.
 const mapping::Stimulus* read_quantity(scenario::Section& section, const scenario::FaultContext& context,
                                        std::string_view key);
-/// What it is of in the contract.
+/// The signal of canhil's DBC that carries a stimulus.
 Measured measured(const mapping::Stimulus& stimulus);
 
-/// A number in the unit of the values: of a quantity the key is `stem` with an ending that fits its unit, of
-/// a signal `stem` alone, in the signal's unit.
+/// A number in the unit of the values: for a quantity the key is `stem` with the suffix of its unit; for a
+/// signal it is `stem` alone, in the signal's unit.
 double read_size(scenario::Section& section, std::string_view stem, const OfValues& of,
                  scenario::Limits limits = {});
 
-/// Of the bus.
+/// The messages of the bus.
 std::span<const MessageInfo> messages_of(const scenario::FaultContext& context);
 
 }  // namespace canhil::faults

@@ -1,16 +1,16 @@
-// A rule of a scenario: what a kind of fault is put together from.
+// A rule of a scenario: the parts of a kind of fault.
 //
-// A kind is a struct with a constant `kind`, a constant `stage`, its fields, among them `When when`, and
+// A kind is a struct with a constant `kind`, a constant `meaning` (for the reference), a constant `stage`,
+// its fields, among them `When when`, and
 //   static Kind read(scenario::Section&, const scenario::FaultContext&)
-//   std::string subject() const                  what it befalls: what tells one fault of the kind from
-//   another
-// of a sensor or a node
+//   std::string subject() const                  what it affects: distinguishes faults of one kind
+// for faults of a sensor or a node
 //   std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node>, const scenario::NodeSettings&, const
-//   InRun&) const                                the node itself where it is another's fault
-// of the bus or the target
+//   InRun&) const                                the wrapped node; the node itself if it is not affected
+// for faults of the bus or the target
 //   std::unique_ptr<Injector> injector(const InRun&) const
-// and, where it does not work everywhere,
-//   std::string cannot(const Place&) const       why not, after "KIND "; empty: it works
+// and, where it does not work in every run,
+//   std::string cannot(const Place&) const       why not, to follow "KIND "; empty: it works
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@
 
 namespace canhil::faults {
 
-/// Where on the way of the data it strikes.
+/// The stage of the data path at which it acts.
 enum class Stage : std::uint8_t { sensor, node, bus, target };
 constexpr std::string_view name(Stage stage) {
   constexpr std::array<std::string_view, 4> names{"sensor", "node", "bus", "target"};
@@ -43,7 +43,7 @@ class Rule {
 
   [[nodiscard]] virtual Stage stage() const = 0;
   [[nodiscard]] virtual std::string cannot(const Place& place) const = 0;
-  /// Null: it strikes in the nodes.
+  /// Null: it acts within the nodes.
   [[nodiscard]] virtual std::unique_ptr<Injector> injector(const InRun& run) const = 0;
   [[nodiscard]] virtual std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                               const scenario::NodeSettings& settings,
@@ -87,12 +87,13 @@ scenario::FaultRead read_rule(scenario::Section& section, const scenario::FaultC
           .subject = std::move(subject)};
 }
 
-/// The line of a registry.
+/// The entry of a registry.
 struct Listed {
   scenario::FaultKind kind;
   Stage stage;
 };
 template <class Kind>
-inline constexpr Listed listed{.kind = {.name = Kind::kind, .read = read_rule<Kind>}, .stage = Kind::stage};
+inline constexpr Listed listed{
+    .kind = {.name = Kind::kind, .meaning = Kind::meaning, .read = read_rule<Kind>}, .stage = Kind::stage};
 
 }  // namespace canhil::faults

@@ -1,4 +1,4 @@
-// When a fault is at work, and which of the frames or samples of that time it befalls.
+// When a fault is active, and which frames or samples it affects then.
 #pragma once
 
 #include <cstdint>
@@ -9,38 +9,38 @@
 
 namespace canhil::faults {
 
-/// A time within a run, and in it the first part of each period or all of it.
+/// A time within a run; within it, either the whole time or the first part of each period.
 struct When {
   static constexpr std::int64_t always_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t from_us = 0, to_us = always_us;  ///< ends included
   std::int64_t for_us = 0, each_us = 0;         ///< 0: no periods
-  std::int64_t every = 1;                       ///< the first of each so many ...
-  double share = 1;                             ///< ... and of those by chance so many
+  std::int64_t every = 1;                       ///< the first of each `every` ...
+  double share = 1;                             ///< ... and of those a random fraction
 
   [[nodiscard]] bool holds(std::int64_t t_us) const {
     return t_us >= from_us && t_us <= to_us && (each_us == 0 || (t_us - from_us) % each_us < for_us);
   }
-  /// Number of the period that a time is in.
+  /// The number of the period at a time.
   [[nodiscard]] std::int64_t period(std::int64_t t_us) const {
     return each_us == 0 ? 0 : (t_us - from_us) / each_us;
   }
 };
 
-/// What is befallen: each frame or sample on its own, or all that is in the time.
+/// What is affected: individual frames or samples, or everything within the time.
 enum class Repeats : std::uint8_t { each, stretch };
 
-/// The keys from_s, to_s, for_s, each_s and, of each, every and percent.
+/// The keys from_s, to_s, for_s, each_s and, for `each`, every and percent.
 When read_when(scenario::Section& section, const scenario::FaultContext& context, Repeats repeats);
 
-/// The same for what has to end before the run does: for_s must be there, and the run must go on after it.
+/// The same for faults that must end before the run: for_s is required, and the run must continue afterwards.
 When read_stretches(scenario::Section& section, const scenario::FaultContext& context);
 
-/// Says of each frame or sample whether it is befallen.
+/// Decides for each frame or sample whether it is affected.
 class Occasions {
  public:
   Occasions(const When& when, const world::Stream& stream) : when_(when), stream_(stream) {}
 
-  /// Of the next one, at its time of transmission.
+  /// The decision for the next one, at its time of transmission.
   bool next(std::int64_t t_us) {
     if (!when_.holds(t_us)) return false;
     const bool by_chance = when_.share >= 1 || stream_.uniform() < when_.share;
@@ -50,7 +50,7 @@ class Occasions {
  private:
   When when_;
   world::Stream stream_;
-  std::int64_t seen_ = 0;  // in its time
+  std::int64_t seen_ = 0;  // within its time
 };
 
 }  // namespace canhil::faults

@@ -73,7 +73,7 @@ std::vector<TimingLine> timing_of(const scenario::Scenario& scenario, const chec
 void add_load(Flight& flight, std::span<const wire::BitLength> lengths, wire::BitRates known,
               BusFormat format) {
   const wire::BitRates rates = report::load_rates(known, format).front();
-  flight.bit_rate = checks::words(rates) + (known.nominal > 0 ? "" : " assumed");
+  flight.bit_rate = checks::to_text(rates) + (known.nominal > 0 ? "" : " assumed");
   const auto whole = checks::whole_seconds(lengths);
   flight.load = checks::bus_load(whole, rates);
   flight.load_line = checks::load_line(whole, rates);
@@ -130,7 +130,7 @@ FlightInProgress::FlightInProgress(const drive::Departure& departure)
     : departure_(departure),
       load_(departure.format, departure.load_by),
       judged_at_us_(departure.scenario.checks.size(), -1) {
-  if (departure_.own_truth.engagement) own_truth_.emplace();
+  if (departure_.per_run_truth.engagement) engagement_.emplace();
   if (!departure_.watcher) return;
   whole_ = departure_.watcher(true);
   recent_ = departure_.watcher(true);
@@ -177,8 +177,8 @@ std::int64_t FlightInProgress::now_us() const {
 
 estimators::Truth FlightInProgress::truth() const {
   const scenario::Scenario& scenario = departure_.scenario;
-  estimators::Truth truth = drive::truth_of(departure_.truth, departure_.own_truth, scenario.duration_us);
-  truth.engagement = own_truth_ ? &*own_truth_ : nullptr;
+  estimators::Truth truth = drive::truth_of(departure_.truth, departure_.per_run_truth, scenario.duration_us);
+  truth.engagement = engagement_ ? &*engagement_ : nullptr;
   return truth;
 }
 

@@ -33,7 +33,7 @@ class FlightInProgress final : public observe::Observer {
   void interface_changed(bool up, std::int64_t t_ns) override;
 
   /// Where epochs of the engagement go; null: there is none.
-  [[nodiscard]] world::EngagementRecord* engagement() { return own_truth_ ? &*own_truth_ : nullptr; }
+  [[nodiscard]] world::EngagementRecord* engagement() { return engagement_ ? &*engagement_ : nullptr; }
 
   /// Brings a flight up to now. `all_seen`: no frame was missed, so checks may be judged.
   void update(Flight& flight, bool all_seen);
@@ -55,7 +55,7 @@ class FlightInProgress final : public observe::Observer {
   [[nodiscard]] estimators::Truth truth() const;
 
   drive::Departure departure_;
-  std::optional<world::EngagementRecord> own_truth_{};  // a copy of what the flight adds to
+  std::optional<world::EngagementRecord> engagement_{};  // a copy of what the flight adds to
   observe::LoadMeter load_;
   std::unique_ptr<observe::Watcher> whole_;  // of the whole flight, for times and checks
   // Of the last seconds, for tracks: a window moves by half of what the older one has seen.

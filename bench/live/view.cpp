@@ -56,7 +56,7 @@ void View::close() {
 
 void View::Tap::departs(const drive::Departure& departure) {
   const std::scoped_lock lock(view_.mutex_);
-  view_.feed_.follow(departure.own_truth.engagement ? &*departure.own_truth.engagement : nullptr);
+  view_.feed_.follow(departure.per_run_truth.engagement ? &*departure.per_run_truth.engagement : nullptr);
   view_.requests_.departure.emplace(departure);
   view_.requests_.landing = false;
   view_.asked_ = true;

@@ -1,4 +1,4 @@
-// What a mapped target told in a run.
+// The answers of a mapped target in a run.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace canhil::mapping {
 
-/// One quantity, told once. SI.
-struct ToldOnce {
-  std::int64_t t_us = 0;  ///< of validity: of what it answers, or of its arrival
+/// One value of a quantity, in SI.
+struct TimedValue {
+  std::int64_t t_us = 0;  ///< time of validity: of its cause, or else of its arrival
   double value = 0;
   std::optional<double> sigma{};
 };
 
-/// By quantity, in the order of time.
+/// By quantity, in order of time.
 struct Answers {
   const Mapping* mapping = nullptr;
-  std::map<const quantities::Quantity*, Spool<ToldOnce>> told;
+  std::map<const quantities::Quantity*, Spool<TimedValue>> values;
   std::map<std::string_view, Spool<std::int64_t>> messages;  ///< their times, by name
 };
 

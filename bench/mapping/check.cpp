@@ -14,7 +14,7 @@ namespace {
 
 using Grade = Remark::Grade;
 
-constexpr double most_of_sensor_noise = 0.25;  // that rounding may add, as in the project's own contract
+constexpr double most_of_sensor_noise = 0.25;  // the fraction that rounding may add, as in canhil's own DBC
 
 class Remarks {
  public:
@@ -36,7 +36,7 @@ class Remarks {
     return of.message->name + "." + signal.name;
   }
 
-  // Whether counter, checksum or a constant of the message's protection lies in a signal.
+  // Whether a signal overlaps the counter, the checksum or a constant byte of the message's protection.
   static bool is_protection(const Mapped& of, const dbc::Signal& signal) {
     if (!of.protection) return false;
     const protection::Settings& settings = of.protection->settings();
@@ -53,10 +53,10 @@ class Remarks {
     for (const PlayedMessage& one : play.messages) {
       for (const dbc::Signal& signal : one.of.message->signals) {
         const bool played = std::ranges::find(one.sources, &signal, &Source::signal) != one.sources.end();
-        // Of a multiplexed message one page is played.
+        // Of a multiplexed message only one page is played.
         if (!played && signal.multiplexed_by.empty() && !is_protection(one.of, signal))
           add(Grade::warning, "unmapped", name(one.of, signal),
-              "nothing is put into it: it is encoded from 0");
+              "no value is mapped to it: it is encoded from 0");
       }
       if (!one.of.protection)
         add(Grade::note, "unprotected", one.of.message->name, "has neither counter nor checksum here");
@@ -75,7 +75,7 @@ class Remarks {
   void on(const Mapped& of, const Source& source, const Play& play) {
     const dbc::Signal& signal = *source.signal;
     const SignalInfo* own = observe::signal_of(*source.stimulus->message, source.stimulus->signal);
-    // From the node's unit to the signal's; of a rate by its interval, that of the play at the least.
+    // From the node's unit to the signal's; for a rate via its interval, at least the period of the play.
     const double interval_s =
         source.stimulus->over == Over::rate ? 1e-6 * static_cast<double>(play.period_us) : 1;
     const double factor = std::abs(source.factor * source.stimulus->factor) / interval_s;
@@ -83,8 +83,8 @@ class Remarks {
     const double step = std::abs(signal.scale), sigma = own->sensor_sigma * factor;
     if (sigma > 0 && step / std::sqrt(12.0) > most_of_sensor_noise * sigma)
       add(Grade::warning, "coarse", name(of, signal),
-          fmt::format("its step of {:g} {} adds {:.2g} of rounding to the {:.2g} of the sensor's noise", step,
-                      signal.unit, step / std::sqrt(12.0), sigma));
+          fmt::format("its step of {:g} {} adds {:.2g} of rounding noise to the sensor's noise of {:.2g}",
+                      step, signal.unit, step / std::sqrt(12.0), sigma));
     const auto range = dbc::raw_range(signal);
     if (!range) return;
     const double low = static_cast<double>(range->lowest) * signal.scale + signal.offset,
@@ -99,20 +99,21 @@ class Remarks {
 
   void on(const Hear& hear) {
     for (const dbc::Signal& signal : hear.of.message->signals) {
-      const bool told = std::ranges::find(hear.tellings, &signal, &Telling::signal) != hear.tellings.end();
+      const bool reported = std::ranges::find(hear.reported_signals, &signal, &ReportedSignal::signal) !=
+                            hear.reported_signals.end();
       const bool echo = hear.echo && hear.echo->repeated == &signal;
-      if (!told && !echo && !is_protection(hear.of, signal))
-        add(Grade::note, "unheard", name(hear.of, signal), "tells the bench nothing");
+      if (!reported && !echo && !is_protection(hear.of, signal))
+        add(Grade::note, "unheard", name(hear.of, signal), "is not used by the bench");
     }
     if (!hear.of.protection)
-      add(Grade::note, "unprotected", hear.of.message->name,
-          "is taken as it comes: neither counter nor checksum");
+      add(Grade::note, "unprotected", hear.of.message->name, "is not checked: neither counter nor checksum");
     if (hear.answers && !hear.echo)
       add(Grade::note, "no-echo", hear.of.message->name,
-          "does not say what it answers: the latest before it counts, and virtual time cannot wait for it");
+          "does not name its cause: the latest stimulus before it is taken, and virtual time cannot wait for "
+          "it");
     if (!hear.answers && hear.of.message->cycle_time_us == 0)
       add(Grade::warning, "no-cycle-time", hear.of.message->name,
-          "comes by itself and has none in the DBC: its period cannot be judged");
+          "answers nothing and has no cycle time in the DBC: its period cannot be judged");
   }
 
   void on_messages_that_nobody_hears() {
@@ -122,7 +123,7 @@ class Remarks {
       const bool mapped =
           std::ranges::find(mapping_.messages, message.name, &MessageInfo::name) != mapping_.messages.end();
       if (!mapped && !message.sender.empty() && senders.contains(message.sender))
-        add(Grade::note, "unheard", message.name, "is sent by the target too, and nobody hears it");
+        add(Grade::note, "unheard", message.name, "is sent by the target too but not used by the bench");
     }
   }
 

@@ -1,4 +1,5 @@
-// What a mapping leaves out, and what its signals cannot carry: before the first run.
+// Checks a mapping before its first run: signals that it leaves out, and values that its signals cannot
+// carry.
 #pragma once
 
 #include <string>
@@ -10,7 +11,7 @@
 namespace canhil::mapping {
 
 struct Remark {
-  /// What there is to be known, or what is to be mended.
+  /// For information, or something to fix.
   enum class Grade : std::uint8_t { note, warning };
   Grade grade = Grade::note;
   std::string rule;     ///< "saturates"
@@ -18,13 +19,13 @@ struct Remark {
   std::string what;     ///< one line
 };
 
-/// In the order of plays and hears: signals that nothing is put into, or nothing is read of; ranges and steps
-/// beside what the node may send and the noise of its sensor (the project's DBC: limits, SensorSigma); cycle
-/// times beside the DBC's; messages of the target's senders that nobody hears.
+/// In the order of plays and hears: signals without a mapped value, or whose value is not used; ranges and
+/// steps compared with the node's values and the noise of its sensor (canhil's DBC: limits, SensorSigma);
+/// periods compared with the DBC's cycle times; messages of the target's senders that the bench does not use.
 std::vector<Remark> remarks_on(const Mapping& mapping);
 
-/// The share of a bus that the messages of the mapping take, by their longest frames; those without a cycle
-/// time are left out.
+/// The bus load of the mapping's messages, with their longest frames; messages without a cycle time are left
+/// out.
 double load_of(const Mapping& mapping, const wire::BitRates& rates);
 
 }  // namespace canhil::mapping

@@ -24,7 +24,7 @@ Result<std::string> read_from_disk(const std::string& file) {
 
 const quantities::Layout* find_layout(std::string_view columns) {
   struct Own {
-    std::vector<const quantities::Quantity*> told;
+    std::vector<const quantities::Quantity*> reported;
     quantities::Layout layout;
   };
   static std::mutex mutex;
@@ -34,18 +34,18 @@ const quantities::Layout* find_layout(std::string_view columns) {
   Own own;
   for (std::string_view rest = columns; !rest.empty();) {
     const std::size_t end = std::min(rest.find(' '), rest.size());
-    const Truthed* one = find_truth(rest.substr(0, end));
+    const ReferenceQuantity* one = find_reference_quantity(rest.substr(0, end));
     if (one == nullptr) return nullptr;
-    own.told.push_back(one->quantity);
+    own.reported.push_back(one->quantity);
     rest.remove_prefix(std::min(end + 1, rest.size()));
   }
   Own& kept = known.emplace(columns, std::move(own)).first->second;
-  kept.layout = {.kept = kept.told};
+  kept.layout = {.kept = kept.reported};
   return &kept.layout;
 }
 
-Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
-                                       const scenario::Contract& own, const ReadText& read) {
+Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
+                                            const scenario::DbcVocabulary& own, const ReadText& read) {
   Section root = Section::parse(text, file);
   if (root.error() || !root.has("target")) return own;
   for (Section& target : root.table_or_tables("target")) {
@@ -55,7 +55,7 @@ Result<scenario::Contract> contract_of(std::string_view text, const std::string&
     if (const auto error = root.error()) return tl::unexpected(*error);
     auto mapping = read_mapping((fs::path(file).parent_path() / name).string(), read);
     if (!mapping) return tl::unexpected(mapping.error());
-    scenario::Contract contract = own;
+    scenario::DbcVocabulary contract = own;
     contract.estimators = {(*mapping)->name};
     contract.algorithms.clear();
     contract.parameters.clear();

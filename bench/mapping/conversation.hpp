@@ -1,5 +1,5 @@
-// What bench and target have said to each other in a run: who plays writes what was sent, who listens pairs
-// answers with it.
+// The exchange between bench and target in a run: the player records what it sent, the listener pairs answers
+// with it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace canhil::mapping {
 
-/// A play that was sent once.
+/// One transmission of a play.
 struct Sent {
   std::int64_t valid_us = 0;
   std::int64_t due_us = 0;
@@ -33,12 +33,13 @@ struct Conversation {
   }
 
   const Mapping& mapping;
-  std::vector<std::deque<Sent>> sent;            ///< by play, the newest last
-  std::map<std::string, std::uint64_t> clipped;  ///< by MESSAGE.SIGNAL: how often it could not hold its value
+  std::vector<std::deque<Sent>> sent;  ///< by play, the newest last
+  std::map<std::string, std::uint64_t>
+      clipped;  ///< by MESSAGE.SIGNAL: how often the value exceeded the signal's range
 };
 
-/// Frames of the bench as they pass: a fault may keep some of a play from passing as they are, and then the
-/// target has nothing to answer.
+/// Frames of the bench on their way to the bus. A fault may drop or change frames of a play; then the target
+/// has nothing to answer.
 class Passing {
  public:
   explicit Passing(const Conversation& conversation)
@@ -48,7 +49,7 @@ class Passing {
     std::size_t play = 0;
     const Sent* sent = nullptr;
   };
-  /// The play of which the last missing frame has passed with this one; none: it makes none whole.
+  /// The play that became complete with this frame; none: it completes none.
   std::optional<Whole> take(const Frame& frame);
 
  private:
@@ -57,10 +58,10 @@ class Passing {
     std::set<std::size_t> frames;
   };
   const Conversation& conversation_;
-  std::vector<Passed> passed_;  // of the newest, by play
+  std::vector<Passed> passed_;  // the newest for each play
 };
 
-/// What a frame of the target answers, by what it repeats, or by being the latest; null: nothing that is
+/// The cause of a target's frame: the stimulus that it echoes, or else the latest; null: none that is still
 /// remembered.
 const Sent* cause_of(const Conversation& conversation, const Hear& hear, const Frame& frame);
 

@@ -1,4 +1,4 @@
-// A mapped target as the bench knows estimators: tracks, samples, marks and lines of what it told.
+// A mapped target presented as an estimator of the bench: its tracks, samples, marks and result lines.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,16 +15,18 @@ namespace canhil::mapping {
 namespace {
 
 using estimators::Truth;
-using quantities::Told;
 using quantities::Track;
+using quantities::TrackPoint;
 
-const Truthed& truthed(const quantities::Quantity& quantity) { return *find_truth(quantity.name); }
+const ReferenceQuantity& reference_of(const quantities::Quantity& quantity) {
+  return *find_reference_quantity(quantity.name);
+}
 
-double difference(const Truthed& of, double a, double b) {
+double difference(const ReferenceQuantity& of, double a, double b) {
   return of.turns ? std::remainder(a - b, 2 * std::numbers::pi) : a - b;
 }
 
-// What came out of its order is sorted in memory.
+// Points out of order are sorted in memory.
 template <class Value, class TimeOf>
 Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   if (std::ranges::is_sorted(values, {}, time_of)) return values;
@@ -33,23 +35,23 @@ Spool<Value> in_order(Spool<Value> values, TimeOf time_of) {
   return Spool<Value>(sorted);
 }
 
-// In order of time: a cause that was told later may be earlier.
-Spool<Told> errors_of(const Truthed& of, const Spool<ToldOnce>& all, const Truth& truth) {
-  Spool<Told> errors;
-  for (const ToldOnce& one : all) {
+// Sorted by time: a cause that is answered later may be earlier.
+Spool<TrackPoint> errors_of(const ReferenceQuantity& of, const Spool<TimedValue>& all, const Truth& truth) {
+  Spool<TrackPoint> errors;
+  for (const TimedValue& one : all) {
     const auto at = of.truth(truth, one.t_us);
     if (!at || one.t_us > truth.duration_us) continue;
     const double error = difference(of, one.value, *at);
-    // Beside the truth without a jump.
+    // Unwrapped to the same turn as the truth.
     errors.push_back(
         {.t_us = one.t_us, .value = error, .sigma = one.sigma, .estimate = *at + error, .truth = *at});
   }
-  return in_order(std::move(errors), &Told::t_us);
+  return in_order(std::move(errors), &TrackPoint::t_us);
 }
 
 const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity) {
   return *std::ranges::find_if(mapping.hears, [&](const Hear& hear) {
-    return std::ranges::any_of(hear.tellings, [&](const Telling& telling) {
+    return std::ranges::any_of(hear.reported_signals, [&](const ReportedSignal& telling) {
       return !telling.sigma && telling.quantity->quantity == quantity;
     });
   });
@@ -57,36 +59,36 @@ const Hear& hear_of(const Mapping& mapping, const quantities::Quantity* quantity
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const quantities::TrackSink& give) {
   const Answers& answers = seen.of<Answers>();
-  for (const auto& [quantity, all] : answers.told) {
-    const Truthed& of = truthed(*quantity);
+  for (const auto& [quantity, all] : answers.values) {
+    const ReferenceQuantity& of = reference_of(*quantity);
     const std::string_view message = hear_of(*answers.mapping, quantity).of.message->name;
     const estimators::Answering answering{.longest_wait_us = estimators::longest_wait_us(seen, message),
                                           .answers_end_us = truth.duration_us};
     Track track = answering.track(*quantity, std::string(quantity->meaning));
     track.estimate_title = std::string(quantity->name);
     track.estimate_unit = quantity->unit;
-    track.told = errors_of(of, all, truth);
-    if (!track.told.empty()) give(std::move(track));
+    track.points = errors_of(of, all, truth);
+    if (!track.points.empty()) give(std::move(track));
   }
 }
 
-// A sample is a time at which something was told, with what was last told of all: a target may tell its
-// quantities in turn.
+// A sample is taken at each time at which a quantity was reported, with the last value of every quantity: a
+// target may report its quantities in turn.
 quantities::Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   const Answers& answers = seen.of<Answers>();
   if (answers.mapping == nullptr) return {};
   const Mapping& mapping = *answers.mapping;
   std::map<std::int64_t, std::map<std::size_t, double>> by_time;  // by quantity
-  for (std::size_t i = 0; i < mapping.told.size(); ++i) {
-    const auto told = answers.told.find(mapping.told[i]);
-    if (told == answers.told.end()) continue;
-    for (const Told& one : errors_of(truthed(*mapping.told[i]), told->second, truth))
+  for (std::size_t i = 0; i < mapping.quantities.size(); ++i) {
+    const auto values = answers.values.find(mapping.quantities[i]);
+    if (values == answers.values.end()) continue;
+    for (const TrackPoint& one : errors_of(reference_of(*mapping.quantities[i]), values->second, truth))
       by_time[one.t_us][i] = one.value;
   }
   quantities::Samples samples(*mapping.layout);
-  std::vector<std::optional<double>> last(mapping.told.size());
+  std::vector<std::optional<double>> last(mapping.quantities.size());
   for (const auto& [t_us, values] : by_time) {
-    for (const auto& [place, value] : values) last[place] = value;
+    for (const auto& [index, value] : values) last[index] = value;
     if (std::ranges::any_of(last, [](const auto& value) { return !value; })) continue;
     std::vector<double> all;
     for (const auto& value : last) all.push_back(*value);
@@ -95,7 +97,8 @@ quantities::Samples samples_of(const checks::Observations& seen, const Truth& tr
   return samples;
 }
 
-// All answers, then those of each message. What neither answers nor tells a quantity is none.
+// All answers, then those of each message. A message that neither answers anything nor carries a quantity has
+// no mark.
 std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
   const Answers& answers = seen.of<Answers>();
   estimators::Mark all{.name = "answers"};
@@ -104,7 +107,7 @@ std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
     const Hear& hear =
         *std::ranges::find(answers.mapping->hears, message,
                            [](const Hear& one) -> std::string_view { return one.of.message->name; });
-    if (!hear.answers && hear.tellings.empty()) continue;
+    if (!hear.answers && hear.reported_signals.empty()) continue;
     for (const std::int64_t t_us : times) all.t_us.push_back(t_us);
     marks.push_back({.name = message, .t_us = times});
   }
@@ -116,11 +119,11 @@ std::vector<estimators::Mark> marks_of(const checks::Observations& seen) {
 std::vector<estimators::ResultLine> results_of(const checks::Observations& seen, const Truth& truth,
                                                std::string_view /*algorithm*/) {
   estimators::ResultLine end{.name = "final_error", .what = "error at the end"},
-      delays{.name = "delay", .what = "delay by the truth"};
+      delays{.name = "delay", .what = "delay against the truth"};
   tracks_of(seen, truth, [&](const Track& track) {
     const quantities::Quantity& quantity = *track.quantity;
     const std::string name(quantity.name);
-    const double last = track.told.back().value;
+    const double last = track.points.back().value;
     end.add(name, last, fmt::format("{} {:+.3f} {}", name, last / quantity.unit.factor, quantity.unit.name));
     const auto delay = checks::delay_of(track, {.from_us = 0, .to_us = truth.duration_us});
     delays.add(
@@ -139,7 +142,7 @@ estimators::Estimator estimator_of(const Mapping& mapping) {
   return {.name = mapping.name,
           .facts = {.start = scenario::Start::nothing},
           .layout = *mapping.layout,
-          .of_runs = mapping.told,
+          .of_runs = mapping.quantities,
           .reception = nullptr,
           .samples = samples_of,
           .tracks = tracks_of,

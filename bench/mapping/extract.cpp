@@ -9,7 +9,7 @@
 namespace canhil::mapping {
 namespace {
 
-// The messages of a play as they come; the last closes a row.
+// The messages of a play as they arrive; the last one completes a row.
 class Group {
  public:
   explicit Group(const Play& play)
@@ -63,8 +63,8 @@ class Group {
 
   const Play& play_;
   std::vector<protection::Receiver> receivers_;
-  std::vector<std::vector<double>> values_;  // by message
-  std::vector<bool> here_;                   // by message, since the last row
+  std::vector<std::vector<double>> values_;  // for each message
+  std::vector<bool> here_;                   // for each message, since the last row
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A recording of somebody else's bus, as a CSV file that a node can send again (docs/recorded-data.md).
+// Converts a recording of another bus to a CSV file that a node can send again (docs/recorded-data.md).
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@ namespace canhil::mapping {
 struct Extracted {
   std::string csv;
   std::size_t rows = 0;
-  std::size_t incomplete =
-      0;  ///< groups of which a message was missing, or protected wrongly: they are left out
+  std::size_t incomplete = 0;  ///< groups with a missing message or a protection error: left out
 };
 
-/// What was sent as a play in a candump log: a row a group, with the stamp of its last frame as t_s. `play`:
-/// the name of its last message. Error: one line; the mapping has no such play, or the log none of it.
+/// The transmissions of a play in a candump log: one row for each group, with the stamp of its last frame as
+/// t_s. `play`: the name of its last message. Error: one line; the mapping has no such play, or the log does
+/// not contain it.
 Result<Extracted> extract(const Mapping& mapping, std::string_view play, const std::string& log);
 
 }  // namespace canhil::mapping

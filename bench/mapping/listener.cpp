@@ -27,11 +27,11 @@ Listener::Listener(const Conversation& conversation, std::vector<checks::TimedWi
       virtual_time_(virtual_time) {
   const Mapping& mapping = conversation.mapping;
   for (std::size_t i = 0; i < mapping.plays.size(); ++i)
-    play_closed_by_[mapping.plays[i].messages.back().of.place] = i;
-  for (std::size_t i = 0; i < mapping.hears.size(); ++i) hear_of_[mapping.hears[i].of.place] = i;
+    play_closed_by_[mapping.plays[i].messages.back().of.index] = i;
+  for (std::size_t i = 0; i < mapping.hears.size(); ++i) hear_of_[mapping.hears[i].of.index] = i;
 }
 
-// The play that a frame closed, if it was as it should be: nobody answers a damaged one.
+// The play that a frame completes, if the frame is valid: a damaged play is not answered.
 const Sent* Listener::closed_by(std::size_t play, const Frame& frame) const {
   const auto& sent = conversation_.sent[play];
   const auto found =
@@ -54,23 +54,23 @@ void Listener::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t l
 }
 
 void Listener::received(const Received& received) {
-  const std::size_t place = places_(received.frame);
-  if (place == MessagePlaces::nowhere) return;
+  const std::size_t index = places_(received.frame);
+  if (index == MessagePlaces::nowhere) return;
   if (received.own) {
-    const auto play = play_closed_by_.find(place);
+    const auto play = play_closed_by_.find(index);
     const Sent* sent = play == play_closed_by_.end() ? nullptr : closed_by(play->second, received.frame);
     if (sent != nullptr) seen_.transmit_stamps_echoed = true;
     return stopwatch_.echoed(received, sent == nullptr ? "" : conversation_.mapping.groups[play->second],
                              sent == nullptr ? 0 : sent->valid_us);
   }
-  if (const auto found = hear_of_.find(place); found != hear_of_.end())
+  if (const auto found = hear_of_.find(index); found != hear_of_.end())
     hear(conversation_.mapping.hears[found->second], received);
 }
 
 void Listener::hear(const Hear& hear, const Received& received) {
   const Frame& frame = received.frame;
-  const std::size_t place = hear.of.place;
-  checks::Sighting& sighting = seen_.from_target[place];
+  const std::size_t index = hear.of.index;
+  checks::Sighting& sighting = seen_.from_target[index];
   if (frame.size != hear.of.message->size || frame.fd != hear.of.message->fd) {
     ++sighting.wrong_size;
     sighting.size = frame.size;
@@ -96,15 +96,16 @@ void Listener::hear(const Hear& hear, const Received& received) {
     }
   }
   ++sighting.right;
-  stopwatch_.arrived(place, received);
-  ++seen_.answers[place];
+  stopwatch_.arrived(index, received);
+  ++seen_.answers[index];
   std::int64_t t_us = bench_us(received.t_ns);
   if (hear.answers) {
     const Sent* cause = cause_of(conversation_, hear, frame);
     const std::string_view group = conversation_.mapping.groups[*hear.answers];
-    // Before the first play nothing was asked; a count that nobody sent is an answer to nothing.
+    // Before the first play there is nothing to answer; an echo that matches no play is an answer without a
+    // cause.
     if (cause == nullptr && conversation_.sent[*hear.answers].empty()) return;
-    stopwatch_.answered({&place, 1}, group, cause == nullptr ? -1 : cause->valid_us);
+    stopwatch_.answered({&index, 1}, group, cause == nullptr ? -1 : cause->valid_us);
     if (cause == nullptr) return;
     t_us = cause->valid_us;
   }
@@ -112,22 +113,22 @@ void Listener::hear(const Hear& hear, const Received& received) {
   auto& answers = seen_.of<Answers>();
   answers.messages[hear.of.message->name].push_back(t_us);
   values_.resize(hear.of.plan.signals());
-  static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // of the message's size
-  const auto value_of = [&](const Telling& telling) -> std::optional<double> {
+  static_cast<void>(hear.of.plan.decode(frame.payload(), values_));  // it has the message's size
+  const auto value_of = [&](const ReportedSignal& telling) -> std::optional<double> {
     const std::size_t number = hear.of.number(*telling.signal);
     const bool invalid =
         telling.invalid && dbc::raw_bits(*telling.signal, frame.payload()) == *telling.invalid;
     if (invalid || !hear.of.plan.is_present(number, frame.payload())) return std::nullopt;
-    return values_[number] * telling.factor;  // what is no number is told, and fails
+    return values_[number] * telling.factor;  // NaN is recorded too, so that checks fail
   };
-  for (const Telling& telling : hear.tellings) {
+  for (const ReportedSignal& telling : hear.reported_signals) {
     const auto value = value_of(telling);
     if (telling.sigma || !value) continue;
-    ToldOnce told{.t_us = t_us, .value = *value};
-    for (const Telling& other : hear.tellings) {
-      if (other.sigma && other.quantity == telling.quantity) told.sigma = value_of(other);
+    TimedValue reported{.t_us = t_us, .value = *value};
+    for (const ReportedSignal& other : hear.reported_signals) {
+      if (other.sigma && other.quantity == telling.quantity) reported.sigma = value_of(other);
     }
-    answers.told[telling.quantity->quantity].push_back(told);
+    answers.values[telling.quantity->quantity].push_back(reported);
   }
 }
 

@@ -1,4 +1,4 @@
-// Frames of a mapped target to observations: what observe::Monitor is for the project's own contract.
+// Turns frames of a mapped target into observations, as observe::Monitor does for canhil's own DBC.
 #pragma once
 
 #include <map>
@@ -14,8 +14,8 @@ namespace canhil::mapping {
 
 class Listener final : public observe::Watcher {
  public:
-  /// `conversation` must outlive it. `virtual_time`: nothing takes time, and an answer comes when its cause
-  /// was sent.
+  /// `conversation` must outlive it. `virtual_time`: nothing takes time; an answer arrives at the time at
+  /// which its cause was sent.
   Listener(const Conversation& conversation, std::vector<checks::TimedWindow> windows, const WireFacts& wire,
            bool virtual_time);
 
@@ -34,11 +34,11 @@ class Listener final : public observe::Watcher {
   observe::Stopwatch stopwatch_;
   Places places_;
   Passing passing_;
-  std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // by place of a message
+  std::map<std::size_t, std::size_t> play_closed_by_, hear_of_;  // by index of a message
   std::vector<double> values_;                                   // of a message's signals
-  std::vector<protection::Receiver> receivers_;                  // by hear
+  std::vector<protection::Receiver> receivers_;                  // for each hear
   bool virtual_time_ = false, sent_any_ = false;
-  std::int64_t due_us_ = 0, due_ns_ = 0;  // of the last play: the bench's time, and the stamps'
+  std::int64_t due_us_ = 0, due_ns_ = 0;  // of the last play, in the bench's time and in time stamps
 };
 
 }  // namespace canhil::mapping

@@ -1,8 +1,8 @@
-// Somebody else's contract: a DBC, and a TOML file beside it that says which of its signals are which of the
-// bench's quantities. docs/mapping.md.
+// A mapping connects a DBC of another project to the bench: a TOML file beside the DBC assigns its signals to
+// the bench's quantities. docs/mapping.md.
 //
-// A play is a group of messages that the bench sends; a hear a message of the target. Neither knows a
-// scenario.
+// A play is a group of messages that the bench sends; a hear is a message of the target. Both are independent
+// of any scenario.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "bench/checks/estimator.hpp"
+#include "bench/mapping/reference_quantities.hpp"
 #include "bench/mapping/stimuli.hpp"
-#include "bench/mapping/truths.hpp"
 #include "bench/scenario/contract.hpp"
 #include "bench/scenario/foreign.hpp"
 #include "dbc/parser/database.hpp"
@@ -28,29 +28,29 @@
 
 namespace canhil::mapping {
 
-/// A message of the DBC, and its place in Mapping::messages.
+/// A message of the DBC and its index in Mapping::messages.
 struct Mapped {
   explicit Mapped(const dbc::Message& of) : message(&of), plan(of) {}
 
   const dbc::Message* message;
   dbc::MessagePlan plan;
-  std::size_t place = 0;
+  std::size_t index = 0;
   std::optional<protection::Protection> protection{};
 
-  /// The number of one of the message's signals.
+  /// The index of one of the message's signals.
   [[nodiscard]] std::size_t number(const dbc::Signal& signal) const {
     return static_cast<std::size_t>(&signal - message->signals.data());
   }
 };
 
-/// What a signal of the bench carries.
+/// The source of a signal that the bench sends.
 struct Source {
   const dbc::Signal* signal = nullptr;
   const Stimulus* stimulus = nullptr;      ///< null: a constant, or the time
   bool time = false;                       ///< of validity, from the start of the run
   double value = 0;                        ///< a constant, in the signal's unit
   double factor = 1;                       ///< from SI to the signal's unit
-  std::optional<std::uint64_t> invalid{};  ///< raw value in place of what the node calls invalid
+  std::optional<std::uint64_t> invalid{};  ///< raw value to send when the node's value is invalid
 };
 
 struct PlayedMessage {
@@ -58,36 +58,36 @@ struct PlayedMessage {
   std::vector<Source> sources;
 };
 
-/// A group of messages that the bench sends one after the other.
+/// A group of messages that the bench sends together.
 struct Play {
   std::string name;  ///< of its last message
   std::vector<PlayedMessage> messages;
-  std::string_view node;        ///< whose samples it follows
-  std::int64_t period_us = 0;   ///< a multiple of the node's
-  std::int64_t latency_us = 0;  ///< beside the node's
+  std::string_view node;        ///< whose samples trigger it
+  std::int64_t period_us = 0;   ///< a multiple of the node's period
+  std::int64_t latency_us = 0;  ///< added to the node's latency
 };
 
-/// What a signal of the target tells.
-struct Telling {
+/// A signal that carries a quantity of the target.
+struct ReportedSignal {
   const dbc::Signal* signal = nullptr;
-  const Truthed* quantity = nullptr;
-  bool sigma = false;                      ///< of the quantity, in place of its value
+  const ReferenceQuantity* quantity = nullptr;
+  bool sigma = false;                      ///< the signal carries the quantity's sigma, not its value
   double factor = 1;                       ///< from the signal's unit to SI
-  std::optional<std::uint64_t> invalid{};  ///< raw value that tells nothing
+  std::optional<std::uint64_t> invalid{};  ///< raw value that means "invalid"
 };
 
-/// A signal of the target that repeats one of what it answers.
+/// A signal in which the target echoes a signal of its cause.
 struct Echo {
   const dbc::Signal* repeated = nullptr;
-  std::size_t message = 0;  ///< of the play
+  std::size_t message = 0;  ///< index in the play
   const dbc::Signal* original = nullptr;
 };
 
 struct Hear {
   Mapped of;
-  std::vector<Telling> tellings;
-  std::optional<std::size_t> answers{};  ///< a play; none: it comes by itself
-  std::optional<Echo> echo{};            ///< none: it answers the latest before it
+  std::vector<ReportedSignal> reported_signals;
+  std::optional<std::size_t> answers{};  ///< a play; none: it is sent independently of plays
+  std::optional<Echo> echo{};            ///< none: its cause is the latest stimulus before it
 };
 
 struct Mapping final : scenario::Foreign {
@@ -95,38 +95,38 @@ struct Mapping final : scenario::Foreign {
   std::vector<Play> plays;
   std::vector<Hear> hears;
   std::string name;  ///< of the target, in place of an estimator's
-  /// By J1939 parameter group: places of messages that are heard from any source, at any priority.
+  /// By J1939 parameter group: indices of messages that are accepted from any source at any priority.
   std::map<std::uint32_t, std::size_t> by_group;
 
-  // What Foreign::messages and Foreign::estimator are made of.
+  // Storage for Foreign::messages and Foreign::estimator.
   std::deque<std::string_view> groups;
-  std::vector<const quantities::Quantity*> told;  ///< each once
+  std::vector<const quantities::Quantity*> quantities;  ///< each once
   const quantities::Layout* layout = nullptr;
   std::vector<std::string_view> closing;
   std::optional<estimators::Estimator> own;
 };
 
-/// Gives the text of a file that is named. Error: one line.
+/// Reads a named file. Error: one line.
 using ReadText = std::function<Result<std::string>(const std::string& file)>;
 /// From the disk.
 Result<std::string> read_from_disk(const std::string& file);
 
-/// The parameter group of a J1939 id (SAE J1939-21, 5.2): without priority and source, and of a message to
-/// one destination (PDU format below 240) without that.
+/// The parameter group of a J1939 id (SAE J1939-21, 5.2): without priority and source address, and for a
+/// destination-specific message (PDU format below 240) without the destination.
 constexpr std::uint32_t j1939_group(std::uint32_t id) {
   constexpr std::uint32_t first_broadcast = 240;
   const std::uint32_t group = (id >> 8U) & 0x3FFFFU;
   return ((group >> 8U) & 0xFFU) < first_broadcast ? group & 0x3FF00U : group;
 }
 
-/// From a frame to the place of its message in Mapping::messages.
+/// Finds the index of a frame's message in Mapping::messages.
 class Places {
  public:
   explicit Places(const Mapping& mapping) : by_id_(mapping.messages), by_group_(mapping.by_group) {}
-  /// MessagePlaces::nowhere: none of the mapping.
+  /// MessagePlaces::nowhere: not a message of the mapping.
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
-    const std::size_t place = by_id_(frame);
-    if (place != MessagePlaces::nowhere || !frame.extended || frame.error) return place;
+    const std::size_t index = by_id_(frame);
+    if (index != MessagePlaces::nowhere || !frame.extended || frame.error) return index;
     const auto found = by_group_.find(j1939_group(frame.id));
     return found == by_group_.end() ? MessagePlaces::nowhere : found->second;
   }
@@ -136,21 +136,22 @@ class Places {
   const std::map<std::uint32_t, std::size_t>& by_group_;
 };
 
-/// Reads a mapping and the DBC that it names, relative to itself. Error: one line.
+/// Reads a mapping and its DBC, whose path is relative to the mapping. Error: one line.
 Result<std::shared_ptr<const Mapping>> read_mapping(const std::string& file,
                                                     const ReadText& text = read_from_disk);
 
-/// Of samples that tell these quantities, in their order, each of which has a truth here: the same object
-/// each time, so that stored samples and those of a run have the same. None: null.
+/// The layout of samples with these quantities, in this order, all of which have a truth here. The same
+/// object each time, so stored samples and those of a run share it. Null if there is none.
 const quantities::Layout* find_layout(std::string_view columns);
 
-/// What the bench knows of a target that a mapping describes, as of an estimator. The mapping must stay where
-/// it is.
+/// The mapped target presented as an estimator. The mapping must not move.
 estimators::Estimator estimator_of(const Mapping& mapping);
 
-/// The contract by which a scenario is read: the project's, or that of the mapping that its [target] names,
-/// relative to the scenario's file. Error: one line; a text that is no TOML is left to who reads it.
-Result<scenario::Contract> contract_of(std::string_view text, const std::string& file,
-                                       const scenario::Contract& own, const ReadText& read = read_from_disk);
+/// The vocabulary for reading a scenario: canhil's own, or that of the mapping that the scenario's [target]
+/// names, relative to the scenario's file. Error: one line; TOML syntax errors are left to the scenario's
+/// reader.
+Result<scenario::DbcVocabulary> contract_of(std::string_view text, const std::string& file,
+                                            const scenario::DbcVocabulary& own,
+                                            const ReadText& read = read_from_disk);
 
 }  // namespace canhil::mapping

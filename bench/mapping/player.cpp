@@ -36,8 +36,8 @@ Result<void> Player::check(const Mapping& mapping, const scenario::Scenario& sce
             fmt::format("key '{}': is missing, and {} plays it, expected a table", key, play.name));
       if (play.node == key && play.period_us % node->period_us() != 0)
         return failure(
-            fmt::format("key '{}.period_ms': {:g} does not go into the {:g} ms of {}, expected a "
-                        "whole share of it",
+            fmt::format("key '{}.period_ms': {:g} does not divide the {:g} ms of {}, expected a "
+                        "whole fraction of it",
                         key, ms(node->period_us()), ms(play.period_us), play.name));
     }
   }
@@ -74,7 +74,7 @@ std::int64_t Player::due_us() const {
   return due_us;
 }
 
-// A sample first, as a play may be sent with it.
+// Samples first, because a play may be sent with the sample.
 void Player::transmit(nodes::Transmission& out) {
   const std::int64_t now_us = due_us();
   for (Played& played : nodes_) {
@@ -94,7 +94,7 @@ void Player::sample(Played& played) {
   played.node->transmit(own);
   played.valid_us = due_us - played.latency_us;
   played.lost = own.frames().empty();
-  bool closed = played.lost;  // of a log the frames of a group come one by one
+  bool closed = played.lost;  // frames of a log arrive one by one
   for (const Frame& frame : own.frames()) {
     take(played, frame);
     closed = closed || frame.id == played.table->closes.id;
@@ -104,7 +104,7 @@ void Player::sample(Played& played) {
     const Play& play = conversation_.mapping.plays[i];
     if (play.node != played.table->key || played.valid_us < next_us_[i]) continue;
     next_us_[i] += play.period_us;
-    if (due_us + play.latency_us > end_us_) continue;  // nobody would hear of the answer
+    if (due_us + play.latency_us > end_us_) continue;  // an answer would come after the end of the run
     Sent sent = put_together(i, played, due_us + play.latency_us);
     const auto after = std::ranges::upper_bound(due_, sent.due_us, {}, &Due::due_us);
     due_.insert(after, {.due_us = sent.due_us, .play = i, .sent = std::move(sent), .lost = played.lost});
@@ -143,15 +143,15 @@ double Player::value_of(std::size_t play, const Source& source, std::int64_t val
   return 0;
 }
 
-Sent Player::put_together(std::size_t place, const Played& played, std::int64_t due_us) {
+Sent Player::put_together(std::size_t index, const Played& played, std::int64_t due_us) {
   Sent sent{.valid_us = played.valid_us, .due_us = due_us, .frames = {}};
-  for (const PlayedMessage& one : conversation_.mapping.plays[place].messages) {
+  for (const PlayedMessage& one : conversation_.mapping.plays[index].messages) {
     const dbc::Message& message = *one.of.message;
     std::vector<double> values(one.of.plan.signals(), 0.0);
     for (const Source& source : one.sources) {
       const bool constant = source.stimulus == nullptr && !source.time;
       double& value = values[one.of.number(*source.signal)];
-      value = constant ? source.value : value_of(place, source, played.valid_us) * source.factor;
+      value = constant ? source.value : value_of(index, source, played.valid_us) * source.factor;
       if (!dbc::holds(*source.signal, value))
         ++conversation_.clipped[message.name + "." + source.signal->name];
     }
@@ -160,11 +160,12 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
                 .extended = message.extended,
                 .fd = message.fd,
                 .brs = message.fd};
-    static_cast<void>(one.of.plan.encode(values, {frame.data.data(), frame.size}));  // of the message's size
+    static_cast<void>(
+        one.of.plan.encode(values, {frame.data.data(), frame.size}));  // it has the message's size
     for (const Source& source : one.sources) {
       const auto says_invalid = [](const auto& kept) { return !kept.second.valid; };
-      const bool invalid = source.stimulus != nullptr ? !values_[place][source.stimulus].valid
-                                                      : std::ranges::any_of(values_[place], says_invalid);
+      const bool invalid = source.stimulus != nullptr ? !values_[index][source.stimulus].valid
+                                                      : std::ranges::any_of(values_[index], says_invalid);
       if (source.invalid && invalid)
         dbc::put_raw_bits(*source.signal, *source.invalid, {frame.data.data(), frame.size});
     }
@@ -176,7 +177,7 @@ Sent Player::put_together(std::size_t place, const Played& played, std::int64_t 
     }
     sent.frames.push_back(frame);
   }
-  for (auto& [stimulus, value] : values_[place]) value = {.newest = value.newest};
+  for (auto& [stimulus, value] : values_[index]) value = {.newest = value.newest};
   return sent;
 }
 

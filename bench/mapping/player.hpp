@@ -1,4 +1,4 @@
-// The nodes of a scenario, on somebody else's bus: their samples go out as the messages of a mapping.
+// Sends the samples of a scenario's nodes as the messages of a mapping.
 #pragma once
 
 #include <deque>
@@ -15,28 +15,29 @@ namespace canhil::mapping {
 
 class Player final : public nodes::Node {
  public:
-  /// Error: the scenario has no table for a node that is played, or its period does not go into the play's.
+  /// Error: the scenario has no table for a node that is played, or the node's period does not divide the
+  /// play's.
   static Result<void> check(const Mapping& mapping, const scenario::Scenario& scenario);
 
-  /// `conversation` and what `run` has must outlive it; the scenario has passed check().
+  /// `conversation` and everything in `run` must outlive it; the scenario has passed check().
   Player(Conversation& conversation, const nodes::Run& run);
 
   [[nodiscard]] std::int64_t due_us() const override;
   void transmit(nodes::Transmission& out) override;
 
  private:
-  // A node's samples as they come.
+  // The incoming samples of a node.
   struct Played {
     std::unique_ptr<nodes::Node> node;
     const scenario::NodeTable* table = nullptr;
     std::int64_t period_us = 0, latency_us = 0;
-    std::int64_t valid_us = 0;  // of the newest
-    bool lost = false;          // the newest did not go out
+    std::int64_t valid_us = 0;  // of the newest sample
+    bool lost = false;          // the newest sample was not sent
   };
-  // A quantity as the plays want it.
+  // The current value of a quantity for the plays.
   struct Value {
-    double newest = 0, sum = 0;  // the sum since the play that takes it was sent
-    bool valid = true;           // as the newest message that has it says
+    double newest = 0, sum = 0;  // the sum since the play was last sent
+    bool valid = true;           // according to the newest message that carries it
     std::int64_t over_us = 0;
   };
   struct Due {
@@ -54,9 +55,9 @@ class Player final : public nodes::Node {
   Conversation& conversation_;
   std::int64_t end_us_;  // of the run
   std::vector<Played> nodes_;
-  std::vector<std::map<const Stimulus*, Value>> values_;  // by play
-  std::vector<std::int64_t> next_us_;                     // by play: the next time of validity
-  std::deque<Due> due_;                                   // in the order of their times
+  std::vector<std::map<const Stimulus*, Value>> values_;  // for each play
+  std::vector<std::int64_t> next_us_;                     // for each play: the next time of validity
+  std::deque<Due> due_;                                   // in order of time
   std::map<std::string, protection::Sender> shared_;
   std::map<const dbc::Message*, protection::Sender> own_;
 };

@@ -1,4 +1,4 @@
-// What a mapped target may tell beside the quantities of the project's own estimators.
+// Quantities that a mapped target may report besides those of the bench's own estimators.
 #pragma once
 
 #include "bench/quantities/list.hpp"
@@ -7,14 +7,14 @@ namespace canhil::quantities {
 
 inline constexpr Unit degps{"deg/s", "_degps", world::units::deg}, mps2{"m/s^2", "_mps2"};
 
-/// Of the body to inertial space, in body axes.
+/// Of the body relative to inertial space, in body axes.
 inline constexpr Quantity rate_x{
     .name = "rate.x", .meaning = "error of the inertial rate about x", .unit = degps};
 inline constexpr Quantity rate_y{
     .name = "rate.y", .meaning = "error of the inertial rate about y", .unit = degps};
 inline constexpr Quantity rate_z{
     .name = "rate.z", .meaning = "error of the inertial rate about z", .unit = degps};
-/// Acceleration without gravity, in body axes.
+/// Acceleration minus gravity, in body axes.
 inline constexpr Quantity specific_force_x{
     .name = "specific_force.x", .meaning = "error of the specific force along x", .unit = mps2};
 inline constexpr Quantity specific_force_y{

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using scenario::Limits;
 using scenario::Section;
 
-constexpr std::size_t most_messages_of_a_play = 8;  // as nodes::Transmission holds
+constexpr std::size_t most_messages_of_a_play = 8;  // the capacity of nodes::Transmission
 constexpr std::string_view time_word = "time";
 
 template <class Range, class Name>
@@ -86,7 +86,7 @@ class Reader {
     return found;
   }
 
-  // "MESSAGE.SIGNAL" of one of some messages.
+  // "MESSAGE.SIGNAL", where the message is one of several.
   std::pair<const dbc::Message*, const dbc::Signal*> signal_of(Section& section, std::string_view key,
                                                                std::string_view text) {
     const std::size_t dot = std::min(text.find('.'), text.size());
@@ -101,22 +101,22 @@ class Reader {
       const auto [of, one] = signal_of(section, key, key);
       const std::string unit = section.text(key);
       if (!unit.empty() && !wire_unit(unit))
-        section.reject(key, fmt::format("'{}' is no unit", unit), "one of: " + wire_units());
+        section.reject(key, fmt::format("'{}' is not a known unit", unit), "one of: " + wire_units());
       if (one != nullptr) units_[one] = unit;
     }
     section.finish();
   }
 
-  // From the signal's unit to SI; `si`: of the quantity.
+  // The factor from the signal's unit to SI; `si`: the SI unit of the quantity.
   double factor(Section& section, std::string_view key, const dbc::Message& of, const dbc::Signal& one,
                 std::string_view si, std::string_view quantity) {
-    const auto told = units_.find(&one);
-    const std::string& text = told == units_.end() ? one.unit : told->second;
+    const auto given = units_.find(&one);
+    const std::string& text = given == units_.end() ? one.unit : given->second;
     const auto unit = wire_unit(text);
     if (!unit && !si.empty())
       section.reject(
           key,
-          text.empty() ? "has no unit in the DBC" : fmt::format("has the unit '{}', which is none", text),
+          text.empty() ? "has no unit in the DBC" : fmt::format("has the unit '{}', which is unknown", text),
           fmt::format("[units] with \"{}.{}\" beside it", of.name, one.name));
     if (unit && unit->si != si)
       section.reject(key, fmt::format("is in '{}', {} is in {}", text, quantity, si.empty() ? "no unit" : si),
@@ -129,7 +129,8 @@ class Reader {
     for (const std::string& name : section.texts("messages")) {
       if (const dbc::Message* one = message(section, "messages", name); one != nullptr) of.push_back(one);
     }
-    if (of.empty() && !section.error()) section.reject("messages", "names none", "at least one message");
+    if (of.empty() && !section.error())
+      section.reject("messages", "names no message", "at least one message");
     for (const dbc::Message* one : of) {
       if (auto made = mapping::read_protection(section, *one)) protections_.insert_or_assign(one, *made);
     }
@@ -139,7 +140,7 @@ class Reader {
   Mapped mapped(Section& section, std::string_view key, const dbc::Message& message, bool of_target) {
     auto& all = mapping_->messages;
     if (std::ranges::find(all, message.name, &MessageInfo::name) != all.end())
-      section.reject(key, fmt::format("{} is played or heard already", message.name), "each message once");
+      section.reject(key, fmt::format("{} is already used", message.name), "each message once");
     MessageInfo info{
         .name = message.name,
         .id = message.id,
@@ -150,7 +151,7 @@ class Reader {
         .sender = of_target ? messages::TargetHeartbeat::info.sender : messages::Sync::info.sender};
     all.push_back(info);
     Mapped mapped(message);
-    mapped.place = all.size() - 1;
+    mapped.index = all.size() - 1;
     if (const auto own = protections_.find(&message); own != protections_.end())
       mapped.protection = own->second;
     return mapped;
@@ -197,7 +198,7 @@ class Reader {
         std::ranges::find(play.messages, of, [](const PlayedMessage& p) { return p.of.message; });
     if (of != nullptr && own == play.messages.end())
       section.reject(
-          key, fmt::format("{} is no message of this play", of->name),
+          key, fmt::format("{} is not a message of this play", of->name),
           fmt::format(
               "one of: {}",
               fmt::join(names_of(play.messages, [](const PlayedMessage& p) { return p.of.message->name; }),
@@ -222,11 +223,12 @@ class Reader {
     }
     const Stimulus* stimulus = find_stimulus(word);
     if (stimulus == nullptr) {
-      section.reject(key, fmt::format("'{}' is no quantity that a node measures", word),
+      section.reject(key, fmt::format("'{}' is not a quantity that a node measures", word),
                      fmt::format("one of: time, {}", fmt::join(names_of(stimuli(), &Stimulus::name), ", ")));
       return;
     }
-    if (play.node.empty()) play.node = stimulus->node;  // the first one's: it is sent with its samples
+    if (play.node.empty())
+      play.node = stimulus->node;  // of the first quantity: the play is sent with that node's samples
     own->sources.push_back({.signal = one,
                             .stimulus = stimulus,
                             .factor = sign / factor(section, key, *of, *one, stimulus->si, stimulus->name)});
@@ -253,12 +255,12 @@ class Reader {
   void read_hear(Section& section) {
     const dbc::Message* of = message(section, "message", section.text("message"));
     if (of == nullptr) return;
-    Hear hear{.of = mapped(section, "message", *of, true), .tellings = {}};
+    Hear hear{.of = mapped(section, "message", *of, true), .reported_signals = {}};
     if (section.flag("any_source")) {
       if (!of->extended)
-        section.reject("any_source", "is of J1939, whose ids have 29 bits",
+        section.reject("any_source", "is for J1939, whose ids have 29 bits",
                        fmt::format("another message than {}", of->name));
-      mapping_->by_group[j1939_group(of->id)] = hear.of.place;
+      mapping_->by_group[j1939_group(of->id)] = hear.of.index;
     }
     if (section.has("answers")) {
       const std::string name = section.one_of("answers", names_of(mapping_->plays, &Play::name));
@@ -290,7 +292,7 @@ class Reader {
     const auto& own = mapping_->plays[*hear.answers].messages;
     const auto played = std::ranges::find(own, of, [](const PlayedMessage& p) { return p.of.message; });
     if (of != nullptr && played == own.end())
-      section.reject("of", fmt::format("{} is not of the play that it answers", of->name),
+      section.reject("of", fmt::format("{} is not part of the play that it answers", of->name),
                      "one of its messages");
     if (played == own.end()) return;
     hear.echo = {.repeated = repeated,
@@ -303,18 +305,19 @@ class Reader {
     const dbc::Signal* one = signal(section, key, hear.of.message, key);
     std::string word = section.text(key);
     if (one == nullptr || word.empty()) return;
-    Telling telling{.signal = one};
+    ReportedSignal telling{.signal = one};
     const double sign = word.starts_with('-') ? -1 : 1;
     if (sign < 0) word.erase(0, 1);
     telling.sigma = word.ends_with(sigma);
     if (telling.sigma) word.erase(word.size() - sigma.size());
-    telling.quantity = find_truth(word);
+    telling.quantity = find_reference_quantity(word);
     if (telling.quantity == nullptr) {
       section.reject(
-          key, fmt::format("'{}' is no quantity that has a truth", word),
-          fmt::format(
-              "one of: {}, or one with '.sigma'",
-              fmt::join(names_of(truths(), [](const Truthed& t) { return t.quantity->name; }), ", ")));
+          key, fmt::format("'{}' is not a quantity with a truth", word),
+          fmt::format("one of: {}, or one with '.sigma'",
+                      fmt::join(names_of(reference_quantities(),
+                                         [](const ReferenceQuantity& t) { return t.quantity->name; }),
+                                ", ")));
       return;
     }
     telling.factor = sign * factor(section, key, *hear.of.message, *one, telling.quantity->si, word);
@@ -322,10 +325,10 @@ class Reader {
       telling.invalid = static_cast<std::uint64_t>(invalid->integer(key, 0));
       expect_bits(*invalid, key, *one, *telling.invalid);
     }
-    hear.tellings.push_back(telling);
+    hear.reported_signals.push_back(telling);
   }
 
-  // What follows from all of it. Why it is no mapping; none: it is.
+  // Derives the rest from what was read. Returns why the mapping is not valid; none: it is.
   std::optional<std::string> put_together() {
     Mapping& mapping = *mapping_;
     const auto wrong = [&](const std::string& what) { return fmt::format("{}: {}", mapping.file, what); };
@@ -334,34 +337,35 @@ class Reader {
           fmt::format("{} messages, expected {} at the most", mapping.messages.size(), MessagePlaces::most));
     for (const MessageInfo& info : mapping.messages) {
       if (info.fd != mapping.messages.front().fd)
-        return wrong(fmt::format("{} and {} are of different formats, expected all CAN FD or all classic",
+        return wrong(fmt::format("{} and {} have different formats, expected all CAN FD or all classic",
                                  mapping.messages.front().name, info.name));
     }
     for (const Play& play : mapping.plays) {
       const std::string_view group = mapping.groups.emplace_back(play.name);
-      for (const PlayedMessage& one : play.messages) mapping.messages[one.of.place].sample_group = group;
+      for (const PlayedMessage& one : play.messages) mapping.messages[one.of.index].sample_group = group;
     }
     for (const Hear& hear : mapping.hears) {
-      MessageInfo& info = mapping.messages[hear.of.place];
+      MessageInfo& info = mapping.messages[hear.of.index];
       info.sample_group = hear.of.message->name;
       mapping.answers_by_name = mapping.answers_by_name || hear.echo;
       if (hear.answers) info.answers = {&mapping.groups[*hear.answers], 1};
       if (hear.answers) mapping.closing.push_back(hear.of.message->name);
-      for (const Telling& telling : hear.tellings) {
-        const auto same = [&](const Telling& other) {
+      for (const ReportedSignal& telling : hear.reported_signals) {
+        const auto same = [&](const ReportedSignal& other) {
           return !other.sigma && other.quantity == telling.quantity;
         };
-        if (telling.sigma && std::ranges::none_of(hear.tellings, same))
-          return wrong(fmt::format("{} tells the sigma of {} without it, expected both in one message",
-                                   hear.of.message->name, telling.quantity->quantity->name));
+        if (telling.sigma && std::ranges::none_of(hear.reported_signals, same))
+          return wrong(
+              fmt::format("{} carries the sigma of {} without its value, expected both in one message",
+                          hear.of.message->name, telling.quantity->quantity->name));
         if (!telling.sigma &&
-            std::ranges::find(mapping.told, telling.quantity->quantity) != mapping.told.end())
-          return wrong(fmt::format("{} is told twice, expected once", telling.quantity->quantity->name));
-        if (!telling.sigma) mapping.told.push_back(telling.quantity->quantity);
+            std::ranges::find(mapping.quantities, telling.quantity->quantity) != mapping.quantities.end())
+          return wrong(fmt::format("{} is reported twice, expected once", telling.quantity->quantity->name));
+        if (!telling.sigma) mapping.quantities.push_back(telling.quantity->quantity);
       }
     }
     std::string columns;
-    for (const quantities::Quantity* one : mapping.told)
+    for (const quantities::Quantity* one : mapping.quantities)
       columns += (columns.empty() ? "" : " ") + std::string(one->name);
     mapping.layout = find_layout(columns);
     mapping.own.emplace(estimator_of(mapping));

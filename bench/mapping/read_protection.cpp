@@ -24,7 +24,7 @@ std::vector<std::uint64_t> values(Section& section, std::string_view key) {
   return all;
 }
 
-// What a library's function gives; its error is the key's.
+// Turns the error of a library function into an error of the key.
 template <class Value>
 std::optional<Value> or_reject(Section& section, std::string_view key, Result<Value> value) {
   if (value) return std::move(*value);
@@ -32,7 +32,7 @@ std::optional<Value> or_reject(Section& section, std::string_view key, Result<Va
   return std::nullopt;
 }
 
-// Where a signal of the DBC lies, or as a DBC counts.
+// The position of a signal of the DBC, or a position in DBC notation.
 protection::Place read_place(Section& section, const dbc::Message& message) {
   if (!section.has("start_bit")) {
     for (const std::string_view key : {"start_bit", "length", "byte_order"}) section.optional(key);
@@ -46,7 +46,7 @@ protection::Place read_place(Section& section, const dbc::Message& message) {
       section.reject("signal", fmt::format("{} has no signal '{}'", message.name, name), "the name of one");
     return {};
   }
-  section.refuse("signal", "is there beside start_bit", "one of the two");
+  section.refuse("signal", "is given beside start_bit", "one of the two");
   section.optional("signal");
   static const std::vector<std::string> orders{"intel", "motorola"};
   return {.start_bit = static_cast<unsigned>(section.integer("start_bit", 0)),
@@ -74,7 +74,7 @@ protection::Counter read_counter(Section section, const dbc::Message& message) {
   return counter;
 }
 
-// A word, or a number as text: "0x1F".
+// A number, also as text: "0x1F".
 Result<protection::AddedByte> added_byte(const std::string& word) {
   const bool hexadecimal = word.starts_with("0x");
   unsigned value = 0;
@@ -96,7 +96,7 @@ std::vector<protection::AddedByte> read_added(Section& section, std::string_view
 }
 
 std::variant<protection::Crc, protection::Sum> read_rule(Section& section) {
-  if (section.has("model")) {  // by the name that it is published under
+  if (section.has("model")) {  // by its published name
     const auto crc = or_reject(section, "model", protection::published_crc(section.text("model")));
     return crc.value_or(protection::Crc{});
   }

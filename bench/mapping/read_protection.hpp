@@ -1,4 +1,4 @@
-// [[protection]] of a mapping: docs/protection.md has the keys.
+// Reads [[protection]] of a mapping: docs/protection.md has the keys.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ class Section;
 
 namespace canhil::mapping {
 
-/// What one of the messages of the table is protected by; none: that is wrong, which the section then says.
+/// The protection of one of the table's messages; none: invalid, with the error in the section.
 std::optional<protection::Protection> read_protection(scenario::Section& section,
                                                       const dbc::Message& message);
 

@@ -11,12 +11,12 @@
 namespace canhil::mapping {
 namespace {
 
-// What tells when a sample was taken is no measurement; a play has its own ways to tell it.
+// The time of a sample is not a measurement; a mapping defines its own time signals.
 bool of_the_sample(const SignalInfo& signal) {
   return signal.name.starts_with("time_of_validity") || signal.name.starts_with("interval");
 }
 
-// "latitude_deg" -> "latitude": the contract's names end in their units.
+// "latitude_deg" -> "latitude": signal names in canhil's DBC end in their units.
 std::string_view without_unit(std::string_view signal) { return signal.substr(0, signal.rfind('_')); }
 
 std::vector<Stimulus> all_stimuli() {

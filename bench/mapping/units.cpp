@@ -44,12 +44,12 @@ void replace_all(std::string& text, std::string_view from, std::string_view to) 
     text.replace(at, from.size(), to);
 }
 
-// One spelling of each: DBC files have many.
+// Normalises the spelling: DBC files have many.
 std::string plain(std::string_view text) {
   std::string unit(text);
   std::erase(unit, ' ');
   replace_all(unit, "\u00B0", "deg");  // degree sign
-  replace_all(unit, "\u00BA", "deg");  // what some take for one
+  replace_all(unit, "\u00BA", "deg");  // the ordinal indicator, often used as a degree sign
   replace_all(unit, "\u00B2", "^2");
   replace_all(unit, "\u00B5", "u");
   replace_all(unit, "**2", "^2");

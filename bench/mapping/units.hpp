@@ -1,4 +1,4 @@
-// Units as DBC files write them, and what they are in SI.
+// Units as DBC files write them, and their SI equivalents.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@ namespace canhil::mapping {
 
 struct WireUnit {
   std::string_view si;  ///< "rad/s"; empty: a plain number
-  double factor = 1;    ///< from it to SI
+  double factor = 1;    ///< to SI
 };
 
-/// What a DBC's unit means ("deg/s", "°/s", "g", "km/h", ...); none: nobody knows.
+/// The meaning of a DBC's unit ("deg/s", "°/s", "g", "km/h", ...); none: unknown.
 std::optional<WireUnit> wire_unit(std::string_view text);
 
-/// All of them, for messages: "deg, rad, ...".
+/// All known units, for messages: "deg, rad, ...".
 std::string wire_units();
 
 }  // namespace canhil::mapping

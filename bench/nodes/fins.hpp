@@ -1,4 +1,4 @@
-// The fin actuators of the glider. Sends FinDeflections: what the fins stood at, and when.
+// The fin actuators of the glider. Sends FinDeflections: the deflections and their time.
 #pragma once
 
 #include "bench/nodes/sample_loss.hpp"
@@ -9,7 +9,7 @@ namespace canhil::nodes {
 /// The table [fins].
 struct FinsSettings {
   scenario::Schedule schedule{};
-  std::int64_t stamp_error_us = 0;  ///< a fault: the stamp is so much later than the time of validity
+  std::int64_t stamp_error_us = 0;  ///< a fault: the stamp is this much later than the time of validity
   SampleLoss loss{};
 };
 

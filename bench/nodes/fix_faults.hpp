@@ -1,4 +1,4 @@
-// What befalls the fixes of an aiding node on their way.
+// Faults of the fixes of an aiding node.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace canhil::nodes {
 
-/// What may befall each fix, on its own; all probabilities in [0, 1].
+/// Faults that affect each fix independently; all probabilities in [0, 1].
 struct FixFaults {
   double loss_probability = 0;     ///< its group is not sent
   double invalid_probability = 0;  ///< sent as invalid
@@ -24,22 +24,23 @@ struct FixFaults {
 /// The keys loss_percent, invalid_percent, outlier_percent, outlier_m and silence_s of a node's table.
 FixFaults read_fix_faults(scenario::Section& section);
 
-/// The share of a node's fixes that nobody can answer. `Own`: its settings, with a member `faults`.
+/// The fraction of a node's fixes that cannot be answered. `Own`: the type of its settings, with a member
+/// `faults`.
 template <class Own>
 double lost_fixes(const scenario::NodeSettings& node) {
-  if (node.is_recorded()) return 0;  // what was lost in it is not known: all are owed an answer
+  if (node.is_recorded()) return 0;  // losses in the recording are unknown: every fix must be answered
   const FixFaults& faults = node.own<Own>()->faults;
   return 1 - (1 - faults.loss_probability) * (1 - faults.invalid_probability);
 }
 
-/// What became of one fix.
+/// The drawn faults of one fix.
 struct Fate {
   bool lost = false;                             ///< its group is not sent
   bool invalid = false;                          ///< sent, but flagged
-  world::Vector3 jump = world::Vector3::Zero();  ///< of an outlier: horizontal, in any direction [m]
+  world::Vector3 jump = world::Vector3::Zero();  ///< of an outlier: horizontal, in a random direction [m]
 };
 
-/// Draws the fate of the fix at a time. Takes four numbers of the stream, whatever the faults are.
+/// Draws the faults of the fix at a time. Takes four numbers of the stream, whatever the settings are.
 Fate draw_fate(const FixFaults& faults, std::int64_t valid_us, world::Stream& stream);
 
 }  // namespace canhil::nodes

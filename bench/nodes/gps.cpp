@@ -14,16 +14,20 @@ using messages::Validity;
 using world::Vector3;
 using world::units::deg;
 
-constexpr std::uint8_t satellites = 9;  // the error model knows no constellation
+constexpr std::uint8_t satellites = 9;  // the error model has no satellites
 constexpr std::array<scenario::Assumed, 1> assumed{{{"satellites", satellites}}};
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   GpsSettings node;
   node.schedule = read_schedule(section);
-  node.bias = {.value = section.three("bias_m"), .sigma = section.three("bias_sigma_m", sigma)};
-  node.noise = section.three("noise_m", sigma);
-  if (section.has("lowest_height_m")) node.lowest_height = section.number("lowest_height_m", Limits{});
+  node.bias = {.value = section.three({"bias_m", "Constant error of the position, [N, E, D]."}),
+               .sigma = section.three({"bias_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
+  node.noise = section.three({"noise_m", "White noise, 1-sigma a fix."}, sigma);
+  if (section.has("lowest_height_m"))
+    node.lowest_height = section.number(
+        {"lowest_height_m", "Height below which no fix is valid. By default every height has fixes."},
+        Limits{});
   section.optional("lowest_height_m");
   node.faults = read_fix_faults(section);
   return {table, node};
@@ -40,8 +44,8 @@ class Gps final : public Sampler<GpsSettings> {
     const Vector3 noise = config_.noise.cwiseProduct(stream_.normal3());
     const Fate fate = draw_fate(config_.faults, t_us, stream_);
     const bool valid = !fate.invalid && !(config_.lowest_height && truth.height < *config_.lowest_height);
-    const world::Position measured =
-        valid ? displaced(truth, bias_ + noise + fate.jump) : world::Position{};  // nothing to be had from it
+    const world::Position measured = valid ? displaced(truth, bias_ + noise + fate.jump)
+                                           : world::Position{};  // an invalid fix carries no information
     out.send(messages::GpsLatitude{.latitude_deg = measured.latitude / deg, .height_m = measured.height});
     out.send(messages::GpsLongitude{.longitude_deg = world::longitude_deg(measured),
                                     .satellites = valid ? satellites : std::uint8_t{0},

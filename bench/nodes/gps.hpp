@@ -1,4 +1,4 @@
-// The vehicle's GPS receiver. Sends the group Gps; under water it says that it has no fix.
+// The vehicle's GPS receiver. Sends the group Gps; under water it reports no fix.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace canhil::nodes {
 struct GpsSettings {
   scenario::Schedule schedule{};
   world::RandomConstant bias{};                   ///< NED [m]
-  world::Vector3 noise = world::Vector3::Zero();  ///< 1-sigma a fix, NED [m]
+  world::Vector3 noise = world::Vector3::Zero();  ///< 1-sigma of each fix, NED [m]
   std::optional<double> lowest_height{};  ///< no valid fix below this height: the antenna is under water [m]
   FixFaults faults{};
 };

@@ -1,5 +1,5 @@
-// Rounding of increments onto the bus: what a sample loses, the next one carries, so that nothing
-// accumulates.
+// Rounding of increments to the resolution of the bus: the remainder of a sample is carried into the next
+// one, so rounding errors do not accumulate.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,9 @@
 
 namespace canhil::nodes {
 
-/// Rounds a scalar to steps of `lsb` (0: not at all), within a signal's range, and keeps the remainder:
-/// sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the signal.
+/// Rounds a scalar to steps of `lsb` (0: no rounding), limits it to the signal's range and keeps the
+/// remainder: sent = round(increment + remainder); remainder' = increment + remainder - sent. Unit of the
+/// signal.
 inline double round_increment(double increment, double lsb, const SignalInfo& signal, double& remainder) {
   const double wanted = increment + remainder;
   const double near = lsb == 0 ? wanted : std::nearbyint(wanted / lsb) * lsb;
@@ -22,12 +23,12 @@ inline double round_increment(double increment, double lsb, const SignalInfo& si
 }
 
 /// Rounds a triad of increments to the resolution and range of a signal, keeping the remainders. Without
-/// rounding only what the range cuts off remains.
+/// rounding the remainder is only what exceeds the range.
 class IncrementRounding {
  public:
   explicit IncrementRounding(const SignalInfo& signal) : signal_(signal) {}
 
-  /// The increment of each axis, as round_increment() gives it.
+  /// Applies round_increment() to each axis.
   world::Vector3 round(const world::Vector3& increment, Rounding rounding) {
     const double lsb = rounding == Rounding::none ? 0 : wire::lsb(signal_);
     world::Vector3 sent;

@@ -1,12 +1,12 @@
-// Whether a frame is a message of the contract as its sender made it.
+// Whether a frame is a valid message of canhil's DBC.
 #pragma once
 
 #include "dbc/wire/message.hpp"
 
 namespace canhil::nodes {
 
-/// Its id, size, CRC and a counter that protection uses; an error frame, whose class bits may look like any
-/// id, is none.
+/// Checks id, size, CRC and counter range. An error frame is never valid, though its class bits may look like
+/// any id.
 template <class Message>
 bool is_whole(const Frame& frame) {
   return frame.id == Message::info.id && !frame.error && frame.extended == Message::info.extended &&

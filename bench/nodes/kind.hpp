@@ -1,5 +1,5 @@
-// What the bench has to know of a kind of node. All of it stands in the node's own file; everybody else walks
-// the registry, or the nodes of a scenario.
+// What the bench needs to know of a kind of node. It is defined in the node's own file; all other code
+// iterates over the registry or over the nodes of a scenario.
 #pragma once
 
 #include "bench/nodes/node.hpp"
@@ -18,7 +18,7 @@ using scenario::NodeSettings;
 using scenario::NodeTable;
 using scenario::Section;
 
-/// Makes of a node what it is in a run in which something befalls it.
+/// Wraps a node in the faults of a run.
 class Befalling {
  public:
   Befalling() = default;
@@ -28,16 +28,17 @@ class Befalling {
   virtual std::unique_ptr<Node> befallen(std::unique_ptr<Node> node, const NodeSettings& settings) = 0;
 };
 
-/// What a run has for its nodes; all of it must outlive them.
+/// The inputs of the nodes in a run; all of it must outlive them.
 struct Run {
   const scenario::Scenario& scenario;
   std::uint64_t index = 0;
-  const world::FlightRecord& flight;              ///< ends when the run does
-  const world::GlideRecord* glide = nullptr;      ///< there where [glide] is
-  world::EngagementRecord* engagement = nullptr;  ///< where [engagement] is; filled as it is flown
-  Befalling* faults = nullptr;                    ///< null: nothing befalls a node
+  const world::FlightRecord& flight;          ///< ends with the run
+  const world::GlideRecord* glide = nullptr;  ///< if the scenario has [glide]
+  world::EngagementRecord* engagement =
+      nullptr;                  ///< if the scenario has [engagement]; filled during the flight
+  Befalling* faults = nullptr;  ///< null: no faults
 
-  /// Random numbers. The name may never change: results hang on it.
+  /// A stream of random numbers. The name must never change: the results depend on it.
   [[nodiscard]] world::Stream stream(std::string_view name) const { return {scenario.seed, index, name}; }
 };
 
@@ -50,11 +51,11 @@ std::unique_ptr<Node> make(const NodeSettings& node, const Run& run) {
 struct Kind {
   NodeTable table;
   std::unique_ptr<Node> (*make)(const NodeSettings& node, const Run& run) = nullptr;
-  /// Whether the bus can carry what it sends in any run of a scenario: a signal would saturate, or round to
-  /// nothing, in silence. Error: one line. Null: it always can.
+  /// Whether the bus can carry all signals that the node sends in any run of a scenario; otherwise a signal
+  /// would saturate or round to zero unnoticed. Error: one line. Null: it always can.
   Result<void> (*fits)(const NodeSettings& node, const scenario::Scenario& scenario,
                        const world::FlightRecord& flight) = nullptr;
-  bool at_every_epoch = false;  ///< its period is that of the flight record too
+  bool at_every_epoch = false;  ///< its period is also that of the flight record
 };
 
 }  // namespace canhil::nodes

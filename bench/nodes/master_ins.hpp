@@ -10,7 +10,7 @@ namespace canhil::nodes {
 /// The table [master_ins].
 struct MasterInsSettings {
   scenario::Schedule schedule{};
-  world::NavigationErrorModel errors{};  ///< white: drawn anew for each sample
+  world::NavigationErrorModel errors{};  ///< white: drawn for each sample
   SampleLoss loss{};
 };
 

@@ -1,4 +1,4 @@
-// An emulated node: knows when it transmits next and what.
+// An emulated node: when it transmits next, and what.
 #pragma once
 
 #include <cstdint>
@@ -10,12 +10,12 @@
 
 namespace canhil::nodes {
 
-/// The frames of one transmission: one sample group at the most.
+/// The frames of one transmission: at most one sample group.
 using Transmission = Outbox<8>;
 
 inline constexpr std::int64_t never_us = std::numeric_limits<std::int64_t>::max();
 
-/// One node of the bus, played by the bench. All times are of the bench's time base [us].
+/// A node of the bus, emulated by the bench. All times are in the bench's time base [us].
 class Node {
  public:
   Node() = default;
@@ -25,12 +25,12 @@ class Node {
 
   /// When the next transmission is due; never_us after the last one.
   [[nodiscard]] virtual std::int64_t due_us() const = 0;
-  /// Appends the frames of the transmission that is due and moves on to the next.
+  /// Appends the frames of the due transmission and advances to the next.
   virtual void transmit(Transmission& out) = 0;
 
-  /// Whether the node wants to hear what others send.
+  /// Whether the node wants to receive frames of other nodes.
   [[nodiscard]] virtual bool listens() const { return false; }
-  /// A frame of another node; it may be anything.
+  /// A frame from another node, valid or not.
   virtual void hear(const Frame& /*frame*/) {}
 };
 

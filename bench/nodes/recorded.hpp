@@ -1,11 +1,10 @@
-// A node that sends what was recorded: of any kind, by the names that the DBC gives the signals of its sample
-// group. No error model works on it.
+// A node that sends recorded samples. It can replace a node of any kind; columns have the names that the DBC
+// gives the signals of the sample group. No error model is applied.
 //
-// From a CSV file (scenario/table.hpp) a row is a sample: its signals by their names, its time of validity by
-// t_s. From a candump log of this contract the frames of its group are sent as they were, at their place in
-// the time base of the log's Sync: what a run recorded with --log is flown again. A recording of another kind
-// is one more reader beside these two, chosen in read_recorded(); what it makes a scenario::Table of is sent
-// by what is here.
+// In a CSV file (scenario/table.hpp) each row is a sample: its signals by name, its time of validity in t_s.
+// From a candump log with canhil's DBC, the frames of the group are sent unchanged, at their time in the time
+// base of the log's Sync: a run recorded with --log can be flown again. Another format needs one more reader
+// beside these two, selected in read_recorded(); it returns a scenario::Table, which the code here sends.
 #pragma once
 
 #include <memory>
@@ -19,51 +18,51 @@
 
 namespace canhil::nodes {
 
-/// Samples: of each the values of its group's signals, message by message in the order of ids.
+/// Samples: for each the values of its group's signals, message by message in the order of ids.
 struct RecordedSamples {
   std::vector<std::int64_t> valid_us{};     ///< ascending
-  std::vector<std::int64_t> interval_us{};  ///< up to each, for groups that tell it
+  std::vector<std::int64_t> interval_us{};  ///< before each sample, for groups that carry it
   std::vector<double> values{};             ///< sample by sample, in the units of the signals
-  std::size_t signals = 0;                  ///< of a sample
+  std::size_t signals = 0;                  ///< per sample
 };
 
-/// Frames as they were.
+/// Frames of a log, unchanged.
 struct RecordedFrames {
   struct At {
     std::int64_t due_us = 0;
-    std::size_t place = 0;  ///< in the log: those of several nodes keep their order
+    std::size_t index = 0;  ///< in the log: keeps the order of frames of several nodes
     Frame frame;
   };
   std::vector<At> frames{};
 };
 
-/// A table with the key `recorded`, of any node.
+/// The settings of any node's table with the key `recorded`.
 struct RecordedSettings {
   scenario::Schedule schedule{};
   std::string recorded_from;  ///< the file
   std::shared_ptr<const RecordedSamples> samples{};
-  std::shared_ptr<const RecordedFrames> frames{};  ///< one of the two
+  std::shared_ptr<const RecordedFrames> frames{};  ///< one of the two is set
 };
 
-/// The keys recorded, period_ms and, of a CSV file, latency_ms, from_s and gap_s.
+/// The keys recorded and period_ms and, for a CSV file, latency_ms, from_s and gap_s.
 NodeSettings read_recorded(const NodeTable& table, Section& section, std::int64_t duration_us);
 
 /// Error: one line about the file.
 Result<RecordedSamples> read_samples(const NodeTable& table, const scenario::Table& rows,
                                      std::int64_t from_us, std::int64_t gap_us, std::int64_t period_us,
                                      std::int64_t end_us);
-/// The columns that they are read from.
+/// The columns that read_samples() accepts.
 std::vector<std::string> columns_of(const NodeTable& table);
 
-/// Error: one line about the file. `median_us`: the usual time from a sample of the group to the next; 0:
-/// there are too few.
+/// Error: one line about the file. `median_us`: the usual time between samples of the group; 0: too few
+/// samples.
 struct LoggedGroup {
   RecordedFrames frames;
   std::int64_t median_us = 0;
 };
 Result<LoggedGroup> read_frames(const NodeTable& table, const std::string& log, std::int64_t end_us);
 
-/// Nodes that send these.
+/// The nodes that send them.
 std::unique_ptr<Node> make_samples(const NodeSettings& node, const Run& run);
 std::unique_ptr<Node> make_frames(const std::vector<const RecordedFrames*>& of_one_log, const Run& run);
 

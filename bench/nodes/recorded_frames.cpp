@@ -1,4 +1,4 @@
-// Frames of a log of this contract, and the node that sends them again.
+// The frames of a log with canhil's DBC, and the node that sends them again.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@ using messages::Sync;
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 
-/// A Sync of the log: the bench's time, and the log's.
+/// A Sync of the log: the bench's time and the log's stamp.
 struct TimeMark {
   std::int64_t t_us = 0;
   std::int64_t stamp_ns = 0;
 };
 
-/// Frames between two Syncs were sent between their times, in proportion to their stamps. After the earlier
-/// one: at its very time they would go before it.
+/// Frames between two Syncs are due between the Syncs' times, interpolated by their stamps. They are due
+/// strictly after the earlier Sync: at the same time they would be sent before it.
 std::int64_t due_us(const TimeMark& before, const TimeMark& after, std::int64_t stamp_ns) {
   const auto whole = static_cast<double>(after.stamp_ns - before.stamp_ns);
   const double share = whole > 0 ? static_cast<double>(stamp_ns - before.stamp_ns) / whole : 1;
@@ -41,11 +41,11 @@ class Reading {
   }
 
   Result<void> take(const LogEntry& entry) {
-    const std::size_t place = place_++;
+    const std::size_t index = index_++;
     if (is_whole<Sync>(entry.frame)) return synchronise(entry);
     if (entry.frame.extended || entry.frame.error || std::ranges::find(ids_, entry.frame.id) == ids_.end())
       return {};
-    group_.frames.frames.push_back({.due_us = entry.t_ns, .place = place, .frame = entry.frame});
+    group_.frames.frames.push_back({.due_us = entry.t_ns, .index = index, .frame = entry.frame});
     if (is_closing_whole(entry.frame)) valid_us_.push_back(valid_us(entry.frame));
     return {};
   }
@@ -53,7 +53,7 @@ class Reading {
   Result<LoggedGroup> finish(std::int64_t end_us) && {
     if (!synchronised_)
       return failure(fmt::format("{}: has no Sync, expected the log of a run, which has a time base", log_));
-    group_.frames.frames.resize(placed_);  // after the last Sync nobody can say when
+    group_.frames.frames.resize(placed_);  // after the last Sync the time is unknown
     if (valid_us_.size() < 2)
       return failure(fmt::format("{}: has {} samples of {}, expected those of a run", log_, valid_us_.size(),
                                  closes_.sample_group.empty() ? closes_.name : closes_.sample_group));
@@ -89,7 +89,7 @@ class Reading {
     return whole;
   }
 
-  /// In full, from the one before on.
+  /// The full time of validity, continued from the previous one.
   std::int64_t valid_us(const Frame& frame) {
     std::int64_t t_us = 0;
     each_message(closes_, [&]<class Message>() {
@@ -112,21 +112,21 @@ class Reading {
   std::string log_;
   std::vector<std::uint32_t> ids_;
   LoggedGroup group_;
-  std::vector<std::int64_t> valid_us_;  // of whole samples
-  std::size_t place_ = 0;
-  std::size_t placed_ = 0;  // frames whose time is known
+  std::vector<std::int64_t> valid_us_;  // of complete samples
+  std::size_t index_ = 0;
+  std::size_t placed_ = 0;  // frames whose due time is known
   TimeMark last_;
   bool synchronised_ = false;
 };
 
-/// Of the nodes of one log, which share one player: so their frames keep their order.
+/// All recorded nodes of one log share one player, so their frames keep their order.
 class Frames final : public Node {
  public:
   Frames(const std::vector<const RecordedFrames*>& of_one_log, const Run& run)
       : end_us_(run.flight.end_us()) {
     for (const RecordedFrames* own : of_one_log)
       frames_.insert(frames_.end(), own->frames.begin(), own->frames.end());
-    std::ranges::sort(frames_, {}, &RecordedFrames::At::place);
+    std::ranges::sort(frames_, {}, &RecordedFrames::At::index);
   }
 
   [[nodiscard]] std::int64_t due_us() const override {

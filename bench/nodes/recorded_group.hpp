@@ -1,4 +1,4 @@
-// The messages of a sample group and their signals, walked for a group that is known at run time.
+// Iterates over the messages and signals of a sample group that is known only at run time.
 #pragma once
 
 #include <tuple>
@@ -11,8 +11,8 @@
 
 namespace canhil::nodes {
 
-/// Calls visit.operator()<Message>() for each message of the sample group that one closes, in the order of
-/// ids.
+/// Calls visit.operator()<Message>() for each message of the sample group that ends with `closes`, in the
+/// order of ids.
 template <class Visit>
 void each_message(const MessageInfo& closes, Visit visit) {
   const auto one = [&]<class Message>(std::type_identity<Message>) {
@@ -24,7 +24,7 @@ void each_message(const MessageInfo& closes, Visit visit) {
   }(std::type_identity<messages::AllMessages>{});
 }
 
-/// What a signal of a group is.
+/// The meaning of a signal in its group.
 enum class Role : std::uint8_t { time_of_validity, interval, validity, value };
 
 struct GroupSignal {

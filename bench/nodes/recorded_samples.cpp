@@ -20,12 +20,12 @@ constexpr std::size_t time_column = 0;
 
 double seconds(std::int64_t us) { return 1e-6 * static_cast<double>(us); }
 
-/// Where a signal's value comes from.
+/// The source of a signal's value.
 struct Source {
   SignalInfo signal;
   Role role = Role::value;
-  std::optional<std::size_t> column{};  ///< of the table's names; none: constant
-  std::optional<std::size_t> rate{};    ///< the same, times the interval
+  std::optional<std::size_t> column{};  ///< index in the table's names; none: constant
+  std::optional<std::size_t> rate{};    ///< the same, multiplied by the interval
   double constant = 0;
 };
 
@@ -52,7 +52,7 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
       const std::optional<std::size_t> rate = increment == nullptr ? std::nullopt : std::optional(column++);
       const bool has_rate = rate && rows.has(*rate);
       if (has_rate && rows.has(own))
-        return failure(fmt::format("{}:1: column '{}': is there beside '{}', expected one of the two",
+        return failure(fmt::format("{}:1: column '{}': is given beside '{}', expected one of the two",
                                    rows.file, rows.found[*rate], rows.found[own]));
       if (rows.has(own)) {
         source.column = own;
@@ -71,7 +71,7 @@ Result<std::vector<Source>> sources_of(const NodeTable& table, const Table& rows
   return sources;
 }
 
-/// Rows valid within the run, after its start. Error: too long without one.
+/// The rows valid within the run, after its start. Error: a gap is too long.
 Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int64_t>& t_us,
                                   std::int64_t gap_us, std::int64_t end_us) {
   scenario::Rows rows;
@@ -96,21 +96,21 @@ Result<scenario::Rows> within_run(const Table& table, const std::vector<std::int
 /// A value of a row in the unit of its signal.
 Result<double> value_of(const Source& source, const Table& table, std::size_t row, double interval) {
   if (!source.column && !source.rate) return source.constant;
-  const std::size_t place = source.column ? *source.column : *source.rate;
-  double value = table.value(row, place) * (source.rate ? interval : 1);
+  const std::size_t index = source.column ? *source.column : *source.rate;
+  double value = table.value(row, index) * (source.rate ? interval : 1);
   const SignalInfo& signal = source.signal;
   if (signal.unit == "deg" && signal.minimum == -180 && signal.maximum == 180)
     value = std::remainder(value, 360);
   if (value < signal.minimum || value > signal.maximum)
     return tl::unexpected(
-        table.about(row, place,
+        table.about(row, index,
                     fmt::format("{:g} {} does not fit into signal {}, expected {:g} to {:g}", value,
                                 signal.unit, signal.name, signal.minimum, signal.maximum)));
   return value;
 }
 
-/// The interval of each sample reaches back to the one before, in steps of its signal, so that no rounding
-/// adds up; where samples are missing it is a period, and the target sees the gap.
+/// The interval of a sample reaches back to the previous sample, in steps of its signal, so rounding errors
+/// do not accumulate. Where samples are missing it is one period, and the target sees the gap.
 std::int64_t interval_of(const std::vector<std::int64_t>& t_us, std::size_t row, std::int64_t period_us,
                          double step_us) {
   if (row == 0 || 2 * (t_us[row] - t_us[row - 1]) > 3 * period_us) return period_us;
@@ -135,11 +135,11 @@ class Samples final : public Node {
     return due_us > end_us_ ? never_us : due_us;
   }
   void transmit(Transmission& out) override {
-    std::size_t place = 0;  // of the signal in the sample
+    std::size_t index = 0;  // of the signal in the sample
     each_message(closes_, [&]<class Message>() {
       Message message{};
       Message::visit(message, [&](const SignalInfo& signal, auto& member) {
-        assign(member, signal, place++, out.rounding());
+        assign(member, signal, index++, out.rounding());
       });
       out.send(message);
     });
@@ -148,18 +148,18 @@ class Samples final : public Node {
 
  private:
   template <class Member>
-  void assign(Member& member, const SignalInfo& signal, std::size_t place, Rounding rounding) {
+  void assign(Member& member, const SignalInfo& signal, std::size_t index, Rounding rounding) {
     const Role role = role_of(signal, false);
-    double value = samples_->values[next_ * samples_->signals + place];
+    double value = samples_->values[next_ * samples_->signals + index];
     if (role == Role::time_of_validity) {
-      // What travels in 16 bits of 10 us is scaled; in 32 bits of 1 us it is whole.
+      // The 16-bit time signal has a resolution of 10 us, the 32-bit one of 1 us.
       const std::int64_t t_us = samples_->valid_us[next_];
       value = static_cast<double>(std::is_floating_point_v<Member> ? wrap_short_us(t_us) : wrap_us(t_us));
     } else if (role == Role::interval) {
       value = static_cast<double>(samples_->interval_us[next_]);
     } else if (signal.carries_remainder) {
       value = round_increment(value, rounding == Rounding::none ? 0 : wire::lsb(signal), signal,
-                              remainders_[place]);
+                              remainders_[index]);
     }
     if constexpr (std::is_floating_point_v<Member>) {
       member = static_cast<Member>(value);
@@ -172,7 +172,7 @@ class Samples final : public Node {
   std::shared_ptr<const RecordedSamples> samples_;
   std::int64_t latency_us_;
   std::int64_t end_us_;
-  std::vector<double> remainders_;  // of each signal of a sample
+  std::vector<double> remainders_;  // for each signal of a sample
   std::size_t next_ = 0;
 };
 

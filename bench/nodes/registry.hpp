@@ -1,4 +1,4 @@
-// The kinds of nodes that the bench can play.
+// The kinds of nodes that the bench can emulate.
 #pragma once
 
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace canhil::nodes {
 
-/// All of them, in the order in which tables are read and reports tell of them.
+/// All kinds, in the order of reading tables and of reports.
 std::span<const Kind* const> all();
 
-/// Their tables, for scenario::Contract.
+/// Their tables, for scenario::DbcVocabulary.
 std::vector<const scenario::NodeTable*> tables();
 
-/// One of them, emulated or recorded, by itself.
+/// One node alone, emulated or recorded.
 std::unique_ptr<Node> make(const Kind& kind, const NodeSettings& node, const Run& run);
 
-/// The nodes of a run in the order of precedence.
+/// The nodes of a run in order of precedence.
 std::vector<std::unique_ptr<Node>> make(const Run& run);
 
 }  // namespace canhil::nodes

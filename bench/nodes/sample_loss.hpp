@@ -1,4 +1,4 @@
-// Samples of a periodic node that are not sent.
+// Losses of samples of a periodic node.
 #pragma once
 
 #include "bench/scenario/section.hpp"
@@ -7,9 +7,9 @@
 namespace canhil::nodes {
 
 struct SampleLoss {
-  double probability = 0;            ///< of each sample, on its own
-  std::int64_t outage_us = 0;        ///< nothing valid in the last so many microseconds ...
-  std::int64_t outage_every_us = 0;  ///< ... of each such period; 0: no outages
+  double probability = 0;            ///< for each sample independently
+  std::int64_t outage_us = 0;        ///< samples valid in the last outage_us of ...
+  std::int64_t outage_every_us = 0;  ///< ... each such period are lost; 0: no outages
 };
 
 /// The keys loss_percent, outage_s and outage_every_s of a node's table.
@@ -20,8 +20,8 @@ constexpr bool in_outage(const SampleLoss& loss, std::int64_t valid_us) {
   return loss.outage_every_us > 0 && valid_us % loss.outage_every_us >= loss.outage_every_us - loss.outage_us;
 }
 
-/// Whether a sample is lost, by chance or in an outage. Draws one number for every sample, also in an outage:
-/// a loss changes no later one.
+/// Whether a sample is lost, by chance or in an outage. Always draws one number, also during an outage, so
+/// that a loss does not change later ones.
 inline bool is_lost(const SampleLoss& loss, std::int64_t valid_us, world::Stream& losses) {
   const bool by_chance = losses.uniform() < loss.probability;
   return by_chance || in_outage(loss, valid_us);

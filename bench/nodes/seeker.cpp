@@ -32,42 +32,67 @@ constexpr bool is_estimate(LosRateOutcome outcome) {
          outcome == LosRateOutcome::updated || outcome == LosRateOutcome::coasting;
 }
 
-// KEY and KEY with _sigma before the unit: a given value and what each run draws beside it.
+// KEY, and KEY with _sigma before the unit: a constant, and the sigma of the part drawn for each run.
 world::RandomValue read_constant(Section& section, std::string_view key, std::string_view sigma_key,
-                                 double sigma) {
-  return {.value = section.number(key, Limits{}, 0),
-          .sigma = section.number(sigma_key, Limits::at_least(0), sigma)};
+                                 std::string_view of, double sigma) {
+  return {
+      .value = section.number({key, fmt::format("Constant error of {}.", of)}, Limits{}, 0),
+      .sigma = section.number({sigma_key, fmt::format("1-sigma of the error of {}, drawn for each run.", of)},
+                              Limits::at_least(0), sigma)};
 }
 
 world::SeekerErrorModel read_errors(Section& section) {
   const Limits sigma = Limits::at_least(0);
-  return {.thermal = section.number("thermal_noise_radpm2", sigma, 1e-10),
-          .glint = section.number("glint_noise_m", sigma, 0.5),
-          .glint_correlation = section.number("glint_correlation_ms", sigma, 0),
-          .constant = section.number("constant_noise_mrad", sigma, 0),
-          .gyro_noise = section.number("gyro_noise_mradps", sigma, 1),
-          .gyro_bias = read_constant(section, "gyro_bias_mradps", "gyro_bias_sigma_mradps", 0.5),
-          .accel_noise = section.number("accel_noise_mps2", sigma, 0.3),
-          .accel_bias = read_constant(section, "accel_bias_mps2", "accel_bias_sigma_mps2", 0.2),
-          .range_noise = section.number("range_noise_m", sigma, 5),
-          .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", 15),
-          .full_errors_beyond = section.number("range_errors_full_beyond_m", Limits::above(0), 1000),
-          .closing_speed_noise = section.number("closing_speed_noise_mps", sigma, 3),
-          .closing_speed_bias =
-              read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps", 5),
-          .field_of_view = section.number("field_of_view_deg", Limits::above(0, 37), 8)};
+  return {
+      .thermal =
+          section.number({"thermal_noise_radpm2",
+                          "Thermal noise of an error angle, 1-sigma a sample, over the square of the range."},
+                         sigma, 1e-10),
+      .glint = section.number(
+          {"glint_noise_m", "Glint noise of an error angle, 1-sigma a sample, times the range."}, sigma, 0.5),
+      .glint_correlation =
+          section.number({"glint_correlation_ms", "Correlation time of the glint; 0: white."}, sigma, 0),
+      .constant =
+          section.number({"constant_noise_mrad",
+                          "Noise of an error angle that does not depend on the range, 1-sigma a sample."},
+                         sigma, 0),
+      .gyro_noise =
+          section.number({"gyro_noise_mradps", "Noise of the antenna rates, 1-sigma a sample."}, sigma, 1),
+      .gyro_bias =
+          read_constant(section, "gyro_bias_mradps", "gyro_bias_sigma_mradps", "the antenna rates", 0.5),
+      .accel_noise = section.number(
+          {"accel_noise_mps2", "Noise of the missile's acceleration, 1-sigma a sample."}, sigma, 0.3),
+      .accel_bias = read_constant(section, "accel_bias_mps2", "accel_bias_sigma_mps2",
+                                  "the missile's acceleration", 0.2),
+      .range_noise = section.number({"range_noise_m", "Noise of the range, 1-sigma a sample."}, sigma, 5),
+      .range_bias = read_constant(section, "range_bias_m", "range_bias_sigma_m", "the range", 15),
+      .full_errors_beyond =
+          section.number({"range_errors_full_beyond_m", "Range below which the errors of the range shrink."},
+                         Limits::above(0), 1000),
+      .closing_speed_noise = section.number(
+          {"closing_speed_noise_mps", "Noise of the closing speed, 1-sigma a sample."}, sigma, 3),
+      .closing_speed_bias = read_constant(section, "closing_speed_bias_mps", "closing_speed_bias_sigma_mps",
+                                          "the closing speed", 5),
+      .field_of_view = section.number(
+          {"field_of_view_deg", "Angle from the antenna's axis up to which the target is seen."},
+          Limits::above(0, 37), 8)};
 }
 
 NodeSettings read(const NodeTable& table, Section& section) {
   const Limits share = Limits::between(0, 100);
   SeekerSettings node;
   node.schedule = read_schedule(section);
-  node.jitter_us = section.time_us("jitter_ms", Limits::between(0, 1000), 0);
+  node.jitter_us = section.time_us({"jitter_ms", "Each sample is late by a random time from 0 to this."},
+                                   Limits::between(0, 1000), 0);
   node.errors = read_errors(section);
-  node.loss_probability = section.number("loss_percent", share, 0);
-  node.invalid_probability = section.number("invalid_percent", share, 0);
-  node.invalid_range_probability = section.number("invalid_range_percent", share, 0);
-  node.blackout_us = section.optional_interval_us("blackout_s", Limits::at_least(0));
+  node.loss_probability =
+      section.number({"loss_percent", "Share of the samples that are not sent."}, share, 0);
+  node.invalid_probability =
+      section.number({"invalid_percent", "Share of the samples whose angles are invalid."}, share, 0);
+  node.invalid_range_probability =
+      section.number({"invalid_range_percent", "Share of the samples whose range is invalid."}, share, 0);
+  node.blackout_us =
+      section.optional_interval_us({"blackout_s", "Time in which nothing is seen."}, Limits::at_least(0));
   return {table, node};
 }
 
@@ -75,14 +100,14 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
                   const world::FlightRecord& /*flight*/) {
   const world::EngagementPlan& engagement = *scenario.engagement;
   const std::int64_t interval_us = node.period_us();
-  if (auto told = check_interval("key 'seeker.period_ms': seeker interval", interval_us, SeekerAngles::info,
-                                 SeekerAngles::signals());
-      !told)
-    return told;
+  if (auto checked = check_interval("key 'seeker.period_ms': seeker interval", interval_us,
+                                    SeekerAngles::info, SeekerAngles::signals());
+      !checked)
+    return checked;
   const double roll = std::abs(engagement.roll_rate) * 1e-6 * static_cast<double>(interval_us);
   const SignalInfo& signal = SeekerAntenna::signals()[0];
   if (roll > signal.maximum) return failure(misfit("roll increment", roll, SeekerAntenna::info, signal));
-  // In lockstep answers take a cycle of Sync to be heard.
+  // In lockstep an answer reaches the bench one Sync cycle later.
   const std::int64_t least_us = Sync::info.cycle_time_us;
   if (engagement.guidance == world::Guidance::target && engagement.guidance_delay_us < least_us) {
     return failure(fmt::format(
@@ -93,8 +118,8 @@ Result<void> fits(const NodeSettings& node, const scenario::Scenario& scenario,
   return {};
 }
 
-// With guidance on the target's answers, that to a sample sent at t takes effect at t + the guidance delay,
-// however early it was heard: with a delay of a Sync cycle every bus and clock gives the same flight.
+// In closed loop the answer to a sample sent at t takes effect at t + the guidance delay, even if it arrives
+// earlier. So with a delay of at least a Sync cycle every bus and clock gives the same flight.
 class Seeker final : public Node {
  public:
   Seeker(const NodeSettings& node, const Run& run)
@@ -117,7 +142,7 @@ class Seeker final : public Node {
   void hear(const Frame& frame) override;
 
  private:
-  /// A sample whose answer may still come.
+  /// A sample that may still be answered.
   struct Sent {
     std::int64_t valid_us = 0;
     std::int64_t sent_us = 0;
@@ -136,7 +161,7 @@ class Seeker final : public Node {
   world::Engagement engagement_;
   world::ErroneousSeeker errors_;
   SeekerSettings config_;
-  world::Stream faults_;  // losses and jitter: they change no measurement
+  world::Stream faults_;  // losses and jitter, a separate stream: they do not change measurements
   bool guided_;
   std::int64_t period_us_;
   std::int64_t valid_us_ = 0;
@@ -146,7 +171,7 @@ class Seeker final : public Node {
   SampleGroup<LosRateEstimate, LosRateSigma, LosRateTarget> answer_;
 };
 
-// Sent in the order of sampling, whatever the jitter is.
+// Samples are sent in their order, whatever the jitter is.
 void Seeker::advance() {
   valid_us_ += period_us_;
   const double jitter_us = faults_.uniform() * static_cast<double>(config_.jitter_us);
@@ -188,7 +213,7 @@ void Seeker::send(Transmission& out, const world::SeekerMeasurement& measured) {
                          .antenna_increment_pitch_rad = antenna.y(),
                          .antenna_increment_yaw_rad = antenna.z(),
                          .antenna_validity = Validity::valid});
-  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // nothing to be had from it
+  out.send(SeekerAngles{.error_pitch_rad = seen ? measured.error.pitch : 0,  // not visible: no information
                         .error_yaw_rad = seen ? measured.error.yaw : 0,
                         .interval_us = static_cast<double>(measured.interval_us),
                         .error_validity = validity(seen)});
@@ -215,9 +240,10 @@ void Seeker::hear(const Frame& frame) {
   put(std::type_identity<LosRateTarget>{});
 }
 
-// The answered rate dt after its sample by what is answered beside it, the target's acceleration, and what
-// the missile measured itself: w' = (2 vc/r) w + (a - a_m)/r, vc and accelerations constant (Na and Lee, eq.
-// (1)), over at most half of the range, as it grows without bound. In the antenna's axes of the sample.
+// Extrapolates the answered rate to dt after its sample, from the answered target acceleration and the
+// missile's own measurements: w' = (2 vc/r) w + (a - a_m)/r with constant vc and accelerations (Na and Lee,
+// eq. (1)). Limited to half of the range, because it grows without bound. In the antenna's axes of the
+// sample.
 world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& estimate,
                                    const LosRateTarget& target, double dt) {
   const double r0 = sample.range;
@@ -231,7 +257,7 @@ world::Vector3 Seeker::rate_at_use(const Sent& sample, const LosRateEstimate& es
               a * (target.target_acceleration_y_mps2 - sample.missile_acceleration.yaw)};
 }
 
-// The answer in the antenna's axes of its sample, with the closing speed of that sample.
+// The answer in the antenna's axes at its sample, with the closing speed of that sample.
 void Seeker::steer() {
   const auto& estimate = answer_.get<LosRateEstimate>();
   const auto& target = answer_.get<LosRateTarget>();
@@ -239,7 +265,7 @@ void Seeker::steer() {
   const std::int64_t cause_us = unwrap_us(target.cause_time_us, valid_us_);
   while (!sent_.empty() && sent_.front().valid_us < cause_us) sent_.pop_front();
   if (sent_.empty() || sent_.front().valid_us != cause_us) return;
-  if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // guidance holds its command
+  if (!is_estimate(estimate.outcome) || estimate.blind != 0) return;  // the guidance holds its command
   const Sent& sample = sent_.front();
   const std::int64_t use_us = sample.sent_us + plan.guidance_delay_us;
   const double age = 1e-6 * static_cast<double>(use_us - cause_us + period_us_ / 2);

@@ -1,5 +1,5 @@
-// The missile's seeker with the guidance computer that flies on what the target makes of its samples. Sends
-// the group Seeker until the closest approach and records what was flown.
+// The missile's seeker and guidance computer; the guidance can use the target's answers. Sends the group
+// Seeker until the closest approach and records the flight.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace canhil::nodes {
 /// The table [seeker].
 struct SeekerSettings {
   scenario::Schedule schedule{};
-  std::int64_t jitter_us = 0;  ///< added to the latency: uniform from 0 to this, drawn for each sample
+  std::int64_t jitter_us = 0;  ///< added to the latency: uniform between 0 and this, drawn for each sample
   world::SeekerErrorModel errors{};
-  double loss_probability = 0;           ///< of each group: not sent, its increments are gone
-  double invalid_probability = 0;        ///< of the error angles of each group: a pulse that was not received
+  double loss_probability = 0;           ///< of each group: it is not sent, its increments are lost
+  double invalid_probability = 0;        ///< of the error angles of each group: a missed radar pulse
   double invalid_range_probability = 0;  ///< of range and closing speed of each group
   std::optional<std::pair<std::int64_t, std::int64_t>> blackout_us{};  ///< error angles invalid throughout
 };

@@ -20,7 +20,7 @@ using messages::SlaveImuDeltaV;
 using messages::SlaveImuStatus;
 using messages::Validity;
 
-constexpr std::int8_t temperature_degc = 25;  // the error model knows no temperature
+constexpr std::int8_t temperature_degc = 25;  // the error model has no temperature
 constexpr std::array<scenario::Assumed, 1> assumed{{{"temperature_degc", temperature_degc}}};
 constexpr std::array<scenario::Increment, 6> increments{
     {{"delta_theta_x_rad", "rate_x_radps", "imu.rate.x"},
@@ -34,23 +34,45 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   SlaveImuSettings node;
   node.schedule = read_schedule(section);
-  node.errors.gyro = {.bias = {.value = section.three("gyro_bias_degph"),
-                               .sigma = section.three("gyro_bias_sigma_degph", sigma)},
-                      .noise = section.three("gyro_noise_degprth", sigma),
-                      .scale_factor = {.value = section.three("gyro_scale_factor_ppm"),
-                                       .sigma = section.three("gyro_scale_factor_sigma_ppm", sigma)},
-                      .misalignment_sigma = section.number("gyro_misalignment_sigma_mrad", sigma, 0)};
+  node.errors.gyro = {
+      .bias = {.value = section.three({"gyro_bias_degph", "Constant bias of the gyros, [x, y, z]."}),
+               .sigma = section.three(
+                   {"gyro_bias_sigma_degph", "1-sigma of the bias of the gyros, drawn for each run."},
+                   sigma)},
+      .noise = section.three({"gyro_noise_degprth", "Density of the white noise of the gyros."}, sigma),
+      .scale_factor = {.value = section.three(
+                           {"gyro_scale_factor_ppm", "Constant scale factor error of the gyros."}),
+                       .sigma = section.three(
+                           {"gyro_scale_factor_sigma_ppm",
+                            "1-sigma of the scale factor error of the gyros, drawn for each run."},
+                           sigma)},
+      .misalignment_sigma = section.number(
+          {"gyro_misalignment_sigma_mrad", "1-sigma of each misalignment of the gyros, drawn for each run."},
+          sigma, 0)};
   node.errors.accel = {
-      .bias = {.value = section.three("accel_bias_ug"), .sigma = section.three("accel_bias_sigma_ug", sigma)},
-      .noise = section.three("accel_noise_ugprthz", sigma),
-      .scale_factor = {.value = section.three("accel_scale_factor_ppm"),
-                       .sigma = section.three("accel_scale_factor_sigma_ppm", sigma)},
-      .misalignment_sigma = section.number("accel_misalignment_sigma_mrad", sigma, 0)};
-  node.loss_probability = section.number("loss_percent", Limits::between(0, 100), 0);
+      .bias = {.value = section.three({"accel_bias_ug", "Constant bias of the accelerometers, [x, y, z]."}),
+               .sigma = section.three(
+                   {"accel_bias_sigma_ug", "1-sigma of the bias of the accelerometers, drawn for each run."},
+                   sigma)},
+      .noise =
+          section.three({"accel_noise_ugprthz", "Density of the white noise of the accelerometers."}, sigma),
+      .scale_factor = {.value = section.three(
+                           {"accel_scale_factor_ppm", "Constant scale factor error of the accelerometers."}),
+                       .sigma = section.three(
+                           {"accel_scale_factor_sigma_ppm",
+                            "1-sigma of the scale factor error of the accelerometers, drawn for each run."},
+                           sigma)},
+      .misalignment_sigma =
+          section.number({"accel_misalignment_sigma_mrad",
+                          "1-sigma of each misalignment of the accelerometers, drawn for each run."},
+                         sigma, 0)};
+  node.loss_probability = section.number(
+      {"loss_percent", "Share of the sample groups that are not sent. Their increments are gone."},
+      Limits::between(0, 100), 0);
   return {table, node};
 }
 
-// What a sample of one axis is made of, in the order of `parts_of`: names for messages.
+// The summands of an axis's sample, in the order of `parts_of`: names for messages.
 using Names = std::array<std::string_view, 7>;
 constexpr Names gyro_parts{"the flight",
                            "'slave_imu.gyro_bias_degph'",
@@ -67,8 +89,8 @@ constexpr Names accel_parts{"the flight",
                             "'slave_imu.accel_scale_factor_sigma_ppm'",
                             "'slave_imu.accel_misalignment_sigma_mrad'"};
 
-// Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt), random ones at six sigma. A row of M has
-// two misalignments: the sigma of their sum is that of one, times the length of the other two components.
+// Bounds of the terms of (I + M) exact + bias dt + noise sqrt(dt); random terms at six sigma. A row of M has
+// two misalignments: the sigma of their sum is the sigma of one times the length of the other two components.
 std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world::Vector3& exact, int axis,
                                double dt) {
   constexpr double certain = 6;
@@ -83,7 +105,7 @@ std::array<double, 7> parts_of(const world::TriadErrorModel& model, const world:
           certain * model.misalignment_sigma * across};
 }
 
-// The first three signals of a message of increments are its axes.
+// The first three signals of an increment message are the axes.
 template <class Message>
 std::string check_triad(const Names& names, const world::TriadErrorModel& model,
                         const world::FlightRecord& truth, world::Vector3 world::ImuIncrement::*delta) {
@@ -105,10 +127,10 @@ std::string check_triad(const Names& names, const world::TriadErrorModel& model,
 
 Result<void> fits(const NodeSettings& node, const scenario::Scenario& /*scenario*/,
                   const world::FlightRecord& flight) {
-  if (auto told = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
-                                 SlaveImuStatus::signals());
-      !told)
-    return told;
+  if (auto checked = check_interval("IMU interval", flight.interval_us(), SlaveImuStatus::info,
+                                    SlaveImuStatus::signals());
+      !checked)
+    return checked;
   const world::ImuErrorModel& imu = node.own<SlaveImuSettings>()->errors;
   std::string wrong =
       check_triad<SlaveImuDeltaTheta>(gyro_parts, imu.gyro, flight, &world::ImuIncrement::delta_theta);
@@ -147,7 +169,7 @@ class SlaveImu final : public Sampler<SlaveImuSettings> {
   }
 
   world::ErroneousImu imu_;
-  world::Stream losses_;  // of their own: they change no measurement
+  world::Stream losses_;  // a separate stream: losses do not change measurements
   std::size_t next_ = 0;
   IncrementRounding theta_rounding_;
   IncrementRounding velocity_rounding_;

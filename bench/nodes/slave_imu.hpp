@@ -1,5 +1,5 @@
 // The IMU of the weapon to be aligned. Sends the group SlaveImu at every epoch of the flight record: exact
-// increments, its errors, and what the bus makes of them.
+// increments plus sensor errors, rounded to the resolution of the bus.
 #pragma once
 
 #include "bench/scenario/schedule.hpp"
@@ -11,7 +11,7 @@ namespace canhil::nodes {
 struct SlaveImuSettings {
   scenario::Schedule schedule{};
   world::ImuErrorModel errors{};
-  double loss_probability = 0;  ///< of each group: not sent, its increments are gone
+  double loss_probability = 0;  ///< of each group: it is not sent, its increments are lost
 };
 
 extern const struct Kind slave_imu;

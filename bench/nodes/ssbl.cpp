@@ -15,13 +15,22 @@ NodeSettings read(const NodeTable& table, Section& section) {
   const Limits sigma = Limits::at_least(0);
   SsblSettings node;
   node.schedule = read_schedule(section);
-  node.ship_offset = section.three("ship_offset_m", Limits::between(-5'000, 5'000));
-  node.ship_velocity = section.three("ship_velocity_mps", Limits::between(-50, 50));
-  node.ship_error = {.value = section.three("ship_error_m"),
-                     .sigma = section.three("ship_error_sigma_m", sigma)};
-  node.bias = {.value = section.three("bias_m"), .sigma = section.three("bias_sigma_m", sigma)};
-  node.noise = section.three("noise_m", sigma);
-  node.range_noise = section.number("range_noise_percent", Limits::between(0, 100), 0);
+  node.ship_offset = section.three(
+      {"ship_offset_m", "Position of the ship relative to the vehicle at the start, [N, E, D]."},
+      Limits::between(-5'000, 5'000));
+  node.ship_velocity =
+      section.three({"ship_velocity_mps", "Velocity of the ship, [N, E, D]."}, Limits::between(-50, 50));
+  node.ship_error = {
+      .value = section.three({"ship_error_m", "Constant error of the position that the ship reports."}),
+      .sigma = section.three({"ship_error_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
+  node.bias = {
+      .value = section.three({"bias_m", "Constant error of the vehicle's position relative to the ship."}),
+      .sigma = section.three({"bias_sigma_m", "1-sigma of that error, drawn for each run."}, sigma)};
+  node.noise = section.three(
+      {"noise_m", "White noise of the vehicle's position relative to the ship, 1-sigma a fix."}, sigma);
+  node.range_noise =
+      section.number({"range_noise_percent", "White noise in proportion to the slant range, 1-sigma a fix."},
+                     Limits::between(0, 100), 0);
   node.faults = read_fix_faults(section);
   return {table, node};
 }
@@ -40,13 +49,13 @@ class Ssbl final : public Sampler<SsblSettings> {
     const world::Position ship = displaced(run_.flight.epochs().front().position, way);
     const Vector3 relative = displacement_n(ship, run_.flight.at(t_us).position);
 
-    // Angles have errors in proportion to the range: added as independent of the rest.
+    // Angle errors are proportional to the range; they are added as independent.
     const Vector3 range_noise = Vector3::Constant(config_.range_noise * relative.norm());
     const Vector3 sigma = (config_.noise.array().square() + range_noise.array().square()).sqrt();
     const Vector3 noise = sigma.cwiseProduct(stream_.normal3());
     const Fate fate = draw_fate(config_.faults, t_us, stream_);
     Vector3 measured = relative + bias_ + noise + fate.jump;
-    if (fate.invalid) measured.setZero();  // nothing to be had from it
+    if (fate.invalid) measured.setZero();  // an invalid fix carries no information
     const world::Position reported = displaced(ship, ship_error_);
     out.send(
         messages::SsblRelativeNE{.relative_north_m = measured.x(),

@@ -1,5 +1,5 @@
-// Acoustic positioning from a moving reference ship. Sends the group Ssbl: where the vehicle is w.r.t. the
-// ship, and where the ship says that it is.
+// Acoustic positioning from a moving reference ship. Sends the group Ssbl: the vehicle's position relative to
+// the ship, and the ship's reported position.
 #pragma once
 
 #include "bench/nodes/fix_faults.hpp"
@@ -12,13 +12,13 @@ namespace canhil::nodes {
 struct SsblSettings {
   scenario::Schedule schedule{};
   world::Vector3 ship_offset =
-      world::Vector3::Zero();  ///< of the ship from the vehicle at the start, NED [m]
+      world::Vector3::Zero();  ///< of the ship relative to the vehicle at the start, NED [m]
   world::Vector3 ship_velocity = world::Vector3::Zero();  ///< constant, NED [m/s]
   world::RandomConstant ship_error{};                     ///< of the position that the ship reports, NED [m]
   world::RandomConstant bias{};                           ///< of the relative position, NED [m]
   world::Vector3 noise =
-      world::Vector3::Zero();  ///< 1-sigma a fix of the relative position at no range, NED [m]
-  double range_noise = 0;      ///< 1-sigma a fix and component, over the slant range
+      world::Vector3::Zero();  ///< 1-sigma of each relative position at zero range, NED [m]
+  double range_noise = 0;      ///< 1-sigma per fix and component, divided by the slant range
   FixFaults faults{};
 };
 

@@ -5,8 +5,8 @@
 
 namespace canhil::nodes {
 
-/// Sends Sync at the DBC's cycle time, from 0 until the first at or after `end_us`, which closes the run. Its
-/// transmission closes a step in lockstep.
+/// Sends Sync at the DBC's cycle time, from 0 to the first time at or after `end_us`, which ends the run. In
+/// lockstep a Sync ends a step.
 class TimeKeeper final : public Node {
  public:
   TimeKeeper(std::int64_t end_us, bool lockstep) : end_us_(end_us), lockstep_(lockstep) {}

@@ -1,4 +1,4 @@
-// Whether a value fits onto the bus.
+// Whether a value fits into its signal.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace canhil::nodes {
 
-/// Says that it does not: one line.
+/// The message that it does not fit: one line.
 std::string misfit(std::string_view what, double value, const MessageInfo& message, const SignalInfo& signal);
 
-/// An interval can be told exactly by the message's signal interval_us.
+/// Whether the message's signal interval_us can carry an interval exactly.
 Result<void> check_interval(std::string_view what, std::int64_t interval_us, const MessageInfo& message,
                             std::span<const SignalInfo> signals);
 

@@ -7,14 +7,14 @@
 namespace canhil::observe {
 namespace {
 
-// A bench that had no CPU for a while finds frames too, but has looked at them all in a fraction of this.
+// A bench that had no CPU for a while finds a backlog too, but processes it in a fraction of this time.
 constexpr std::int64_t flood_ns = 100'000'000;
-// Who floods a bus shares CPUs with the bench: it may have seen them all for a moment.
+// The flooding program may share CPUs with the bench, so the backlog may be empty for a moment.
 constexpr std::int64_t break_ns = 20'000'000;
 
 }  // namespace
 
-std::string words(const Flood& flood) {
+std::string to_text(const Flood& flood) {
   return fmt::format("the bus was flooded by {} in {:.2f} s", flood.whose,
                      static_cast<double>(flood.duration_ns) * 1e-9);
 }
@@ -34,7 +34,7 @@ void Shares::add(const Frame& frame) {
 
 void Shares::clear() { *this = {}; }
 
-std::string Shares::words() const {
+std::string Shares::to_text() const {
   if (2 * error_frames_ >= frames_)
     return fmt::format("error frames: {} of {} frames", error_frames_, frames_);
   const auto most = std::ranges::max_element(by_id_, {}, [](const auto& one) { return one.second; });
@@ -56,7 +56,7 @@ void Backlog::pause(bool more, bool overflowed, std::int64_t now_ns) {
   if (!since_ns_) since_ns_ = now_ns;
   const std::int64_t duration_ns = now_ns - *since_ns_;
   if (duration_ns < flood_ns || (longest_ && duration_ns <= longest_->duration_ns)) return;
-  longest_ = Flood{.duration_ns = duration_ns, .whose = shares_.words()};
+  longest_ = Flood{.duration_ns = duration_ns, .whose = shares_.to_text()};
 }
 
 }  // namespace canhil::observe

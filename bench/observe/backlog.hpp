@@ -1,4 +1,4 @@
-// Frames that come faster than the bench can look at them, and whose they are.
+// Detects frames that come faster than the bench can process them, and their senders.
 #pragma once
 
 #include <cstdint>
@@ -11,54 +11,54 @@
 
 namespace canhil::observe {
 
-/// Whose frames a stretch of time brought.
+/// Counts the frames of a stretch of time by id.
 class Shares {
  public:
   void add(const Frame& frame);
   void clear();
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
-  /// "id 0C0: 900 of 1000 frames"; "error frames: ..."; where no id has half of them, also of how many ids.
-  [[nodiscard]] std::string words() const;
+  /// "id 0C0: 900 of 1000 frames"; "error frames: ..."; if no id has half of them, also the number of ids.
+  [[nodiscard]] std::string to_text() const;
 
  private:
-  // Of all ids that a flood can have only so many are told apart: 2^29 would fill the memory.
+  // Limits the number of ids that are counted separately: 2^29 would fill the memory.
   static constexpr std::size_t most_ids = 4096;
   std::uint64_t frames_ = 0;
   std::uint64_t error_frames_ = 0;
-  std::map<std::pair<std::uint32_t, bool>, std::uint64_t> by_id_;  // and whether it is extended
+  std::map<std::pair<std::uint32_t, bool>, std::uint64_t> by_id_;  // the flag: an extended id
 };
 
-/// A time for which frames waited with hardly a break.
+/// A time in which frames were waiting almost continuously.
 struct Flood {
   std::int64_t duration_ns = 0;
-  std::string whose{};  ///< frames the bench looked at in it: Shares::words()
+  std::string whose{};  ///< the frames processed in it: Shares::to_text()
 };
 
 /// "the bus was flooded by id 0C0: 900 of 1000 frames in 0.41 s".
-std::string words(const Flood& flood);
+std::string to_text(const Flood& flood);
 
 class Backlog {
  public:
-  /// The bench has looked at a frame.
+  /// The bench has processed a frame.
   void add(const Frame& frame) {
     if (since_ns_) shares_.add(frame);
   }
   /// The bench turns to something else at `now_ns`. `more`: frames may still be waiting. `overflowed`: the
-  /// port has lost some since the last pause, so they waited all the while, however long the bench had no
+  /// port has lost frames since the last pause, so frames were waiting all the time, even if the bench had no
   /// CPU.
   void pause(bool more, bool overflowed, std::int64_t now_ns);
   /// The last pause left frames waiting.
   [[nodiscard]] bool more() const { return more_; }
-  /// Frames were left waiting a moment ago: pause() is to be called each time.
+  /// Frames were waiting a moment ago: pause() must be called each time.
   [[nodiscard]] bool stands() const { return since_ns_.has_value(); }
 
-  /// The longest flood until now: longer than a bench is ever behind by itself.
+  /// The longest flood so far, longer than any backlog of the bench's own making.
   [[nodiscard]] const std::optional<Flood>& flood() const { return longest_; }
 
  private:
   bool more_ = false;
-  std::optional<std::int64_t> since_ns_;  // frames have been waiting again and again
-  std::int64_t last_ns_ = 0;              // they were
+  std::optional<std::int64_t> since_ns_;  // start of the current backlog
+  std::int64_t last_ns_ = 0;              // the latest time at which frames were waiting
   Shares shares_;
   std::optional<Flood> longest_;
 };

@@ -10,7 +10,7 @@ constexpr std::string_view down = "the interface is down";
 
 void BusWatch::received(const Received& received) {
   if (!received.frame.error) {
-    if (outage_ && outage_->what == bus_off) end();  // whoever is heard proves the bus
+    if (outage_ && outage_->what == bus_off) end();  // any received frame proves that the bus works
     return;
   }
   const auto event = add(record_.errors, received.frame);

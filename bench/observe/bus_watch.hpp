@@ -1,4 +1,4 @@
-// The bus itself in a run: error frames and outages, recorded, and held against nobody's silence.
+// Records error frames and outages of the bus in a run; nobody's silence is blamed for them.
 #pragma once
 
 #include <optional>
@@ -11,18 +11,18 @@ namespace canhil::observe {
 
 class BusWatch final : public Observer {
  public:
-  /// `port`: whose clock of deadlines counts.
+  /// `port`: its clock measures deadlines.
   explicit BusWatch(const Port& port) : port_(port) {}
   void received(const Received& received) override;
   void interface_changed(bool up, std::int64_t t_ns) override;
 
-  /// What keeps every frame from the bus now, and since when by Port::monotonic_ns().
+  /// The current outage: its cause, and its start by Port::monotonic_ns().
   struct Outage {
     std::string_view what;
     std::int64_t since_ns = 0;
   };
   [[nodiscard]] const std::optional<Outage>& outage() const { return outage_; }
-  /// When the last outage ended, by Port::monotonic_ns(); 0: there was none.
+  /// The end of the last outage by Port::monotonic_ns(); 0: there was none.
   [[nodiscard]] std::int64_t ended_ns() const { return ended_ns_; }
 
   [[nodiscard]] const checks::BusRecord& record() const { return record_; }

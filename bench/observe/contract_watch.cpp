@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 #include "bench/observe/heartbeat_errors.hpp"
 
 namespace canhil::observe {
@@ -11,7 +11,8 @@ void ContractWatch::received(const Received& received) {
   if (!alone_) second_.received(received);
   if (received.own || target_messages(received.frame) == Routes::nowhere) return;
   heard_ = true;
-  if (const auto done = observe::heard<messages::StepDone>(received)) done_ = done_ || done->step == awaited_;
+  if (const auto done = observe::decode_from_target<messages::StepDone>(received))
+    done_ = done_ || done->step == awaited_;
   if (const auto beat = fault_in(received)) fault_ = beat;
 }
 

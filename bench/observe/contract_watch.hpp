@@ -1,5 +1,5 @@
-// A target that speaks the project's contract: any of its messages shows that it is there, its heartbeat that
-// it gave up, StepDone the end of a step that Sync closed.
+// Watches a target with canhil's own DBC: any of its messages shows that it is present, its heartbeat that it
+// gave up, StepDone that it finished the step that Sync closed.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace canhil::observe {
 
 class ContractWatch final : public TargetWatch {
  public:
-  /// `alone`: nobody else can be on the bus, so a second target is not looked for.
+  /// `alone`: nobody else can be on the bus, so no check for a second target.
   explicit ContractWatch(bool alone = false) : alone_(alone) {}
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override {
@@ -30,7 +30,7 @@ class ContractWatch final : public TargetWatch {
   bool alone_;
   bool heard_ = false, done_ = false;
   std::uint16_t awaited_ = 0;
-  std::optional<messages::TargetHeartbeat> fault_;  // that said so
+  std::optional<messages::TargetHeartbeat> fault_;  // the heartbeat that reported the fault
   SecondTarget second_;
 };
 

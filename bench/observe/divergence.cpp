@@ -13,7 +13,7 @@
 namespace canhil::observe {
 namespace {
 
-// The frames of one log that count, one after the other.
+// The compared frames of one log, one after another.
 class Answers {
  public:
   explicit Answers(LogReader reader) : reader_(std::move(reader)) {}
@@ -39,16 +39,17 @@ class Answers {
   double t_s_ = 0;
 };
 
-// The first signal in which two frames of a message are further apart than so many steps; none: they agree.
+// The first signal in which two frames of a message differ by more than `steps` steps; none: they agree.
 std::optional<std::string> departure(const Frame& a, const Frame& b, double steps) {
   const std::vector<Value> of_a = values_of(a), of_b = values_of(b);
   for (std::size_t i = 0; i < of_a.size(); ++i) {
     const double step = wire::lsb(*of_a[i].signal);
-    const double tolerance = step == 1 ? 0 : (steps + 0.5) * step;  // values lie on steps, but for rounding
+    const double tolerance =
+        step == 1 ? 0 : (steps + 0.5) * step;  // values are multiples of the step, except for rounding
     const bool equal = of_a[i].value == of_b[i].value;
     if (equal || (steps > 0 && std::abs(of_a[i].value - of_b[i].value) <= tolerance)) continue;
     return fmt::format("{}.{} is {} in one, {} in the other", message_of(a), of_a[i].signal->name,
-                       words(of_a[i]), words(of_b[i]));
+                       to_text(of_a[i]), to_text(of_b[i]));
   }
   return std::nullopt;
 }
@@ -94,7 +95,8 @@ std::string describe(const Frame& frame) {
   const std::string_view message = message_of(frame);
   if (message.empty()) return fmt::format("frame {:03X}, {} bytes", frame.id, frame.size);
   std::string text(message);
-  for (const Value& value : values_of(frame)) text += fmt::format(" {}={}", value.signal->name, words(value));
+  for (const Value& value : values_of(frame))
+    text += fmt::format(" {}={}", value.signal->name, to_text(value));
   return text;
 }
 

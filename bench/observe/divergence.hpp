@@ -1,4 +1,4 @@
-// Two recorded runs, compared frame by frame.
+// Compares two recorded runs frame by frame.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +9,13 @@
 
 namespace canhil::observe {
 
-/// The first frame in which two runs differ: the n-th of those compared (from 0), as it stands in each log.
+/// The first difference of two runs: the n-th compared frame (from 0), as it is in each log.
 struct Divergence {
   std::size_t index = 0;
-  std::optional<LogEntry> a;  ///< none: this run has no such frame any more
+  std::optional<LogEntry> a;  ///< none: this run has no further frame
   std::optional<LogEntry> b;
   double t_s = 0;        ///< bench time of the last Sync before it
-  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: other messages
+  std::string signal{};  ///< "FixUpdate.nis is 3.21 in one, 3.18 in the other"; empty: the messages differ
 };
 
 struct Comparison {
@@ -23,13 +23,13 @@ struct Comparison {
   std::optional<Divergence> first;
 };
 
-/// Compares what the target sent in two logs, from the first Sync on. Time stamps do not count, nor do frames
-/// that speak of the host (TargetTiming) or only exist in virtual time (StepDone). `steps`: by how many steps
-/// of its resolution a signal may be off; whole numbers, states and flags may not; 0: no bit may differ.
-/// Error: a log cannot be read.
+/// Compares the target's frames in two logs, from the first Sync on. Time stamps are ignored, and so are
+/// frames about the host (TargetTiming) and frames that exist in virtual time only (StepDone). `steps`:
+/// allowed difference of a signal in steps of its resolution, not applied to whole numbers, states and flags;
+/// 0: all bits must be equal. Error: a log cannot be read.
 Result<Comparison> compare(const std::string& log_a, const std::string& log_b, double steps = 0);
 
-/// A frame as a person reads it: message, signals with units.
+/// A frame as text: message and signals with units.
 std::string describe(const Frame& frame);
 
 }  // namespace canhil::observe

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 
 namespace canhil::observe {
 
@@ -25,7 +25,7 @@ std::string fault_of(const messages::TargetHeartbeat& heartbeat) {
 }
 
 std::optional<messages::TargetHeartbeat> fault_in(const Received& received) {
-  auto beat = heard<messages::TargetHeartbeat>(received);
+  auto beat = decode_from_target<messages::TargetHeartbeat>(received);
   if (beat && beat->state != messages::TargetState::fault) beat.reset();
   return beat;
 }

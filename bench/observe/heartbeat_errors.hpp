@@ -1,4 +1,4 @@
-// The error bits of a heartbeat, in words.
+// The error bits of a heartbeat as text.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace canhil::observe {
 
-/// "input_lost, numeric" as the DBC names them, or "none".
+/// "input_lost, numeric" with the DBC's names, or "none".
 std::string errors_of(const messages::TargetHeartbeat& heartbeat);
 
-/// Why a run ends whose target is in the state fault.
+/// Why the run ends, for a target in state fault.
 std::string fault_of(const messages::TargetHeartbeat& heartbeat);
 
-/// The heartbeat in what the bus gave, if it is one that says that an estimator has stopped.
+/// The heartbeat in a received frame, if it reports that an estimator has stopped.
 std::optional<messages::TargetHeartbeat> fault_in(const Received& received);
 
 }  // namespace canhil::observe

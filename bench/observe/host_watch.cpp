@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::int64_t least_step_ns = 100'000;
 constexpr std::int64_t slewed_ppm = 500;
-// Two clocks are read one after the other: a pair that took longer, because the CPU was lost, says nothing.
+// The two clocks are read one after the other: a pair that took longer, because the process lost the CPU, is
+// ignored.
 constexpr std::int64_t longest_reading_ns = 20'000;
 
 std::string content(const char* path) {
@@ -50,7 +51,7 @@ CpuAccount cpu_account(std::string_view schedstat, std::string_view stat) {
   CpuAccount account;
   std::istringstream own{std::string(schedstat)};
   own >> account.run_ns >> account.wait_ns;
-  // cpu user nice system idle iowait irq softirq steal; guest time is in user and nice.
+  // Fields: cpu user nice system idle iowait irq softirq steal; user and nice include guest time.
   std::istringstream all{std::string(stat)};
   std::string name;
   all >> name;

@@ -1,4 +1,4 @@
-// The bench's own machine during a run: whether its clock stepped, whether it had a CPU when it wanted one.
+// Watches the bench's own machine during a run: steps of its clock, and waits for a CPU.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace canhil::observe {
 
-/// Finds steps of one clock against another. An adjusted clock drifts by 500 ppm at most (adjtimex), so what
-/// is more between two readings, and more than 100 us, is a step.
+/// Finds steps of one clock against another. An adjusted clock drifts by at most 500 ppm (adjtimex); a larger
+/// change between two readings, above 100 us, is a step.
 class ClockSteps {
  public:
   /// Readings of both clocks at one instant.
   void note(std::int64_t steady_ns, std::int64_t stamps_ns);
-  /// With its sign; 0: there was none.
+  /// Signed; 0: there was none.
   [[nodiscard]] std::int64_t largest_ns() const { return largest_ns_; }
 
  private:
@@ -27,7 +27,7 @@ class ClockSteps {
   std::int64_t largest_ns_ = 0;
 };
 
-/// What the kernel accounts to this process and machine, since their start.
+/// CPU times from the kernel for this process and the machine, since their start.
 struct CpuAccount {
   std::int64_t run_ns = 0;   ///< of this process
   std::int64_t wait_ns = 0;  ///< of this process, ready to run
@@ -35,7 +35,7 @@ struct CpuAccount {
   std::uint64_t all_ticks = 0;     ///< of all CPUs
   std::uint64_t stolen_ticks = 0;  ///< of them
 };
-/// From the texts of /proc/self/schedstat and /proc/stat; what they do not tell is 0.
+/// Parses /proc/self/schedstat and /proc/stat; missing values are 0.
 CpuAccount cpu_account(std::string_view schedstat, std::string_view stat);
 
 /// Watches from its construction on.

@@ -5,13 +5,13 @@
 namespace canhil::observe {
 
 void Intruders::transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {
-  if (const std::size_t place = places_(frame); place != MessagePlaces::nowhere) ours_[place] = true;
+  if (const std::size_t index = places_(frame); index != MessagePlaces::nowhere) ours_[index] = true;
 }
 
 void Intruders::received(const Received& received) {
-  const std::size_t place = places_(received.frame);
-  if (received.own || place == MessagePlaces::nowhere || !ours_[place]) return;
-  ++frames_[messages_[place].name];
+  const std::size_t index = places_(received.frame);
+  if (received.own || index == MessagePlaces::nowhere || !ours_[index]) return;
+  ++frames_[messages_[index].name];
 }
 
 }  // namespace canhil::observe

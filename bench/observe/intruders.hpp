@@ -1,4 +1,4 @@
-// Whether somebody else sends what only the bench sends: then the target answers to both.
+// Detects other senders of the bench's own messages: then the target answers to both.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace canhil::observe {
 
-/// Counts frames of others that have the id of a message which the bench has sent in this run.
+/// Counts frames of others with the id of a message that the bench has sent in this run.
 class Intruders final : public Observer {
  public:
   /// `messages`: of the bus.
@@ -21,13 +21,13 @@ class Intruders final : public Observer {
       : messages_(messages), places_(messages), ours_(messages.size()) {}
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
-  /// By message.
+  /// By message name.
   [[nodiscard]] const std::map<std::string_view, std::uint64_t>& frames() const { return frames_; }
 
  private:
   std::span<const MessageInfo> messages_;
   MessagePlaces places_;
-  std::vector<bool> ours_;  // by place in messages_
+  std::vector<bool> ours_;  // by index in messages_
   std::map<std::string_view, std::uint64_t> frames_;
 };
 

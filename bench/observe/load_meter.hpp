@@ -1,4 +1,4 @@
-// How busy the frames of a run keep the bus.
+// Measures the bus load of a run's frames.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,22 +15,25 @@
 
 namespace canhil::observe {
 
-/// By what a frame counts, and which do.
+/// How a frame is assigned to a second, and which frames count.
 enum class LoadBy : std::uint8_t {
-  time_base,        ///< the second of the last Sync: the same on every bus and in virtual time
-  time_base_alone,  ///< the same without what only lockstep has, StepDone: as the run would load a bus
-  told,             ///< the second of virtual time, where nobody sends Sync
-  stamps  ///< the second, from the first one on, in which it left the wire: a full queue is no load yet
+  time_base,        ///< by the second of the last Sync: the same on every bus and in virtual time
+  time_base_alone,  ///< the same without StepDone, which exists in lockstep only: the load that the run would
+                    ///< have on a bus
+  virtual_time,     ///< by the second of virtual time, if nobody sends Sync
+  stamps  ///< by the second, from the first stamp on, in which the frame left the wire: a queued frame is no
+          ///< load yet
 };
 
-/// Adds up the exact length of every frame, from the bench and from others, by second. On CAN FD of the
-/// frames on the wire: observers see what containers hold, which packs into the same containers again.
+/// Adds up the exact length of every frame, of the bench and of others, by second. On CAN FD it counts frames
+/// on the wire: observers see the messages within containers, which are packed into the same containers
+/// again.
 class LoadMeter final : public Observer {
  public:
   LoadMeter(BusFormat format, LoadBy by) : format_(format), by_(by) {}
   void transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) override {
     if (by_ == LoadBy::stamps) return;  // its echo counts
-    if (by_ != LoadBy::told && frame.id == messages::Sync::info.id)
+    if (by_ != LoadBy::virtual_time && frame.id == messages::Sync::info.id)
       second_ = static_cast<std::size_t>(from_frame<messages::Sync>(frame).time_us / 1'000'000);
     take(frame, own_);
   }
@@ -45,12 +48,12 @@ class LoadMeter final : public Observer {
     if (by_ == LoadBy::stamps || !received.own) take(received.frame, received.own ? own_ : others_);
   }
   void time_told(std::int64_t t_ns) override {
-    if (by_ == LoadBy::told) second_ = static_cast<std::size_t>(t_ns / 1'000'000'000);
+    if (by_ == LoadBy::virtual_time) second_ = static_cast<std::size_t>(t_ns / 1'000'000'000);
   }
-  /// Of each second from time 0 on.
+  /// For each second from time 0 on.
   [[nodiscard]] const std::vector<wire::BitLength>& lengths() const { return lengths_; }
-  /// Why nobody is heard, in a phrase, on a bus that has had more to carry until now than it can; empty: it
-  /// is another reason.
+  /// If the bus had more to carry so far than it can: a phrase that explains why nothing is received; empty:
+  /// the reason is another.
   [[nodiscard]] std::string full_wire(std::int64_t now_ns, const wire::BitRates& rates) const {
     constexpr double full = 0.9;
     if (rates.nominal == 0 || now_ns <= 0) return {};

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bench/estimators/registry.hpp"
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 #include "bench/observe/sightings.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/time_base.hpp"
@@ -20,21 +20,22 @@ constexpr bool is_answered(std::string_view group) {
   });
 }
 
-// The message that closes a sample group which the target answers.
+// The message that completes a sample group which the target answers.
 template <class Message>
 concept ClosesStimulus = requires(Message message) {
   message.time_of_validity_us;
 }
 &&is_answered(Message::info.sample_group);
 
-// The last of its group, by the contract's rule. Two in three of the bench's frames close nothing.
+// The last message of its group, by the order of the DBC. Two in three of the bench's frames complete
+// nothing.
 constexpr Routes closing_messages([](const MessageInfo& info) {
   return is_answered(info.sample_group) && std::ranges::none_of(all_messages, [&](const MessageInfo& other) {
            return other.sample_group == info.sample_group && other.id > info.id;
          });
 });
 
-// The sample group that a frame of the bench closes, and its time of validity.
+// The sample group that a frame of the bench completes, and its time of validity.
 struct Closed {
   std::string_view group;  // empty: none that is answered
   std::uint32_t valid_us = 0;
@@ -102,7 +103,7 @@ void Monitor::transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t la
   if (model_) model_->sent(frame, std::nullopt, now_us_);
 }
 
-// The transmit stamp of a stimulus, once the bus has echoed it, replaces the bench's own.
+// The transmit stamp of the echo replaces the bench's own stamp of the stimulus.
 void Monitor::echoed(const Received& received) {
   const Closed closed = closed_by(received.frame);
   if (!closed.group.empty()) seen_.transmit_stamps_echoed = true;
@@ -139,7 +140,7 @@ void Monitor::received(const Received& received) {
 
 void Monitor::decode(const Frame& frame, std::size_t index) {
   if (estimators::Reception* reception = reception_of_[index]; reception != nullptr) {
-    // The newest arrival of every message of a whole group is the answer to its cause.
+    // The newest arrivals of all messages of a complete group are the answer to its cause.
     const auto whole = reception->take(frame, index, now_us_, seen_);
     if (!whole) return;
     for (const std::size_t message : whole->messages) ++seen_.answers[message];
@@ -158,7 +159,7 @@ void Monitor::decode(const Frame& frame, std::size_t index) {
     seen_.target_timing_seen = true;
     seen_.queue_max_us = std::max(seen_.queue_max_us, timing.queue_max_us);
     seen_.compute_max_us = std::max(seen_.compute_max_us, timing.compute_max_us);
-    if (stopwatch_) stopwatch_->told(timing);
+    if (stopwatch_) stopwatch_->on_target_timing(timing);
   }
 }
 

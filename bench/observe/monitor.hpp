@@ -1,4 +1,5 @@
-// Frames to observations: decodes what the target sends, pairs it with its cause, keeps the stamps.
+// Turns frames into observations: decodes the target's frames, pairs them with their causes, keeps time
+// stamps.
 #pragma once
 
 #include <array>
@@ -16,9 +17,9 @@
 
 namespace canhil::observe {
 
-/// What a verdict asks for, beside the answers.
+/// The needs of a verdict besides the answers.
 struct Asked {
-  std::vector<checks::TimedWindow> windows{};  ///< of the checks, for times
+  std::vector<checks::TimedWindow> windows{};  ///< of the checks, for timing
   WireFacts wire{};
   Takers takers{};
   std::map<std::string_view, double> own_interval_s{};  ///< see Observations
@@ -27,8 +28,8 @@ struct Asked {
 /// Watches a run from the target's start on.
 class Monitor final : public Watcher {
  public:
-  /// None asked for: takes no times, as those of virtual time say nothing, and a campaign flies thousands of
-  /// runs in it.
+  /// Without `asked` no times are measured: in virtual time they have no meaning, and a campaign flies
+  /// thousands of runs in virtual time.
   explicit Monitor(std::optional<Asked> asked = std::nullopt);
 
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
@@ -53,7 +54,7 @@ class Monitor final : public Watcher {
   std::array<e2e::Receiver, messages::all_messages.size()> receivers_{};
   std::vector<std::unique_ptr<estimators::Reception>> receptions_;
   std::array<estimators::Reception*, messages::all_messages.size()>
-      reception_of_{};       // by place in all_messages
+      reception_of_{};       // by index in all_messages
   std::int64_t now_us_ = 0;  // last Sync
 };
 

@@ -1,4 +1,4 @@
-// Who looks on while a run goes by.
+// The interface of those who watch a run.
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,21 @@
 
 namespace canhil::observe {
 
-/// Sees every frame of a run. Times are of the port's stamp clock [ns].
+/// Receives every frame of a run. Times are of the port's stamp clock [ns].
 class Observer {
  public:
   Observer() = default;
   Observer(const Observer&) = delete;
   Observer& operator=(const Observer&) = delete;
   virtual ~Observer() = default;
-  /// The bench handed a frame to the bus. `late_ns`: after its deadline; 0 where there was none.
+  /// The bench handed a frame to the bus. `late_ns`: lateness relative to its deadline; 0 without a deadline.
   virtual void transmitted(const Frame& /*frame*/, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {}
-  /// A frame came from the bus; `received.own`: the echo of one of ours, with its transmit stamp.
+  /// A frame arrived from the bus; `received.own`: the echo of the bench's own frame, with its transmit
+  /// stamp.
   virtual void received(const Received& /*received*/) {}
-  /// A frame came that is not of this bus's format: no part of the run.
+  /// A frame arrived in a format that this bus does not use: not part of the run.
   virtual void foreign(const Received& /*received*/) {}
-  /// The time of a run in virtual time, as it goes on [ns].
+  /// The current virtual time of the run [ns].
   virtual void time_told(std::int64_t /*t_ns*/) {}
   /// The interface went down or was removed, or is back.
   virtual void interface_changed(bool /*up*/, std::int64_t /*t_ns*/) {}

@@ -18,7 +18,8 @@ constexpr Routes bench_messages([](const MessageInfo& info) {
   return info.sender != TargetHeartbeat::info.sender;
 });
 
-// A group that comes later than this after its validity, or so long before it, need not be used.
+// A group need not be used if it arrives later than this after its time of validity, or earlier than this
+// before it.
 constexpr std::int64_t promised_us = 200'000;
 constexpr std::size_t syncs_of_a_period =
     static_cast<std::size_t>(TargetHeartbeat::info.cycle_time_us / Sync::info.cycle_time_us);
@@ -57,8 +58,8 @@ ReceiverModel::ReceiverModel(const Takers& takers) {
   }(std::type_identity<AllMessages>{});
 }
 
-// A frame that is damaged or has another size does not move the receiver's counter: it is counted as damaged
-// and, when the next one comes, as lost.
+// A damaged frame or one of another size does not advance the receiver's counter: it is counted as damaged
+// and, at the next frame, as lost.
 void ReceiverModel::sent(const Frame& frame, std::optional<std::int64_t> valid_us, std::int64_t now_us) {
   const std::size_t index = bench_messages(frame);
   if (index == Routes::nowhere) return;
@@ -109,7 +110,7 @@ void ReceiverModel::put(const Frame& frame, Place& place, std::optional<std::int
   if (late) may_be_late_ += group.takers;
 }
 
-// An estimator's time is that of its fastest samples: while they stay away, what is valid later has to wait.
+// An estimator's time follows its fastest samples: while they are missing, later samples must wait.
 std::int64_t ReceiverModel::faster_reached_us(const Group& group) const {
   std::int64_t least_us = std::numeric_limits<std::int64_t>::max();
   for (const auto& [name, other] : groups_) {

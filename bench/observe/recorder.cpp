@@ -44,7 +44,7 @@ void Recorder::received(const Received& received) {
   }
 }
 
-// No part of a run, but it may be why one does not begin.
+// Not part of a run, but possibly the reason why it does not begin.
 void Recorder::foreign(const Received& received) {
   if (!started_) keep_early(received);
 }
@@ -81,7 +81,7 @@ Result<void> Recorder::close() {
   return tl::unexpected(std::move(error));
 }
 
-// A run that does not begin takes nothing away from an earlier one.
+// A run that does not begin must not overwrite an earlier log.
 Result<std::string> Recorder::close_early() {
   if (!started_ && early_.empty()) return std::string();
   std::string name = path_;

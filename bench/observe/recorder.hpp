@@ -1,4 +1,4 @@
-// Every frame of a run in candump's log format.
+// Records every frame of a run in candump's log format.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +11,24 @@
 
 namespace canhil::observe {
 
-/// Records from the first transmission of the bench on, so that the log alone is a whole session of the
-/// target; where the bench never transmitted, what came. Each frame stands beside the bus that it passed on.
+/// Records from the bench's first transmission on, so the log contains a complete session of the target; if
+/// the bench never transmitted, it records what arrived. Each frame is stored with its bus.
 class Recorder final : public Observer {
  public:
-  /// Writes beside `path` until close() gives the file its name. `port` outlives the recorder. Error: the
-  /// file cannot be created.
+  /// Writes to a temporary file beside `path` until close() renames it. `port` must outlive the recorder.
+  /// Error: the file cannot be created.
   static Result<std::unique_ptr<Recorder>> open(const std::string& path, const Port& port);
 
-  /// A recording that was not closed leaves nothing behind.
+  /// Removes a recording that was not closed.
   ~Recorder() override;
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
   void foreign(const Received& received) override;
-  /// Finishes the file. Error: not everything could be written; then nothing stands under `path`, and what
-  /// was written under `path`.incomplete.
+  /// Finishes the file. Error: not everything could be written; then `path` does not exist, and what was
+  /// written is in `path`.incomplete.
   Result<void> close();
-  /// Finishes the log of a run that did not begin: under `path`, or where something stands there under
-  /// `path`.incomplete. Gives its name; empty: no frame passed, and there is no log. Error: as of close().
+  /// Finishes the log of a run that did not begin: as `path` or, if that exists, as `path`.incomplete.
+  /// Returns its name; empty: no frame passed and there is no log. Error: as for close().
   Result<std::string> close_early();
 
  private:
@@ -44,7 +44,7 @@ class Recorder final : public Observer {
   std::string path_;
   const Port& port_;
   std::int64_t to_realtime_ns_;  // from the port's stamp clock
-  std::vector<Received> early_;  // the first that came before the first transmission
+  std::vector<Received> early_;  // received before the first transmission
   bool started_ = false;
   bool closed_ = false;
 };

@@ -12,14 +12,14 @@ namespace {
 
 using namespace messages;
 
-// A target sends as many heartbeats at once as it runs estimators, so the frame that another target's block
-// continues is further back than that.
+// A target sends one heartbeat for each estimator at once, so the last frame of another target may be this
+// far back.
 constexpr std::size_t longest_history = 8;
 constexpr std::int64_t history_ns = TargetHeartbeat::info.cycle_time_us * 2500;
 constexpr int strange_enough = 3;
 constexpr int plain_enough = 16;
 
-// Which history a frame belongs to.
+// The history that a frame belongs to.
 std::optional<std::size_t> kind_of(const Frame& frame) {
   if (nodes::is_whole<TargetHeartbeat>(frame)) return 0;
   if (nodes::is_whole<ParamAck>(frame)) return 1;
@@ -31,7 +31,7 @@ std::optional<std::size_t> kind_of(const Frame& frame) {
 
 }  // namespace
 
-// A command may have the target count anew.
+// After a command the target may restart its counters.
 void SecondTarget::transmitted(const Frame& frame, std::int64_t /*t_ns*/, std::int64_t /*late_ns*/) {
   if (frame.id != TargetCommand::info.id) return;
   for (History& history : histories_) history.clear();

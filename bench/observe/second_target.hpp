@@ -1,4 +1,4 @@
-// Whether one target answers or two: of two on one bus each spoils the other's groups, and no figure holds.
+// Detects a second target: two on one bus spoil each other's groups, and no result is valid.
 #pragma once
 
 #include <array>
@@ -10,18 +10,18 @@
 
 namespace canhil::observe {
 
-/// Watches what a target says of itself (heartbeats, acknowledgements, ends of steps, timing, counters). Each
-/// of these messages carries a counter that goes up by one. A frame that continues not the last frame but an
-/// earlier one has a sender of its own; several in a short time are a second target. Lost frames make no such
-/// sequence: nearly a whole period of the counter would have to get lost again and again, each within a few
-/// heartbeats.
+/// Watches messages in which a target reports its own state (heartbeats, acknowledgements, ends of steps,
+/// timing, counters). Each carries a counter that increases by one. A frame that continues an earlier frame
+/// instead of the last one has another sender; several within a short time mean a second target. Lost frames
+/// do not cause this: almost a whole period of the counter would have to be lost repeatedly, each time within
+/// a few heartbeats.
 class SecondTarget final : public Observer {
  public:
   void transmitted(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns) override;
   void received(const Received& received) override;
 
   [[nodiscard]] bool found() const { return found_; }
-  /// What a person is told.
+  /// The message for users.
   static constexpr const char* complaint = "a second target answers on this bus";
 
  private:
@@ -35,8 +35,8 @@ class SecondTarget final : public Observer {
   static bool continues_an_earlier_one(const History& history, const Seen& now);
 
   std::array<History, 5> histories_;
-  int strange_ = 0;  // frames of a sender of their own
-  int plain_ = 0;    // in a row since
+  int strange_ = 0;  // frames from another sender
+  int plain_ = 0;    // in a row since then
   bool found_ = false;
 };
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/observe/heard.hpp"
+#include "bench/observe/decode_from_target.hpp"
 #include "dbc/wire/e2e.hpp"
 #include "dbc/wire/transmit.hpp"
 
@@ -57,7 +57,7 @@ std::string Sightings::faults() const {
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
-std::string Sightings::words() const {
+std::string Sightings::to_text() const {
   std::vector<std::string> parts;
   if (std::string wrong = faults(); !wrong.empty()) parts.push_back(std::move(wrong));
   for (std::size_t i = 0; i < seen_.of_target.size(); ++i) {

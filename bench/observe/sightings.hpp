@@ -1,4 +1,4 @@
-// What the bus brought while the bench waited for its target: for the message of a handshake that failed.
+// Frames received while the bench waited for its target: for the message of a failed handshake.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@
 
 namespace canhil::observe {
 
-/// Counts a frame under the id of a message by what is wrong with it; true: nothing is.
+/// Counts a frame with the id of a message by its defect; true: it has none.
 bool look_at(const Frame& frame, const MessageInfo& message, checks::Sighting& sighting);
 
 class Sightings final : public Observer {
  public:
   void received(const Received& received) override;
-  /// Forgets everything.
+  /// Resets all counts.
   void clear() { seen_ = {}; }
 
-  /// The frames under the id of a message, by its place in all_messages.
+  /// The frames with the id of a message, by index in all_messages.
   [[nodiscard]] const checks::Sighting& of(std::size_t message) const { return seen_.of_target[message]; }
-  /// What was wrong with frames of the target: "TargetHeartbeat: 50 with a wrong CRC"; empty: nothing.
+  /// Defects of the target's frames: "TargetHeartbeat: 50 with a wrong CRC"; empty: none.
   [[nodiscard]] std::string faults() const;
-  /// The same, what else the target sent, and other ids; "no frame" where none came.
-  [[nodiscard]] std::string words() const;
+  /// The same, plus other frames of the target and other ids; "no frame" if none came.
+  [[nodiscard]] std::string to_text() const;
 
  private:
   struct Other {
@@ -36,7 +36,7 @@ class Sightings final : public Observer {
   };
   static constexpr std::size_t most_others = 8;
   struct Seen {
-    std::array<checks::Sighting, messages::all_messages.size()> of_target{};  // by place in all_messages
+    std::array<checks::Sighting, messages::all_messages.size()> of_target{};  // by index in all_messages
     std::vector<Other> others{};
     bool more_others = false;
     std::uint64_t errors = 0;  // error frames

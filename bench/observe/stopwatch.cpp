@@ -13,7 +13,7 @@ namespace {
 using checks::Stimulus;
 using checks::TimedWindow;
 
-// From the stimulus before to this one: how far off the time between their deadlines.
+// The deviation of the time between two stimuli from the time between their deadlines.
 void add_deviation(TimedWindow& window, const Stimulus& from, const Stimulus& to) {
   const std::int64_t period_ns = elapsed_ns(from, to);
   const std::int64_t due_ns = to.due_ns - from.due_ns;
@@ -35,7 +35,7 @@ void add(checks::WireResponse& response, std::int64_t ns) {
 
 }  // namespace
 
-/// The place of a message that the bench sends; nowhere: it sends no such frame.
+/// The index of a message that the bench sends; nowhere: it sends no such frame.
 std::size_t Stopwatch::of_bench(const Frame& frame) const {
   const std::size_t index = places_(frame);
   const bool targets = index != MessagePlaces::nowhere &&
@@ -48,10 +48,10 @@ bool Stopwatch::answers(std::size_t index, std::string_view group) const {
   return std::ranges::find(groups, group) != groups.end();
 }
 
-/// The frame on the wire that ends with this message; none: more are in it.
+/// The frame on the wire that ends with this message; none: more messages follow in it.
 std::optional<Frame> Stopwatch::closed_by(const Frame& message, FdPacker& packer) const {
   if (!record_.wire.fd || record_.messages.data() != messages::all_messages.data()) return message;
-  if (packer.due_before(message)) packer.clear();  // went without its last message
+  if (packer.due_before(message)) packer.clear();  // sent without its last message
   return packer.put(message);
 }
 
@@ -60,8 +60,9 @@ std::int64_t Stopwatch::on_wire_ns(const Frame& frame) const {
   return rates.nominal == 0 ? 0 : wire::duration_ns(wire::bit_length(frame), rates);
 }
 
-/// What of a container's time is not between its hand-over and its echo: the stamp comes before the
-/// intermission. The last frame of a classic group has that of the frame before it in this time instead.
+/// The part of a container's time on the wire that is not between its hand-over and its echo: the stamp comes
+/// before the intermission. For the last frame of a classic group this time includes the intermission of the
+/// previous frame instead.
 std::int64_t Stopwatch::no_intermission_ns() const {
   return record_.wire.fd ? wire::duration_ns({.nominal = wire::intermission_bits}, record_.wire.rates) : 0;
 }
@@ -84,7 +85,8 @@ void Stopwatch::stimulus(std::string_view name, const Stimulus& stimulus) {
   if (group.sent.size() > remembered) forget_oldest(name, group);
 }
 
-// Lateness is of CLOCK_MONOTONIC, stamps may be of another clock: only differences of stamps are taken.
+// Lateness is measured by CLOCK_MONOTONIC, stamps possibly by another clock: only differences of stamps are
+// used.
 void Stopwatch::echoed(const Received& received, std::string_view group, std::int64_t valid_us) {
   const std::size_t index = of_bench(received.frame);
   if (index == MessagePlaces::nowhere) return;
@@ -93,7 +95,7 @@ void Stopwatch::echoed(const Received& received, std::string_view group, std::in
     return std::ranges::equal(one.frame.payload(), received.frame.payload());
   });
   const std::optional<Frame> on_wire = closed_by(received.frame, echoes_);
-  std::optional<std::int64_t> on_bus_ns;  // of one that was waited for
+  std::optional<std::int64_t> on_bus_ns;  // of a pending frame
   if (pending != waiting.end()) {
     on_bus_ns = received.t_ns - pending->t_ns;
     record_.transmit[index].echoed.add(pending->late_ns + *on_bus_ns);
@@ -168,7 +170,7 @@ void Stopwatch::answered(std::span<const std::size_t> indices, std::string_view 
   const std::int64_t began_ns = newest_[first].t_ns - wire_ns_[carriers_[first].first];
   std::size_t before = carriers_.size();
   for (const std::size_t index : indices) {
-    // Messages of one container follow one another and came with it: the first of them counts for it.
+    // The messages of a container arrive together; the first of them represents it.
     const std::size_t carrier = carriers_[index].first;
     const bool another = std::exchange(before, carrier) != carrier;
     if (again) ++record_.answers[index].repeated;
@@ -197,53 +199,54 @@ void Stopwatch::answered(std::size_t index, std::string_view group, Sent& sent, 
   split(index, group, sent, wire_ns, latency_ns);
 }
 
-checks::LatencySplit& Stopwatch::split_of(std::string_view group) {
-  auto& all = record_.split_by_group;
-  const auto found = std::ranges::find(all, group, &checks::GroupSplit::group);
-  return found != all.end() ? found->split
-                            : all.emplace_back(checks::GroupSplit{.group = group, .split = {}}).split;
+checks::LatencyBreakdown& Stopwatch::split_of(std::string_view group) {
+  auto& all = record_.breakdown_by_group;
+  const auto found = std::ranges::find(all, group, &checks::GroupBreakdown::group);
+  return found != all.end()
+             ? found->breakdown
+             : all.emplace_back(checks::GroupBreakdown{.group = group, .breakdown = {}}).breakdown;
 }
 
-// A stimulus may have several answers: it has been answered with the last of them.
+// A stimulus may have several answers: it counts as answered with the last of them.
 void Stopwatch::split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
                       std::int64_t latency_ns) {
   sent.reply_wire_ns += wire_ns;
   record_.answers[index].reply_wire_ns += sent.reply_wire_ns;
-  for (checks::LatencySplit* split : {&record_.split, &split_of(group)}) {
-    split->reply_wire_ns += wire_ns;
-    split->latency_ns += latency_ns - sent.latency_ns;
+  for (checks::LatencyBreakdown* breakdown : {&record_.breakdown, &split_of(group)}) {
+    breakdown->reply_wire_ns += wire_ns;
+    breakdown->latency_ns += latency_ns - sent.latency_ns;
     if (sent.answered) continue;
-    ++split->stimuli;
+    ++breakdown->stimuli;
     if (!sent.to_echo_ns) continue;
-    ++split->echoed;
-    split->to_echo_ns += *sent.to_echo_ns;
-    split->stimulus_wire_ns += sent.wire_ns;
+    ++breakdown->echoed;
+    breakdown->to_echo_ns += *sent.to_echo_ns;
+    breakdown->stimulus_wire_ns += sent.wire_ns;
   }
   sent.latency_ns = latency_ns;
-  if (!sent.answered) ++untold_.stimuli;
+  if (!sent.answered) ++pending_window_.stimuli;
   sent.answered = true;
-  if (latency_ns <= untold_.slowest.latency_ns) return;
-  untold_.slowest = {.message = record_.messages[index].name,
-                     .t_ns = newest_[index].t_ns - first_ns_.value_or(0),
-                     .latency_ns = latency_ns,
-                     .reply_wire_ns = sent.reply_wire_ns};
+  if (latency_ns <= pending_window_.slowest.latency_ns) return;
+  pending_window_.slowest = {.message = record_.messages[index].name,
+                             .t_ns = newest_[index].t_ns - first_ns_.value_or(0),
+                             .latency_ns = latency_ns,
+                             .reply_wire_ns = sent.reply_wire_ns};
 }
 
-void Stopwatch::told(const messages::TargetTiming& timing) {
-  const auto stimuli = static_cast<std::int64_t>(untold_.stimuli);
-  record_.split.told += untold_.stimuli;
+void Stopwatch::on_target_timing(const messages::TargetTiming& timing) {
+  const auto stimuli = static_cast<std::int64_t>(pending_window_.stimuli);
+  record_.breakdown.accounted += pending_window_.stimuli;
   if (stimuli > 0) {
-    record_.split.queue_clipped |= timing.queue_mean_us >= checks::most_told_us;
-    record_.split.compute_clipped |= timing.compute_mean_us >= checks::most_told_us;
+    record_.breakdown.queue_clipped |= timing.queue_mean_us >= checks::most_reported_us;
+    record_.breakdown.compute_clipped |= timing.compute_mean_us >= checks::most_reported_us;
   }
-  record_.split.target_queue_ns += stimuli * timing.queue_mean_us * 1000;
-  record_.split.target_compute_ns += stimuli * timing.compute_mean_us * 1000;
-  if (untold_.slowest.latency_ns > record_.slowest.latency_ns) {
-    record_.slowest = untold_.slowest;
+  record_.breakdown.target_queue_ns += stimuli * timing.queue_mean_us * 1000;
+  record_.breakdown.target_compute_ns += stimuli * timing.compute_mean_us * 1000;
+  if (pending_window_.slowest.latency_ns > record_.slowest.latency_ns) {
+    record_.slowest = pending_window_.slowest;
     record_.slowest.queue_max_us = timing.queue_max_us;
     record_.slowest.compute_max_us = timing.compute_max_us;
   }
-  untold_ = {};
+  pending_window_ = {};
 }
 
 void Stopwatch::finish() {
@@ -252,8 +255,8 @@ void Stopwatch::finish() {
   }
 }
 
-// The newest first: an answer comes soon, or not at all. Of several that are valid at one time the one with
-// the counter.
+// The newest first: an answer comes soon or never. If several are valid at the same time, the one with the
+// right counter.
 Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
                                  std::optional<std::uint8_t> counter) {
   const auto group = groups_.find(name);
@@ -269,7 +272,7 @@ Stopwatch::Sent* Stopwatch::find(std::string_view name, std::int64_t valid_us,
   return same == sent.rend() ? &*found : &*same;
 }
 
-// By now its echo has come, if it ever does.
+// By now its echo has arrived, if it arrives at all.
 void Stopwatch::forget_oldest(std::string_view name, Group& group) {
   const Stimulus stimulus = group.sent.front().stimulus;
   group.sent.pop_front();

@@ -1,4 +1,4 @@
-// Takes the times of a run: latency, jitter and the bench's own lateness, as the frames pass.
+// Measures the times of a run: latency, jitter and the bench's own lateness.
 #pragma once
 
 #include <bitset>
@@ -17,12 +17,12 @@
 
 namespace canhil::observe {
 
-/// Remembers the last `remembered` stimuli of each group; an answer that comes later answers nothing.
+/// Remembers the last `remembered` stimuli of each group; a later answer has no cause.
 class Stopwatch {
  public:
   static constexpr std::size_t remembered = 1024;
 
-  /// The record says which windows are asked for, and how fast the bus is.
+  /// The record defines the windows and the bit rates.
   explicit Stopwatch(checks::TimingRecord& record)
       : record_(record),
         places_(record.messages),
@@ -34,23 +34,24 @@ class Stopwatch {
 
   /// The bench handed over a frame at `t_ns`, `late_ns` after its deadline.
   void sent(const Frame& frame, std::int64_t t_ns, std::int64_t late_ns);
-  /// With that frame a sample group that is answered was whole.
+  /// That frame completed a sample group which the target answers.
   void stimulus(std::string_view group, const checks::Stimulus& stimulus);
-  /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that it closes, if it does.
+  /// The bus echoed a frame of the bench; `group`, `valid_us`: the sample group that it completes, if any.
   void echoed(const Received& received, std::string_view group, std::int64_t valid_us);
-  /// A message of the target came; `index`: its place in the record's messages.
+  /// A message of the target arrived; `index`: its index in the record's messages.
   void arrived(std::size_t index, const Received& received);
-  /// The newest arrivals of these messages are the answer to a stimulus. `counter`: of the cause, if the
-  /// answer carries it.
+  /// The newest arrivals of these messages are the answer to a stimulus. `counter`: the counter of the cause,
+  /// if the answer carries it.
   void answered(std::span<const std::size_t> indices, std::string_view group, std::int64_t cause_us,
                 std::optional<std::uint8_t> counter = std::nullopt);
-  /// The target accounted for its time since it last did.
-  void told(const messages::TargetTiming& timing);
+  /// The target reported its times since its last report.
+  void on_target_timing(const messages::TargetTiming& timing);
   /// The run is over.
   void finish();
 
  private:
-  // Frames on their way, the oldest first: of `on_their_way` of a kind the oldest is lost.
+  // Frames handed over and not yet echoed, the oldest first: beyond `on_their_way` of a message the oldest
+  // counts as lost.
   struct Pending {
     Frame frame;
     std::int64_t t_ns = 0;
@@ -68,14 +69,14 @@ class Stopwatch {
   };
   struct Group {
     std::deque<Sent> sent{};
-    std::optional<checks::Stimulus> before{};  // the last one that is no longer remembered
+    std::optional<checks::Stimulus> before{};  // the last one that was forgotten
   };
   struct Last {
     checks::Arrival arrival;
-    std::int64_t due_ns = 0;  // when what it answers was to be sent
+    std::int64_t due_ns = 0;  // deadline of its cause
   };
-  // Since the target last told of its time.
-  struct Untold {
+  // Since the last TargetTiming of the target.
+  struct PendingWindow {
     std::uint64_t stimuli = 0;
     checks::SlowestAnswer slowest{};
   };
@@ -85,7 +86,7 @@ class Stopwatch {
   void forget_oldest(std::string_view name, Group& group);
   void answered(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
                 std::int64_t cause_us);
-  checks::LatencySplit& split_of(std::string_view group);
+  checks::LatencyBreakdown& split_of(std::string_view group);
   void split(std::size_t index, std::string_view group, Sent& sent, std::int64_t wire_ns,
              std::int64_t latency_ns);
   std::optional<Frame> closed_by(const Frame& message, FdPacker& packer) const;
@@ -98,14 +99,14 @@ class Stopwatch {
   checks::TimingRecord& record_;
   MessagePlaces places_;
   std::vector<wire::Carrier> carriers_;
-  FdPacker echoes_, arrivals_;  // the containers again
+  FdPacker echoes_, arrivals_;  // pack the containers again
   std::vector<std::vector<Pending>> pending_;
   std::map<std::string_view, Group> groups_;
   std::vector<checks::Arrival> newest_;
-  std::vector<std::int64_t> wire_ns_;  // of what came, by Carrier::first
+  std::vector<std::int64_t> wire_ns_;  // of received frames, by Carrier::first
   std::vector<std::optional<Last>> last_;
   std::optional<std::int64_t> first_ns_;
-  Untold untold_;
+  PendingWindow pending_window_;
 };
 
 }  // namespace canhil::observe

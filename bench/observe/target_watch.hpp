@@ -1,5 +1,5 @@
-// Looks out for the target while a run goes by, for the loops that drive it: whether it is there, whether it
-// gave up, whether it is done with a step of virtual time.
+// Watches the target for the loops that drive a run: whether it is present, whether it gave up, and whether
+// it has finished a step of virtual time.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@ namespace canhil::observe {
 
 class TargetWatch : public Observer {
  public:
-  /// Whether it was heard since this was last asked.
+  /// Whether any of its frames arrived since the last call.
   virtual bool heard() = 0;
   /// Why the run is over; none: it is not.
   [[nodiscard]] virtual std::optional<std::string> fault() const = 0;
-  /// Whether a frame that is about to be sent closes a step, whose end is then awaited.
+  /// Whether a frame that is about to be sent closes a step; the end of that step is then awaited.
   virtual bool closes_step(const Frame& frame) = 0;
-  /// Whether the step that is awaited is done.
+  /// Whether the awaited step is done.
   [[nodiscard]] virtual bool step_done() const = 0;
-  /// That step, for people: "step 17".
+  /// The awaited step, for people: "step 17".
   [[nodiscard]] virtual std::string step() const = 0;
 };
 

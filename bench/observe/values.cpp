@@ -16,7 +16,7 @@ constexpr Routes answers([](const MessageInfo& info) {
          info.id != messages::TargetTiming::info.id && info.id != messages::StepDone::info.id;
 });
 
-// Calls visit.operator()<Message>() for the message that a frame is; not at all for one of none.
+// Calls visit.operator()<Message>() for the message of a frame; no call if the frame is not a message.
 template <class Visit>
 void as_message(const Frame& frame, Visit visit) {
   const auto try_one = [&]<class Message>(std::type_identity<Message>) {
@@ -50,8 +50,8 @@ std::vector<Value> values_of(const Frame& frame) {
   return values;
 }
 
-std::string words(const Value& value) {
-  // 12 digits resolve every signal, and hide what binary makes of a decimal fraction.
+std::string to_text(const Value& value) {
+  // 12 digits resolve every signal and hide the binary representation of decimal fractions.
   return value.enumerator.empty() ? fmt::format("{:.12g}", value.value) : std::string(value.enumerator);
 }
 

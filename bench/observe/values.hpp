@@ -1,4 +1,4 @@
-// What a frame says, signal by signal, whichever message it is.
+// The signals of a frame, for any message.
 #pragma once
 
 #include <string>
@@ -12,25 +12,25 @@ namespace canhil::observe {
 
 struct Value {
   const SignalInfo* signal = nullptr;
-  double value = 0;             ///< in the signal's unit; of an enumeration its number
-  std::string_view enumerator;  ///< of an enumeration the value's name; empty: of none
+  double value = 0;             ///< in the signal's unit; for an enumeration its number
+  std::string_view enumerator;  ///< for an enumeration the value's name; otherwise empty
 };
 
 /// For people: 12 digits, or the enumerator.
-std::string words(const Value& value);
+std::string to_text(const Value& value);
 
-/// The signals of a frame, without those of its protection, as the DBC orders them; empty: of no message.
+/// The signals of a frame, without those of its protection, in the order of the DBC; empty: not a message.
 std::vector<Value> values_of(const Frame& frame);
-/// Empty: of none.
+/// The name of the frame's message; empty: not a message.
 std::string_view message_of(const Frame& frame);
 
-/// Of a message of the contract, without those of its protection.
+/// The signals of a message in the DBC, without those of its protection.
 std::vector<const SignalInfo*> signals_of(const MessageInfo& message);
 /// Null: the message has no such signal.
 const SignalInfo* signal_of(const MessageInfo& message, std::string_view name);
 
-/// Whether the target answers for it in any run: not what it says of the host (TargetTiming), nor what exists
-/// in virtual time only (StepDone).
+/// Whether the frame is an answer of the target in any run; excludes reports about the host (TargetTiming)
+/// and frames that exist in virtual time only (StepDone).
 bool is_answer(const Frame& frame);
 
 }  // namespace canhil::observe

@@ -1,4 +1,4 @@
-// Who makes observations of a run's frames.
+// Turns the frames of a run into observations.
 #pragma once
 
 #include "bench/checks/observations.hpp"
@@ -8,11 +8,11 @@ namespace canhil::observe {
 
 class Watcher : public Observer {
  public:
-  /// The target was started again: its counters and counts begin anew.
+  /// The target was restarted: its counters begin again.
   virtual void target_restarted() {}
-  /// What was seen so far.
+  /// The observations so far.
   [[nodiscard]] virtual const checks::Observations& observations() const = 0;
-  /// The run is over: all that was seen.
+  /// The run is over: all observations.
   virtual checks::Observations finish() = 0;
 };
 

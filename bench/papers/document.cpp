@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// What stands before the first of these, and what behind.
+// The text before the first occurrence of a separator, and the text after it.
 std::pair<std::string_view, std::string_view> cut(std::string_view line, std::string_view at) {
   const auto found = line.find(at);
   if (found == line.npos) wrong(line, fmt::format("'{}'", at));
@@ -74,7 +74,7 @@ Table table_of(Lines lines) {
   return table;
 }
 
-// "x 0 to 20", the first word taken away.
+// "x 0 to 20" without its first word.
 std::pair<double, double> range_of(std::string_view words) {
   const auto [from, to] = cut(words, " to ");
   return {number_in(from), number_in(to)};

@@ -1,4 +1,4 @@
-// The text of a page, after its names are filled, to the page.
+// Parses the text of a page, after its names are filled in:
 //
 //     # Title of the page
 //     Its subtitle, up to a blank line.
@@ -29,10 +29,10 @@
 
 namespace canhil::papers {
 
-/// The curve that its first word names; its other words say of what. The label is the document's.
+/// The curve that its first word names; the other words are its arguments. The label comes from the document.
 using Curves = std::map<std::string, std::function<Curve(Words&)>, std::less<>>;
 
-/// Throws std::logic_error, one line that names the place, where the text is not as above.
+/// Throws std::logic_error, one line with the place, if the text does not have this form.
 Page page_of(std::string_view text, const Curves& curves);
 
 }  // namespace canhil::papers

@@ -16,14 +16,14 @@ struct Layout {
   int width, height;             // [px]
   int left, right, top, bottom;  // margins [px]
   int font;                      // [px]
-  int x_steps;                   // of the grid, about
+  int x_steps;                   // of the grid, approximately
 };
 constexpr Layout desktop{
     .width = 800, .height = 440, .left = 76, .right = 0, .top = 14, .bottom = 58, .font = 15, .x_steps = 10};
 constexpr Layout phone{
     .width = 390, .height = 410, .left = 62, .right = 0, .top = 12, .bottom = 54, .font = 13, .x_steps = 4};
 
-// 1, 2 or 5 times a power of ten: a grid of about so many steps.
+// 1, 2 or 5 times a power of ten, for a grid of approximately `steps` steps.
 double grid_step(double length, int steps) {
   const double wanted = length / steps;
   const double power = std::pow(10, std::floor(std::log10(wanted)));
@@ -33,17 +33,19 @@ double grid_step(double length, int steps) {
   return 10 * power;
 }
 
-// The margin on the right holds the names of the curves and the markers before them.
+// The right margin holds the names of the curves and their markers.
 Layout with_room_for_labels(Layout layout, const Figure& figure) {
   std::size_t longest = 0;
   for (const Curve& curve : figure.curves) longest = std::max(longest, curve.label.size());
-  // In parts of the size. The reader's sans-serif may be a wide one: 'combined' takes 0.62 in DejaVu Sans.
+  // As a fraction of the font size. The reader's sans-serif font may be wide: 'combined' takes 0.62 in DejaVu
+  // Sans.
   constexpr double character_width = 0.68;
   layout.right = 34 + static_cast<int>(character_width * layout.font * static_cast<double>(longest));
   return layout;
 }
 
-// Okabe and Ito's colours, dark enough on white; dashes and markers say the same without them.
+// The colours of Okabe and Ito, dark enough on white; dashes and markers distinguish the curves without
+// colour.
 constexpr std::array colours{"#000000", "#0072B2", "#B5460F", "#007A5A",
                              "#9C4A86", "#6B5B00", "#4A4A4A", "#3E7FB0"};
 constexpr std::array dashes{"solid",  "(9,4)", "(3,3)",         "(12,3,3,3)",
@@ -57,13 +59,13 @@ double on_axis(double y, const Figure& figure) {  // 0 at the lower end, 1 at th
   return std::clamp(share, 0.0, 1.0);
 }
 
-// Heights of labels, as near to the curves' ends as they can be without lying on each other.
+// Heights of labels, as close to the curves' ends as possible without overlap.
 std::vector<double> spread(const std::vector<double>& wanted, double gap) {
   std::vector<std::size_t> order(wanted.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return wanted[i]; });
   std::vector<double> placed = wanted;
-  constexpr int rounds = 200;  // of pushing neighbours apart by half of what is missing
+  constexpr int rounds = 200;  // of pushing neighbours apart, each by half of the missing distance
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 1; i < order.size(); ++i) {
       double &below = placed[order[i - 1]], &above = placed[order[i]];
@@ -136,7 +138,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n", figure.x_range.first,
                         figure.x_range.second, figure.y_range.first, figure.y_range.second,
                         grid_step(length, layout.x_steps));
-  // gnuplot would put the names of the axes where tick labels leave room: outside, on a narrow figure.
+  // gnuplot would place the axis names next to the tick labels, which is outside of a narrow figure.
   script += fmt::format(
       "set label '{}' at screen {:.4f},{:.4f} center\n"
       "set label '{}' at screen {:.4f},{:.4f} center rotate by 90\n",
@@ -146,7 +148,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   script += labels(figure, layout) + "plot ";
   const std::size_t count = figure.curves.size();
   for (std::size_t i = 0; i < count; ++i) {
-    // Markers at every tenth of the axis, those of each curve a little later than those of the one before.
+    // Markers at every tenth of the axis, shifted from curve to curve.
     const auto shown =
         static_cast<std::size_t>(std::ranges::count_if(figure.curves[i].points, [&](const auto& p) {
           return p.first >= figure.x_range.first && p.first <= figure.x_range.second;
@@ -163,7 +165,7 @@ std::string script_of(const Figure& figure, const Layout& layout) {
   return script + "\n";
 }
 
-// Several drawings share one page: their definitions need names of their own.
+// Several drawings share one page, so ids in each need a prefix.
 std::string with_own_names(std::string svg, const std::string& prefix) {
   for (const std::string_view name : {"gpPt", "gpDot", "gnuplot_"}) {
     for (auto at = svg.find(name); at != std::string::npos;

@@ -1,5 +1,5 @@
-// A figure as data, and its drawing. Curves can be told apart without colour: each has its own dashes, its
-// own markers, and its name beside its end.
+// A figure as data, and its drawing. Curves are distinguishable without colour: each has its own dashes and
+// markers, and its name at its end.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,16 @@
 namespace canhil::papers {
 
 struct Curve {
-  std::string label{};  ///< short: it stands beside the curve's end
+  std::string label{};  ///< short: shown at the curve's end
   std::vector<std::pair<double, double>> points{};
   std::vector<std::pair<double, double>> ranges{};  ///< error bars, low and high; as many as points, or none
 };
 
-/// Curves over time or something else, values on a logarithmic axis or a linear one.
+/// Curves over time or another quantity, with a logarithmic or linear axis of values.
 struct Figure {
   std::string id;  ///< of the HTML element
   std::string title;
-  std::string caption;  ///< axes' meaning, settings, run count
+  std::string caption;  ///< meaning of the axes, settings, number of runs
   std::string x_label{}, y_label{};
   bool logarithmic = false;  ///< the axis of the values
   std::pair<double, double> x_range{}, y_range{};
@@ -29,7 +29,7 @@ struct Figure {
   std::vector<Curve> curves{};
 };
 
-/// Whether any of its curves has error bars.
+/// Whether any curve has error bars.
 bool has_ranges(const Figure& figure);
 
 enum class Width { desktop, phone };

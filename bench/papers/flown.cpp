@@ -12,7 +12,7 @@
 namespace canhil::papers {
 namespace {
 
-// The campaigns are built into the program, and their names with them: a test asks for every one.
+// Campaigns and their names are built into the program; a test asks for each of them.
 [[noreturn]] void no_such(std::string_view campaign, std::string_view what) {
   throw std::logic_error(fmt::format("campaign '{}': no {}", campaign, what));
 }
@@ -83,7 +83,7 @@ std::span<const campaign::CurvePoint> Results::curve(Words& words, const campaig
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit) {
   constexpr double of_95_percent = 1.96;  // standard deviations of a normal distribution
   const double rms = point.rms / unit;
-  // On a logarithmic axis, on which RMS values are drawn, as far down as up: never below zero.
+  // Symmetric on a logarithmic axis, which RMS values use: never below zero.
   const double times = std::exp(of_95_percent * point.rms_error / point.rms);
   curve.points.emplace_back(x, rms);
   curve.ranges.push_back(std::isfinite(times) ? std::pair(rms / times, rms * times) : std::pair(rms, rms));

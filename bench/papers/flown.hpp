@@ -1,4 +1,4 @@
-// The campaigns of a paper, flown, and their answers by name.
+// The campaigns of a paper after their flights, and their answers by name.
 #pragma once
 
 #include <atomic>
@@ -22,22 +22,22 @@ namespace canhil::papers {
 
 struct FlyOptions {
   std::filesystem::path folder;       ///< for the results, NAME.sqlite; must exist
-  std::optional<std::uint64_t> runs;  ///< in place of the campaigns' own numbers
+  std::optional<std::uint64_t> runs;  ///< replaces the campaigns' own numbers
   Rounding rounding = Rounding::as_on_the_bus;
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
 /// A campaign with its answers.
 struct Flown {
-  std::string name;  ///< of the file, without its ending
+  std::string name;  ///< of the file, without its extension
   campaign::Campaign campaign;
   campaign::Evaluation evaluation;
 
-  /// RMS over runs of a variant, by its name in the file and, if any, its point of the sweep: "kf
-  /// master_ins.period_ms=20". As with all answers, one that is not there is a std::logic_error.
+  /// RMS over the runs of a variant. The variant is given by its name in the file and, if any, its point of
+  /// the sweep: "kf master_ins.period_ms=20". Like all answers here, a missing one throws std::logic_error.
   [[nodiscard]] std::span<const campaign::CurvePoint> curve(
       std::string_view variant, const campaign::Quantity& quantity = quantities::attitude_heading) const;
-  /// The answer of a metric, by its name, for a variant.
+  /// The answer to a metric, by name, for a variant.
   [[nodiscard]] const campaign::Answer& answer(std::string_view metric, std::string_view variant) const;
   /// The first answer of a kind of metric for a variant.
   [[nodiscard]] const campaign::Answer& answer_of_kind(std::string_view kind, std::string_view variant) const;
@@ -45,7 +45,7 @@ struct Flown {
   [[nodiscard]] std::vector<const campaign::Answer*> answers(std::string_view requirement) const;
 };
 
-/// Whether there are answers that carry the requirement, and every one met its bars.
+/// Whether there are answers that carry the requirement, and all of them met their bars.
 bool passed(const Flown& flown, std::string_view requirement);
 
 /// The campaigns of a paper.
@@ -59,22 +59,22 @@ struct Results {
       Words& words, const campaign::Quantity& quantity = quantities::attitude_heading) const;
 };
 
-/// Adds a point of an RMS over runs to a curve at x, with the 95 % range that the scatter over the runs gives
-/// it; `unit` [SI] is that of the figure.
+/// Adds an RMS over runs to a curve at x, with its 95 % range from the scatter over the runs; `unit` [SI] is
+/// the figure's.
 void add_rms(Curve& curve, double x, const campaign::CurvePoint& point, double unit = 1);
-/// The RMS over time [s], each `step`-th point of it.
+/// The RMS over time [s], every `step`-th point.
 Curve over_time(std::span<const campaign::CurvePoint> points, double unit = 1, std::size_t step = 1);
 
-/// A figure of an answer, by its name in the report; NaN: it has none.
+/// A figure of an answer, by its name in the report; NaN: there is none.
 double figure(const campaign::Answer& answer, std::string_view name);
 
-/// A campaign with the answers that its results give. Error: results cannot be read, or runs are missing.
+/// A campaign with the answers from its results. Error: results cannot be read, or runs are missing.
 Result<Flown> evaluated(std::string name, campaign::Campaign campaign, const campaign::Store& store);
 
-/// The results of one campaign in the folder.
+/// The results file of a campaign in the folder.
 std::filesystem::path results_file(const FlyOptions& options, std::string_view campaign);
 
-/// Flies what the folder does not hold yet. None: stopped. Error: one line.
+/// Flies the runs that the folder lacks. None: stopped. Error: one line.
 Result<std::optional<Results>> fly(report::EmbeddedFiles campaigns, report::EmbeddedFiles scenarios,
                                    const FlyOptions& options, const std::atomic<bool>& stop);
 

@@ -13,7 +13,7 @@
 namespace canhil::papers {
 namespace {
 
-// A file in memory: the child reads and writes it as its standard streams, so nothing can block on a full
+// A file in memory: the child process uses such files as its standard streams, so nothing can block on a full
 // pipe.
 class MemoryFile {
  public:

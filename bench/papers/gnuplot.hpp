@@ -8,11 +8,11 @@
 
 namespace canhil::papers {
 
-/// Whether gnuplot can be started: to be asked before a long run. Error: one line.
+/// Whether gnuplot can be started, to be checked before a long run. Error: one line.
 Result<void> check_gnuplot();
 
-/// What gnuplot writes to its standard output for a script on its standard input; data come inside the
-/// script, as here-documents. Error, one line: it cannot be started, or complains.
+/// The standard output of gnuplot for a script on its standard input; data are inside the script, as
+/// here-documents. Error, one line: it cannot be started, or it reports an error.
 Result<std::string> gnuplot(std::string_view script);
 
 }  // namespace canhil::papers

@@ -13,7 +13,7 @@ namespace {
 
 using report::escaped;
 
-// Times "14.7 / 16.2 / never" stay on one line.
+// Keeps times such as "14.7 / 16.2 / never" on one line.
 std::string unbroken(std::string cell) {
   for (auto at = cell.find(" / "); at != std::string::npos; at = cell.find(" / ", at))
     cell.replace(at, 3, "&nbsp;/&nbsp;");

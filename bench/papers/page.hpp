@@ -1,4 +1,4 @@
-// What a reproduction has to say, as data; as one self-contained HTML page, and as text.
+// The contents of a reproduction as data; rendered as a self-contained HTML page and as text.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace canhil::papers {
 
 struct Table {
   struct Row {
-    std::vector<std::string> cells;  ///< as many as the head: the last column is the verdict
+    std::vector<std::string> cells;  ///< as many as in the head; the last column is the verdict
     std::string mark;                ///< of the verdict: yes, no, partly; empty: none
   };
   std::vector<std::string> head;
@@ -32,10 +32,10 @@ struct Page {
   std::vector<Section> sections;
 };
 
-/// One HTML file without anything outside it, for phone and desktop. Error: a figure cannot be drawn.
+/// A self-contained HTML file for phone and desktop. Error: a figure cannot be drawn.
 Result<std::string> html(const Page& page);
 
-/// Titles and tables for a terminal.
+/// Titles and tables, for a terminal.
 std::string text(const Page& page);
 
 }  // namespace canhil::papers

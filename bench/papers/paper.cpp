@@ -8,26 +8,27 @@
 #include "bench/campaign/store.hpp"
 #include "bench/papers/gnuplot.hpp"
 #include "bench/papers/names.hpp"
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 #include "bench/report/file.hpp"
 
 namespace canhil::papers {
 namespace {
 
-// The papers: what a new one joins.
+// The papers. A new one is added here.
 struct Paper {
   std::string_view name;
   const report::EmbeddedFiles &campaigns, &scenarios, &templates;
-  Result<Told> (*tell)(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+  Result<PageContent> (*page_content)(const Results& results, const FlyOptions& options,
+                                      const std::filesystem::path& exact);
   std::string_view judged;  // the campaign with the bars
-  std::uint64_t enough;     // runs that they are for
+  std::uint64_t enough;     // number of runs that the bars are made for
   bool compares = false;    // with results without rounding
 };
 constexpr std::array papers{Paper{.name = "transfer",
                                   .campaigns = transfer_alignment::campaigns,
                                   .scenarios = transfer_alignment::scenarios,
                                   .templates = transfer_alignment::templates,
-                                  .tell = transfer_alignment::tell,
+                                  .page_content = transfer_alignment::page_content,
                                   .judged = "table2",
                                   .enough = 300,
                                   .compares = true},
@@ -35,21 +36,21 @@ constexpr std::array papers{Paper{.name = "transfer",
                                   .campaigns = inflight_alignment::campaigns,
                                   .scenarios = inflight_alignment::scenarios,
                                   .templates = inflight_alignment::templates,
-                                  .tell = inflight_alignment::tell,
+                                  .page_content = inflight_alignment::page_content,
                                   .judged = "ssbl",
                                   .enough = 400},
                             Paper{.name = "los",
                                   .campaigns = los_rate::campaigns,
                                   .scenarios = los_rate::scenarios,
                                   .templates = los_rate::templates,
-                                  .tell = los_rate::tell,
+                                  .page_content = los_rate::page_content,
                                   .judged = "open_loop",
                                   .enough = 200},
                             Paper{.name = "wind",
                                   .campaigns = wind::campaigns,
                                   .scenarios = wind::scenarios,
                                   .templates = wind::templates,
-                                  .tell = wind::tell,
+                                  .page_content = wind::page_content,
                                   .judged = "table1",
                                   .enough = 50}};
 static_assert(std::ranges::equal(papers, paper_names, {}, &Paper::name));
@@ -101,17 +102,17 @@ Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& st
   if (!flown) return tl::unexpected(flown.error());
   if (!*flown) return reproduced;
   const Results& results = **flown;
-  auto told = paper->tell(results, options, request.exact);
-  if (!told) return tl::unexpected(told.error());
+  auto content = paper->page_content(results, options, request.exact);
+  if (!content) return tl::unexpected(content.error());
   const std::uint64_t runs = results.of(paper->judged).campaign.runs;
-  add_shared_names(told->names, results, runs, paper->enough);
-  const Page page = page_of(filled(paper->templates, told->names), told->curves);
+  add_shared_names(content->names, results, runs, paper->enough);
+  const Page page = page_of(filled(paper->templates, content->names), content->curves);
   const auto drawn = html(page);
   if (!drawn) return tl::unexpected(drawn.error());
   if (auto saved = report::write_file(reproduced.page.string(), *drawn); !saved)
     return tl::unexpected(saved.error());
   reproduced.text = text(page);
-  reproduced.outcome = outcome_of(told->bars_met, runs, paper->enough);
+  reproduced.outcome = outcome_of(content->bars_met, runs, paper->enough);
   return reproduced;
 }
 

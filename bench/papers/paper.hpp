@@ -1,4 +1,4 @@
-// `hil-bench campaign --paper NAME`: flies what a paper claims and writes one page on it.
+// `hil-bench campaign --paper NAME`: flies the campaigns of a paper and writes a page about its claims.
 #pragma once
 
 #include <atomic>
@@ -15,27 +15,28 @@
 namespace canhil::papers {
 
 struct Request {
-  std::string paper;             ///< one of paper_names
-  std::filesystem::path folder;  ///< is made; gets NAME.html and the campaigns' results, which are resumed
-  std::optional<std::uint64_t> runs;  ///< a variant; none: as the campaigns say
+  std::string paper;  ///< one of paper_names
+  std::filesystem::path
+      folder;  ///< created if missing; receives NAME.html and the campaigns' results, which are resumed
+  std::optional<std::uint64_t> runs;  ///< per variant; none: as in the campaigns
   Rounding rounding = Rounding::as_on_the_bus;
-  std::filesystem::path exact;  ///< results without rounding, to compare with; empty: none
+  std::filesystem::path exact;  ///< results without rounding for comparison; empty: none
   std::function<void(std::string_view campaign, std::size_t done, std::size_t total)> progress;
 };
 
-/// Bars that so few runs miss say nothing: `too_few_runs`.
+/// too_few_runs: bars were missed, but with so few runs this has no significance.
 enum class Outcome : std::uint8_t { bars_met, bars_missed, too_few_runs, interrupted };
 
-/// `runs`: flown of each variant of the campaign with the bars, which are for `enough`.
+/// `runs`: per variant of the campaign with the bars; `enough`: the number that the bars are made for.
 Outcome outcome_of(bool bars_met, std::uint64_t runs, std::uint64_t enough);
 
 struct Reproduced {
   Outcome outcome = Outcome::interrupted;
-  std::string text;            ///< every table, for a terminal
-  std::filesystem::path page;  ///< where the HTML is
+  std::string text;            ///< all tables, for a terminal
+  std::filesystem::path page;  ///< path of the HTML page
 };
 
-/// Error, one line: unknown paper, folder not writable, gnuplot missing; all found before the first flight.
+/// Error, one line: unknown paper, folder not writable, gnuplot missing; all checked before the first flight.
 Result<Reproduced> reproduce(const Request& request, const std::atomic<bool>& stop);
 
 }  // namespace canhil::papers

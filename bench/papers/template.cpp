@@ -16,7 +16,7 @@ class Context final : public mustache::basic_context<std::string> {
  public:
   Context(report::EmbeddedFiles files, const Names& names) : files_(files), names_(names) {}
 
-  // A section shows its text or does not: it has no names of its own.
+  // A section is either shown or hidden; it does not add names.
   void push(const mustache::data* /*data*/) override {}
   void pop() override {}
 
@@ -51,7 +51,7 @@ class Context final : public mustache::basic_context<std::string> {
     if (name == names_.end()) throw std::logic_error("is unknown");
     Value value = name->second(words);
     if (!words.empty()) throw std::logic_error("has too many words");
-    // Mustache would print nothing for yes or no, and take any text for a yes.
+    // Mustache would print nothing for a boolean, and would treat any text as true.
     if (std::holds_alternative<bool>(value)) {
       if (stands(tag, "")) throw std::logic_error("is yes or no, expected text");
     } else if (stands(tag, "#") || stands(tag, "^")) {

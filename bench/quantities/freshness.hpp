@@ -1,4 +1,4 @@
-// For how long a sample of a run stands for what follows it.
+// How long a sample of a run stays valid.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,12 @@
 
 namespace canhil::quantities {
 
-/// The same for all runs of a variant. By default nothing is ever stale.
+/// The same for all runs of a variant. By default samples never become stale.
 struct Freshness {
-  /// A sample older than this is stale, and what it says of that time is missing.
+  /// An older sample is stale: from then on its quantities count as missing.
   std::int64_t age_limit_us = std::numeric_limits<std::int64_t>::max();
   std::int64_t end_us = std::numeric_limits<std::int64_t>::min();  ///< of the flight
-  /// Of samples by time to go: when the flight begins, and from one sample to the next; 0: not known.
+  /// For samples by time to go: the beginning of the flight, and the time between samples; 0: unknown.
   std::int64_t begin_us = 0, sample_us = 0;
 };
 

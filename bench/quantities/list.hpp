@@ -1,5 +1,5 @@
-// The quantities that more than one may tell, in the project's words. What a single estimator tells stands in
-// its folder.
+// The quantities that several estimators report. A quantity of one estimator is defined in that estimator's
+// folder.
 #pragma once
 
 #include "bench/quantities/quantity.hpp"
@@ -30,24 +30,24 @@ inline constexpr Quantity misalignment_down{.name = "misalignment.down",
                                             .meaning = "rotation from true to estimated attitude, about down",
                                             .unit = mrad,
                                             .once = "phi_down"};
-/// The heading's sigma as the target tells it, and the error over it.
+/// The reported sigma of the heading, and the error divided by it.
 inline constexpr Quantity heading_sigma{.name = "attitude.heading.sigma",
-                                        .meaning = "sigma of the heading as the target tells it",
+                                        .meaning = "sigma of the heading as the target reports it",
                                         .unit = mrad,
                                         .once = "heading_sigma"};
 inline constexpr Quantity heading_over_sigma{
     .name = "attitude.heading.over_sigma",
-    .meaning = "error of the heading over the sigma that the target tells",
+    .meaning = "error of the heading over the sigma that the target reports",
     .unit = plain,
     .once = "heading_over_sigma"};
 
-/// After each update, of the first navigation answer that knew of it.
+/// For each update: taken from the first navigation answer that includes the update.
 inline constexpr Quantity heading_nees{
     .name = "attitude.heading.nees",
-    .meaning = "error of the heading over the sigma that the target tells, squared",
+    .meaning = "error of the heading over the sigma that the target reports, squared",
     .unit = plain,
     .degrees_of_freedom = 1,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "heading_nees"};
 
 /// Velocity of the body over the earth, NED.
@@ -65,26 +65,26 @@ inline constexpr Quantity innovation_nis{
     .unit = plain,
     .degrees_of_freedom = 3,
     .white = true,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "nis"};
 
-/// Of the errors of a velocity update, NED.
+/// Of the error of a velocity update, NED.
 inline constexpr Quantity velocity_norm{
     .name = "velocity.norm", .meaning = "magnitude of the error of the velocity", .unit = mps};
 
-/// What a target that errs and says that it is sure is judged by.
+/// Judges whether a target is confident although its error is large.
 inline constexpr Quantity trusted_over_sigma{
     .name = "trusted.over_sigma",
     .meaning =
-        "largest error over its sigma of what an estimator is judged by (honesty.md); 0 where the answer is "
+        "largest ratio of error to sigma among the judged quantities (honesty.md); 0 where the answer is "
         "degraded or blind",
     .unit = plain};
 
-/// What a target that says so of all its answers is judged by.
+/// Exposes a target that reports degraded with every answer.
 inline constexpr Quantity degraded{.name = "degraded",
                                    .meaning =
-                                       "1 where the answer says that it is degraded or blind, else 0; of a "
-                                       "LOS rate the share in 20 ms of the time to go",
+                                       "1 where the answer reports degraded or blind, else 0; for a "
+                                       "LOS rate the fraction in 20 ms of the time to go",
                                    .unit = plain};
 
 }  // namespace canhil::quantities

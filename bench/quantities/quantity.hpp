@@ -1,5 +1,5 @@
-// A quantity: a named scalar with a unit and a time of validity. What the bench judges, plots, stores and
-// exports are series of quantities; it knows no estimator by name.
+// A quantity: a named scalar with a unit and a time of validity. The bench judges, plots, stores and exports
+// series of quantities; it knows no estimator by name.
 #pragma once
 
 #include <span>
@@ -7,30 +7,30 @@
 
 namespace canhil::quantities {
 
-/// What people read a quantity in.
+/// The unit in which reports show a quantity.
 struct Unit {
   std::string_view name{};    ///< "mrad", "m/s", "m", or empty
-  std::string_view ending{};  ///< of keys: "_mrad", "_mps", "_m", or empty
+  std::string_view ending{};  ///< suffix of keys: "_mrad", "_mps", "_m", or empty
   double factor = 1;          ///< to SI
 };
 
-/// The name of the SI unit, in which files are: "rad", "rad/s", "m/s", "m", or empty.
+/// The name of the SI unit, which files use: "rad", "rad/s", "m/s", "m", or empty.
 constexpr std::string_view si_name(const Unit& unit) {
   if (unit.factor == 1) return unit.name;
   return unit.name.ends_with("/s") ? "rad/s" : "rad";
 }
 
-/// One quantity; each is one object, and known by its address. Values are in SI.
+/// A quantity. Each is one object, identified by its address. Values are in SI.
 struct Quantity {
   std::string_view name;       ///< "attitude.heading"
   std::string_view meaning;    ///< for people, without a full stop
-  Unit unit{};                 ///< that reports use
-  int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: it is none
-  bool white = false;          ///< an innovation, or its square: independent from one to the next
-  bool may_be_untold = false;  ///< NaN tells of nothing wrong: the sample was not asked for it
-  bool of_whole_run = false;   ///< the same in all samples: it does not age
-  std::string_view once{};     ///< the name that it had in files before; empty: none
-  /// It is these together, each with a track of its own; empty: itself.
+  Unit unit{};                 ///< for reports
+  int degrees_of_freedom = 0;  ///< of a normalised error squared; 0: for any other quantity
+  bool white = false;          ///< an innovation or its square: successive values are independent
+  bool nan_allowed = false;    ///< NaN is not an error: it means that the sample has no such value
+  bool of_whole_run = false;   ///< the same in all samples; never becomes stale
+  std::string_view once{};     ///< its former name in files; empty: none
+  /// The components, each with its own track; empty: the quantity itself.
   std::span<const Quantity* const> parts{};
 };
 

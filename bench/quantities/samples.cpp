@@ -18,15 +18,15 @@ void append(std::vector<std::uint8_t>& bytes, double value) {
   for (unsigned shift = 0; shift < 64; shift += 8) bytes.push_back(static_cast<std::uint8_t>(bits >> shift));
 }
 
-double number_at(std::span<const std::uint8_t> bytes, std::size_t place) {
+double number_at(std::span<const std::uint8_t> bytes, std::size_t index) {
   std::uint64_t bits = 0;
-  for (unsigned i = 0; i < 8; ++i) bits |= std::uint64_t{bytes[8 * place + i]} << (8 * i);
+  for (unsigned i = 0; i < 8; ++i) bits |= std::uint64_t{bytes[8 * index + i]} << (8 * i);
   return std::bit_cast<double>(bits);
 }
 
 }  // namespace
 
-bool tells(const Layout& layout, const Quantity& quantity) {
+bool has(const Layout& layout, const Quantity& quantity) {
   return std::ranges::find(layout.kept, &quantity) != layout.kept.end() ||
          std::ranges::find(layout.derived, &quantity, &Derived::quantity) != layout.derived.end();
 }
@@ -46,20 +46,20 @@ void Samples::add(std::int64_t t_us, std::span<const double> values) {
   values_.insert(values_.end(), values.begin(), values.end());
 }
 
-std::span<const double> Samples::values(std::size_t place) const {
+std::span<const double> Samples::values(std::size_t index) const {
   const std::size_t width = layout_->kept.size();
-  return std::span(values_).subspan(place * width, width);
+  return std::span(values_).subspan(index * width, width);
 }
 
-double Samples::value(std::size_t place, const Quantity& quantity) const {
+double Samples::value(std::size_t index, const Quantity& quantity) const {
   const auto& kept = layout_->kept;
   if (const auto found = std::ranges::find(kept, &quantity); found != kept.end())
-    return values(place)[static_cast<std::size_t>(found - kept.begin())];
+    return values(index)[static_cast<std::size_t>(found - kept.begin())];
   const auto derived = std::ranges::find(layout_->derived, &quantity, &Derived::quantity);
-  return derived == layout_->derived.end() ? nan : derived->of(*this, place);
+  return derived == layout_->derived.end() ? nan : derived->of(*this, index);
 }
 
-double told(double normalised) {
+double infinite_if_nan(double normalised) {
   return std::isnan(normalised) ? std::numeric_limits<double>::infinity() : normalised;
 }
 
@@ -81,8 +81,8 @@ Result<Samples> decode(std::span<const std::uint8_t> bytes, const Layout& layout
   Samples samples(layout);
   std::vector<double> values(width - 1);
   for (std::size_t i = 0; i < bytes.size() / size; ++i) {
-    for (std::size_t place = 1; place < width; ++place)
-      values[place - 1] = number_at(bytes, i * width + place);
+    for (std::size_t index = 1; index < width; ++index)
+      values[index - 1] = number_at(bytes, i * width + index);
     const double t_s = number_at(bytes, i * width);
     if (!(std::abs(t_s) <= latest_s)) return failure(fmt::format("has a sample at {} s", t_s));
     samples.add(std::llround(t_s * 1e6), values);

@@ -1,4 +1,4 @@
-// A log in another format.
+// Converts a log to another format.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace canhil::recordings {
 
-/// Writes the frames of one log into another, whose name says the format (dbc/logs/log.hpp). Gives how many.
-/// Error: one line; then there is no new file.
+/// Writes the frames of one log into another, whose name determines the format (dbc/logs/log.hpp). Returns
+/// their number. Error: one line; then no new file remains.
 Result<std::uint64_t> convert(const std::string& from, const std::string& to);
 
 }  // namespace canhil::recordings

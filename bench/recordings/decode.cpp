@@ -47,7 +47,7 @@ class Text final : public Writer {
   }
 };
 
-// "a,b" in quotes, as RFC 4180 has them.
+// Quotes a cell that contains a separator (RFC 4180).
 std::string cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -92,7 +92,7 @@ class JsonLines final : public Writer {
                     {"id", message.id},
                     {"message", message.name},
                     {"signals", std::move(signals)}};
-    // The time as it stands in the log: a double has not room for nanoseconds since 1970.
+    // The time as text from the log: a double cannot hold nanoseconds since 1970.
     return fmt::format("{{\"t_s\":{},{}\n", t_s,
                        json.dump(-1, ' ', false, Json::error_handler_t::replace).substr(1));
   }
@@ -105,7 +105,7 @@ class Decoder {
       by_id_.emplace(std::pair(message.id, message.extended), &message);
   }
 
-  // Calls take(entry, message) for the frames of a log that are of a message which is asked for.
+  // Calls take(entry, message) for the frames of the selected messages.
   template <class Take>
   Result<void> each(const std::string& log, const Take& take) {
     auto reader = LogReader::open(log);

@@ -1,4 +1,4 @@
-// The frames of a log as values, by a DBC file.
+// Decodes the frames of a log to values, with a DBC file.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,28 @@
 namespace canhil::recordings {
 
 enum class Format : std::uint8_t {
-  text,        ///< a line a frame, for people
-  csv,         ///< a column a signal, a row a frame: PlotJuggler, pandas, spreadsheets
-  json_lines,  ///< an object a frame
+  text,        ///< one line per frame, for people
+  csv,         ///< one column per signal, one row per frame: PlotJuggler, pandas, spreadsheets
+  json_lines,  ///< one object per frame
 };
 
 struct DecodeOptions {
   Format format = Format::text;
   std::vector<std::string> only{};  ///< names of messages; empty: all
-  bool since_1970 = false;          ///< times; otherwise since the first frame
+  bool since_1970 = false;          ///< times since 1970; otherwise since the first frame
 };
 
-/// Frames that have no values by the DBC.
+/// Frames that cannot be decoded with the DBC.
 struct LeftOut {
   std::uint64_t frames = 0;
-  std::set<std::string> ids{};        ///< that no message of the DBC has
-  std::uint64_t of_another_size = 0;  ///< than their message
+  std::set<std::string> ids{};        ///< of frames without a message in the DBC
+  std::uint64_t of_another_size = 0;  ///< frames of another size than their message
 };
 
 using Sink = std::function<void(std::string_view part)>;
 
-/// Gives the text, part by part. Numbers are in the signals' units, to twelve digits. Error: one line; the
-/// log cannot be read, or the DBC has no message of a name.
+/// Passes on the text part by part. Numbers are in the signals' units, with twelve digits. Error: one line;
+/// the log cannot be read, or the DBC lacks a selected message.
 Result<LeftOut> decode(const std::string& log, const dbc::Database& database, const DecodeOptions& options,
                        const Sink& give);
 

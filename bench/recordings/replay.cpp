@@ -11,7 +11,7 @@ namespace canhil::recordings {
 namespace {
 
 constexpr std::int64_t patience_ns = 1'000'000'000;
-constexpr std::int64_t look_ns = 100'000'000;  // how often a wait looks whether it is to be stopped
+constexpr std::int64_t look_ns = 100'000'000;  // how often a wait checks for a stop
 
 class Replay {
  public:
@@ -35,7 +35,7 @@ class Replay {
            (options_.only.empty() || std::ranges::find(options_.only, entry.frame.id) != options_.only.end());
   }
 
-  // The log from its beginning; the next time round follows at once.
+  // Sends the log once from its beginning; the next repetition follows at once.
   Result<void> once() {
     auto reader = LogReader::open(log_);
     if (!reader) return tl::unexpected(reader.error());
@@ -54,7 +54,8 @@ class Replay {
     return {};
   }
 
-  // What comes from the bus is read and forgotten: a node that does not read stops a bus. False: stopped.
+  // Frames from the bus are read and discarded, because a node that does not read blocks the bus. False:
+  // stopped.
   bool wait_until(std::int64_t deadline_ns) {
     for (;;) {
       while (port_.receive()) {

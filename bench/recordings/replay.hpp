@@ -1,4 +1,4 @@
-// The frames of a log, sent again.
+// Sends the frames of a log again.
 #pragma once
 
 #include <atomic>
@@ -14,21 +14,21 @@
 namespace canhil::recordings {
 
 struct ReplayOptions {
-  double speed = 1;                   ///< times that of the recording
-  std::uint64_t loops = 1;            ///< 0: until it is stopped
+  double speed = 1;                   ///< factor relative to the recording
+  std::uint64_t loops = 1;            ///< 0: until stopped
   std::vector<std::uint32_t> only{};  ///< ids; empty: all
-  std::optional<bool> transmitted{};  ///< only what the recorder sent, or only what it received
+  std::optional<bool> transmitted{};  ///< only frames that the recorder sent (true) or received (false)
 };
 
 struct Replayed {
   std::uint64_t frames = 0;
-  std::uint64_t loops = 0;       ///< that were begun
-  checks::Histogram lateness{};  ///< of each transmission after its deadline
+  std::uint64_t loops = 0;       ///< repetitions begun
+  checks::Histogram lateness{};  ///< of each transmission relative to its deadline
 };
 
-/// Sends each frame at its time after the first one, by absolute deadlines, so that lateness does not add up.
-/// Error frames are left out. `progress`: frames so far. Error: one line; the log cannot be read or has
-/// nothing to send, the bus refuses a frame or takes none for a second.
+/// Sends each frame at its time after the first one, by absolute deadlines, so that lateness does not
+/// accumulate. Error frames are left out. `progress`: frames so far. Error: one line; the log cannot be read
+/// or has nothing to send, or the bus rejects a frame or accepts none for a second.
 Result<Replayed> replay(Port& port, const std::string& log, const ReplayOptions& options,
                         const std::atomic<bool>& stop, const std::function<void(std::uint64_t)>& progress);
 

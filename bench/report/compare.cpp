@@ -17,13 +17,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What must hold, all of it, for a latency to count as worse.
+// All of these conditions must hold for a latency to count as worse.
 constexpr double largest_p = 0.01;  // of a test, divided by the number of tests
-constexpr double least_us = 2;      // p50, or p99, later by more than two stamps differ
-// Of one run a side, which does not show how much runs differ:
-constexpr double least_effect = 0.64;  // a 'medium' one of Vargha and Delaney (2000)
-constexpr double tail_times = 2;       // so many times as many beyond the 99 % quantile
-constexpr double least_share = 1;      // p50, or p99, later by more than this share of it
+constexpr double least_us = 2;      // increase of p50 or p99, larger than the resolution of two stamps
+// With one run per side, which does not show the scatter between runs:
+constexpr double least_effect = 0.64;  // a 'medium' effect of Vargha and Delaney (2000)
+constexpr double tail_times = 2;       // factor for the fraction beyond the 99 % quantile
+constexpr double least_share = 1;      // increase of p50 or p99 as a fraction of itself
 
 Buckets buckets_of(const Json& distribution) {
   Buckets buckets;
@@ -38,11 +38,11 @@ struct Named {
   const char* name;
 };
 
-// What must be the same.
+// Must be equal for a comparison.
 constexpr std::array<Named, 3> same{{{"/provenance/scenario_hash", "scenario"},
                                      {"/provenance/contract", "contract"},
                                      {"/provenance/clock", "clock"}}};
-// What may be why, and does not keep runs from being compared.
+// Possible causes of a difference; they do not prevent a comparison.
 constexpr std::array<Named, 13> reasons{{{"/provenance/seed", "seed"},
                                          {"/provenance/run", "run"},
                                          {"/provenance/dbc_hash", "DBC"},
@@ -62,7 +62,7 @@ Json value_at(const Json& report, const char* path) {
   return report.contains(pointer) ? report.at(pointer) : Json();
 }
 
-// The bus that a bench made for itself has its process in its name: that is another in each run.
+// A private bus of a bench has its process id in the name, so it differs from run to run.
 bool is_own_bus(const Json& value) {
   constexpr std::string_view own = "local:canhil-";
   if (!value.is_string()) return false;
@@ -71,7 +71,7 @@ bool is_own_bus(const Json& value) {
          name.find_first_not_of("0123456789", own.size()) == std::string::npos;
 }
 
-// Each of a side's values once, in the order of its runs.
+// The distinct values of a side, in the order of its runs.
 std::vector<std::string> values_of(const Reports& side, const char* path) {
   std::vector<std::string> values;
   for (const Json& report : side) {
@@ -140,7 +140,7 @@ class Comparer {
     if (!text.empty()) say("differs  {}", text);
   }
 
-  // False: one of the runs has nothing to compare.
+  // False: one of the runs has no latencies to compare.
   bool latencies(bool virtual_time) {
     if (virtual_time) {
       say("latency  none in virtual time");
@@ -188,7 +188,8 @@ class Comparer {
            report.at("latency_s").at(message).at("count") > 0;
   }
 
-  // The messages that close their group, as the others come just before, in all runs of the first side.
+  // The last message of each answer group that occurs in all runs of the first side; the other messages come
+  // just before it.
   [[nodiscard]] std::vector<std::string> answered_before() const {
     std::vector<std::string> messages;
     if (!before_[0].contains("latency_s")) return messages;
@@ -206,7 +207,7 @@ class Comparer {
     say("{:<8} latency of {}: {}", worse ? "worse" : "same", message, figures);
   }
 
-  // One run a side.
+  // With one run per side.
   void latency_of(const std::string& message, const Json& before, const Json& after, double p_bar) {
     const Buckets a = buckets_of(before), b = buckets_of(after);
     const RankTest ranks = rank_test(a, b);
@@ -229,7 +230,7 @@ class Comparer {
                     ranks.p, tail.share_a * 100, tail.share_b * 100, tail.p));
   }
 
-  // Several runs: each quantile from run to run.
+  // With several runs: compares each quantile from run to run.
   void latency_of(const std::string& message, double p_bar) {
     bool worse = false;
     std::string figures;

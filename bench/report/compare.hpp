@@ -1,4 +1,4 @@
-// What got worse from some runs of a scenario to others.
+// Finds what got worse between runs of a scenario.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ enum class Comparison : std::uint8_t { no_worse, worse, not_comparable };
 
 struct Compared {
   Comparison outcome = Comparison::no_worse;
-  std::string text;  ///< a line for each thing compared, the last one the outcome
+  std::string text;  ///< one line for each compared item, the last line is the outcome
 };
 
 using Reports = std::vector<nlohmann::ordered_json>;
 
-/// Compares reports as document() makes them, `after` against `before`, one at least on each side. Error: one
-/// line, what a report lacks or has that is not known.
+/// Compares reports made by document(), `after` with `before`, at least one on each side. Error: one line
+/// about what a report lacks or contains that is unknown.
 Result<Compared> compare(const Reports& before, const Reports& after);
 
 }  // namespace canhil::report

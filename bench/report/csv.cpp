@@ -16,12 +16,12 @@ void csv(const scenario::Scenario& scenario, const drive::Run& run, const Sink& 
   give("t_s,estimator,quantity,unit,estimate,truth,error,sigma\n");
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
     const bool is_error = track.kind == Track::Kind::error;
-    for (const quantities::Told& told : track.told) {
-      const auto estimate = is_error ? told.estimate : std::optional(told.value);
-      const auto error = is_error && run.truth.is_known() ? std::optional(told.value) : std::nullopt;
-      give(fmt::format("{:.6f},{},{},{},{},{},{},{}\n", static_cast<double>(told.t_us) * 1e-6, estimator,
+    for (const quantities::TrackPoint& point : track.points) {
+      const auto estimate = is_error ? point.estimate : std::optional(point.value);
+      const auto error = is_error && run.truth.is_known() ? std::optional(point.value) : std::nullopt;
+      give(fmt::format("{:.6f},{},{},{},{},{},{},{}\n", static_cast<double>(point.t_us) * 1e-6, estimator,
                        track.quantity->name, quantities::si_name(track.unit), field(estimate),
-                       field(told.truth), field(error), field(told.sigma)));
+                       field(point.truth), field(error), field(point.sigma)));
     }
   });
 }

@@ -1,4 +1,4 @@
-// Text files that are built into a program: embed_texts() of bench/report/CMakeLists.txt makes lists of them.
+// Text files built into a program; embed_texts() of bench/report/CMakeLists.txt generates their lists.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 namespace canhil::report {
 
 struct EmbeddedFile {
-  std::string_view name;  ///< without its ending
+  std::string_view name;  ///< without its extension
   std::string_view text;
 };
 using EmbeddedFiles = std::span<const EmbeddedFile>;

@@ -32,7 +32,7 @@ Result<void> write_file(const std::string& path, const std::function<void(const 
   const std::string unfinished = unfinished_name(path);
   std::FILE* file = std::fopen(unfinished.c_str(), "wb");
   if (file == nullptr) return complaint(path, errno);
-  // The first thing that went wrong is told.
+  // The first error is reported.
   int error = 0;
   content([&](std::string_view part) {
     if (error == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) error = errno;
@@ -57,12 +57,13 @@ Result<void> check_writable(const std::string& path) {
   if (path == to_stdout) return failure("file '-': standard output cannot hold this, expected a file");
   std::error_code unknown;
   if (fs::is_directory(path, unknown)) return complaint(path, EISDIR);
-  // The finished file takes the name's place: a device, a pipe or a link would be gone.
+  // The finished file is renamed to this name, which would destroy a device, a pipe or a link.
   const fs::file_status there = fs::symlink_status(path, unknown);
   if (fs::exists(there) && !fs::is_regular_file(there)) {
-    return failure(fmt::format("file '{}': is no regular file, expected one or a new name", path));
+    return failure(fmt::format("file '{}': is not a regular file, expected one or a new name", path));
   }
-  // Only a file that is made there proves that one can be: root may write to /proc, and cannot.
+  // Only creating a file proves that it is possible: root has write permission in /proc, but cannot create
+  // files there.
   const std::string unfinished = unfinished_name(path);
   const int file = open(unfinished.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) return complaint(path, errno);
@@ -76,7 +77,7 @@ Result<void> check_distinct(const std::vector<std::string>& paths) {
   std::vector<fs::path> seen;
   for (const std::string& path : paths) {
     if (path.empty()) continue;
-    // What has no place in a folder (a pipe, a folder that is gone) goes by the name that was told.
+    // A path without a canonical form (a pipe, a missing folder) is compared as given.
     std::error_code unknown;
     fs::path where = fs::absolute(path, unknown);
     if (!unknown) where = fs::weakly_canonical(where, unknown);

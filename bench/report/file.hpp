@@ -1,4 +1,4 @@
-// Files that are whole or not there.
+// Writes files completely or not at all.
 #pragma once
 
 #include <functional>
@@ -10,28 +10,28 @@
 
 namespace canhil::report {
 
-/// In place of a file's name.
+/// Stands for standard output in place of a file's name.
 inline constexpr std::string_view to_stdout = "-";
 
-/// Writes to standard output, now. Error: one line.
+/// Writes to standard output immediately. Error: one line.
 Result<void> write_stdout(std::string_view content);
 
-/// Takes the parts of a content in their order.
+/// Receives the parts of a content in their order.
 using Sink = std::function<void(std::string_view part)>;
 
-/// Writes a file under a temporary name and renames it. Error: one line; then whatever stood under the name
-/// still does. `content` gives it, part by part, so a large one needs no room in memory.
+/// Writes a file under a temporary name and renames it. Error: one line; an existing file is then unchanged.
+/// `content` passes the content part by part, so that a large one is not held in memory.
 Result<void> write_file(const std::string& path, const std::function<void(const Sink&)>& content);
 Result<void> write_file(const std::string& path, std::string_view content);
 
-/// To standard output or a file, as `path` says.
+/// Writes to standard output or a file, depending on `path`.
 Result<void> write(const std::string& path, std::string_view content);
 
-/// Whether a file could be written there, before a long run: its folder is writable, and what stands under
-/// the name, if anything, is a regular file. Error: one line, as for "-".
+/// Whether a file can be written, to be checked before a long run: its folder is writable, and an existing
+/// one is a regular file. Error: one line, also for "-".
 Result<void> check_writable(const std::string& path);
 
-/// Whether all paths (empty ones left out) name different files. Error: one line with the path named twice.
+/// Whether all non-empty paths name different files. Error: one line with the path given twice.
 Result<void> check_distinct(const std::vector<std::string>& paths);
 
 }  // namespace canhil::report

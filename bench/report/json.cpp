@@ -29,7 +29,7 @@ Json object(const std::vector<estimators::ResultLine>& lines) {
       figures[figure.name] = {{"value", !figure.value ? Json(nullptr)
                                         : whole       ? Json(count)
                                                       : Json(*figure.value)},
-                              {"words", figure.words}};
+                              {"words", figure.text}};
     }
     json[line.name] = {{"what", line.what}, {"figures", std::move(figures)}};
   }
@@ -81,7 +81,7 @@ Json object(const realtime::Standing& host, std::int64_t spin_ns) {
           {"spin_us", spin_ns / 1000}};
 }
 
-// By Series::Kind.
+// Indexed by Series::Kind.
 constexpr std::array<std::string_view, 4> kind_names{"estimate", "error", "innovation", "statistic"};
 
 Json object(const Series& series) {
@@ -93,7 +93,7 @@ Json object(const Series& series) {
             {"t_s", Json::array()},
             {"low", Json::array()},
             {"high", Json::array()}};
-  // An estimate is looked at beside a truth that differs in its last digits.
+  // An estimate needs more digits, because it differs from the truth in the last ones.
   const int digits = series.kind == Series::Kind::estimate ? 8 : 5;
   const auto or_null = [&](const std::optional<double>& value) {
     return value && std::isfinite(*value) ? Json(rounded(*value, digits)) : Json(nullptr);
@@ -116,6 +116,7 @@ Json object(const Series& series) {
   return json;
 }
 
+// By second; for a long run the maximum of each stretch of seconds.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   const checks::LoadLine line = checks::load_line(checks::whole_seconds(seen), rates);
   Json json{{"bitrate_bitps", rates.nominal},
@@ -126,7 +127,7 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   return json;
 }
 
-// What was tested: the program and which of its versions, as far as the bench knows it.
+// The tested program and its version, as far as the bench knows it.
 Json target(const drive::Run& run) {
   if (run.in_process) return {{"program", "in hil-bench itself"}};
   if (!run.options.target) return {{"program", "runs elsewhere"}};
@@ -209,7 +210,7 @@ Json document(const scenario::Scenario& scenario, const drive::Run& run) {
   page["ending"] = {{"completed", run.ending.kind == drive::Ending::Kind::completed},
                     {"t_s", static_cast<double>(run.ending.t_us) / 1e6},
                     {"detail", run.ending.detail}};
-  for (const faults::Told& fault : run.faults) {
+  for (const faults::FaultReport& fault : run.faults) {
     page["faults"].push_back({{"name", fault.name},
                               {"kind", fault.kind},
                               {"stage", faults::name(fault.stage)},

@@ -6,7 +6,7 @@
 
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wire_bounds.hpp"
-#include "bench/report/split.hpp"
+#include "bench/report/latency_breakdown.hpp"
 #include "bench/report/summary.hpp"
 
 namespace canhil::report {
@@ -18,7 +18,7 @@ double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] of those that are not empty.
+// count, min, p50, p90, p99, p999, max [s], and buckets_us: [from, count] of the non-empty buckets.
 Json object(const checks::Histogram& histogram) {
   const checks::Distribution d = checks::distribution_s(histogram);
   Json json{{"count", d.count}, {"min", d.min},   {"p50", d.p50}, {"p90", d.p90},
@@ -28,7 +28,7 @@ Json object(const checks::Histogram& histogram) {
   return json;
 }
 
-// stretch_s, and largest_s of each stretch from time 0 on; null where there was no value.
+// stretch_s, and largest_s of each stretch from time 0 on; null for a stretch without a value.
 Json object(const checks::TimeLine& line) {
   Json json{{"stretch_s", seconds(line.stretch_ns())}, {"largest_s", Json::array()}};
   for (const std::int64_t largest_ns : line.largest_ns())
@@ -37,17 +37,19 @@ Json object(const checks::TimeLine& line) {
 }
 
 Json split_of(const checks::TimingRecord& timing) {
-  const checks::LatencySplit& split = timing.split;
-  Json json{{"stimuli", split.stimuli}, {"told_by_target", split.told}, {"total_s", total_s(split)}};
-  for (const SplitPart& part : parts(timing)) {
+  const checks::LatencyBreakdown& breakdown = timing.breakdown;
+  Json json{{"stimuli", breakdown.stimuli},
+            {"told_by_target", breakdown.accounted},
+            {"total_s", total_s(breakdown)}};
+  for (const BreakdownPart& part : parts(timing)) {
     json["parts_s"][std::string(part.key)] = or_null(part.mean_s);
     if (part.bound == Bound::at_least) json["at_least"].push_back(part.key);
     if (part.bound == Bound::at_most) json["at_most"].push_back(part.key);
   }
-  for (const auto& [group, of_group] : timing.split_by_group) {
+  for (const auto& [group, of_group] : timing.breakdown_by_group) {
     Json& one = json["groups"][std::string(group)];
     one = {{"stimuli", of_group.stimuli}, {"total_s", total_s(of_group)}};
-    for (const SplitPart& part : group_parts(timing, of_group))
+    for (const BreakdownPart& part : group_parts(timing, of_group))
       one["parts_s"][std::string(part.key)] = or_null(part.mean_s);
   }
   const checks::SlowestAnswer& slowest = timing.slowest;
@@ -106,7 +108,7 @@ void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run
     if (transmit.echoed.count() > 0) lateness["echoed"] = object(transmit.echoed);
     lateness["not_echoed"] = transmit.handed_over.count() - transmit.echoed.count();
   }
-  if (timing.split.stimuli > 0) page["split"] = split_of(timing);
+  if (timing.breakdown.stimuli > 0) page["split"] = split_of(timing);
   if (timing.wire.rates.nominal > 0) page["wire"] = wire_of(run.seen);
   page["bench_lateness_s"] = object(timing.lateness);
   page["bench_lateness_s"]["line"] = object(timing.lateness_line);

@@ -9,11 +9,10 @@ namespace canhil::report {
 
 using Json = nlohmann::ordered_json;
 
-/// Adds latency, jitter and lateness of all messages that were seen. Not in lockstep: its time has no
-/// meaning.
+/// Adds latency, jitter and lateness of all observed messages. Not in lockstep, where time is virtual.
 void add_timing(Json& page, const scenario::Scenario& scenario, const drive::Run& run);
 
-/// What the host did, and why timing is not judged, if it is not.
+/// The host's influence on the run, and why timing is not judged, if it is not.
 Json timing_judged(const drive::Run& run);
 
 }  // namespace canhil::report

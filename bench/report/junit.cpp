@@ -30,7 +30,7 @@ std::string junit_suite(std::string_view name, const std::vector<CheckResult>& c
   for (const CheckResult& check : cases) {
     page += fmt::format("    <testcase classname=\"{}\" name=\"{}\">\n", escaped(check.kind),
                         escaped(check.name));
-    // A value that drifts towards its bar is seen before the check fails.
+    // Properties show a value that approaches its bar before the check fails.
     page += "      <properties>";
     if (!check.requirement.empty()) page += property("requirement", check.requirement);
     page += property("measured", check.measured) + property("expected", check.expected);
@@ -49,7 +49,7 @@ std::string junit_whole(std::string_view suites) {
 }
 
 std::string junit(const scenario::Scenario& scenario, const drive::Run& run) {
-  // The run as a whole is a case of its own: a run that ended early fails even if no check does.
+  // The whole run is a test case too: a run that ended early fails even if no check does.
   std::vector<CheckResult> cases = run.verdict.checks;
   const bool early = run.ending.kind != drive::Ending::Kind::completed;
   const bool interrupted = run.ending.kind == drive::Ending::Kind::interrupted;

@@ -8,7 +8,7 @@
 namespace canhil::report {
 namespace {
 
-// Of the buckets behind that one.
+// The number of values in the buckets after that one.
 double count_beyond(const Buckets& sample, std::int64_t from_us) {
   double beyond = 0;
   for (const auto& bucket : sample)
@@ -18,7 +18,7 @@ double count_beyond(const Buckets& sample, std::int64_t from_us) {
 
 double count_of(const Buckets& sample) { return count_beyond(sample, -1); }
 
-// Where the 99 % quantile is, by nearest rank.
+// The bucket of the 99 % quantile, by nearest rank.
 std::int64_t p99_bucket(const Buckets& sample) {
   double left = std::ceil(0.99 * count_of(sample));
   for (const auto& bucket : sample) {
@@ -39,8 +39,8 @@ double squares_about(std::span<const double> values, double mean) {
 
 }  // namespace
 
-// U counts the pairs with b > a, and half of those that are equal. With N = m + n and t_k values in bucket k:
-// var U = m n / 12 (N + 1 - sum (t_k^3 - t_k) / (N (N - 1))).
+// U counts the pairs with b > a, and half of the equal pairs. With N = m + n and t_k values in bucket k: var
+// U = m n / 12 (N + 1 - sum (t_k^3 - t_k) / (N (N - 1))).
 RankTest rank_test(const Buckets& a, const Buckets& b) {
   const double m = count_of(a), n = count_of(b);
   if (m == 0 || n == 0) return {};
@@ -81,7 +81,7 @@ RunTest run_test(std::span<const double> a_us, std::span<const double> b_us) {
   RunTest test{.later_us = mean_b - mean_a, .p = 1};
   const double freedom = m + n - 2;
   if (freedom < 1) return test;
-  // Quantiles are known to 1 us: runs that agree by chance scatter by that much at least.
+  // Quantiles have a resolution of 1 us, so runs that agree by chance still have at least this variance.
   constexpr double rounding = 1.0 / 12;
   const double variance = (squares_about(a_us, mean_a) + squares_about(b_us, mean_b)) / freedom + rounding;
   test.p = checks::student_t_above(freedom, test.later_us / std::sqrt(variance * (1 / m + 1 / n)));

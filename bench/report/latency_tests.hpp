@@ -1,4 +1,4 @@
-// Whether latencies became later: within one run a side, and from run to run.
+// Statistical tests for an increase of latencies: within one run per side, and between several runs.
 #pragma once
 
 #include <span>
@@ -10,25 +10,27 @@ namespace canhil::report {
 
 using Buckets = std::vector<checks::Histogram::Bucket>;
 
-/// Mann-Whitney U test of two samples that are known by their buckets; those of one bucket are ties.
+/// Mann-Whitney U test of two samples given as buckets; values in one bucket are ties.
 struct RankTest {
-  double effect = 0.5;  ///< P(b > a) + P(b = a) / 2: 0.5 if neither is larger, 1 if every b is
-  double p = 1;         ///< one-sided, that `b` is no larger: normal approximation with correction for ties
+  double effect = 0.5;  ///< P(b > a) + P(b = a) / 2: 0.5 if neither is larger, 1 if every b is larger
+  double p =
+      1;  ///< one-sided, null hypothesis: `b` is not larger; normal approximation with correction for ties
 };
 RankTest rank_test(const Buckets& a, const Buckets& b);
 
-/// Whether more of `b` than of `a` is slower than the 99 % quantile of `a`: two proportions.
+/// Tests whether a larger fraction of `b` than of `a` exceeds the 99 % quantile of `a`: two proportions.
 struct TailTest {
   double share_a = 0, share_b = 0;
   double p = 1;  ///< one-sided, normal approximation of the pooled difference
 };
 TailTest tail_test(const Buckets& a, const Buckets& b);
 
-/// Student's t test of one quantile of each run [us]: the run is the sample, so what differs from run to run
-/// is the scatter that a difference is held against.
+/// Student's t test of one quantile of each run [us]: each run is one sample, so the difference is compared
+/// with the scatter between runs.
 struct RunTest {
-  double later_us = 0;  ///< mean of `b` less mean of `a`
-  double p = 1;         ///< one-sided, that `b` is no later; 1 of one run a side, which shows no scatter
+  double later_us = 0;  ///< mean of `b` minus mean of `a`
+  double p =
+      1;  ///< one-sided, null hypothesis: `b` is not later; 1 with one run per side, which shows no scatter
 };
 RunTest run_test(std::span<const double> a_us, std::span<const double> b_us);
 

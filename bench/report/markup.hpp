@@ -1,4 +1,4 @@
-// What every page is put together from, the run's and the papers': escaping, tables, figures, the whole.
+// Building blocks of all HTML pages (runs and papers): escaping, tables, figures, the whole page.
 #pragma once
 
 #include <string>
@@ -9,20 +9,20 @@
 
 namespace canhil::report {
 
-/// UTF-8 text for an element or a quoted attribute of HTML or XML. Control characters, most of which XML
-/// forbids, become blanks.
+/// Escapes UTF-8 text for an element or a quoted attribute of HTML or XML. Control characters, most of which
+/// XML forbids, become blanks.
 std::string escaped(std::string_view plain);
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// Rows of cells that are HTML already; on a phone each cell says which column it is of.
+/// Cells are HTML; on a phone each cell shows the name of its column.
 std::string table(const std::vector<std::string>& head, const Rows& rows, std::string_view style = "");
 
 /// A drawing with its plain title and note; `id` of the element: empty, none.
 std::string figure(std::string_view title, std::string_view drawing, std::string_view note,
                    std::string_view id = "");
 
-/// One HTML file that needs nothing outside itself; title and body are HTML already.
+/// A self-contained HTML file; title and body are HTML.
 std::string whole_page(std::string_view title, EmbeddedFiles styles, std::string_view body);
 
 }  // namespace canhil::report

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_depth = 32;  // a report has 6
 
-// A plot takes its values by the times that they are of. Empty: each has one.
+// A plot needs one value for each time. Empty: the lengths agree.
 std::string length_differs(const Json& report) {
   for (const Json& series : report.at("series")) {
     const std::size_t times = series.at("t_s").size();
@@ -27,7 +27,7 @@ std::string length_differs(const Json& report) {
   return {};
 }
 
-// What the run made of each estimator as a whole.
+// The results of the run for each estimator.
 std::string results_section(const Json& report) {
   if (!report.contains("results")) return "";
   std::string out = "<section id=\"results\"><h2>Results</h2>\n";
@@ -46,7 +46,7 @@ std::string results_section(const Json& report) {
   return out + "</section>\n";
 }
 
-// The course of the estimates against the truth.
+// The estimates and the truth over time.
 std::string estimates_section(const Json& report) {
   if (report.at("series").empty()) return "";
   std::string out = "<section id=\"estimates\"><h2>Estimates against the truth</h2>\n";
@@ -100,7 +100,7 @@ Result<std::string> html(const Json& document) {
 Result<Json> read_document(const std::string& path) {
   const auto text = read_text_file(path, "a report as JSON", 64 * mebibyte);
   if (!text) return tl::unexpected(text.error());
-  // The page is made by calls as deep as the values lie within one another.
+  // The page is made by recursion over nested values, so their depth is limited.
   bool too_deep = false;
   const auto shallow = [&too_deep](int depth, Json::parse_event_t /*event*/, const Json& /*value*/) {
     too_deep = too_deep || depth > most_depth;
@@ -111,12 +111,12 @@ Result<Json> read_document(const std::string& path) {
     return failure(fmt::format("file '{}': values lie {} deep within one another, expected a report", path,
                                most_depth + 1));
   }
-  // To the parser a NUL is the end of the text, whatever comes behind.
+  // The parser ends at a NUL, even if more text follows.
   if (document.is_discarded() || text->find('\0') != std::string::npos)
-    return failure(fmt::format("file '{}': is no JSON, expected a report of hil-bench run --json", path));
+    return failure(fmt::format("file '{}': is not JSON, expected a report of hil-bench run --json", path));
   if (!document.is_object() || !document.contains("schema") || document.at("schema") != schema)
     return failure(
-        fmt::format("file '{}': is no report, expected one with \"schema\": \"{}\"", path, schema));
+        fmt::format("file '{}': is not a report, expected one with \"schema\": \"{}\"", path, schema));
   if (const std::string why = why_not_whole(document); !why.empty())
     return failure(fmt::format("file '{}': {}", path, why));
   return document;

@@ -1,4 +1,4 @@
-// A run's report as one HTML page that needs nothing outside itself.
+// A run's report as a self-contained HTML page.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,11 +8,11 @@
 
 namespace canhil::report {
 
-/// The page of a report as document() makes it, drawn from nothing else. Error: one line, what the report
-/// lacks.
+/// The page of a report made by document(), drawn from the report alone. Error: one line about what the
+/// report lacks.
 Result<std::string> html(const nlohmann::ordered_json& document);
 
-/// Reads a report that hil-bench wrote as JSON. Error: one line with the file and what was expected.
+/// Reads a JSON report of hil-bench. Error: one line with the file and what was expected.
 Result<nlohmann::ordered_json> read_document(const std::string& path);
 
 }  // namespace canhil::report

@@ -1,4 +1,4 @@
-// What a report's page is put together from, each as HTML from the report's JSON: values, pictures, sections.
+// The parts of a report's page, each as HTML from the report's JSON: values, pictures, sections.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,12 +16,12 @@ using Json = nlohmann::ordered_json;
 /// The style of the page, built into the program.
 extern const EmbeddedFiles styles;
 
-/// A value of the report for an element.
+/// A value of the report as HTML text.
 inline std::string text_in(const Json& value) {
   return escaped(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
-/// How an outcome of the report looks: not by its colour alone.
+/// The appearance of an outcome, not by colour alone.
 struct Look {
   const char* style;
   const char* sign;
@@ -42,21 +42,21 @@ inline std::string ms(const Json& distribution, const char* key) {
 /// A distribution of times.
 std::string histogram(const std::string& title, const Json& distribution);
 
-/// The largest time of each stretch of the run.
+/// The largest time in each stretch of the run.
 std::string course(const std::string& title, const Json& line);
 
-/// The drawing alone of the largest value of each stretch of the run, from zero; `scale` makes the unit of
-/// the numbers.
+/// A drawing of the largest value in each stretch of the run, starting at zero; `scale` converts the numbers
+/// to the unit.
 std::string from_zero(const std::string& title, const std::string& unit, double stretch_s,
                       const Json& largest, double scale);
 
-/// A quantity over the run; a second picture of its late course where the first instants hide that.
+/// A quantity over the run, with a second picture of its later course if the first instants hide it.
 std::string estimate(const Json& series);
 
 // The sections.
 
 std::string checks_section(const Json& report);
-/// Latency, jitter and lateness; what is missing. Nothing in virtual time but the reason.
+/// Latency, jitter and lateness, and what is missing. In virtual time only the reason why there is none.
 std::string timing_section(const Json& report);
 /// Load, drops and errors.
 std::string bus_section(const Json& report);

@@ -22,7 +22,7 @@ std::vector<double> numbers(const Json& array, std::size_t size) {
   return values;
 }
 
-// Places of a part of a course, the last one excluded.
+// The indices of a part of a course; the last one is excluded.
 struct Part {
   std::size_t first = 0, last = 0;
 };
@@ -38,7 +38,7 @@ LinePlot cut(LinePlot plot, const Part& part) {
   return plot;
 }
 
-// Of an error around zero, the range counts from there.
+// For an error around zero, the range includes zero.
 struct Course {
   LinePlot plot;
   bool around_zero = false;
@@ -51,12 +51,12 @@ struct Course {
   }
 };
 
-constexpr double hidden = 0.1;  // of the height of the picture
+constexpr double hidden = 0.1;  // as a fraction of the picture's height
 
-// From where on a course stays so near to its late values that a picture of all of it hides them; none: it
-// does not. A bar that would be hidden counts as a late value.
+// The part of a course that stays so close to its late values that a picture of the whole hides them; none:
+// there is no such part. A bar that would be hidden counts as a late value.
 std::optional<Part> late_course(const Course& course) {
-  constexpr double shown_times = 2.5;  // the late values, in the second picture
+  constexpr double shown_times = 2.5;  // range of the second picture relative to the late values
   const std::vector<double>& t_s = course.plot.t_s;
   if (t_s.size() < 4) return std::nullopt;
   const double late_s = t_s.back() - (t_s.back() - t_s.front()) / 4;
@@ -65,7 +65,7 @@ std::optional<Part> late_course(const Course& course) {
     course.include(all, i);
     if (t_s[i] >= late_s) course.include(late, i);
   }
-  if (!(late.high >= late.low)) return std::nullopt;  // silent by then
+  if (!(late.high >= late.low)) return std::nullopt;  // no values at that time
   for (const LinePlot::Bar& bar : course.plot.bars) {
     if (2 * bar.below > hidden * all.size()) continue;
     late.add(bar.below);
@@ -84,8 +84,8 @@ std::optional<Part> late_course(const Course& course) {
   return Part{.first = first, .last = t_s.size()};
 }
 
-// The part of a course over which bars stand that a picture of all of it hides; none: there it would be
-// hidden too.
+// The part of a course whose bars a picture of the whole hides; none: a picture of this part would hide them
+// too.
 std::optional<Part> judged_course(const Course& course) {
   constexpr double finer = 0.5;
   const LinePlot& plot = course.plot;
@@ -102,7 +102,7 @@ std::optional<Part> judged_course(const Course& course) {
   return part;
 }
 
-// Gives the plot the bars, and tells in words what they ask.
+// Adds the bars to the plot and describes them.
 std::string bars(const Json& series, LinePlot& plot) {
   if (!series.contains("bars")) return "";
   std::string words;
@@ -126,7 +126,7 @@ std::string beyond_words(const LinePlot& plot) {
   return shown == 0 ? " (beyond this picture)" : " (some beyond this picture)";
 }
 
-// What the lines are, for all kinds of series.
+// Describes the lines of any kind of series.
 std::string lines(const Json& series, LinePlot& plot) {
   const std::size_t size = plot.t_s.size();
   if (series.contains("truth")) {
@@ -136,15 +136,16 @@ std::string lines(const Json& series, LinePlot& plot) {
   if (series.contains("sigma")) {
     plot.limit = numbers(series.at("sigma"), size);
     for (double& sigma : plot.limit) sigma *= 3;
-    const bool told = std::ranges::any_of(plot.limit, [](double v) { return std::isfinite(v); });
-    if (!told) {
+    const bool any_sigma = std::ranges::any_of(plot.limit, [](double v) { return std::isfinite(v); });
+    if (!any_sigma) {
       plot.limit.clear();
-      plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // as a norm is
+      plot.from_zero = std::ranges::none_of(plot.low, [](double v) { return v < 0; });  // for example a norm
     }
-    return told ? "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target tells it, with "
-                  "gaps "
-                  "where it told none in time or they lie beyond the picture"
-                : "solid: estimate less truth; the target tells no sigma of it";
+    return any_sigma
+               ? "solid: estimate less truth; dashed: plus and minus 3 sigma, as the target reports it, with "
+                 "gaps "
+                 "where it reported none in time or they lie beyond the picture"
+               : "solid: estimate less truth; the target reports no sigma for it";
   }
   if (series.contains("between_95_percent")) {
     plot.levels = numbers(series.at("between_95_percent"), series.at("between_95_percent").size());

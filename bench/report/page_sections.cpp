@@ -8,12 +8,12 @@
 
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/timing_record.hpp"
-#include "bench/report/split.hpp"
+#include "bench/report/latency_breakdown.hpp"
 
 namespace canhil::report {
 namespace {
 
-// The percentiles of a distribution, as cells behind a first one.
+// The percentiles of a distribution, as cells after a first one.
 std::vector<std::string> percentiles(std::string first, const Json& distribution) {
   std::vector<std::string> cells{std::move(first), distribution.at("count").dump()};
   const bool none = distribution.at("count").get<std::uint64_t>() == 0;
@@ -26,12 +26,12 @@ std::vector<std::string> percentile_head(const char* first) {
   return {first, "count", "min ms", "p50", "p90", "p99", "p99.9", "max"};
 }
 
-// A table that is there for who asks.
+// A collapsed table.
 std::string folded(std::string_view summary, const std::vector<std::string>& head, const Rows& rows) {
   return fmt::format("<details><summary>{}</summary>\n{}</details>", summary, table(head, rows, "figures"));
 }
 
-// What happened, as rows of a name and a number; those that are 0 are left out.
+// Counts of events as rows of name and number, without those that are 0.
 void add_incidents(Rows& rows, const Json& object, std::string_view of) {
   for (const auto& [key, value] : object.items()) {
     if (value.is_number() && value.get<double>() != 0)
@@ -57,21 +57,21 @@ std::string ms_or_none(const Json& seconds) {
   return seconds.is_null() ? "not known" : fmt::format("{:.3f}", seconds.get<double>() * 1e3);
 }
 
-// "&ge; " or "&le; " where a part is known so far only.
-const char* bound_of(const Json& split, const std::string& part) {
+// "&ge; " or "&le; " if the part is known only as a bound.
+const char* bound_of(const Json& breakdown, const std::string& part) {
   const auto listed = [&](const char* key) {
-    return split.contains(key) &&
-           std::ranges::any_of(split.at(key), [&](const Json& one) { return one == part; });
+    return breakdown.contains(key) &&
+           std::ranges::any_of(breakdown.at(key), [&](const Json& one) { return one == part; });
   };
   return listed("at_least") ? "&ge; " : listed("at_most") ? "&le; " : "";
 }
 
-// The same way for each group of stimuli: one that is answered rarely is lost in the mean of all.
-std::string group_table(const Json& split) {
-  if (!split.contains("groups") || split.at("groups").size() < 2) return "";
+// The same by group of stimuli, because the mean over all hides groups that are answered rarely.
+std::string group_table(const Json& breakdown) {
+  if (!breakdown.contains("groups") || breakdown.at("groups").size() < 2) return "";
   std::vector<std::string> head{"part, by stimulus"};
   Rows rows;
-  for (const auto& [group, one] : split.at("groups").items()) {
+  for (const auto& [group, one] : breakdown.at("groups").items()) {
     head.push_back(fmt::format("{} ms ({})", escaped(group), one.at("stimuli").dump()));
     std::size_t row = 0;
     const auto add = [&](const std::string& what, const std::string& value) {
@@ -83,50 +83,52 @@ std::string group_table(const Json& split) {
     add("<b>in all</b>", fmt::format("<b>{:.3f}</b>", one.at("total_s").get<double>() * 1e3));
   }
   return table(head, rows, "figures") +
-         "<p class=\"note\">The target tells of its waits and its computing for all stimuli together.</p>\n";
+         "<p class=\"note\">The target reports its waits and its computing for all stimuli together.</p>\n";
 }
 
-// The parts of the way from stimulus to answer.
+// The parts of the time from stimulus to answer.
 std::string split_table(const Json& report) {
   if (!report.contains("split")) return "";
-  const Json& split = report.at("split");
-  const double total_s = split.at("total_s").get<double>();
+  const Json& breakdown = report.at("split");
+  const double total_s = breakdown.at("total_s").get<double>();
   Rows rows;
-  for (const auto& [key, mean] : split.at("parts_s").items()) {
+  for (const auto& [key, mean] : breakdown.at("parts_s").items()) {
     const std::string share =
         mean.is_null() || total_s <= 0 ? "" : fmt::format("{:.1f} %", mean.get<double>() / total_s * 100);
-    rows.push_back({escaped(std::string(what_of(key))), bound_of(split, key) + ms_or_none(mean), share});
+    rows.push_back({escaped(std::string(what_of(key))), bound_of(breakdown, key) + ms_or_none(mean), share});
   }
   rows.push_back({"<b>from the hand-over of the stimulus to the last frame of its answer</b>",
                   fmt::format("<b>{:.3f}</b>", total_s * 1e3), ""});
-  std::string out =
-      fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n", split.at("stimuli").dump());
+  std::string out = fmt::format("<h3>Where the time went: mean of {} answered stimuli</h3>\n",
+                                breakdown.at("stimuli").dump());
   out += table({"part", "ms", "share"}, rows, "figures");
-  if (split.contains("at_least"))
-    out += fmt::format("<p class=\"unknown\">? The target tells no times beyond {} us: it took longer.</p>\n",
-                       checks::most_told_us);
-  out += group_table(split);
-  if (!split.contains("slowest")) return out;
-  const Json& slowest = split.at("slowest");
-  const auto told = [&](const char* key) {
+  if (breakdown.contains("at_least"))
+    out +=
+        fmt::format("<p class=\"unknown\">? The target reports no times beyond {} us: it took longer.</p>\n",
+                    checks::most_reported_us);
+  out += group_table(breakdown);
+  if (!breakdown.contains("slowest")) return out;
+  const Json& slowest = breakdown.at("slowest");
+  const auto reported = [&](const char* key) {
     const auto us = slowest.at(key).get<std::int64_t>();
-    return fmt::format("{} us{}", us, us < checks::most_told_us ? "" : " or more");
+    return fmt::format("{} us{}", us, us < checks::most_reported_us ? "" : " or more");
   };
   return out +
          fmt::format(
              "<p class=\"note\">The slowest answer, {} at {:.3f} s, took {:.3f} ms; in that 0.1 s the target "
-             "told of a longest wait of {} and a longest computing of {}.</p>\n",
+             "reported a longest wait of {} and a longest computing of {}.</p>\n",
              text_in(slowest.at("message")), slowest.at("t_s").get<double>(),
-             slowest.at("latency_s").get<double>() * 1e3, told("queue_max_us"), told("compute_max_us"));
+             slowest.at("latency_s").get<double>() * 1e3, reported("queue_max_us"),
+             reported("compute_max_us"));
 }
 
-// Each message's longest time over the bus beside its bound.
+// Each message's longest bus response time with its bound.
 std::string wire_table(const Json& report) {
   if (!report.contains("wire")) return "";
   const Json& wire = report.at("wire");
   const canhil::wire::BitRates rates{.nominal = wire.at("bitrate_bitps").get<std::int64_t>(),
                                      .data = wire.value("data_bitrate_bitps", std::int64_t{0})};
-  std::string out = fmt::format("<h3>Over the bus at {}, beside the bound</h3>\n", checks::words(rates));
+  std::string out = fmt::format("<h3>Over the bus at {}, beside the bound</h3>\n", checks::to_text(rates));
   if (const std::string why = text_in(wire.at("no_bounds")); !why.empty())
     out += fmt::format("<p class=\"unknown\">? Bounds do not hold in this run: {}.</p>\n", why);
   Rows rows;
@@ -176,7 +178,7 @@ std::string timing_section(const Json& report) {
   const Json none = Json::object();
   const Json& latencies = report.contains("latency_s") ? report.at("latency_s") : none;
   const Json& jitters = report.contains("jitter_s") ? report.at("jitter_s") : none;
-  // What closes a group of answers stands for it; the others are there for who asks.
+  // The last message of an answer group represents it; the others are collapsed.
   Rows rows, others;
   std::string figures;
   for (const auto& [message, latency] : latencies.items()) {

@@ -10,13 +10,13 @@
 namespace canhil::report {
 namespace {
 
-// Of the drawing, in its own units: a column of a phone.
+// Of the drawing, in its own units: the width of a phone's column.
 constexpr double width = 440, height = 230;
 constexpr double left = 66, right = 428, top = 24, bottom = 192;
 
 struct Axis {
   double from = 0, to = 1;        // values at the ends
-  double at_from = 0, at_to = 1;  // places of the ends
+  double at_from = 0, at_to = 1;  // positions of the ends
   [[nodiscard]] double operator()(double value) const {
     const double share = std::clamp((value - from) / (to - from), 0.0, 1.0);
     return at_from + share * (at_to - at_from);
@@ -29,7 +29,7 @@ std::string begin(const std::string& title) {
       width, height, escaped(title));
 }
 
-std::string words(double x, double y, std::string_view anchor, std::string_view label) {
+std::string text_at(double x, double y, std::string_view anchor, std::string_view label) {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", x, y, anchor,
                      escaped(label));
 }
@@ -48,7 +48,7 @@ std::string time_of(double us) {
   return fmt::format("{:g} s", us / 1e6);
 }
 
-// 1, 10, 100 ... and, over less than two decades, 2 and 5 of each.
+// 1, 10, 100 ... and, for less than two decades, also 2 and 5 times these.
 std::vector<double> decades(double from_log, double to_log) {
   std::vector<double> values;
   const bool fine = to_log - from_log < 2.2;
@@ -62,7 +62,7 @@ std::vector<double> decades(double from_log, double to_log) {
   return values;
 }
 
-// Counts put together into bars of equal width in the picture.
+// Combines counts into bars of equal width.
 std::vector<double> columns(const HistogramPlot& plot, const Axis& x, std::size_t count) {
   std::vector<double> sums(count, 0);
   for (const HistogramPlot::Bar& bar : plot.bars) {
@@ -73,7 +73,7 @@ std::vector<double> columns(const HistogramPlot& plot, const Axis& x, std::size_
   return sums;
 }
 
-// A run of points that are there.
+// A contiguous sequence of finite points.
 struct Stretch {
   std::size_t from, to;
 };
@@ -88,8 +88,8 @@ std::vector<Stretch> stretches(std::size_t size, There there) {
   return found;
 }
 
-constexpr double limit_room = 2.5;  // limits up to so many times the largest value are shown
-constexpr double bar_room = 6;      // a bar is what the picture is looked at for
+constexpr double limit_room = 2.5;  // limits up to this multiple of the largest value are shown
+constexpr double bar_room = 6;      // bars have more room, because they matter most
 
 std::string path_along(const LinePlot& plot, const std::vector<double>& values, double sign, const Axis& x,
                        const Axis& y) {
@@ -106,14 +106,14 @@ std::string path_along(const LinePlot& plot, const std::vector<double>& values, 
 }
 
 std::string bar_line(const LinePlot::Bar& bar, double value, const Axis& x, const Axis& y) {
-  constexpr double end = 4;  // of a mark across the line
+  constexpr double end = 4;  // length of the end mark
   const double from = x(bar.from_s), to = x(bar.to_s), at = y(value);
   return fmt::format(
       "<path class=\"bar\" d=\"M{0:.1f} {1:.1f}V{2:.1f}M{0:.1f} {3:.1f}H{4:.1f}M{4:.1f} {1:.1f}V{2:.1f}\"/>",
       from, at - end, at + end, at, to);
 }
 
-// The area between low and high; its edge is drawn, so that a thin one is a line.
+// The area between low and high, with its edge drawn, so that a thin area is visible as a line.
 std::string area(const LinePlot& plot, const Axis& x, const Axis& y) {
   std::string path;
   const auto there = [&](std::size_t i) { return std::isfinite(plot.low[i]) && std::isfinite(plot.high[i]); };
@@ -161,7 +161,7 @@ std::vector<std::string> mark_labels(const std::vector<double>& values) {
   const double step = values.size() > 1 ? values[1] - values[0] : values.empty() ? 1.0 : std::abs(values[0]);
   const double largest = values.empty() ? 0 : std::max(std::abs(values.front()), std::abs(values.back()));
   if (!(step > 0)) return std::vector<std::string>(values.size(), "0");
-  // Beyond this plain digits take more room than there is.
+  // Outside this range plain digits need too much room.
   const bool plain = largest < 1e6 && largest >= 1e-4;
   const double lowest = std::floor(std::log10(step) + 1e-9);
   const double highest = std::floor(std::log10(std::max(largest, step)) + 1e-9);
@@ -183,7 +183,7 @@ std::vector<double> round_values(double from, double to, int most) {
   }
   std::vector<double> values;
   for (double i = std::ceil(from / step - 1e-9); i * step <= to + 1e-9 * step; ++i)
-    values.push_back(i == 0 ? 0.0 : i * step);  // never -0
+    values.push_back(i == 0 ? 0.0 : i * step);  // avoids -0
   return values;
 }
 
@@ -202,19 +202,19 @@ std::string svg(const HistogramPlot& plot) {
   const Axis x{extent.low, extent.high, left, right};
   const std::vector<double> counts = columns(plot, x, column_count);
   const double most = std::ranges::max(counts);
-  // One answer is a bar of its own height.
+  // A single answer is a visible bar.
   const Axis y{std::log10(0.5), std::log10(most) + 0.12, bottom, top};
   std::string out = begin(plot.title);
   for (const double value : decades(0, y.to)) {
     out += line("rule", left, y(std::log10(value)), right, y(std::log10(value)));
-    out += words(left - 6, y(std::log10(value)) + 4, "end", fmt::format("{:g}", value));
+    out += text_at(left - 6, y(std::log10(value)) + 4, "end", fmt::format("{:g}", value));
   }
   double last_label = -100;
   for (const double value : decades(x.from, x.to)) {
     const double at = x(std::log10(value));
     out += line("tick", at, bottom, at, bottom + 5);
     if (at - last_label < 46) continue;
-    out += words(std::min(at, right - 10), bottom + 19, "middle", time_of(value));
+    out += text_at(std::min(at, right - 10), bottom + 19, "middle", time_of(value));
     last_label = at;
   }
   const double step = (right - left) / static_cast<double>(column_count);
@@ -230,12 +230,12 @@ std::string svg(const HistogramPlot& plot) {
     const double at = x(std::log10(std::max(mark.at_us, 1.0)));
     out += line("mark", at, top - 4, at, bottom);
     if (at - last_mark <= 30) continue;
-    out += words(std::min(at, right - 8), top - 9, "middle", mark.label);
+    out += text_at(std::min(at, right - 8), top - 9, "middle", mark.label);
     last_mark = at;
   }
   out += frame();
-  out +=
-      words((left + right) / 2, bottom + 35, "middle", "time (logarithmic); height: how many (logarithmic)");
+  out += text_at((left + right) / 2, bottom + 35, "middle",
+                 "time (logarithmic); height: how many (logarithmic)");
   return out + "</svg>";
 }
 
@@ -251,13 +251,13 @@ std::string svg(const LinePlot& plot) {
   const std::vector<std::string> row_labels = mark_labels(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     out += line(rows[i] == 0 ? "zero" : "rule", left, y(rows[i]), right, y(rows[i]));
-    out += words(left - 6, y(rows[i]) + 4, "end", row_labels[i]);
+    out += text_at(left - 6, y(rows[i]) + 4, "end", row_labels[i]);
   }
   const std::vector<double> columns = round_values(x.from, x.to, 6);
   const std::vector<std::string> column_labels = mark_labels(columns);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     out += line("tick", x(columns[i]), bottom, x(columns[i]), bottom + 5);
-    out += words(x(columns[i]), bottom + 19, "middle", column_labels[i]);
+    out += text_at(x(columns[i]), bottom + 19, "middle", column_labels[i]);
   }
   out += area(plot, x, y);
   if (plot.limit.size() == plot.t_s.size()) {
@@ -273,8 +273,8 @@ std::string svg(const LinePlot& plot) {
     if (y.from <= -bar.below) out += bar_line(bar, -bar.below, x, y);
   }
   out += frame();
-  out += words(left - 6, top - 9, "end", plot.unit);
-  out += words((left + right) / 2, bottom + 35, "middle", "s");
+  out += text_at(left - 6, top - 9, "end", plot.unit);
+  out += text_at((left + right) / 2, bottom + 35, "middle", "s");
   return out + "</svg>";
 }
 

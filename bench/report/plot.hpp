@@ -1,4 +1,4 @@
-// Plots as SVG: drawn with the page's style classes, told apart by dash and shape, not by colour alone.
+// Plots as SVG, drawn with the page's style classes; dashes and shapes distinguish them without colour.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,7 @@
 
 namespace canhil::report {
 
-/// What a distribution of times looks like, both axes logarithmic: a single late answer among a million is
-/// seen.
+/// A distribution of times on two logarithmic axes, so that a single late answer among a million is visible.
 struct HistogramPlot {
   struct Bar {
     double from_us = 0, to_us = 0;
@@ -20,14 +19,14 @@ struct HistogramPlot {
     std::string label;
     double at_us = 0;
   };
-  std::string title;      ///< read out in place of the picture
-  std::vector<Bar> bars;  ///< finer than the picture: they are put together
+  std::string title;      ///< alternative text of the picture
+  std::vector<Bar> bars;  ///< finer than the picture, which combines them
   std::vector<Mark> marks;
 };
 /// An <svg> element; a line of text if there is nothing to show.
 std::string svg(const HistogramPlot& plot);
 
-/// The range of some values; those that are not finite count for nothing.
+/// The range of some values, ignoring those that are not finite.
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -39,9 +38,9 @@ struct Extent {
   [[nodiscard]] double size() const { return high - low; }
 };
 
-/// A quantity over time: the range that it covers in each stretch of it, between dashed limits.
+/// A quantity over time: its range in each stretch of time, between dashed limits.
 struct LinePlot {
-  /// What the absolute value is to stay below, in a part of the time.
+  /// A limit for the absolute value in a part of the time.
   struct Bar {
     double below = 0;
     double from_s = 0, to_s = 0;
@@ -53,22 +52,22 @@ struct LinePlot {
   std::vector<double> limit{};    ///< dashed at plus and minus this; as many, or none; not finite: a gap
   std::vector<double> truth{};    ///< a dotted line; as many, or none; not finite: a gap
   std::vector<double> levels{};   ///< dashed horizontal lines
-  std::vector<Bar> bars{};        ///< heavy lines with an end at either side
-  bool from_zero = false;         ///< the axis begins at 0: a quantity without a sign
-  bool begins_at_first = false;   ///< the time axis begins at the first time, in place of 0
+  std::vector<Bar> bars{};        ///< heavy lines with marks at both ends
+  bool from_zero = false;         ///< the axis begins at 0: for a quantity without sign
+  bool begins_at_first = false;   ///< the time axis begins at the first time instead of 0
 };
 std::string svg(const LinePlot& plot);
 
-/// The values that the picture has room for. Limits and bars count as far as they do not hide what lies
-/// within them: the sigma of the first instants is large.
+/// The range of the picture. Limits and bars are included unless they would hide what lies within them: the
+/// sigma of the first instants is large.
 Extent extent_of(const LinePlot& plot);
 /// Whether a bar lies within the picture.
 bool shows(const LinePlot& plot, const LinePlot::Bar& bar);
 
-/// The marks of an axis in words, with as many digits as tell one from the next.
+/// The labels of an axis's marks, with as many digits as needed to distinguish them.
 std::vector<std::string> mark_labels(const std::vector<double>& values);
 
-/// Round values within a range, at most `most`, for the marks of an axis: steps of 1, 2 or 5 times a power of
+/// At most `most` round values within a range, for the marks of an axis: steps of 1, 2 or 5 times a power of
 /// ten.
 std::vector<double> round_values(double from, double to, int most);
 

@@ -1,4 +1,4 @@
-// Where and with what a report was made.
+// The origin of a report: place, program, time.
 #pragma once
 
 #include <cstdint>
@@ -7,16 +7,16 @@
 
 namespace canhil::report {
 
-/// The git revision of the build, "-dirty" where files were altered; "unknown" outside of a checkout.
+/// The git revision of the build, with "-dirty" if files were modified; "unknown" outside of a checkout.
 std::string_view revision();
 
 /// The name of this machine; "unknown" if it has none.
 std::string host_name();
 
-/// Release and version of the running kernel, as uname tells them.
+/// Release and version of the running kernel from uname.
 std::string kernel();
 
-/// The model of the CPU; "unknown" if the kernel does not tell it. From the text of /proc/cpuinfo.
+/// The model of the CPU from the text of /proc/cpuinfo; "unknown" if absent.
 std::string cpu_model(std::string_view cpuinfo);
 std::string cpu_model();
 

@@ -11,8 +11,8 @@
 namespace canhil::report {
 namespace {
 
-using quantities::Told;
 using quantities::Track;
+using quantities::TrackPoint;
 
 double seconds(std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; }
 
@@ -45,7 +45,7 @@ std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
   if (track.kind != Track::Kind::error) return bars;
   for (const scenario::Check& check : scenario.checks) {
     const std::optional<checks::Bar> bar = check.rule->bar();
-    if (!bar || std::ranges::none_of(bar->of, [&](const checks::Subject& subject) {
+    if (!bar || std::ranges::none_of(bar->judged, [&](const checks::Subject& subject) {
           return subject.estimator == estimator && subject.quantity == track.quantity;
         }))
       continue;
@@ -60,7 +60,7 @@ std::vector<Series::Bar> bars_of(std::string_view estimator, const Track& track,
   return bars;
 }
 
-// The values of a track, or its estimates beside the truth.
+// The values of a track, or its estimates together with the truth.
 Series series_of(std::string_view estimator, const Track& track, bool estimates,
                  const scenario::Scenario& scenario) {
   GrowingSeries series(estimator, track, estimates, scenario);
@@ -85,11 +85,11 @@ GrowingSeries::GrowingSeries(std::string_view estimator, const Track& track, boo
     series_.between.push_back(checks::chi_squared_quantile(track.quantity->degrees_of_freedom, probability));
 }
 
-Series::Point GrowingSeries::point_of(const Told& told) const {
+Series::Point GrowingSeries::point_of(const TrackPoint& answer) const {
   const bool estimates = series_.kind == Series::Kind::estimate;
-  const double value = (estimates ? told.estimate.value() : told.value) / unit_.factor;
-  Series::Point point{.t_s = seconds(told.t_us), .low = value, .high = value};
-  (estimates ? point.truth : point.sigma) = in(unit_, estimates ? told.truth : told.sigma);
+  const double value = (estimates ? answer.estimate.value() : answer.value) / unit_.factor;
+  Series::Point point{.t_s = seconds(answer.t_us), .low = value, .high = value};
+  (estimates ? point.truth : point.sigma) = in(unit_, estimates ? answer.truth : answer.sigma);
   return point;
 }
 
@@ -107,14 +107,14 @@ void GrowingSeries::take(const Track& track) {
   const std::int64_t stretch_us =
       std::max<std::int64_t>(1, scenario_.duration_us / static_cast<std::int64_t>(Series::max_points));
   const std::int64_t taken_us = last_us_;
-  for (const Told& told : track.told) {
-    if (told.t_us <= taken_us || told.t_us > track.drawn_until_us) continue;
-    const Series::Point point = point_of(told);
+  for (const TrackPoint& answer : track.points) {
+    if (answer.t_us <= taken_us || answer.t_us > track.drawn_until_us) continue;
+    const Series::Point point = point_of(answer);
     if (!std::isfinite(point.low)) continue;
-    if (silent_until(told.t_us, track)) add_silence(last_us_ + 1);
-    const bool follows = !points.empty() && told.t_us / stretch_us == last_us_ / stretch_us &&
+    if (silent_until(answer.t_us, track)) add_silence(last_us_ + 1);
+    const bool follows = !points.empty() && answer.t_us / stretch_us == last_us_ / stretch_us &&
                          std::isfinite(points.back().low);
-    last_us_ = told.t_us;
+    last_us_ = answer.t_us;
     if (!follows) {
       points.push_back(point);
       continue;
@@ -134,7 +134,7 @@ void GrowingSeries::end(const Track& track) {
 }
 
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give) {
-  const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
+  const estimators::Truth truth = drive::truth_of(run.truth, run.per_run_truth, scenario.duration_us);
   for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;
     estimators::give_tracks(*one, run.seen, truth, [&](const Track& track) { give(one->name, track); });
@@ -143,7 +143,7 @@ void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, cons
 
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run) {
   std::vector<Series> all;
-  std::ptrdiff_t estimates_end = 0;  // those of an estimator stand before its other series
+  std::ptrdiff_t estimates_end = 0;  // an estimator's estimates come before its other series
   give_tracks(scenario, run, [&](std::string_view estimator, const Track& track) {
     if (all.empty() || all.back().estimator != estimator) estimates_end = std::ssize(all);
     if (!track.estimate_title.empty())

@@ -1,4 +1,4 @@
-// Estimates against the truth over the time of a run, in as many points as a picture has.
+// Estimates and truth over the time of a run, with as many points as a picture needs.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +19,11 @@ struct Series {
   struct Point {
     double t_s = 0;
     double low = 0,
-           high = 0;  ///< the quantity covers this until the next point; not finite: silence until then
-    std::optional<double> sigma{};  ///< the largest that the target told; none: it told none in time
-    std::optional<double> truth{};  ///< of an estimate: the true value at t_s
+           high = 0;  ///< range of the quantity until the next point; not finite: silence until then
+    std::optional<double> sigma{};  ///< the largest reported sigma; none: not reported in time
+    std::optional<double> truth{};  ///< for an estimate: the true value at t_s
   };
-  /// What a check asks of the absolute value.
+  /// The limit that a check sets for the absolute value.
   struct Bar {
     std::string check;           ///< its name
     std::string_view statistic;  ///< of the values in its window: max, mean, rms
@@ -32,11 +32,11 @@ struct Series {
   };
   std::string estimator;
   const quantities::Quantity* about = nullptr;
-  std::string quantity;  ///< in words
+  std::string quantity;  ///< for people
   std::string unit;
   Kind kind = Kind::error;
   std::vector<Point> points{};
-  std::vector<double> between{};  ///< of a statistic: 95 % of the values of a consistent filter lie here
+  std::vector<double> between{};  ///< for a statistic: the 95 % interval of a consistent filter
   std::vector<Bar> bars{};
 };
 
@@ -54,7 +54,7 @@ class GrowingSeries {
   [[nodiscard]] const Series& series() const { return series_; }
 
  private:
-  [[nodiscard]] Series::Point point_of(const quantities::Told& told) const;
+  [[nodiscard]] Series::Point point_of(const quantities::TrackPoint& answer) const;
   [[nodiscard]] bool silent_until(std::int64_t t_us, const quantities::Track& track) const;
   void add_silence(std::int64_t from_us);
 
@@ -66,10 +66,10 @@ class GrowingSeries {
 
 /// Takes a track of the estimator of this name.
 using TrackOf = std::function<void(std::string_view estimator, const quantities::Track& track)>;
-/// Gives the tracks of every estimator that the scenario runs, estimator by estimator.
+/// Passes on the tracks of the scenario's estimators, one estimator after another.
 void give_tracks(const scenario::Scenario& scenario, const drive::Run& run, const TrackOf& give);
 
-/// Of every estimator that the scenario runs.
+/// For all estimators of the scenario.
 std::vector<Series> series(const scenario::Scenario& scenario, const drive::Run& run);
 
 }  // namespace canhil::report

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 using Reports = std::vector<Json>;
 using checks::Outcome;
 
-// What a run says of a check.
+// The result of a check in a run.
 enum Says : std::uint8_t { pass, fail, not_measured, not_there };
 constexpr std::array<std::string_view, 4> said{checks::name(Outcome::pass), checks::name(Outcome::fail),
                                                checks::name(Outcome::not_measured), "not there"};
@@ -31,8 +31,7 @@ Says outcome_of(const std::string& name, const std::string& of) {
       fmt::format("outcome '{}' of {}, expected 'pass', 'fail' or 'not measured'", name, of)};
 }
 
-// One check in one run. Several checks of a scenario may have one name and kind: they are told apart by their
-// order.
+// One check in one run. Checks with equal name and kind are distinguished by their order.
 struct Key {
   std::string name, kind;
   std::size_t nth = 0;
@@ -57,10 +56,10 @@ std::vector<Judged> judged_in(const Json& report) {
   return all;
 }
 
-// What the runs of a side say of one check.
+// The results of one check in the runs of a side.
 struct Tally {
-  std::array<std::size_t, said.size()> saying{};  // runs, by Says
-  std::string measured;                           // by the first run that failed it, else by the last
+  std::array<std::size_t, said.size()> saying{};  // number of runs, by Says
+  std::string measured;  // from the first run that failed it, otherwise from the last run
   [[nodiscard]] std::size_t runs() const {
     return std::accumulate(saying.begin(), saying.end(), std::size_t{0});
   }
@@ -75,7 +74,7 @@ struct Tally {
 };
 
 Tally tally_of(const std::vector<std::vector<Judged>>& side, const Key& key) {
-  // Some kinds are judged unasked too; their checks are there when they do not pass.
+  // Implied checks exist only in runs where they do not pass.
   const bool implied = key.name == key.kind && checks::is_implied(key.kind);
   Tally tally;
   for (const auto& run : side) {

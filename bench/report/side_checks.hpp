@@ -1,4 +1,4 @@
-// The outcomes of the checks, from the runs of one side to those of another.
+// Compares the outcomes of checks between the runs of two sides.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,16 +10,16 @@ namespace canhil::report {
 struct ChecksCompared {
   bool worse = false;
   bool unknown = false;  ///< a check was not measured, or is missing, in one of the runs
-  std::string text;      ///< a line for each check that changed
+  std::string text;      ///< one line for each check that changed
 };
 
-/// A report with an outcome that is none. Thrown by compare_checks().
+/// A report contains an unknown outcome. Thrown by compare_checks().
 struct UnknownOutcome {
   std::string what;  ///< one line
 };
 
-/// A check got worse if it fails in a run and did in none before, or in most and did not in most before. In
-/// virtual time, where timing is never judged, a check that no run measured is not unknown.
+/// A check got worse if it fails in a run now and in none before, or in most runs now and not in most before.
+/// In virtual time, where timing is never judged, a check that no run measured does not count as unknown.
 ChecksCompared compare_checks(const std::vector<nlohmann::ordered_json>& before,
                               const std::vector<nlohmann::ordered_json>& after, bool virtual_time);
 

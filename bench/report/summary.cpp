@@ -25,7 +25,7 @@ bool is_due(const scenario::Scenario& scenario, const MessageInfo& message) {
 }
 
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run) {
-  const estimators::Truth truth = drive::truth_of(run.truth, run.own_truth, scenario.duration_us);
+  const estimators::Truth truth = drive::truth_of(run.truth, run.per_run_truth, scenario.duration_us);
   std::vector<EstimatorResults> all;
   for (const estimators::Estimator* one : estimators::in(scenario)) {
     if (!scenario.runs(one->name)) continue;
@@ -39,10 +39,11 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
     }
     estimators::ResultLine answers{.name = "answers", .what = "answers by what they say"};
     for (const estimators::Mark& mark : one->marks(run.seen)) {
-      const bool told = !mark.t_us.empty() || mark.name == "answers";  // programs are told of none, too
+      const bool known =
+          !mark.t_us.empty() || mark.name == "answers";  // programs also get marks without answers
       answers.figures.push_back({.name = std::string(mark.name),
                                  .value = static_cast<double>(mark.t_us.size()),
-                                 .words = told ? fmt::format("{} {}", mark.name, mark.t_us.size()) : ""});
+                                 .text = known ? fmt::format("{} {}", mark.name, mark.t_us.size()) : ""});
     }
     own.lines.push_back(std::move(answers));
     all.push_back(std::move(own));
@@ -87,8 +88,9 @@ std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format) {
 
 std::vector<std::string> period_overrides(const scenario::Scenario& scenario) {
   std::vector<std::string> lines;
-  if (scenario.foreign != nullptr) return lines;     // its own DBC says how often its messages come
-  for (const bool at_every_epoch : {true, false}) {  // first the period that is the truth's interval too
+  if (scenario.foreign != nullptr) return lines;  // its own DBC defines the rates of its messages
+  for (const bool at_every_epoch :
+       {true, false}) {  // first the period that is also the interval of the truth
     for (const nodes::Kind* kind : nodes::all()) {
       const MessageInfo& closes = kind->table.closes;
       const scenario::NodeSettings* node = scenario.node(kind->table.key);

@@ -8,7 +8,7 @@
 #include "bench/checks/bus_load.hpp"
 #include "bench/checks/timing.hpp"
 #include "bench/checks/wire_bounds.hpp"
-#include "bench/report/split.hpp"
+#include "bench/report/latency_breakdown.hpp"
 #include "bench/report/summary.hpp"
 #include "bench/scenario/foreign.hpp"
 
@@ -22,19 +22,20 @@ std::string label(checks::Outcome outcome) {
 
 namespace {
 
-std::string words(const estimators::ResultLine& line) {
+std::string to_text(const estimators::ResultLine& line) {
   std::string text;
   for (const estimators::Figure& figure : line.figures) {
-    if (!figure.words.empty()) text += (text.empty() ? "" : ", ") + figure.words;
+    if (!figure.text.empty()) text += (text.empty() ? "" : ", ") + figure.text;
   }
   return fmt::format("  {:<29} {}\n", line.what, text.empty() ? "none" : text);
 }
 
-// When, by the bench's first transmission; in the units of the events' own words.
-std::string words(const checks::BusRecord& bus, std::int64_t first_ns) {
+// Events with their times since the bench's first transmission; values in the unit of each event.
+std::string to_text(const checks::BusRecord& bus, std::int64_t first_ns) {
   constexpr std::size_t shown = 20;
   std::string lines = fmt::format("  bus                           {} error frames", bus.errors.frames);
-  if (const std::string said = canhil::words(bus.errors); !said.empty()) lines += fmt::format(" ({})", said);
+  if (const std::string said = canhil::to_text(bus.errors); !said.empty())
+    lines += fmt::format(" ({})", said);
   lines += fmt::format("; interface down {} times; late in transmit queue {} frames", bus.downs,
                        bus.late_in_queue);
   if (bus.foreign > 0) lines += fmt::format("; {} frames in the format that it is not to have", bus.foreign);
@@ -58,8 +59,8 @@ std::string milliseconds(const checks::Distribution& d) {
                      d.p90 * 1e3, d.p99 * 1e3, d.p999 * 1e3, d.max * 1e3);
 }
 
-std::string told_us(std::uint16_t us) {
-  return us < checks::most_told_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
+std::string limited_us(std::uint16_t us) {
+  return us < checks::most_reported_us ? fmt::format("{} us", us) : fmt::format("{} us or more", us);
 }
 
 std::string load_words(const drive::Run& run) {
@@ -67,12 +68,12 @@ std::string load_words(const drive::Run& run) {
   for (const wire::BitRates& rates : load_rates(run)) {
     const checks::Load load = checks::bus_load(run.seen, rates);
     lines += fmt::format("  bus load at {:<17} mean {:.1f} %, busiest second {:.1f} %\n",
-                         checks::words(rates), load.mean * 100, load.busiest * 100);
+                         checks::to_text(rates), load.mean * 100, load.busiest * 100);
   }
   return lines;
 }
 
-// Latency of the message that closes each group; first of those that have none.
+// Latency of the last message of each group; first those without any.
 std::string latency_words(const scenario::Scenario& scenario, const checks::Observations& seen,
                           bool virtual_time) {
   std::string none, lines;
@@ -98,21 +99,21 @@ std::string latency_words(const scenario::Scenario& scenario, const checks::Obse
   return none + lines;
 }
 
-// Where the mean latency went, and the slowest answer beside what the target said of that time.
+// The parts of the mean latency, and the slowest answer with the target's report for that time.
 std::string split_words(const checks::TimingRecord& timing) {
-  if (timing.split.stimuli == 0) return "";
+  if (timing.breakdown.stimuli == 0) return "";
   std::string lines = fmt::format("  from stimulus to answer       mean {:.3f} ms of {} stimuli, of it\n",
-                                  total_s(timing.split) * 1e3, timing.split.stimuli);
-  for (const SplitPart& part : parts(timing)) {
-    const char* bound = part.bound == Bound::at_least  ? " (at least: the target tells no more)"
+                                  total_s(timing.breakdown) * 1e3, timing.breakdown.stimuli);
+  for (const BreakdownPart& part : parts(timing)) {
+    const char* bound = part.bound == Bound::at_least  ? " (at least: the target reports no more)"
                         : part.bound == Bound::at_most ? " (at most)"
                                                        : "";
     if (part.mean_s) lines += fmt::format("    {:>8.3f} ms  {}{}\n", *part.mean_s * 1e3, part.what, bound);
   }
-  if (timing.split_by_group.size() > 1) {
-    for (const auto& [group, split] : timing.split_by_group)
-      lines += fmt::format("    {:>8.3f} ms  in all, mean of the {} stimuli of {}\n", total_s(split) * 1e3,
-                           split.stimuli, group);
+  if (timing.breakdown_by_group.size() > 1) {
+    for (const auto& [group, breakdown] : timing.breakdown_by_group)
+      lines += fmt::format("    {:>8.3f} ms  in all, mean of the {} stimuli of {}\n",
+                           total_s(breakdown) * 1e3, breakdown.stimuli, group);
   }
   const checks::SlowestAnswer& slowest = timing.slowest;
   if (slowest.message.empty()) return lines;
@@ -120,11 +121,11 @@ std::string split_words(const checks::TimingRecord& timing) {
       "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
       "{}, its longest computing {}\n",
       slowest.message, ms(slowest.latency_ns), static_cast<double>(slowest.t_ns) * 1e-9,
-      told_us(slowest.queue_max_us), told_us(slowest.compute_max_us));
+      limited_us(slowest.queue_max_us), told_us(slowest.compute_max_us));
   return lines;
 }
 
-// How near to its bound each message came over the bus: those that went beyond, else the nearest.
+// The bus response time of each message relative to its bound: those beyond it, otherwise the nearest.
 std::string wire_words(const checks::Observations& seen) {
   if (seen.bit_rates.nominal == 0) return "";
   if (const std::string why = checks::no_bounds(seen); !why.empty())
@@ -166,11 +167,11 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   for (const auto& [node, bus] : run.options.bus_of) page += fmt::format("  {} on bus {}\n", node, bus);
   if (run.host) {
     page +=
-        fmt::format("  bench {}{}\n", realtime::words(*run.host),
+        fmt::format("  bench {}{}\n", realtime::to_text(*run.host),
                     run.options.spin_ns > 0 ? fmt::format(", spin {} us", run.options.spin_ns / 1000) : "");
   }
   for (const std::string& line : period_overrides(scenario)) page += fmt::format("  {}\n", line);
-  for (const faults::Told& fault : run.faults)
+  for (const faults::FaultReport& fault : run.faults)
     page += fmt::format("  fault '{}' of the {}: {}\n", fault.name, faults::name(fault.stage),
                         fault.count == 0   ? "did not strike"
                         : fault.count == 1 ? "struck once"
@@ -187,7 +188,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
   page += '\n';
   for (const EstimatorResults& one : results(scenario, run)) {
     if (scenario.targets.size() > 1) page += fmt::format("  {}\n", one.estimator);
-    for (const estimators::ResultLine& line : one.lines) page += words(line);
+    for (const estimators::ResultLine& line : one.lines) page += to_text(line);
   }
   const bool virtual_time = run.clock == drive::ClockKind::lockstep;
   page += latency_words(scenario, run.seen, virtual_time);
@@ -198,7 +199,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
     page += split_words(run.seen.timing) + wire_words(run.seen);
     if (run.seen.target_timing_seen) {
       page += fmt::format("  target's own account          queue max {}  compute max {}\n",
-                          told_us(run.seen.queue_max_us), told_us(run.seen.compute_max_us));
+                          limited_us(run.seen.queue_max_us), told_us(run.seen.compute_max_us));
     }
   }
   page += load_words(run);
@@ -210,7 +211,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
                : "unknown",
       run.seen.target_frames_lost, run.seen.target_bad_crc, run.seen.receive_overflows);
 
-  page += words(run.seen.bus, run.seen.first_ns);
+  page += to_text(run.seen.bus, run.seen.first_ns);
 
   page += fmt::format("\n{}: {}\n", checks::name(run.verdict.outcome), run.verdict.reason);
   return page;

@@ -13,12 +13,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The first thing that is wrong ends the look.
+// The first error ends the check.
 struct Wrong {
   std::string what;
 };
 
-// A value and the way to it.
+// A value and its path.
 struct At {
   const Json& value;
   std::string path;
@@ -66,9 +66,9 @@ std::uint64_t count(const At& at) {
   return at.value.get<std::uint64_t>();
 }
 
-// [[from us, count], ...]: ascending, and as many in all as were counted.
+// [[from us, count], ...]: ascending, with counts that add up to the given one.
 void buckets(const At& at, std::uint64_t counted) {
-  constexpr std::uint64_t last_us = 10'000'000;  // that bucket holds all above
+  constexpr std::uint64_t last_us = 10'000'000;  // the last bucket holds all larger values
   std::uint64_t next_us = 0, left = counted;
   at.each([&](const At& bucket) {
     if (!bucket.value.is_array() || bucket.value.size() != 2) bucket.expected("[from us, count]");

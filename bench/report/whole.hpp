@@ -1,4 +1,4 @@
-// Whether a report says what a comparison or a page takes from it.
+// Whether a report contains everything that a comparison or a page needs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,7 +6,7 @@
 
 namespace canhil::report {
 
-/// Empty: it does. Else what is wrong: "key 'latency_s.A.p50': is null, expected a number".
+/// Empty: it does; otherwise the error: "key 'latency_s.A.p50': is null, expected a number".
 std::string why_not_whole(const nlohmann::ordered_json& report);
 
 }  // namespace canhil::report

@@ -1,6 +1,6 @@
-// The names a scenario may use because the DBC has them, and the tables of the nodes that the bench can play.
-// Given from outside, so that this folder depends neither on one bus nor on who is on it: the generated
-// header or a DBC read at run time can fill it.
+// The names that a scenario may use because the DBC defines them, and the tables of the nodes that the bench
+// can emulate. They are passed in, so that this folder does not depend on a particular bus or its nodes: they
+// can come from the generated header or from a DBC read at run time.
 #pragma once
 
 #include <functional>
@@ -25,27 +25,27 @@ struct NodeTable;
 class NodeSettings;
 class Section;
 
-struct Contract {
+struct DbcVocabulary {
   std::vector<std::string> estimators;  ///< value table Estimator, without "none"
   std::vector<std::string> algorithms;  ///< value table Algorithm
   std::vector<std::string> parameters;  ///< value table Parameter
   std::vector<std::string> messages;    ///< names of all messages
   std::vector<std::string> answers;     ///< of those that answer a sample group
   std::vector<CheckKind> check_kinds{};
-  std::span<const estimators::Estimator* const> known{};  ///< what the bench knows of estimators
+  std::span<const estimators::Estimator* const> known{};  ///< the estimators known to the bench
   std::vector<FormerCheckKind> former_check_kinds{};
-  /// By message, the estimator that sends it. Not there: sent whoever runs, or not by the target.
+  /// For each message, the estimator that sends it. Absent: every target sends it, or none.
   std::map<std::string, std::string, std::less<>> sent_by{};
   std::map<std::string, EstimatorFacts, std::less<>> facts{};  ///< by estimator
   std::vector<const NodeTable*> nodes{};                       ///< in the order in which they are read
   std::vector<FaultKind> fault_kinds{};
-  std::shared_ptr<const Foreign> foreign{};  ///< null: the target speaks the project's own contract
-  /// Reads the table of any node that has a key `recorded`; null: none may.
+  std::shared_ptr<const Foreign> foreign{};  ///< null: the target uses canhil's own DBC
+  /// Reads the table of any node with a key `recorded`; null: not allowed.
   NodeSettings (*read_recorded)(const NodeTable& table, Section& section, std::int64_t duration_us) = nullptr;
 };
 
-/// Of an estimator; one that nobody knows is one that navigates.
-inline EstimatorFacts facts_of(const Contract& contract, std::string_view estimator) {
+/// The facts of an estimator; an unknown estimator is assumed to navigate.
+inline EstimatorFacts facts_of(const DbcVocabulary& contract, std::string_view estimator) {
   const auto found = contract.facts.find(estimator);
   return found == contract.facts.end() ? EstimatorFacts{} : found->second;
 }

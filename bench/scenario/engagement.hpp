@@ -1,4 +1,4 @@
-// [engagement]: missile, target and guidance, in place of the carrier of [truth] or beside it.
+// Reads [engagement]: missile, target and guidance, instead of the carrier of [truth] or in addition to it.
 #pragma once
 
 #include "bench/world/engagement/plan.hpp"
@@ -7,7 +7,7 @@ namespace canhil::scenario {
 
 class Section;
 
-/// Every key has a default but `guidance`: the engagement of world/engagement/plan.hpp.
+/// Every key except `guidance` has a default: the engagement of world/engagement/plan.hpp.
 world::EngagementPlan read_engagement(Section& section);
 
 }  // namespace canhil::scenario

@@ -1,4 +1,4 @@
-// What a scenario has to know of an estimator; its folder in bench/estimators says it.
+// Facts about an estimator for scenarios; they are defined in the estimator's folder in bench/estimators.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,20 @@
 
 namespace canhil::scenario {
 
-/// What the target is told of the start.
+/// The initial state that the target receives.
 enum class Start : std::uint8_t {
-  navigation,  ///< the carrier's state, with the errors of [initial_error]
-  own_truth,   ///< that of its own truth, which has errors of its own
-  nothing      ///< it makes nothing of what it is told
+  navigation,     ///< the carrier's state, with the errors of [initial_error]
+  per_run_truth,  ///< the state of its own truth, with errors of its own
+  nothing         ///< the estimator uses no initial state
 };
 
 struct EstimatorFacts {
-  std::span<const std::string_view> parameters{};  ///< that it has: what a misspelt one may mean; empty: any
-  std::span<const std::string_view> nodes{};       ///< whose tables it cannot do without
-  std::optional<TruthOf> truth{};                  ///< whose table it cannot do without
+  std::span<const std::string_view> parameters{};  ///< for suggestions when a name is misspelt; empty: any
+  std::span<const std::string_view> nodes{};       ///< required tables
+  std::optional<TruthOf> truth{};                  ///< the truth whose table is required
   Start start = Start::navigation;
-  std::string_view start_errors{};  ///< the table of its own truth's errors
-  std::string_view aided_by{};      ///< its parameter that says whose fixes it takes; empty: it takes none
+  std::string_view start_errors{};  ///< the table of initial errors for its own truth
+  std::string_view aided_by{};      ///< its parameter that selects whose fixes it uses; empty: it uses none
 };
 
 }  // namespace canhil::scenario

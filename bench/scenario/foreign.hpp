@@ -1,5 +1,5 @@
-// A target that does not speak the project's contract, as a scenario knows it. Who reads its DBC and its
-// mapping fills it in (bench/mapping).
+// A target with a DBC of its own, as far as a scenario knows it. The reader of its DBC and mapping
+// (bench/mapping) fills this in.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ struct Foreign {
   Foreign& operator=(const Foreign&) = delete;
   virtual ~Foreign() = default;
 
-  /// What bench and target send; the target's have the sender of the contract's TargetHeartbeat.
+  /// The messages of bench and target; those of the target have the same sender as TargetHeartbeat.
   std::vector<MessageInfo> messages;
-  std::string file;            ///< that describes it, as it was named
-  std::uint64_t hash = 0;      ///< of the texts that it was read from
+  std::string file;            ///< the mapping file, as named by the user
+  std::uint64_t hash = 0;      ///< of all texts that it was read from
   std::uint64_t dbc_hash = 0;  ///< of its DBC
-  /// Its answers say what they answer, so that virtual time can wait for them.
+  /// Its answers name their causes, so virtual time can wait for them.
   bool answers_by_name = false;
-  /// What it tells, as that of an estimator.
+  /// Its quantities, presented as an estimator.
   const estimators::Estimator* estimator = nullptr;
 };
 

@@ -1,4 +1,5 @@
-// [glide], [wind] and [airframe]: the truth of a glider. One flight a run, as its errors are drawn anew.
+// Reads [glide], [wind] and [airframe]: the truth of a glider. Each run has its own flight, because errors
+// are drawn for each.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@ namespace canhil::scenario {
 
 class Section;
 
-/// How wrong the target is told the state at release: 1-sigma of each component.
+/// Errors of the state that the target receives at release: 1-sigma of each component.
 struct ReleaseError {
   double air_velocity = 0;  ///< body [m/s]
   double velocity = 0;      ///< NED [m/s]
@@ -26,7 +27,7 @@ struct Glide {
 /// The tables of its truth.
 inline constexpr std::array<std::string_view, 3> glide_tables{"glide", "wind", "airframe"};
 
-/// `root`: the file; `section`: its [glide]. [wind] is needed, [airframe] is not.
+/// `root`: the file; `section`: its [glide]. [wind] is required, [airframe] is optional.
 Glide read_glide(Section& root, Section& section);
 
 }  // namespace canhil::scenario

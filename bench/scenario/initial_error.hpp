@@ -1,4 +1,4 @@
-// [initial_error]: how wrong the state is that the target is told at the start.
+// Reads [initial_error]: the errors of the initial state that the target receives.
 #pragma once
 
 #include "bench/world/navigation_errors.hpp"

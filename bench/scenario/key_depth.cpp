@@ -5,13 +5,15 @@
 namespace canhil::scenario {
 namespace {
 
-// What a quoted text begins with is what ends it: " or ', or three of either, which may span lines.
+// The delimiter at the beginning of a quoted text, which also ends it: " or ', or three of either, which may
+// span lines.
 std::string_view quote_at(std::string_view text) {
   if (text.starts_with("\"\"\"") || text.starts_with("'''")) return text.substr(0, 3);
   return text.substr(0, 1);
 }
 
-// Behind the quoted text that begins here; a text without end ends with its line, or with the file.
+// The position after the quoted text that begins here; an unterminated text ends with its line or with the
+// file.
 std::size_t behind_quoted(std::string_view text) {
   const std::string_view quote = quote_at(text);
   for (std::size_t i = quote.size(); i < text.size(); ++i) {
@@ -32,7 +34,7 @@ std::optional<std::size_t> line_of_deep_key(std::string_view text) {
   int dots = 0;
   for (std::size_t i = 0; i < text.size();) {
     const char c = text[i];
-    if (c == '"' || c == '\'') {  // a part of a key, or a value
+    if (c == '"' || c == '\'') {  // part of a key, or a value
       const std::size_t length = behind_quoted(text.substr(i));
       for (const char skipped : text.substr(i, length)) line += skipped == '\n' ? 1 : 0;
       i += length;
@@ -42,7 +44,7 @@ std::optional<std::size_t> line_of_deep_key(std::string_view text) {
       while (i < text.size() && text[i] != '\n') ++i;
       continue;
     }
-    // Dots of one key have no more than parts and blanks between them; a number has one dot.
+    // The dots of a key have only key parts and blanks between them; a number has at most one dot.
     if (c == '.')
       ++dots;
     else if (c == '=' || c == ',' || c == '\n' || c == '[' || c == ']' || c == '{' || c == '}')

@@ -1,4 +1,4 @@
-// Whether a TOML text can be read without running out of stack.
+// Checks that a TOML text can be parsed without exhausting the stack.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace canhil::scenario {
 
-/// A key may have so many parts, as a.b.c has three. A scenario needs four.
+/// The maximum number of parts of a key: a.b.c has three. A scenario needs four.
 inline constexpr int most_key_parts = 16;
 inline constexpr std::string_view deep_key = "a key has more than 16 parts, expected at most that";
 
-/// The line, from 1, of the first key of more parts than that; none if there is none. To be asked before
-/// toml++ reads the text: it goes one call deeper for each part.
+/// The line (from 1) of the first key with more parts; none if there is none. Must be checked before toml++
+/// parses the text, because toml++ recurses once for each part.
 std::optional<std::size_t> line_of_deep_key(std::string_view text);
 
 }  // namespace canhil::scenario

@@ -9,7 +9,7 @@
 namespace canhil::scenario {
 namespace {
 
-/// Levenshtein's distance, by rows.
+/// Levenshtein distance, row by row.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -28,7 +28,7 @@ std::size_t edits(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string> names) {
-  constexpr std::size_t longest = 100;  // of a word worth comparing
+  constexpr std::size_t longest = 100;  // longest word that is compared
   if (word.size() > longest) return {};
   std::string best;
   std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;

@@ -1,4 +1,4 @@
-// Which name was meant by a misspelt one.
+// Suggests the intended name for a misspelt one.
 #pragma once
 
 #include <span>
@@ -7,12 +7,12 @@
 
 namespace canhil::scenario {
 
-/// The name that lacks only its unit or other ending (tilt_deg of tilt), else the one that takes the fewest
-/// edits (insert, delete, replace a letter) from `word`, if they are at most a third of its letters or two;
-/// else empty.
+/// The name that `word` matches except for a unit or another suffix (tilt for tilt_deg); otherwise the name
+/// with the fewest edits (insert, delete, replace a letter), if these are at most two or a third of its
+/// letters; otherwise empty.
 std::string nearest(std::string_view word, std::span<const std::string> names);
 
-/// What to say was expected instead of `word`: the nearest name, or all of them.
+/// What was expected instead of `word`: the nearest name, or all names.
 std::string expected_instead(std::string_view word, std::span<const std::string> names);
 
 }  // namespace canhil::scenario

@@ -1,4 +1,4 @@
-// Numbers of a scenario file: the unit that a key's name ends in, and the limits of its value in that unit.
+// Numbers in a scenario file: the unit from a key's suffix, and limits of the value in that unit.
 #pragma once
 
 #include <limits>
@@ -7,15 +7,18 @@
 
 namespace canhil::scenario {
 
-/// The unit a key's name ends in (heading_deg), as a factor to SI and radians; 1 for SI units and plain
+/// The factor from the unit in a key's suffix (heading_deg) to SI and radians; 1 for SI units and plain
 /// numbers.
 double factor_of(std::string_view key);
 
-/// What a number may be, in the unit of its key.
+/// The unit that a key's name ends in, as people write it; empty: a plain number.
+std::string_view unit_of(std::string_view key);
+
+/// The limits of a number, in the unit of its key.
 struct Limits {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool above_least = false;  ///< `least` itself is out
+  bool above_least = false;  ///< `least` itself is excluded
 
   static Limits between(double least, double most) { return {least, most, false}; }
   static Limits at_least(double least) { return {.least = least}; }
@@ -27,7 +30,7 @@ struct Limits {
 /// Whether a value is finite and within limits.
 bool holds(const Limits& limits, double value);
 
-/// Limits in words, after a noun: "a number from 0 to 90".
+/// Limits as text after a noun: "a number from 0 to 90".
 std::string description(const Limits& limits, std::string_view noun);
 
 }  // namespace canhil::scenario

@@ -19,11 +19,11 @@ namespace {
 
 using world::units::deg;
 
-// No vehicle turns faster or accelerates harder than this; a row that is wrong does.
+// No vehicle turns or accelerates more than this; a wrong row does.
 constexpr double most_turn_rate = 1000 * deg;    // [rad/s]
 constexpr double most_acceleration = 1000;       // [m/s^2]
-constexpr double most_turn_of_a_row = 45 * deg;  // beyond, the way of the turn is a guess
-constexpr double usual_gap_s = 0.2;              // what the target bridges of an IMU's
+constexpr double most_turn_of_a_row = 45 * deg;  // beyond this the direction of the turn is ambiguous
+constexpr double usual_gap_s = 0.2;              // the IMU gap that a target bridges
 constexpr double usual_agreement_m = 5;
 
 enum Place : std::size_t { time, latitude, longitude, height, north, east, down, roll, pitch, heading };
@@ -31,7 +31,7 @@ struct Quantity {
   std::string_view name;
   Limits limits{};  // in the unit of its name
 };
-// Limits of a position as of read_position(). Angles may count up to a whole turn either way.
+// Limits of a position as in read_position(). Angles may exceed their range by up to a full turn.
 const std::array<Quantity, 10> quantities{{{"t_s", {}},
                                            {"latitude_deg", Limits::between(-89, 89)},
                                            {"longitude_deg", Limits::between(-180, 360)},
@@ -47,13 +47,13 @@ bool has_position(const Table& table) {
   return table.has(latitude) || table.has(longitude) || table.has(height);
 }
 
-/// Everything but the positions must be there, and of those all or none.
+/// All columns except positions are required; positions must be complete or absent.
 Result<void> check_columns(const Table& table) {
-  for (std::size_t place = 0; place < quantities.size(); ++place) {
-    const bool of_position = place == latitude || place == longitude || place == height;
-    if (table.has(place) || (of_position && !has_position(table))) continue;
-    Error error = table.missing(place);
-    if (place == north || place == east || place == down)
+  for (std::size_t index = 0; index < quantities.size(); ++index) {
+    const bool of_position = index == latitude || index == longitude || index == height;
+    if (table.has(index) || (of_position && !has_position(table))) continue;
+    Error error = table.missing(index);
+    if (index == north || index == east || index == down)
       error.message += " (the velocity cannot be had from positions: their rounding would be accelerations)";
     return tl::unexpected(std::move(error));
   }
@@ -62,14 +62,14 @@ Result<void> check_columns(const Table& table) {
 
 Result<void> check_ranges(const Table& table) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    for (std::size_t place = 1; place < quantities.size(); ++place) {
-      const Limits& limits = quantities[place].limits;
-      const double value = table.value(row, place);
-      if (!table.has(place) || holds(limits, value)) continue;
+    for (std::size_t index = 1; index < quantities.size(); ++index) {
+      const Limits& limits = quantities[index].limits;
+      const double value = table.value(row, index);
+      if (!table.has(index) || holds(limits, value)) continue;
       return tl::unexpected(
-          table.about(row, place,
+          table.about(row, index,
                       fmt::format("{:g} {} is out of range, expected {:g} to {:g}", value,
-                                  quantities[place].name.substr(quantities[place].name.rfind('_') + 1),
+                                  quantities[index].name.substr(quantities[index].name.rfind('_') + 1),
                                   limits.least, limits.most)));
     }
   }
@@ -77,7 +77,7 @@ Result<void> check_ranges(const Table& table) {
 }
 
 world::RecordedState state_of(const Table& table, std::size_t row, std::int64_t t_us) {
-  const auto at = [&](Place place) { return table.value(row, place) * factor_of(quantities[place].name); };
+  const auto at = [&](Place index) { return table.value(row, index) * factor_of(quantities[index].name); };
   world::RecordedState state{
       .t_us = t_us,
       .v_eb_n = world::Vector3(at(north), at(east), at(down)),
@@ -88,7 +88,7 @@ world::RecordedState state_of(const Table& table, std::size_t row, std::int64_t 
   return state;
 }
 
-/// From a row to the next no vehicle does more than it can.
+/// Checks each step between rows against what a vehicle can do.
 Result<void> check_steps(const Table& table, const Rows& rows,
                          const std::vector<world::RecordedState>& states) {
   for (std::size_t i = 1; i < states.size(); ++i) {
@@ -136,7 +136,7 @@ Result<void> check_agreement(const Table& table, const Rows& rows, const world::
 struct Wanted {
   std::int64_t from_us = 0, gap_us = 0, duration_us = 0;
   double agree_within = 0;
-  std::optional<world::Position> start{};  // of a file without positions
+  std::optional<world::Position> start{};  // for a file without positions
 };
 
 Result<world::Flight> flight_of(const Table& table, const Wanted& wanted) {
@@ -162,26 +162,41 @@ constexpr std::array<std::string_view, 3> start_keys{"latitude_deg", "longitude_
 }  // namespace
 
 std::int64_t read_from_us(Section& section) {
-  return std::llround(1e6 * section.number("from_s", Limits::between(-1e11, 1e11), 0));
+  return std::llround(1e6 * section.number({"from_s", "Time of the file at which the run begins."},
+                                           Limits::between(-1e11, 1e11), 0));
 }
 
 world::Position read_position(Section& section) {
   // NED axes have no north at a pole, hence 89 degrees.
-  return {.latitude = section.number("latitude_deg", Limits::between(-89, 89)),
-          .longitude = section.number("longitude_deg", Limits::between(-180, 180)),
-          .height = section.number("height_m", Limits::between(-1000, 50'000))};
+  return {.latitude = section.number(
+              {"latitude_deg", "Latitude of the start. Of `recorded` only for a file without positions."},
+              Limits::between(-89, 89)),
+          .longitude = section.number(
+              {"longitude_deg", "Longitude of the start. Of `recorded` only for a file without positions."},
+              Limits::between(-180, 180)),
+          .height = section.number(
+              {"height_m",
+               "Height of the start above the ellipsoid. Of `recorded` only for a file without positions."},
+              Limits::between(-1000, 50'000))};
 }
 
 world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
-  Wanted wanted{.from_us = read_from_us(section),
-                .gap_us = section.time_us("gap_s", Limits::above(0), usual_gap_s),
-                .duration_us = duration_us,
-                .agree_within = section.number("agree_within_m", Limits::above(0), usual_agreement_m)};
+  Wanted wanted{
+      .from_us = read_from_us(section),
+      .gap_us = section.time_us({"gap_s", "Longest time from a row of the file to the next."},
+                                Limits::above(0), usual_gap_s),
+      .duration_us = duration_us,
+      .agree_within = section.number(
+          {"agree_within_m", "Largest contradiction between the positions and the velocities of the file."},
+          Limits::above(0), usual_agreement_m)};
   std::vector<std::string> names;
   for (const Quantity& quantity : quantities) names.emplace_back(quantity.name);
-  const auto text = section.read_beside("file", "a CSV file", most_recorded_bytes);
+  const auto text = section.read_beside({"file", "CSV file of the flight, relative to the scenario file."},
+                                        "a CSV file", most_recorded_bytes);
   if (!text) return {};
-  const auto table = read_table(*text, section.beside(section.text("file")), names);
+  const auto table = read_table(
+      *text, section.beside(section.text({"file", "CSV file of the flight, relative to the scenario file."})),
+      names);
   if (table && has_position(*table)) {
     for (const std::string_view key : start_keys)
       section.refuse(key, "is given, and the file has positions", "it only for a file without them");
@@ -198,10 +213,16 @@ world::Flight read_recorded_flight(Section& section, std::int64_t duration_us) {
 world::Flight read_unknown_flight(Section& section) {
   return {.start = read_position(section),
           .motion = world::Unknown{
-              .v_eb_n = section.three("velocity_mps", Limits::between(-10'000, 10'000)),
-              .angles = {.roll = section.number("roll_deg", Limits::between(-180, 180), 0),
-                         .pitch = section.number("pitch_deg", Limits::between(-90, 90), 0),
-                         .heading = section.number("heading_deg", Limits::between(-180, 360))}}};
+              .v_eb_n = section.three(
+                  {"velocity_mps", "Velocity at the start that the target receives, [N, E, D]."},
+                  Limits::between(-10'000, 10'000)),
+              .angles = {
+                  .roll = section.number({"roll_deg", "Roll at the start that the target receives."},
+                                         Limits::between(-180, 180), 0),
+                  .pitch = section.number({"pitch_deg", "Pitch at the start that the target receives."},
+                                          Limits::between(-90, 90), 0),
+                  .heading = section.number({"heading_deg", "Heading at the start that the target receives."},
+                                            Limits::between(-180, 360))}}};
 }
 
 }  // namespace canhil::scenario

@@ -1,5 +1,5 @@
-// What [[check]] and [[metric]] have in common: a rule of one of several kinds, named by `kind`, and times
-// within a run.
+// Shared by [[check]] and [[metric]]: a rule of one of several kinds, selected by `kind`, and times within a
+// run.
 //
 // A rule is a std::variant of structs, each with a constant `kind`.
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace canhil::scenario {
 
-/// Names of all kinds, in the order of the variant.
+/// The names of all kinds, in the order of the variant.
 template <class Rule>
 std::vector<std::string> kinds() {
   return []<std::size_t... i>(std::index_sequence<i...>) {
@@ -33,7 +33,8 @@ std::string_view kind_of(const Rule& rule) {
   return std::visit([](const auto& alternative) { return alternative.kind; }, rule);
 }
 
-/// The rule of this kind, as `read` makes it of an empty one; none of them: the first, empty.
+/// Default-constructs the rule of this kind and passes it to `read`; for an unknown kind returns the first
+/// rule, empty.
 template <class Rule, class Read>
 Rule read_rule(std::string_view kind, Read&& read) {
   Rule rule;
@@ -46,16 +47,16 @@ Rule read_rule(std::string_view kind, Read&& read) {
   return rule;
 }
 
-/// Rejects a key whose time is after the end of the run.
+/// Rejects a key with a time after the end of the run.
 void expect_within_run(Section& section, std::string_view key, std::int64_t t_us, std::int64_t duration_us);
 
-/// A time not after the end of the run.
-std::int64_t read_time(Section& section, std::string_view key, Limits limits, std::int64_t duration_us);
+/// A time up to the end of the run.
+std::int64_t read_time(Section& section, const Key& key, Limits limits, std::int64_t duration_us);
 
-/// `from_s` and `to_s`; by default the whole run.
+/// `from_s` and `to_s`; default: the whole run.
 Window read_window(Section& section, std::int64_t duration_us);
 
-/// Rejects a lower limit above the upper one: nothing could hold both.
+/// Rejects a lower limit above the upper one.
 template <class Value>
 void expect_ordered(Section& section, std::string_view least_key, const std::optional<Value>& least,
                     std::string_view most_key, const std::optional<Value>& most) {

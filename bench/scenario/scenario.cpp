@@ -14,8 +14,8 @@
 namespace canhil::scenario {
 namespace {
 
-/// The keys of the nodes that sample a truth, after those of the truth itself.
-std::vector<std::string_view> keys_of(TruthOf truth, const Contract& contract,
+/// The keys of a truth, followed by those of the nodes that sample it.
+std::vector<std::string_view> keys_of(TruthOf truth, const DbcVocabulary& contract,
                                       std::vector<std::string_view> keys) {
   for (const NodeTable* node : contract.nodes) {
     if (node->samples == truth) keys.push_back(node->key);
@@ -23,21 +23,21 @@ std::vector<std::string_view> keys_of(TruthOf truth, const Contract& contract,
   return keys;
 }
 
-/// Whether something holds of an estimator that the scenario runs.
+/// Whether a condition holds for an estimator of the scenario.
 template <class Holds>
-bool any_runs(const Scenario& scenario, const Contract& contract, Holds holds) {
+bool any_runs(const Scenario& scenario, const DbcVocabulary& contract, Holds holds) {
   return std::ranges::any_of(scenario.targets, [&](const TargetSetup& target) {
     return holds(facts_of(contract, target.estimator));
   });
 }
 
 /// Reads the nodes that sample a truth.
-void read_nodes(Section& root, Scenario& scenario, const Contract& contract, TruthOf truth) {
-  const bool own_truth =
+void read_nodes(Section& root, Scenario& scenario, const DbcVocabulary& contract, TruthOf truth) {
+  const bool per_run_truth =
       (truth == TruthOf::glide && scenario.glide) || (truth == TruthOf::engagement && scenario.engagement);
   for (const NodeTable* node : contract.nodes) {
     if (node->samples != truth) continue;
-    const bool needed = own_truth || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
+    const bool needed = per_run_truth || any_runs(scenario, contract, [&](const EstimatorFacts& facts) {
                           return std::ranges::find(facts.nodes, node->key) != facts.nodes.end();
                         });
     std::optional<Section> section = needed ? root.table(node->key) : root.optional_table(node->key);
@@ -48,13 +48,13 @@ void read_nodes(Section& root, Scenario& scenario, const Contract& contract, Tru
     if (!recorded && truth == TruthOf::navigation && !scenario.truth_is_known())
       root.reject(node->key, "has no truth to measure, as trajectory is \"unknown\"",
                   "'recorded', and what was measured");
-    // Error models and faults work on what is measured here, not on what was.
+    // Error models and faults apply to simulated measurements, not to recorded ones.
     section->finish(recorded ? "has no effect beside 'recorded'" : "is unknown");
   }
 }
 
-/// The glider's truth and nodes.
-void read_glider(Section& root, Scenario& scenario, const Contract& contract) {
+/// The truth and the nodes of the glider.
+void read_glider(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   const auto parts = keys_of(TruthOf::glide, contract, {glide_tables.begin(), glide_tables.end()});
   const bool wanted = any_runs(scenario, contract,
                                [](const EstimatorFacts& facts) { return facts.truth == TruthOf::glide; }) ||
@@ -68,12 +68,15 @@ void read_glider(Section& root, Scenario& scenario, const Contract& contract) {
   read_nodes(root, scenario, contract, TruthOf::glide);
 }
 
-/// The contract that the bus is to carry, if the scenario says so.
+/// The DBC of the bus, if the scenario selects it.
 std::optional<bool> read_fd(Section& root) {
   root.optional("dbc");
   if (!root.has("dbc")) return std::nullopt;
   static const std::vector<std::string> names{"canhil", "canhil-fd"};
-  return root.one_of("dbc", names) == "canhil-fd";
+  return root.one_of({"dbc",
+                      "Contract of the bus: classic CAN or CAN FD. Must agree with `--dbc`; without either "
+                      "it is `canhil`."},
+                     names) == "canhil-fd";
 }
 
 std::vector<std::string> estimators_of(const Scenario& scenario) {
@@ -82,7 +85,7 @@ std::vector<std::string> estimators_of(const Scenario& scenario) {
   return estimators;
 }
 
-std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Contract& contract) {
+std::vector<Check> read_checks(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const std::vector<std::string> estimators = estimators_of(scenario);
   std::vector<FaultWindow> faults;
   for (const Fault& fault : scenario.faults)
@@ -108,9 +111,9 @@ std::vector<Check> read_checks(Section& root, const Scenario& scenario, const Co
   return checks;
 }
 
-/// The carrier's flight: it may be absent where an engagement or a glide is there. Then nothing that needs it
-/// may be.
-void read_navigation(Section& root, Scenario& scenario, const Contract& contract) {
+/// The carrier's flight. It may be absent if there is an engagement or a glide; then nothing that depends on
+/// it is allowed.
+void read_navigation(Section& root, Scenario& scenario, const DbcVocabulary& contract) {
   if (root.has("truth") || !(scenario.engagement || scenario.glide)) {
     Section truth = root.table("truth");
     scenario.truth = read_truth(truth, scenario.duration_us);
@@ -118,11 +121,11 @@ void read_navigation(Section& root, Scenario& scenario, const Contract& contract
   }
   root.optional("truth");
   for (const std::string_view key : keys_of(TruthOf::navigation, contract, {"initial_error"})) {
-    if (root.has(key)) root.reject(key, "has nothing to go by", "a table [truth] beside it");
+    if (root.has(key)) root.reject(key, "depends on a truth", "a table [truth] beside it");
   }
 }
 
-/// What the target is told of an unknown flight is what the scenario says, as it says it.
+/// With an unknown flight, the target receives the state exactly as the scenario gives it, without errors.
 void refuse_errors_of_start(Section& root, const Scenario& scenario) {
   const bool own = std::ranges::any_of(
       scenario.targets, [](const TargetSetup& target) { return target.initial_error.has_value(); });
@@ -132,9 +135,9 @@ void refuse_errors_of_start(Section& root, const Scenario& scenario) {
                 "no 'initial_error'");
 }
 
-/// An estimator that is aided takes the fixes of one aid, the first unless its parameter says another, and
-/// refuses the others'; nobody else takes any.
-void expect_aid(Section& root, const Scenario& scenario, const Contract& contract) {
+/// An aided estimator uses the fixes of one aid, by default the first, or as its parameter selects, and
+/// refuses those of others; other estimators use none.
+void expect_aid(Section& root, const Scenario& scenario, const DbcVocabulary& contract) {
   const auto target = std::ranges::find_if(scenario.targets, [&](const TargetSetup& one) {
     return !facts_of(contract, one.estimator).aided_by.empty();
   });
@@ -184,8 +187,8 @@ std::uint64_t hash_of(std::string_view text, std::span<const Setting> settings) 
 
 }  // namespace
 
-// An estimator goes by the truth that its nodes sample. Of a glide or an engagement the bench flies a truth
-// of its own, which has nothing to do with what was recorded of another.
+// An estimator depends on the truth that its nodes sample. For a glide or an engagement the bench simulates
+// its own truth, which is unrelated to a recording.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) {
   for (const NodeSettings& node : scenario.nodes) {
     if (std::ranges::find(facts.nodes, node.table().key) == facts.nodes.end()) continue;
@@ -196,17 +199,19 @@ std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts) 
   return "";
 }
 
-Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
+Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVocabulary& contract,
                        std::span<const Setting> settings, std::optional<std::string> folder) {
   Section root = Section::parse(text, name, settings);
   if (folder) root.look_in(std::move(*folder));
   Scenario scenario;
   scenario.file = name;
   scenario.hash = hash_of(text, settings);
-  scenario.title = root.text("title");
-  scenario.duration_us = root.time_us("duration_s", Limits::above(0, 86'400));
+  scenario.title = root.text({"title", "One line, shown in every report."});
+  scenario.duration_us = root.time_us({"duration_s", "Length of the run."}, Limits::above(0, 86'400));
   scenario.fd = read_fd(root);
-  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", 0));
+  scenario.seed = static_cast<std::uint64_t>(root.integer(
+      {"seed", "Seed of all random numbers: the same seed gives the same frames. `--seed` overrides it."},
+      0));
   scenario.foreign = contract.foreign;
   scenario.targets = read_targets(root, contract);
   if (auto engagement = root.optional_table("engagement")) {
@@ -237,9 +242,9 @@ Result<Scenario> parse(std::string_view text, std::string_view name, const Contr
 }
 
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
-                        const Contract& contract, const FaultPlaces* some) {
+                        const DbcVocabulary& contract, const FaultPlaces* some) {
   Section root = Section::parse(text, name);
-  if (!root.has("fault")) root.tables("fault");  // it has nothing else
+  if (!root.has("fault")) root.tables("fault");  // it contains nothing else
   read_faults(root, {.duration_us = scenario.duration_us, .contract = contract, .nodes = scenario.nodes},
               scenario.faults, some);
   root.finish();
@@ -248,7 +253,7 @@ Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_v
   return {};
 }
 
-Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract) {
+Result<Scenario> read_file(const std::filesystem::path& path, const DbcVocabulary& contract) {
   const auto text = read_text_file(path, "a scenario file", most_toml_bytes);
   if (!text) return tl::unexpected(text.error());
   return parse(*text, path.string(), contract);

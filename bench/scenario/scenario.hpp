@@ -1,10 +1,10 @@
-// A scenario file, read and validated: one flight, who is on the bus, what the target is told, and what it is
-// judged by.
+// A scenario file, read and validated: one flight, the nodes on the bus, the target's initial state, and the
+// criteria.
 //
-// In the file values have the unit in their key (heading_deg); in the structs they are SI and radians, times
-// in us. Each section of the file is a struct with a reader of its own; those of nodes stand in bench/nodes
-// and are given with the contract. Reading is strict: an unknown key, a wrong type, a value out of range or a
-// missing key ends it with one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
+// Values in the file have the unit in their key (heading_deg); the structs use SI and radians, times in us.
+// Each section of the file is a struct with its own reader; those of nodes are in bench/nodes and come with
+// the DbcVocabulary. Reading is strict: an unknown key, a wrong type, a value out of range or a missing key
+// ends it with one line, "file:line: key 'slave_imu.period_ms': what is wrong, expected what".
 #pragma once
 
 #include <algorithm>
@@ -32,30 +32,31 @@
 namespace canhil::scenario {
 
 struct Scenario {
-  std::string file;        ///< as it was named
+  std::string file;        ///< as named by the user
   std::uint64_t hash = 0;  ///< FNV-1a of text, settings and recordings: provenance in reports and campaigns
-  std::uint64_t recordings_hash = 0;  ///< of these alone; 0: it flies none
+  std::uint64_t recordings_hash = 0;  ///< of the recordings alone; 0: it uses none
   std::string title;
   std::int64_t duration_us = 0;
   std::uint64_t seed = 0;
-  std::optional<bool> fd;  ///< what it says of the bus's contract: canhil-fd, or canhil
+  std::optional<bool> fd;  ///< the selected DBC: canhil-fd or canhil; none: not selected
 
-  std::shared_ptr<const Foreign> foreign;  ///< null: the target speaks the project's own contract
+  std::shared_ptr<const Foreign> foreign;  ///< null: the target uses canhil's own DBC
   std::vector<TargetSetup> targets;        ///< one for each estimator that the target runs
-  world::Flight truth;                     ///< at rest where nothing navigates
-  world::InitialErrorModel initial_error;  ///< of the state the target is told, w.r.t. the truth at the start
-  std::optional<Glide> glide;              ///< the truth of a glider, beside the navigation's
+  world::Flight truth;                     ///< at rest if nothing navigates
+  world::InitialErrorModel
+      initial_error;  ///< of the initial state that the target receives, relative to the truth at the start
+  std::optional<Glide> glide;  ///< the truth of a glider, in addition to the navigation's
   std::optional<world::EngagementPlan> engagement;
-  std::vector<NodeSettings> nodes;  ///< those on the bus
+  std::vector<NodeSettings> nodes;  ///< the nodes on the bus
   std::vector<Fault> faults;
   std::vector<Check> checks;
 
-  /// False: answers cannot be held against the carrier's flight.
+  /// False: answers cannot be compared with the carrier's flight.
   [[nodiscard]] bool truth_is_known() const { return !std::holds_alternative<world::Unknown>(truth.motion); }
   [[nodiscard]] bool runs(std::string_view estimator) const {
     return std::ranges::find(targets, estimator, &TargetSetup::estimator) != targets.end();
   }
-  /// The node that the table of this name puts on the bus; null: there is none.
+  /// The node of this table name; null: it is not on the bus.
   [[nodiscard]] const NodeSettings* node(std::string_view key) const {
     const auto found = std::ranges::find(nodes, key, [](const NodeSettings& one) { return one.table().key; });
     return found == nodes.end() ? nullptr : &*found;
@@ -63,22 +64,22 @@ struct Scenario {
 };
 
 /// Reads a scenario file. The error is one line.
-Result<Scenario> read_file(const std::filesystem::path& path, const Contract& contract);
+Result<Scenario> read_file(const std::filesystem::path& path, const DbcVocabulary& contract);
 
-/// Reads a scenario's text; `name` stands for the file in messages. Settings replace what the text says, and
-/// are read as strictly. Files that it names are in `folder`, by default that of `name`.
-Result<Scenario> parse(std::string_view text, std::string_view name, const Contract& contract,
+/// Reads a scenario's text; `name` is the file's name in messages. Settings replace values of the text and
+/// are validated in the same way. Files that it names are in `folder`, by default the folder of `name`.
+Result<Scenario> parse(std::string_view text, std::string_view name, const DbcVocabulary& contract,
                        std::span<const Setting> settings = {}, std::optional<std::string> folder = {});
 
 /// Appends the [[fault]] tables of another text, or some of them. The error is one line.
 Result<void> add_faults(Scenario& scenario, std::string_view text, std::string_view name,
-                        const Contract& contract, const FaultPlaces* some = nullptr);
+                        const DbcVocabulary& contract, const FaultPlaces* some = nullptr);
 
-/// At most so much is read of a scenario or campaign file.
+/// Size limit of a scenario or campaign file.
 inline constexpr std::size_t most_toml_bytes = std::size_t{1} << 20U;
 
-/// Why the answers of an estimator, which may do without nodes, have no truth to be held against; empty: they
-/// have one.
+/// Why the answers of an estimator, which may run without nodes, have no truth to compare with; empty: they
+/// have.
 std::string why_no_truth(const Scenario& scenario, const EstimatorFacts& facts);
 
 }  // namespace canhil::scenario

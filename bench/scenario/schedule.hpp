@@ -1,4 +1,4 @@
-// When a node sends.
+// The transmission times of a node.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ class Section;
 
 struct Schedule {
   std::optional<std::int64_t>
-      period_us{};              ///< absent: the DBC's cycle time; given: an override that reports must name
+      period_us{};  ///< absent: the DBC's cycle time; present: an override, which reports must show
   std::int64_t latency_us = 0;  ///< from time of validity to the first frame of the group
 };
 

@@ -1,17 +1,17 @@
-// Files that a section names.
+// Reads files that a section names.
 #include "bench/scenario/section.hpp"
 #include "bench/world/hash.hpp"
 #include "dbc/files/text_file.hpp"
 
 namespace canhil::scenario {
 
-std::optional<std::string> Section::read_beside(std::string_view key, std::string_view kind,
+std::optional<std::string> Section::read_beside(const Key& key, std::string_view kind,
                                                 std::size_t most_bytes) {
   const std::string named = text(key);
   if (named.empty()) return std::nullopt;
   auto content = read_text_file(beside(named), kind, most_bytes);
   if (!content) {
-    reject(key, content.error());
+    reject(key.name, content.error());
     return std::nullopt;
   }
   std::uint64_t& hash = files_hash();

@@ -1,4 +1,4 @@
-// A value that replaces one of a scenario file, or is put beside those that are there.
+// A value that replaces or adds a value in a scenario file.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ constexpr std::array<Endings, 6> of_one_dimension{{{"_s", "_ms", "_us"},
                                                    {"_mps2", "_g", "_ug"},
                                                    {"_m"}}};
 
-/// The name in each unit that it may have, its own first.
+/// The name with each unit that it may have, its own unit first.
 std::vector<std::string> names_of(std::string_view name) {
   std::vector<std::string> names{std::string(name)};
   for (const Endings& endings : of_one_dimension) {
@@ -43,7 +43,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// Takes what is before the next separator, or all of it, with the separator.
+/// Takes the text before the next separator, or the rest, and removes it with the separator.
 std::string_view take(std::string_view& rest, char separator) {
   const std::size_t end = rest.find(separator);
   const std::string_view part = rest.substr(0, end);
@@ -68,7 +68,7 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// What a user may have put there is shown as far as it can be on one line.
+/// Shows a user's text on one line as far as possible.
 std::string shown(std::string_view text) {
   constexpr std::size_t most = 40;
   std::string part(text.substr(0, most));
@@ -78,9 +78,9 @@ std::string shown(std::string_view text) {
   return part + (text.size() > most ? "..." : "");
 }
 
-/// Where a name is asked for stands in a file.
+/// The position of a requested name in a file.
 struct Column {
-  std::size_t place = 0;
+  std::size_t index = 0;
   double factor = 1;
 };
 
@@ -88,12 +88,12 @@ Result<std::optional<Column>> find(std::string_view name, std::span<const std::s
                                    std::string_view file) {
   std::optional<Column> column;
   for (const std::string& candidate : names_of(name)) {
-    for (std::size_t place = 0; place < header.size(); ++place) {
-      if (header[place] != candidate) continue;
+    for (std::size_t index = 0; index < header.size(); ++index) {
+      if (header[index] != candidate) continue;
       if (column)
-        return failure(fmt::format("{}:1: column '{}': is there beside '{}', expected one of the two", file,
-                                   candidate, header[column->place]));
-      column = Column{.place = place, .factor = factor_of(candidate) / factor_of(name)};
+        return failure(fmt::format("{}:1: column '{}': is given beside '{}', expected one of the two", file,
+                                   candidate, header[column->index]));
+      column = Column{.index = index, .factor = factor_of(candidate) / factor_of(name)};
     }
   }
   return column;
@@ -101,15 +101,15 @@ Result<std::optional<Column>> find(std::string_view name, std::span<const std::s
 
 }  // namespace
 
-Error Table::about(std::size_t row, std::size_t place, std::string_view what) const {
-  return {fmt::format("{}:{}: column '{}': {}", file, lines[row], found[place], what)};
+Error Table::about(std::size_t row, std::size_t index, std::string_view what) const {
+  return {fmt::format("{}:{}: column '{}': {}", file, lines[row], found[index], what)};
 }
 
-Error Table::missing(std::size_t place) const {
-  const std::vector<std::string> names = names_of(asked[place]);
+Error Table::missing(std::size_t index) const {
+  const std::vector<std::string> names = names_of(asked[index]);
   const std::string others =
       names.size() > 1 ? fmt::format(" or '{}'", fmt::join(names.begin() + 1, names.end(), "', '")) : "";
-  return {fmt::format("{}:1: column '{}': is missing, expected it{}", file, asked[place], others)};
+  return {fmt::format("{}:1: column '{}': is missing, expected it{}", file, asked[index], others)};
 }
 
 Result<Table> read_table(std::string_view text, std::string_view file, std::span<const std::string> names) {
@@ -118,30 +118,31 @@ Result<Table> read_table(std::string_view text, std::string_view file, std::span
               .found = {},
               .values = {},
               .lines = {}};
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // of some spreadsheets
+  if (text.starts_with("\xEF\xBB\xBF"))
+    text.remove_prefix(3);  // a byte order mark, as some spreadsheets write it
   const std::vector<std::string_view> header = fields_of(take(text, '\n'));
   std::vector<std::optional<Column>> columns;
   for (const std::string& name : names) {
     const auto column = find(name, header, file);
     if (!column) return tl::unexpected(column.error());
     columns.push_back(*column);
-    table.found.emplace_back(*column ? header[(*column)->place] : "");
+    table.found.emplace_back(*column ? header[(*column)->index] : "");
   }
   for (std::size_t line = 2; !text.empty(); ++line) {
     const std::string_view row = trimmed(take(text, '\n'));
-    if (row.empty() && trimmed(text).empty()) break;  // the last line may have an end of its own
+    if (row.empty() && trimmed(text).empty()) break;  // the last line may end with a line break
     const std::vector<std::string_view> fields = fields_of(row);
     if (fields.size() != header.size())
       return failure(fmt::format("{}:{}: has {} values, expected {}, one for each column", file, line,
                                  row.empty() ? 0 : fields.size(), header.size()));
     table.lines.push_back(line);
-    for (std::size_t place = 0; place < columns.size(); ++place) {
-      const auto& column = columns[place];
-      const auto value = column ? number(fields[column->place]) : std::optional(0.0);
+    for (std::size_t index = 0; index < columns.size(); ++index) {
+      const auto& column = columns[index];
+      const auto value = column ? number(fields[column->index]) : std::optional(0.0);
       if (!value)
         return tl::unexpected(
-            table.about(table.rows() - 1, place,
-                        fmt::format("'{}' is no number, expected one", shown(fields[column->place]))));
+            table.about(table.rows() - 1, index,
+                        fmt::format("'{}' is not a number, expected one", shown(fields[column->index]))));
       table.values.push_back(column ? *value * column->factor : 0);
     }
   }
@@ -149,36 +150,36 @@ Result<Table> read_table(std::string_view text, std::string_view file, std::span
   return table;
 }
 
-Result<std::vector<std::int64_t>> times_of(const Table& table, std::size_t place, std::int64_t from_us) {
-  constexpr double most_s = 1e11;  // microseconds of it fit well into 64 bits
+Result<std::vector<std::int64_t>> times_of(const Table& table, std::size_t index, std::int64_t from_us) {
+  constexpr double most_s = 1e11;  // in microseconds it fits easily into 64 bits
   std::vector<std::int64_t> t_us;
   t_us.reserve(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    const double t_s = table.value(row, place);
+    const double t_s = table.value(row, index);
     if (std::abs(t_s) > most_s)
-      return tl::unexpected(table.about(row, place, fmt::format("{:g} s is no time, expected one", t_s)));
+      return tl::unexpected(table.about(row, index, fmt::format("{:g} s is not a time, expected one", t_s)));
     t_us.push_back(std::llround(t_s * 1e6) - from_us);
     if (row > 0 && t_us[row] <= t_us[row - 1])
-      return tl::unexpected(table.about(row, place,
+      return tl::unexpected(table.about(row, index,
                                         fmt::format("{} s does not come after {} s, the time of the row "
                                                     "before, expected times that ascend by at least 1 us",
-                                                    t_s, table.value(row - 1, place))));
+                                                    t_s, table.value(row - 1, index))));
   }
   return t_us;
 }
 
-Result<Rows> covering(const Table& table, std::size_t place, std::span<const std::int64_t> t_us,
+Result<Rows> covering(const Table& table, std::size_t index, std::span<const std::int64_t> t_us,
                       std::int64_t end_us, std::int64_t gap_us) {
   const auto seconds = [](std::int64_t us) { return 1e-6 * static_cast<double>(us); };
   if (t_us.front() > 0)
     return tl::unexpected(table.about(
-        0, place,
+        0, index,
         fmt::format("the first row comes {:g} s after the time that 'from_s' says, expected a row "
                     "at or before it",
                     seconds(t_us.front()))));
   if (t_us.back() < end_us)
     return tl::unexpected(
-        table.about(table.rows() - 1, place,
+        table.about(table.rows() - 1, index,
                     fmt::format("the last row is at {:g} s of the run, expected rows to its end at {:g} s",
                                 seconds(t_us.back()), seconds(end_us))));
   const auto after = std::ranges::upper_bound(t_us, 0);
@@ -189,7 +190,7 @@ Result<Rows> covering(const Table& table, std::size_t place, std::span<const std
     const std::int64_t step_us = t_us[row] - t_us[row - 1];
     if (step_us > gap_us)
       return tl::unexpected(
-          table.about(row, place,
+          table.about(row, index,
                       fmt::format("comes {:g} s after the row before, expected at most {:g} s (key 'gap_s')",
                                   seconds(step_us), seconds(gap_us))));
   }

@@ -13,10 +13,16 @@ namespace canhil::scenario {
 namespace {
 
 InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
-  const InitialSigma sigma{.velocity = section.number("velocity_mps", Limits::above(0)),
-                           .tilt = section.number("tilt_deg", Limits::above(0, 90)),
-                           .heading = section.number("heading_deg", Limits::above(0, 600)),
-                           .position = section.number("position_m", Limits::above(0))};
+  const InitialSigma sigma{
+      .velocity = section.number({"velocity_mps", "1-sigma of each component of the initial velocity."},
+                                 Limits::above(0)),
+      .tilt = section.number({"tilt_deg", "1-sigma of the misalignments about north and east."},
+                             Limits::above(0, 90)),
+      .heading = section.number(
+          {"heading_deg", "1-sigma of the heading. At most 180, or 600 for `sin_cos`: an unknown heading."},
+          Limits::above(0, 600)),
+      .position = section.number({"position_m", "1-sigma of each component of the initial position."},
+                                 Limits::above(0))};
   constexpr double half_turn = 180 * world::units::deg;
   if (sigma.heading > half_turn && target.algorithm != "sin_cos")
     section.reject("heading_deg", "is more than a heading can be wrong by",
@@ -25,7 +31,7 @@ InitialSigma read_initial_sigma(Section section, const TargetSetup& target) {
   return sigma;
 }
 
-std::vector<Parameter> read_parameters(Section section, const Contract& contract,
+std::vector<Parameter> read_parameters(Section section, const DbcVocabulary& contract,
                                        const std::string& estimator) {
   const auto own = facts_of(contract, estimator).parameters;
   const auto may_be_meant = [&](const std::string& name) {
@@ -35,7 +41,7 @@ std::vector<Parameter> read_parameters(Section section, const Contract& contract
   std::vector<Parameter> parameters;
   for (const std::string& name : contract.parameters) {
     const bool given =
-        section.has(name);  // one of another estimator may be the target's too: that refuses it
+        section.has(name);  // a parameter of another estimator is possible: then the target rejects it
     if (!given && !may_be_meant(name)) continue;
     const double value = section.plain_number(name, Limits::between(-largest, largest), 0.0);
     if (!given) continue;
@@ -47,30 +53,40 @@ std::vector<Parameter> read_parameters(Section section, const Contract& contract
   return parameters;
 }
 
-/// Without a handshake: nothing is told, so there is nothing to be set.
-TargetSetup read_own_start(Section& section, const Contract& contract) {
+/// Without a handshake the target receives nothing, so nothing can be set.
+TargetSetup read_own_start(Section& section, const DbcVocabulary& contract) {
   static const std::vector<std::string> none{"none"};
-  section.one_of("handshake", none, none.front());
-  section.text("mapping");  // read before, by whom the contract is
+  section.one_of({"handshake", "With `mapping`: the target gets no commands."}, none, none.front());
+  section.text(
+      {"mapping", "Mapping of a target that has a DBC of its own (mapping.md)."});  // already read to choose
+                                                                                    // the vocabulary
   TargetSetup target;
   target.estimator = contract.estimators.front();
-  target.own_start = {.settle_us = section.time_us("settle_s", Limits::between(0, 3600), 0.5),
-                      .silence_us = section.time_us("silence_s", Limits::above(0, 3600), 1.0),
-                      .before = section.text("before", ""),
-                      .after = section.text("after", "")};
+  target.own_start = {
+      .settle_us = section.time_us(
+          {"settle_s",
+           "With `mapping`: time from the start of the target, or of the bench, to the first sample."},
+          Limits::between(0, 3600), 0.5),
+      .silence_us =
+          section.time_us({"silence_s", "With `mapping`: silence after which the target counts as gone."},
+                          Limits::above(0, 3600), 1.0),
+      .before = section.text({"before", "With `mapping`: shell command before the run."}, ""),
+      .after = section.text({"after", "With `mapping`: shell command after the run."}, "")};
   section.finish();
   return target;
 }
 
-TargetSetup read_target(Section& section, const Contract& contract) {
+TargetSetup read_target(Section& section, const DbcVocabulary& contract) {
   if (contract.foreign != nullptr) return read_own_start(section, contract);
   for (const std::string_view key : {"handshake", "settle_s", "silence_s", "before", "after"})
-    section.refuse(key, "is of a target with a mapping", "the key 'mapping' beside it");
+    section.refuse(key, "is for a target with a mapping", "the key 'mapping' beside it");
   TargetSetup target;
-  target.estimator = section.one_of("estimator", contract.estimators);
-  target.algorithm = section.one_of("algorithm", contract.algorithms);
+  target.estimator =
+      section.one_of({"estimator", "Estimator of the DBC's value table Estimator."}, contract.estimators);
+  target.algorithm = section.one_of(
+      {"algorithm", "Algorithm of that estimator, of the DBC's value table Algorithm."}, contract.algorithms);
   target.algorithm_where = fmt::format("{}: key '{}'", section.where("algorithm"), section.path("algorithm"));
-  // Told at every start; an estimator that does not navigate makes nothing of it.
+  // Every target receives an initial state at the start; an estimator that does not navigate ignores it.
   const EstimatorFacts facts = facts_of(contract, target.estimator);
   if (facts.start != Start::nothing || section.has("initial_sigma"))
     target.initial_sigma = read_initial_sigma(section.table("initial_sigma"), target);
@@ -80,7 +96,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
   }
   if (facts.start != Start::navigation) {
     section.refuse("initial_error", fmt::format("has no effect on '{}'", target.estimator),
-                   facts.start == Start::own_truth ? facts.start_errors : "no such table");
+                   facts.start == Start::per_run_truth ? facts.start_errors : "no such table");
   }
   if (auto initial_error = section.optional_table("initial_error"))
     target.initial_error = read_initial_error(*initial_error);
@@ -90,7 +106,7 @@ TargetSetup read_target(Section& section, const Contract& contract) {
 
 }  // namespace
 
-std::vector<TargetSetup> read_targets(Section& root, const Contract& contract) {
+std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract) {
   std::vector<TargetSetup> targets;
   for (Section& section : root.table_or_tables("target")) {
     TargetSetup target = read_target(section, contract);

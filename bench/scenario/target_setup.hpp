@@ -1,5 +1,5 @@
-// [target], or [[target]] once for each estimator that the target runs at the same time: what the bench tells
-// it before the start.
+// Reads [target], or [[target]] once for each estimator that the target runs at the same time: its
+// configuration before the start.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace canhil::scenario {
 
 class Section;
 
-/// 1-sigma uncertainty the target is told of its initial state (TargetInit*).
+/// The 1-sigma uncertainty of the initial state, which the target receives with it (TargetInit*).
 struct InitialSigma {
   double velocity = 0;  ///< of each component [m/s]
   double tilt = 0;      ///< of the misalignments about north and east [rad]
@@ -21,18 +21,18 @@ struct InitialSigma {
   double position = 0;  ///< of each component [m]
 };
 
-/// One ParamSet. Parameters go over the bus in the unit of their name, so they stay in it here.
+/// One ParamSet. Parameters are sent in the unit of their name, so they stay in it here.
 struct Parameter {
   std::string name;
   double value = 0;
   std::string where{};  ///< in the scenario, for messages: "my.toml:31: key 'target.parameters.h2_case'"
 };
 
-/// Of a target that is told nothing at the start (Contract::foreign).
+/// For a target that receives nothing at the start (DbcVocabulary::foreign).
 struct OwnStart {
-  std::int64_t settle_us = 0;   ///< from its start, or the bench's, to the first sample
-  std::int64_t silence_us = 0;  ///< after which it counts as gone
-  std::string before, after;    ///< commands of a shell, around the run: power, relays; empty: none
+  std::int64_t settle_us = 0;   ///< from the start of target or bench to the first sample
+  std::int64_t silence_us = 0;  ///< limit of silence after which it counts as gone
+  std::string before, after;    ///< shell commands around the run: power, relays; empty: none
 };
 
 struct TargetSetup {
@@ -40,12 +40,12 @@ struct TargetSetup {
   std::string algorithm;          ///< a name of Algorithm
   std::string algorithm_where{};  ///< in the scenario, for messages: "my.toml:9: key 'target.algorithm'"
   InitialSigma initial_sigma;
-  std::optional<world::InitialErrorModel> initial_error{};  ///< its own in place of the scenario's
+  std::optional<world::InitialErrorModel> initial_error{};  ///< replaces the scenario's
   std::vector<Parameter> parameters;                        ///< in the DBC's order
-  std::optional<OwnStart> own_start{};                      ///< none: by the contract's handshake
+  std::optional<OwnStart> own_start{};                      ///< none: configured by canhil's handshake
 };
 
-/// Every estimator of the target, at least one, none of them twice.
-std::vector<TargetSetup> read_targets(Section& root, const Contract& contract);
+/// All estimators of the target: at least one, without duplicates.
+std::vector<TargetSetup> read_targets(Section& root, const DbcVocabulary& contract);
 
 }  // namespace canhil::scenario

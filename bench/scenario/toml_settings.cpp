@@ -8,7 +8,8 @@ namespace canhil::scenario {
 namespace {
 
 std::string toml_text(const toml::node& node) {
-  if (const auto* real = node.as_floating_point()) return fmt::format("{}", real->get());  // shortest exact
+  if (const auto* real = node.as_floating_point())
+    return fmt::format("{}", real->get());  // shortest exact representation
   std::ostringstream text;
   node.visit([&text](const auto& value) { text << value; });
   return std::move(text).str();

@@ -1,4 +1,4 @@
-// Everything in a table of TOML as settings. toml++ is heavy: for section.cpp alone.
+// Converts a TOML table to settings. Includes toml++, which is heavy: for section.cpp alone.
 #pragma once
 
 #include <toml++/toml.h>
@@ -10,7 +10,7 @@
 
 namespace canhil::scenario {
 
-/// Appends what is in a table, tables in it as keys with dots behind `path`.
+/// Appends the values of a table; nested tables become keys with dots after `path`.
 void add_settings(const toml::table& table, const std::string& path, std::vector<Setting>& settings);
 
 }  // namespace canhil::scenario

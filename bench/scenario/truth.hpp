@@ -1,5 +1,5 @@
-// [truth]: where the carrier starts and how it moves. A new motion is a reader in truth.cpp and a line in its
-// table; one that is flown from a recording, or unknown, is in recorded_flight.cpp.
+// Reads [truth]: where the carrier starts and how it moves. A new motion needs a reader in truth.cpp and a
+// line in its table; a recorded or unknown flight is in recorded_flight.cpp.
 #pragma once
 
 #include "bench/world/motion.hpp"

@@ -5,15 +5,16 @@
 namespace canhil::schedulability {
 namespace {
 
-constexpr std::int64_t given_up_ns = 3'600'000'000'000;  // a busy period of an hour: no bound of any use
+constexpr std::int64_t given_up_ns =
+    3'600'000'000'000;  // a busy period of an hour: any bound beyond is useless
 
-// Error flag 6, its echo 6, delimiter 8, intermission 3, and 8 that an error passive node holds back:
-// Tindell, Burns, Wellings 1995.
+// Error flag 6, superposed flag 6, delimiter 8, intermission 3, and 8 for the suspension of an error passive
+// node: Tindell, Burns, Wellings 1995.
 constexpr std::int64_t error_frame_bits = 31;
 
 constexpr std::int64_t divide_up(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-/// How many of a stream can be queued within an interval, both ends open enough to count its start:
+/// The number of instances of a stream that can be queued within a closed interval that includes its start:
 /// ceil(interval / T).
 std::int64_t queued_within(const Stream& stream, std::int64_t interval_ns) {
   if (interval_ns <= 0) return 0;
@@ -43,7 +44,7 @@ struct Level {
     if (errors.burst == 0) return 0;
     return (errors.burst + divide_up(t, errors.interval_ns) - 1) * per_error;
   }
-  /// The share of the bus that this level and the errors take up: the busy period ends where it is below 1.
+  /// The utilisation by this level and by errors: the busy period ends only if it is below 1.
   [[nodiscard]] double demand() const {
     const auto share = [](std::int64_t c, std::int64_t t) {
       return t > 0 ? static_cast<double>(c) / static_cast<double>(t) : 0;
@@ -54,7 +55,7 @@ struct Level {
   }
 };
 
-/// The least solution of t = f(t) from below; none beyond an hour.
+/// The smallest solution of t = f(t), by iteration from below; none beyond an hour.
 template <class F>
 std::optional<std::int64_t> fixed_point(std::int64_t t, F&& f) {
   for (;;) {
@@ -92,7 +93,7 @@ Response analyse(const Level& level) {
       worst = r;
       result.worst_instance = q;
     }
-    w = *queueing + c;  // w_m(q + 1) is no less
+    w = *queueing + c;  // w_m(q + 1) is not smaller
   }
   result.response_ns = worst;
   return result;
@@ -117,10 +118,10 @@ Response response(std::span<const Stream> streams, std::size_t index, std::int64
 
 namespace {
 
-/// From this stream on the bus is overloaded for sure: to analyse each of tens of thousands would take for
-/// ever.
+/// The first stream at which the bus is certainly overloaded: analysing tens of thousands beyond it would
+/// take too long.
 std::size_t first_overloaded(std::span<const Stream> streams, const wire::BitRates& rates) {
-  constexpr double for_sure = 1 + 1e-9;  // sums of another order are not the same to the last bit
+  constexpr double for_sure = 1 + 1e-9;  // sums in a different order differ in the last bits
   double demand = 0;
   for (std::size_t i = 0; i < streams.size(); ++i) {
     if (streams[i].period_ns > 0) {
@@ -149,7 +150,7 @@ std::vector<Response> responses(std::span<const Stream> streams, const Bus& bus)
 
 namespace {
 
-/// The streams of a bus on which every node sends in the order of queueing, and what is known of them so far.
+/// The streams of a bus on which every node sends in order of queueing, and their response times so far.
 class FifoBus {
  public:
   FifoBus(std::span<const Stream> streams, const wire::BitRates& rates)
@@ -158,7 +159,7 @@ class FifoBus {
     r_ = c_;
   }
 
-  /// The least r that solves all the equations; false: there is none within reason.
+  /// The smallest r that solves all equations; false: there is none within the limit.
   bool solve() {
     for (bool changed = true; changed;) {
       changed = false;

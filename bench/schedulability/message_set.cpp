@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t ns_per_us = 1'000;
 constexpr double ns_per_ms = 1e6;
 
-/// A number among the attributes, else 0.
+/// A numeric attribute, or 0.
 double number(const dbc::AttributeValue* value) {
   if (value == nullptr) return 0;
   if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
@@ -22,7 +22,7 @@ double number(const dbc::AttributeValue* value) {
   return real != nullptr ? *real : 0;
 }
 
-/// A time attribute of a message, given in ms; 0: it has none.
+/// A time attribute of a message, in ms; 0: absent.
 double time_ms(const dbc::Database& database, const dbc::Message& message, std::string_view attribute) {
   return number(dbc::find_attribute(database, message.attributes, dbc::Owner::message, attribute));
 }
@@ -30,7 +30,7 @@ std::int64_t time_ns(const dbc::Database& database, const dbc::Message& message,
   return std::llround(time_ms(database, message, attribute) * ns_per_ms);
 }
 
-/// The cycle time is among what the parser has checked.
+/// The parser has already checked the cycle time.
 Result<void> check_times(const dbc::Database& database, const dbc::Message& message) {
   for (const std::string_view attribute : {"GenMsgDelayTime", "GenMsgDeadline", "GenMsgJitter"}) {
     const double ms = time_ms(database, message, attribute);
@@ -97,7 +97,7 @@ Result<std::vector<Stream>> streams_of(const dbc::Database& database, const Assu
                       message.name));
     }
   }
-  if (streams.empty()) return failure("no messages in the DBC, expected one at least");
+  if (streams.empty()) return failure("no messages in the DBC, expected at least one");
   std::ranges::sort(streams, {}, [](const Stream& s) { return wire::arbitration_rank(s.id, s.extended); });
   return streams;
 }

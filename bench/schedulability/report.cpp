@@ -17,7 +17,7 @@ std::string_view name_of(Release release) {
   return names.at(static_cast<std::size_t>(release));
 }
 
-/// In ms, to the microsecond.
+/// In ms, with three decimals.
 std::string milliseconds(const Time& ns, std::string_view none = "-") {
   return ns ? fmt::format("{:.3f}", static_cast<double>(*ns) * 1e-6) : std::string(none);
 }
@@ -45,7 +45,7 @@ bool any(const Analysis& analysis, Release release) {
   return std::ranges::find(analysis.streams, release, &Stream::release) != analysis.streams.end();
 }
 
-/// What the DBC did not say, and what was put in its place.
+/// The assumptions that replace what the DBC leaves open.
 std::string assumptions(const Analysis& analysis) {
   std::string text;
   if (any(analysis, Release::interval))
@@ -54,8 +54,9 @@ std::string assumptions(const Analysis& analysis) {
     text += "release option: an event message without GenMsgDelayTime, no closer than --event-interval-ms\n";
   if (any(analysis, Release::once)) {
     text +=
-        "release once: an event message without GenMsgDelayTime, taken to be due once within any response;\n"
-        "  it has no deadline and is not in the utilisation (--event-interval-ms gives it an interval)\n";
+        "release once: an event message without GenMsgDelayTime, assumed to be due once within any "
+        "response;\n"
+        "  it has no deadline and does not count in the utilisation (--event-interval-ms sets an interval)\n";
   }
   if (analysis.bus.queues == Queues::in_order)
     text += "queues: every node sends its frames in the order in which they became ready\n";

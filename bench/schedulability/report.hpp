@@ -1,4 +1,4 @@
-// What the analysis found, as a table for people and as JSON for programs.
+// The results of the analysis as a table for people and as JSON for programs.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace canhil::schedulability {
 
-/// What was asked, and what came out; responses[i] is that of streams[i].
+/// Inputs and results; responses[i] belongs to streams[i].
 struct Analysis {
   std::string file;
   Bus bus;
@@ -16,14 +16,13 @@ struct Analysis {
   std::vector<Response> responses;
 };
 
-/// Analyses the streams, which are sorted by priority.
+/// Analyses streams that are sorted by priority.
 Analysis analyse(std::string file, std::vector<Stream> streams, const Bus& bus);
 
 /// True if every message meets its deadline.
 bool schedulable(const Analysis& analysis);
 
-/// A line each message by priority, times in ms; then the utilisation, what was taken for granted, and the
-/// verdict.
+/// One line for each message by priority, times in ms; then the utilisation, the assumptions and the verdict.
 std::string table(const Analysis& analysis);
 
 /// One JSON object, times in s; null where there is no value. docs/schedulability.md names the keys.

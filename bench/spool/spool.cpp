@@ -15,16 +15,17 @@ namespace {
 int open_in(const std::string& folder) {
   const int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (file >= 0) return file;
-  std::string name = folder + "/canhil-XXXXXX";  // a file system that knows none without a name
+  std::string name = folder + "/canhil-XXXXXX";  // for a file system without unnamed files (O_TMPFILE)
   const int named = mkostemp(name.data(), O_CLOEXEC);
   if (named >= 0) unlink(name.c_str());
   return named;
 }
 
-// -1: nowhere. With its blocks, as a page that the disk has no room for would end the program.
+// -1: not possible. The blocks are allocated at once: otherwise a page fault on a full disk would kill the
+// program.
 int open_file(std::size_t bytes) {
-  const char* told = std::getenv("TMPDIR");
-  const int file = open_in(told != nullptr && *told != '\0' ? told : "/var/tmp");
+  const char* folder = std::getenv("TMPDIR");
+  const int file = open_in(folder != nullptr && *folder != '\0' ? folder : "/var/tmp");
   if (file < 0 || posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0) return file;
   close(file);
   return -1;
@@ -51,7 +52,7 @@ SpoolFile::SpoolFile() : file_(open_file(step_bytes)) {
     close(file_);
     throw std::bad_alloc();
   }
-  munlock(data_, bytes_);  // of a process that locks its memory: pages that are held cannot be let go
+  munlock(data_, bytes_);  // in a process that locks its memory: locked pages cannot be released
 }
 
 SpoolFile::~SpoolFile() {
@@ -67,7 +68,7 @@ void SpoolFile::grow() {
   bytes_ = larger;
 }
 
-// The disk is full.
+// Called when the disk is full.
 void SpoolFile::into_memory(std::size_t bytes) {
   void* memory = anonymous(bytes);
   std::memcpy(memory, data_, bytes_);
@@ -80,7 +81,8 @@ void SpoolFile::into_memory(std::size_t bytes) {
 
 void SpoolFile::enter(std::size_t block) const {
   last_block_.store(block, std::memory_order_relaxed);
-  // The first of them may stay: so a file that is no larger costs nothing, however its readers take turns.
+  // The first blocks may stay in memory, so a file no larger than that is never released, whatever the order
+  // of access.
   if (file_ < 0 || block < most_blocks ||
       entered_.fetch_add(1, std::memory_order_relaxed) % most_blocks != most_blocks - 1)
     return;

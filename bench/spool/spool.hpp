@@ -1,9 +1,9 @@
-// Values in the order in which they came, in a memory that does not grow with them: what a run collects.
+// Append-only series of values in bounded memory: what a run collects.
 //
-// The first two megabytes are in memory. What follows is in a file without a name, mapped: its pages come
-// when they are looked at, and those behind are let go, so a pass over a day holds no more of it than one
-// over a minute. Letting go is a hint to the kernel: a page that is still wanted comes again, and a reference
-// holds as long as it would into a vector.
+// The first two megabytes are in memory. The rest is in an unnamed mapped file: pages are loaded on access
+// and released behind the reader, so a pass over a day needs no more memory than a pass over a minute.
+// Release is a hint to the kernel: a released page is loaded again when needed, and references stay valid
+// exactly as long as those into a vector.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@
 
 namespace canhil {
 
-/// A file in TMPDIR (/var/tmp where that is not set), mapped. It has no name, so nothing is left behind
-/// however the program ends. Where no file can be made, or the disk is full, it is memory as any other.
+/// An unnamed mapped file in TMPDIR (default /var/tmp). Nothing remains on disk however the program ends. If
+/// no file can be made, or the disk is full, ordinary memory is used instead.
 class SpoolFile {
  public:
   /// Errors: std::bad_alloc.
@@ -31,9 +31,9 @@ class SpoolFile {
 
   [[nodiscard]] void* data() const { return data_; }
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
-  /// Makes it larger; what is in it stays, its place may change. Errors: std::bad_alloc.
+  /// Enlarges the file; its contents stay, its address may change. Errors: std::bad_alloc.
   void grow();
-  /// To be called before what is there is looked at: now and then all other pages are let go. Any thread may.
+  /// Must be called before an access: now and then it releases all other pages. Thread-safe.
   void touch(std::size_t offset) const {
     const std::size_t block = offset / block_bytes;
     if (block != last_block_.load(std::memory_order_relaxed)) enter(block);
@@ -41,9 +41,9 @@ class SpoolFile {
   [[nodiscard]] bool on_disk() const { return file_ >= 0; }
 
  private:
-  static constexpr std::size_t block_bytes = 64 << 10;  // that a fault brings
-  static constexpr unsigned most_blocks = 32;           // that are entered before all are let go
-  static constexpr std::size_t step_bytes = 16 << 20;   // by which it grows
+  static constexpr std::size_t block_bytes = 64 << 10;  // loaded by a page fault
+  static constexpr unsigned most_blocks = 32;           // accessed before all are released
+  static constexpr std::size_t step_bytes = 16 << 20;   // growth step
 
   void enter(std::size_t block) const;
   void into_memory(std::size_t bytes);
@@ -55,8 +55,8 @@ class SpoolFile {
   mutable std::atomic<unsigned> entered_ = 0;
 };
 
-/// As a vector that is only added to. Of types that may be moved as bytes: numbers, and structs and matrices
-/// of them.
+/// Like a vector that only grows at its end. For types that may be copied as bytes: numbers, and structs and
+/// matrices of numbers.
 template <class T>
 class Spool {
   static_assert(std::is_trivially_destructible_v<T>);
@@ -74,7 +74,7 @@ class Spool {
     using reference = const T&;
 
     Iterator() = default;
-    Iterator(const Spool* of, std::ptrdiff_t place) : of_(of), place_(place) {}
+    Iterator(const Spool* of, std::ptrdiff_t index) : of_(of), place_(index) {}
     reference operator*() const { return (*of_)[static_cast<std::size_t>(place_)]; }
     pointer operator->() const { return &**this; }
     reference operator[](std::ptrdiff_t n) const { return *(*this + n); }
@@ -112,17 +112,17 @@ class Spool {
     std::construct_at(static_cast<T*>(file_->data()) + filed_, value);
     file_->touch(filed_++ * sizeof(T));
   }
-  /// Room for so many, as far as they are held in memory.
+  /// Reserves memory for the part that is held in memory.
   void reserve(std::size_t count) { few_.reserve(std::min(count, most_in_memory)); }
 
   [[nodiscard]] std::size_t size() const { return few_.size() + filed_; }
   [[nodiscard]] bool empty() const { return size() == 0; }
-  const T& operator[](std::size_t place) const {
-    if (place < few_.size()) return few_[place];
-    file_->touch((place - few_.size()) * sizeof(T));
-    return static_cast<const T*>(file_->data())[place - few_.size()];
+  const T& operator[](std::size_t index) const {
+    if (index < few_.size()) return few_[index];
+    file_->touch((index - few_.size()) * sizeof(T));
+    return static_cast<const T*>(file_->data())[index - few_.size()];
   }
-  T& operator[](std::size_t place) { return const_cast<T&>(std::as_const(*this)[place]); }
+  T& operator[](std::size_t index) { return const_cast<T&>(std::as_const(*this)[index]); }
   [[nodiscard]] const T& front() const { return (*this)[0]; }
   [[nodiscard]] const T& back() const { return (*this)[size() - 1]; }
   T& back() { return (*this)[size() - 1]; }
@@ -142,8 +142,8 @@ class Spool {
     for (const T& value : values) push_back(value);
   }
 
-  std::vector<T> few_;               // the first of them
-  std::unique_ptr<SpoolFile> file_;  // those that follow
+  std::vector<T> few_;               // the first elements
+  std::unique_ptr<SpoolFile> file_;  // the rest
   std::size_t filed_ = 0;
 };
 

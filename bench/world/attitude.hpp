@@ -1,5 +1,5 @@
-// Attitude as the bench writes it: C_bn takes body to navigation (NED), Euler angles 3-2-1, small errors phi
-// in n.
+// Conventions of attitude in the bench: C_bn transforms from body to navigation axes (NED), Euler angles are
+// 3-2-1, small errors phi are in n.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,7 +16,7 @@ struct Euler {
   double heading = 0;
 };
 
-/// The same angle from -pi to pi; one that lies there already keeps its bits.
+/// The same angle in [-pi, pi]; an angle already in that range keeps its bits.
 double wrapped(double angle);
 
 /// C_bn of Euler angles. Groves (2013), eq. (2.22), transposed.

@@ -1,17 +1,18 @@
-// White noise and a first-order Gauss-Markov process together: errors of a sensor of which a part stays.
+// The sum of white noise and a first-order Gauss-Markov process: sensor errors that are partly correlated in
+// time.
 #pragma once
 
 #include "bench/world/stream.hpp"
 
 namespace canhil::world {
 
-/// Of three components, standard normal at every instant; `fraction` of the variance is correlated in time.
+/// Three components, each standard normal at every instant; `fraction` of the variance is correlated in time.
 class CorrelatedNoise {
  public:
   /// correlation_time [s]. The process starts in its steady state.
   CorrelatedNoise(double fraction, double correlation_time, Stream& stream);
 
-  /// The noise dt [s] after that before. Takes six numbers of the stream, whatever the fraction is.
+  /// The noise dt [s] after the previous call. Takes six numbers of the stream, whatever the fraction is.
   Vector3 next(double dt, Stream& stream);
 
  private:

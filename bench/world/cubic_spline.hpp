@@ -1,5 +1,5 @@
-// The natural cubic spline through values at given times: value and rate are continuous, and so is the rate
-// of the rate. Straight on beyond its ends.
+// The natural cubic spline through values at given times: the value and its first two derivatives are
+// continuous. Linear beyond its ends.
 #pragma once
 
 #include <Eigen/Core>

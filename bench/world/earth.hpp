@@ -1,4 +1,4 @@
-// WGS-84: radii of curvature, rotation, normal gravity, and how position moves with velocity.
+// WGS-84: radii of curvature, Earth rotation, normal gravity, and the change of position with velocity.
 #pragma once
 
 #include "bench/world/attitude.hpp"
@@ -12,7 +12,8 @@ struct Position {
   double height = 0;     ///< above the ellipsoid [m]
 };
 
-/// As messages carry it, from -180 to 180 deg; along a flight across 180 deg `longitude` itself goes on.
+/// The range of messages, -180 to 180 deg; along a flight across 180 deg `longitude` itself continues beyond
+/// it.
 double longitude_deg(const Position& position);
 
 /// Meridian radius of curvature R_N of Groves (2013), eq. (2.105) [m].
@@ -25,22 +26,22 @@ Vector3 omega_ie_n(double latitude);
 /// Transport rate in NED [rad/s]. Groves (2013), eq. (5.44).
 Vector3 omega_en_n(const Position& position, const Vector3& v_eb_n);
 
-/// Normal gravity of WGS-84 in NED [m/s^2]; its north component, which vanishes on the ellipsoid, included.
+/// Normal gravity of WGS-84 in NED [m/s^2], including its north component, which vanishes on the ellipsoid.
 Vector3 gravity_n(const Position& position);
 
 /// d(position)/dt for a velocity in NED [rad/s, rad/s, m/s]. Groves (2013), eq. (2.111).
 Position position_rate(const Position& position, const Vector3& v_eb_n);
 
-/// The position dt [s] on, by one Runge-Kutta step of fourth order, of the velocities in NED [m/s] at the
+/// The position after dt [s], by one fourth-order Runge-Kutta step from the velocities in NED [m/s] at the
 /// beginning, in the middle and at the end.
 Position advanced(const Position& position, const Vector3& v_begin, const Vector3& v_middle,
                   const Vector3& v_end, double dt);
 
-/// The position a small displacement in NED [m] away (first order in displacement / Earth radius).
+/// The position at a small displacement in NED [m] (first order in displacement / Earth radius).
 Position displaced(const Position& position, const Vector3& displacement_n);
 
-/// The displacement in NED [m] from one position to another nearby, also across 180 deg, with the radii of
-/// `from`. Inverse of displaced().
+/// The displacement in NED [m] between two nearby positions, also across 180 deg, with the radii of `from`.
+/// Inverse of displaced().
 Vector3 displacement_n(const Position& from, const Position& to);
 
 }  // namespace canhil::world

@@ -44,7 +44,7 @@ Truth truth_of(const Motion& motion, const Position& position, std::int64_t t_us
 
 struct Node {
   double at;      ///< fraction of the interval
-  double weight;  ///< they sum up to 1
+  double weight;  ///< the weights add up to 1
 };
 
 // Five nodes: exact to degree 9. A sinusoid of 20 Hz over 10 ms (1.3 rad) is integrated to 1e-11 of its
@@ -59,7 +59,7 @@ std::array<Node, 5> gauss_legendre() {
   return {node(2, -1), node(1, -1), node(0, 1), node(1, 1), node(2, 1)};
 }
 
-/// Calls piece(from, to) for the parts of an interval between jumps of the motion.
+/// Calls piece(from, to) for the parts of an interval that jumps of the motion separate.
 template <class Piece>
 void between_jumps(const Motion& motion, std::int64_t from_us, std::int64_t to_us, Piece piece) {
   for (const std::int64_t jump : jumps_us(motion, from_us, to_us)) {
@@ -69,7 +69,7 @@ void between_jumps(const Motion& motion, std::int64_t from_us, std::int64_t to_u
   piece(from_us, to_us);
 }
 
-/// Adds the integrals from a to b, which no jump lies between, and moves the position along.
+/// Adds the integrals from a to b, an interval without jumps, and advances the position.
 void integrate(const Motion& motion, std::int64_t a_us, std::int64_t b_us, Position& position,
                ImuIncrement& sum) {
   static const std::array<Node, 5> nodes = gauss_legendre();

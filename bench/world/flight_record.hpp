@@ -1,9 +1,8 @@
-// The truth of a scenario, the same for every run of it: computed once, then only read (and so shared by
-// threads).
+// The truth of a scenario, the same for all its runs: computed once, then read only, also by several threads.
 //
-// Velocity and attitude are the motion's, exactly (of a recorded one: motion/recorded.hpp). Position is
-// integrated. Rate and specific force follow by inverting the navigation equations in NED, Groves (2013),
-// section 5.4:
+// Velocity and attitude are exactly those of the motion (for a recorded motion see motion/recorded.hpp).
+// Position is integrated. Rate and specific force follow by inverting the navigation equations in NED, Groves
+// (2013), section 5.4:
 //   omega_ib_b = omega_nb_b + C_nb (omega_ie_n + omega_en_n)
 //   f_ib_b     = C_nb (d(v_eb_n)/dt + (2 omega_ie_n + omega_en_n) x v_eb_n - g_n)
 // IMU increments are their integrals over a sample, by Gauss-Legendre quadrature.
@@ -26,7 +25,7 @@ struct Truth {
   Vector3 f_ib_b = Vector3::Zero();      ///< [m/s^2]
 };
 
-/// What an IMU without errors gives for one sample.
+/// One sample of an error-free IMU.
 struct ImuIncrement {
   std::int64_t t_us = 0;  ///< end of the interval: the time of validity
   std::int64_t interval_us = 0;
@@ -41,7 +40,7 @@ class FlightRecord {
   /// positive.
   FlightRecord(const Flight& flight, std::int64_t duration_us, std::int64_t interval_us);
 
-  /// False: nothing is known of it but the start, and nothing may be held against it.
+  /// False: only the start is known, and errors cannot be computed.
   [[nodiscard]] bool is_known() const { return !std::holds_alternative<Unknown>(flight_.motion); }
 
   /// Truth at epochs 0, 1, ...: epoch k is at k * interval_us().
@@ -52,7 +51,7 @@ class FlightRecord {
   /// Time of the last epoch.
   [[nodiscard]] std::int64_t end_us() const { return epochs_.back().t_us; }
 
-  /// Truth at any time in [0, end_us()]: a look-up at an epoch, integrated from the epoch before elsewhere.
+  /// Truth at any time in [0, end_us()]: a look-up at an epoch, otherwise integrated from the epoch before.
   [[nodiscard]] Truth at(std::int64_t t_us) const;
 
  private:

@@ -21,12 +21,12 @@ struct ImuErrorModel {
   TriadErrorModel accel;
 };
 
-/// The IMU of one run: its constants are drawn when it is made.
+/// The IMU of one run: its constants are drawn on construction.
 class ErroneousImu {
  public:
   ErroneousImu(const ImuErrorModel& model, Stream stream);
 
-  /// What the IMU gives for a sample. Call once a sample, in order: takes six numbers of the stream.
+  /// The measurement of a sample. Call once for each sample, in order: takes six numbers of the stream.
   ImuIncrement measure(const ImuIncrement& exact);
 
   /// The true biases of this run: [rad/s] and [m/s^2], body axes.

@@ -1,4 +1,5 @@
-// What a motion says of one instant. Everything else of the truth follows from it and from the Earth.
+// The kinematics of a motion at one instant. The rest of the truth follows from them and from the Earth
+// model.
 #pragma once
 
 #include "bench/world/attitude.hpp"
@@ -13,7 +14,7 @@ struct Kinematics {
   Euler rates;                            ///< [rad/s]
 };
 
-/// The same with the attitude as a rotation: what the truth takes of a motion.
+/// The same with the attitude as a rotation: the part that the truth uses.
 struct Movement {
   Vector3 v_eb_n = Vector3::Zero();       ///< [m/s]
   Vector3 v_eb_n_rate = Vector3::Zero();  ///< derivative of the NED components [m/s^2]

@@ -1,4 +1,4 @@
-// The motions a truth may follow. A new one is a struct in motion/ and a name in this variant.
+// The motions that a truth may follow. A new one is a struct in motion/ and a name in this variant.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ using Motion =
 
 /// Velocity and attitude at time t [s] from the start; right-continuous where the motion has a jump.
 Movement movement(const Motion& motion, double t);
-/// Of that the velocity alone [m/s].
+/// The velocity alone [m/s].
 Vector3 velocity(const Motion& motion, double t);
 
-/// Times [us] between two times, ends excluded, ascending, at which an acceleration or a rate, or one of
-/// their derivatives, jumps: quadrature never steps across one.
+/// Times [us] between two times, ends excluded, ascending, at which an acceleration, a rate or one of their
+/// derivatives jumps. Quadrature must not step across them.
 std::vector<std::int64_t> jumps_us(const Motion& motion, std::int64_t from_us, std::int64_t to_us);
 
-/// A whole truth: where it starts and how it moves.
+/// A complete truth: initial position and motion.
 struct Flight {
   Position start;
   Motion motion;

@@ -7,7 +7,7 @@
 
 namespace canhil::world {
 
-/// What a navigation system says.
+/// The output of a navigation system.
 struct NavigationSolution {
   std::int64_t t_us = 0;  ///< time of validity
   Position position;
@@ -22,11 +22,11 @@ struct NavigationErrorModel {
   RandomConstant attitude;  ///< misalignment phi [rad]: computed C_bn = exp(-[phi x]) C_bn
 };
 
-/// Errors of an initial state. A large heading error turns about down before the misalignment tilts:
-/// computed C_bn = exp(-[phi x]) Rz(-psi) C_bn, so that it leaves the size of the tilts alone.
+/// Errors of an initial state. A large heading error rotates about down before the misalignment tilts:
+/// computed C_bn = exp(-[phi x]) Rz(-psi) C_bn. So it does not change the size of the tilts.
 struct InitialErrorModel : NavigationErrorModel {
   double heading_sigma = 0;      ///< of psi [rad]
-  double heading_magnitude = 0;  ///< added to psi, to either side at random [rad]
+  double heading_magnitude = 0;  ///< added to psi with random sign [rad]
 };
 
 /// A solution with errors drawn from the model. Takes nine numbers of the stream, whatever the sigmas are.

@@ -7,8 +7,8 @@
 namespace canhil::world {
 namespace {
 
-/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection in which every input bit moves every output
-/// bit.
+/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection in which every input bit affects every
+/// output bit.
 constexpr std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;

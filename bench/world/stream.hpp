@@ -1,5 +1,6 @@
-// Random numbers: every consumer has a stream of its own, fixed by (seed, run, name) alone. So results depend
-// neither on the order of consumers nor on threads, and adding a consumer changes no other's numbers.
+// Random numbers. Every consumer has its own stream, which (seed, run, name) alone determine. So results
+// depend neither on the order of consumers nor on threads, and a new consumer does not change the numbers of
+// the others.
 #pragma once
 
 #include <boost/random/mersenne_twister.hpp>
@@ -27,7 +28,7 @@ class Stream {
   boost::random::normal_distribution<double> normal_;
 };
 
-/// A constant that each run draws anew: value + sigma * N(0, 1), by axis. sigma = 0: a given value.
+/// A constant drawn for each run: value + sigma * N(0, 1), by axis. sigma = 0: exactly value.
 struct RandomConstant {
   Vector3 value = Vector3::Zero();
   Vector3 sigma = Vector3::Zero();

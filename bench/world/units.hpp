@@ -1,4 +1,4 @@
-// Factors from the units at the edges (scenario, report) to SI and radians: value_deg * deg is in radians.
+// Factors from the units of scenarios and reports to SI and radians: value_deg * deg is in radians.
 #pragma once
 
 #include <numbers>

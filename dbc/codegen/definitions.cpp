@@ -10,8 +10,8 @@
 namespace canhil::dbc {
 namespace {
 
-/// True for signals whose member is a double that packing rounds. A multiplexor stays as it is packed: its
-/// raw value decides what follows.
+/// True for signals whose member is a double that packing rounds. A multiplexor always travels packed: its
+/// raw value decides which signals are present.
 bool is_rounded(const Message& message, const Signal& signal) {
   return !is_protection(message, signal) && !is_plain(signal) && !signal.multiplexor;
 }
@@ -32,7 +32,7 @@ std::string signals_text(const Message& message) {
   return text + "}};\n}  // namespace\n";
 }
 
-/// The range of the member itself, which is that of a double without scale.
+/// The physical range of the signal: the range of an unscaled double with the same limits.
 RealRange physical_range(Signal signal) {
   signal.type = RawType::float64;
   signal.scale = 1;

@@ -1,4 +1,4 @@
-// What the header only declares of a message: compiled once, with the checks on what was generated.
+// Definitions that the generated header only declares, with static checks of the generated code.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace canhil::dbc {
 
-/// True if the signals that packing rounds, as doubles, have room behind the packed bytes in a Frame. Never
-/// with a multiplexed one among them: only the packed bytes say whether that is there.
+/// True if the signals that packing rounds fit as doubles behind the packed bytes in a Frame. False if one of
+/// them is multiplexed: only the packed bytes show whether it is present.
 bool can_travel_unrounded(const Message& message);
 
 /// Definitions of a message's signals() and scaled(), and assertions on its layout and resolution.

@@ -1,5 +1,5 @@
-// Database -> C++: a header of structs with pack() and unpack(), enumerations and hash, and a source with
-// what few need of the messages and with the checks on it all, compiled once.
+// Database -> C++: a header with structs, pack(), unpack(), enumerations and the hash, and a source with
+// rarely needed definitions and static checks, compiled once.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ namespace canhil::dbc {
 Result<std::string> generate_header(const Database& database, std::string_view name_space,
                                     std::string_view dbc_name);
 
-/// The source's text, of a database that has a header; `header` is how it includes that.
+/// The source's text, for a database that generate_header() accepts; `header` is the path that the source
+/// includes.
 std::string generate_source(const Database& database, std::string_view name_space, std::string_view dbc_name,
                             std::string_view header);
 

@@ -1,4 +1,4 @@
-// A Database as JSON, for other tools and for comparison with other readers of DBC files.
+// A Database as JSON, for other tools and for comparison with other DBC parsers.
 #pragma once
 
 #include <string>

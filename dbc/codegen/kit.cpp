@@ -19,7 +19,7 @@ struct Group {
   std::vector<const Message*> messages;  // by id: the order of transmission
 };
 
-// By the id of their first message.
+// Sorted by the id of the first message.
 std::vector<Group> groups_of(const Database& database) {
   std::vector<const Message*> sorted;
   for (const Message& message : database.messages) sorted.push_back(&message);
@@ -51,7 +51,7 @@ std::string c_name(std::string_view of, std::string_view name) {
   return fmt::format("CANHIL_{}_{}", upper(of), upper(identifier(name)));
 }
 
-// Why the kit's tables cannot say it; empty: they can.
+// Why the kit's tables cannot describe the message; empty: they can.
 std::string unfit(const Message& message) {
   if (message.extended || message.fd || message.size > 8)
     return fmt::format("message {}: expected classic CAN of at most 8 bytes with an 11-bit id", message.name);
@@ -60,7 +60,7 @@ std::string unfit(const Message& message) {
 }
 std::string unfit(const Signal& signal, std::set<std::string>& names) {
   if (!names.insert(signal.name).second)
-    return fmt::format("signal {}: expected a name of its own in its sample group", signal.name);
+    return fmt::format("signal {}: expected a name that is unique in its sample group", signal.name);
   if (signal.byte_order != ByteOrder::little_endian || signal.multiplexor || !signal.multiplexed_by.empty() ||
       signal.type == RawType::float64 || (!signal.is_float() && !raw_range(signal)))
     return fmt::format("signal {}: expected little-endian, not multiplexed, no 64-bit float", signal.name);
@@ -110,19 +110,19 @@ Limits limits_of(const Signal& signal) {
   return {text(range.lowest), text(range.highest)};
 }
 
-// The place of a signal among the values of a group; -1: it has none of that name.
-int place_of(const Group& group, std::string_view name) {
-  int place = 0;
+// The index of a signal among the values of a group; -1: the group has no signal of that name.
+int index_of(const Group& group, std::string_view name) {
+  int index = 0;
   for (const Message* message : group.messages) {
     for (const Signal* signal : members_of(*message)) {
-      if (signal->name == name) return place;
-      ++place;
+      if (signal->name == name) return index;
+      ++index;
     }
   }
   return -1;
 }
 
-// The name of the value table that has just these values; empty: none.
+// The name of the value table with exactly the signal's values; empty: none.
 std::string table_of(const Database& database, const Signal& signal) {
   const auto table = std::ranges::find_if(database.value_tables, [&](const ValueTable& one) {
     return ascending(one.values) == ascending(signal.values);
@@ -151,8 +151,8 @@ std::string c_tables(const std::vector<Group>& groups) {
     }
     listed += fmt::format(
         "  {{{}, {}, {}, {}, {}, {}, {}}}, /* {} */\n", first_message, group.messages.size(), first_value,
-        group.messages.front()->sender == "Target" ? 1 : 0, place_of(group, "time_of_validity_us"),
-        place_of(group, "cause_time_us"), place_of(group, "cause_counter"), group.name);
+        group.messages.front()->sender == "Target" ? 1 : 0, index_of(group, "time_of_validity_us"),
+        index_of(group, "cause_time_us"), index_of(group, "cause_counter"), group.name);
     first_message += group.messages.size();
   }
   return fmt::format(
@@ -163,12 +163,11 @@ std::string c_tables(const std::vector<Group>& groups) {
       "typedef struct {{ unsigned char start, length, kind; double scale, offset, lowest, highest; }} "
       "canhil_signal;\n"
       "static const canhil_signal canhil_signals[] = {{\n{}}};\n\n"
-      "/* In the order of groups, within a group in that of transmission. first_value: of its signals in the "
-      "group's. */\n"
+      "/* Ordered by group, then by transmission. first_value: index of its first value in the group. */\n"
       "typedef struct {{ unsigned short id, data_id; unsigned char size, group; unsigned short first_signal; "
       "unsigned char signals, first_value; }} canhil_message;\n"
       "static const canhil_message canhil_messages[] = {{\n{}}};\n\n"
-      "/* time, cause_time, cause_counter: their place among the values; -1: the group has none. */\n"
+      "/* time, cause_time, cause_counter: indices among the values; -1: the group has none. */\n"
       "typedef struct {{ unsigned char first_message, messages, values, from_target; signed char time, "
       "cause_time, cause_counter; }} canhil_group;\n"
       "static const canhil_group canhil_groups[] = {{\n{}}};\n#endif\n",
@@ -176,7 +175,7 @@ std::string c_tables(const std::vector<Group>& groups) {
 }
 
 std::string made_by(std::string_view option, std::string_view dbc_name) {
-  return fmt::format("Made by dbcgen {} from {}: change that, not this.", option, dbc_name);
+  return fmt::format("Made by dbcgen {0} from {1}: edit {1} instead.", option, dbc_name);
 }
 
 }  // namespace
@@ -197,12 +196,12 @@ Result<std::string> c_header(const Database& database, std::string_view dbc_name
     text += "};\n";
   }
   std::size_t most_values = 0, messages = 0;
-  text += "\n/* Sample groups; a message of no group is a group of its own. */\nenum {\n";
+  text += "\n/* Sample groups; a message without a group forms a group by itself. */\nenum {\n";
   for (const Group& group : *groups) {
     text += fmt::format("  CANHIL_GROUP_{},\n", upper(group.name));
     messages += group.messages.size();
   }
-  text += "  CANHIL_GROUPS\n};\n\n/* The values of each group, by their place in its array of doubles. */\n";
+  text += "  CANHIL_GROUPS\n};\n\n/* The values of each group, by their index in its array of doubles. */\n";
   for (const Group& group : *groups) {
     text += "enum {\n";
     std::size_t values = 0;
@@ -237,7 +236,7 @@ Result<std::string> python_module(const Database& database, std::string_view dbc
     text += "},\n";
   }
   text +=
-      "}\n\n# Sample groups; a message of no group is a group of its own. Messages in the order of "
+      "}\n\n# Sample groups; a message without a group forms a group by itself. Messages in the order of "
       "transmission: (name, id, data id, "
       "size,\n# signals), a signal: (name, start bit, length, kind, scale, offset, lowest raw value, "
       "highest, value table or None).\n"
@@ -271,7 +270,7 @@ Result<std::string> python_module(const Database& database, std::string_view dbc
   }
   return text + fmt::format(
                     "}}\n\n# Group of answers: the groups that it answers.\nANSWERS = {{\n{}}}\n\n"
-                    "CYCLE_MS = {{\n{}}}\n\n# What a target sends.\nFROM_TARGET = {{\n{}}}\n",
+                    "CYCLE_MS = {{\n{}}}\n\n# The groups that a target sends.\nFROM_TARGET = {{\n{}}}\n",
                     answers, cycles, from_target);
 }
 

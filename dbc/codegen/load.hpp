@@ -1,4 +1,4 @@
-// The worst-case load that the cycle times of a DBC put on its bus.
+// The worst-case bus load that follows from the cycle times of a DBC.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace canhil::dbc {
 
-/// Table of bit/s and share of the bus, a line each sender and the sum. Messages sent on events, and CAN FD,
-/// are counted apart: their load is not in it.
+/// Table of bit/s and bus load: one line for each sender, and the sum. Event-triggered and CAN FD messages
+/// are counted separately; their load is not included.
 std::string load_table(const Database& database);
 
 }  // namespace canhil::dbc

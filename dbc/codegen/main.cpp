@@ -1,4 +1,4 @@
-// dbcgen: a DBC file to a C++ header, or to what a person wants to know of it.
+// dbcgen: converts a DBC file to C++, C99, Python, JSON or CAN FD, and prints tables about it.
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -65,7 +65,7 @@ bool holds(const std::string& path, const std::string& text) {
   return file && std::string{std::istreambuf_iterator<char>(file), {}} == text;
 }
 
-// A file that is the same already stays as it is: nobody who includes it need be compiled again.
+// Does not touch a file that has this content already, so that sources that include it are not recompiled.
 int write_file(const std::string& path, const std::string& text) {
   if (holds(path, text)) return 0;
   std::ofstream file(path, std::ios::binary);
@@ -99,15 +99,14 @@ bool is_namespace(std::string_view name) {
   return std::regex_match(name.begin(), name.end(), parts);
 }
 
-// Empty: all go together.
+// Why the options contradict each other; empty: they do not.
 std::string refused(const Options& options) {
   for (const auto& [a, b] : {std::pair(options.output, options.dbc), std::pair(options.source, options.dbc),
                              std::pair(options.source, options.output)}) {
-    if (same_file(a, b))
-      return fmt::format("file '{}': is named twice, expected a file of its own for each", a);
+    if (same_file(a, b)) return fmt::format("file '{}': is named twice, expected different files", a);
   }
   if (!is_namespace(options.name_space))
-    return fmt::format("--namespace: '{}' is no name of a namespace in C++", options.name_space);
+    return fmt::format("--namespace: '{}' is not a valid C++ namespace", options.name_space);
   const int asked = options.quantisation + options.load + options.json + options.fd + options.fd_header +
                     options.c + options.python;
   if (asked > 1) return "expected one of --quantisation, --load, --json, --fd, --fd-header, --c and --python";
@@ -122,16 +121,18 @@ int run(int argc, char** argv) {
   program.add_option("-n,--namespace", options.name_space, "namespace of the header");
   program.add_option("--source", options.source,
                      "also write the definitions that the header declares, to this file");
-  program.add_option("--include", options.include, "how that file includes the header");
+  program.add_option("--include", options.include, "the path by which that file includes the header");
   program.add_flag("--quantisation", options.quantisation,
-                   "print the resolution of every measurement against its sensor");
+                   "print the resolution of every measurement relative to its sensor's noise");
   program.add_flag("--load", options.load, "print the worst-case bus load of every sender");
   program.add_flag("--json", options.json, "print the database as JSON");
   program.add_flag("--fd", options.fd,
                    "write the same contract for CAN FD, one frame a sample group, as a DBC file");
-  program.add_flag("--fd-header", options.fd_header, "write the layout of that as a C++ header");
+  program.add_flag("--fd-header", options.fd_header,
+                   "write the layout of the CAN FD containers as a C++ header");
   program.add_flag("--c", options.c, "write the contract as a C99 header, for docs/examples/kit");
-  program.add_flag("--python", options.python, "write the contract as a Python module, for the same");
+  program.add_flag("--python", options.python,
+                   "write the contract as a Python module, for docs/examples/kit");
   program.refuse_no_values();
   const auto parsed = program.parse(argc, argv);
   if (!parsed) return complain(fmt::format("dbcgen: {}; see dbcgen --help", parsed.error().message));
@@ -143,7 +144,7 @@ int run(int argc, char** argv) {
   auto database = canhil::dbc::read_file(options.dbc);
   if (!database) return complain(database.error().message);
   if (database->messages.empty())
-    return complain(fmt::format("{}: no messages in the DBC, expected one at least", options.dbc));
+    return complain(fmt::format("{}: no messages in the DBC, expected at least one", options.dbc));
   if (options.quantisation) return print(canhil::dbc::quantisation_table(*database));
   if (options.load) return print(canhil::dbc::load_table(*database));
   if (options.json) return print(canhil::dbc::to_json(*database) + "\n");

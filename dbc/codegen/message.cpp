@@ -85,7 +85,7 @@ std::string pack_expression(const Message& message, const Signal& signal) {
 
 std::string raw_name(const Signal& signal) { return "raw_of_" + identifier(signal.name) + "_"; }
 
-/// When the signal is there, as an expression on the raw values of the multiplexors; empty: always.
+/// The condition for the signal's presence, as an expression on the multiplexors' raw values; empty: always.
 std::string presence(const Message& message, const Signal& signal) {
   if (signal.multiplexed_by.empty()) return {};
   const Signal& multiplexor = *find_signal(message, signal.multiplexed_by);
@@ -112,7 +112,7 @@ std::string unpack_text(const Enums& enums, const Message& message,
   std::string text;
   const std::string type = type_name(message);
   text += fmt::format(
-      "  /// From the frame's bytes.\n  static constexpr {} unpack([[maybe_unused]] std::span<const "
+      "  /// Decodes the frame's bytes.\n  static constexpr {} unpack([[maybe_unused]] std::span<const "
       "std::uint8_t, "
       "size> data_) noexcept {{\n",
       type);
@@ -137,9 +137,8 @@ std::string unpack_text(const Enums& enums, const Message& message,
 
 std::string pack_text(const Message& message, const std::vector<const Signal*>& members) {
   std::string text =
-      "  /// Into the frame's bytes: rounded half to even, saturated, NaN to the minimum; the E2E fields and "
-      "bits "
-      "of no signal are 0.\n"
+      "  /// Encodes into the frame's bytes: rounded half to even, saturated, NaN to the minimum; E2E fields "
+      "and unused bits are 0.\n"
       "  constexpr void pack([[maybe_unused]] std::span<std::uint8_t, size> data_) const noexcept {\n";
   const auto words = words_of(message, members);
   for (const Word& word : words) text += fmt::format("    std::uint64_t {} = 0;\n", word_name(word));
@@ -229,7 +228,7 @@ std::string message_text(const Enums& enums, const Message& message) {
       "                                   .can_travel_unrounded = {}}};\n"
       "  /// In the order of the DBC, without the E2E fields.\n"
       "  static std::span<const SignalInfo> signals() noexcept;\n"
-      "  /// What `pack` rounds.\n"
+      "  /// The members that `pack` rounds.\n"
       "  static std::span<const wire::ScaledMember> scaled() noexcept;\n\n",
       in_quotes(message.name), message.id, message.extended, message.fd, message.cycle_time_us,
       message.e2e_data_id, in_quotes(message.sender), in_quotes(message.sample_group),

@@ -51,7 +51,7 @@ std::vector<ValueName> sorted(std::vector<ValueName> values) {
   return values;
 }
 
-/// The widest signals of a type: it holds the raw values of them all.
+/// The widest signals of a type; the type must hold the raw values of all of them.
 struct Width {
   unsigned of_unsigned = 0;
   unsigned of_signed = 0;

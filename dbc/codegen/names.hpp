@@ -10,13 +10,13 @@
 
 namespace canhil::dbc {
 
-/// A C++ identifier as close to the text as can be: "fault (hot)" -> fault_hot, "3" -> _3, "class" -> class_.
+/// A C++ identifier close to the text: "fault (hot)" -> fault_hot, "3" -> _3, "class" -> class_.
 std::string identifier(std::string_view text);
 
-/// The struct of a message: its name, with "_" behind it where the header has that name already.
+/// The struct of a message: the message's name, with "_" appended if the header uses that name already.
 std::string type_name(const Message& message);
 
-/// The member of a signal: its name, with "_" behind it where the struct has that name already.
+/// The member of a signal: the signal's name, with "_" appended if the struct uses that name already.
 std::string member_name(const Message& message, const Signal& signal);
 
 struct EnumType {
@@ -26,7 +26,7 @@ struct EnumType {
   std::vector<std::string> identifiers;  ///< of the values, unique
 };
 
-/// One type per set of named values: signals whose values equal a value table's share the table's type.
+/// One type per set of named values: signals with the values of a value table share the table's type.
 class Enums {
  public:
   explicit Enums(const Database& database);
@@ -39,17 +39,17 @@ class Enums {
   std::map<std::string, std::size_t> of_signal_;  ///< "Message.signal" -> index
 };
 
-/// True if raw values are the values: scale 1, offset 0.
+/// True if raw and physical values are equal: scale 1, offset 0.
 bool is_plain(const Signal& signal);
 /// The smallest std::intN_t or std::uintN_t of at least this many bits.
 std::string integer_type(unsigned bits, bool is_signed);
-/// The type of the signal's member. Enumerations with "types::" in front: members may be named as their type.
+/// The type of the signal's member. Enumerations get the prefix "types::": a member may have its type's name.
 std::string member_type(const Enums& enums, const Message& message, const Signal& signal);
-/// True if the signal is E2E's own and so no member.
+/// True for the E2E counter and CRC, which are not members.
 bool is_protection(const Message& message, const Signal& signal);
 /// The message's signals that are members, in the order of the DBC.
 std::vector<const Signal*> members_of(const Message& message);
-/// A literal of exactly this value.
+/// A literal with exactly this value.
 std::string literal(double value);
 std::string in_quotes(std::string_view text);
 

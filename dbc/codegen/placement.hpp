@@ -13,13 +13,13 @@ struct Word {
   unsigned first = 0;
   unsigned bytes = 8;
   ByteOrder order = ByteOrder::little_endian;
-  /// Words of one message differ in where they begin and in their order.
+  /// Words of one message differ in their first byte and byte order.
   friend bool operator<(const Word& a, const Word& b) {
     return std::pair(a.first, a.order) < std::pair(b.first, b.order);
   }
 };
 
-/// `length` bits of a word from `shift` on are the bits of the raw value from `raw_shift` on.
+/// Maps `length` bits of a word, starting at `shift`, to the bits of the raw value that start at `raw_shift`.
 struct Piece {
   Word word;
   unsigned shift = 0;
@@ -28,7 +28,7 @@ struct Piece {
 };
 
 /// One piece, or two (most significant first) for a signal that touches nine bytes.
-/// Messages of up to 8 bytes are one word; in longer ones the word starts with the signal.
+/// A message of up to 8 bytes is one word; in a longer message the word starts at the signal's first byte.
 std::vector<Piece> pieces_of(const Message& message, const Signal& signal);
 
 }  // namespace canhil::dbc

@@ -1,5 +1,4 @@
-// Rules of canhil's contract beyond the DBC format: protection, and resolution against the sensor (design,
-// section 5).
+// Rules of canhil's contract beyond the DBC format: protection, and resolution relative to sensor noise.
 #pragma once
 
 #include <optional>
@@ -17,7 +16,7 @@ struct Breach {
 /// The first breach, or none.
 std::optional<Breach> find_breach(const Database& database);
 
-/// Table of every measurement: signal, LSB, sensor sigma, (LSB / sqrt 12) / sigma, remainder, verdict.
+/// A table row for every measurement: signal, LSB, sensor sigma, (LSB / sqrt 12) / sigma, remainder, verdict.
 std::string quantisation_table(const Database& database);
 
 }  // namespace canhil::dbc

@@ -42,7 +42,8 @@ std::string text_of(double value) {
 void refuse_no_values_in(CLI::App& command) {
   const auto is_value = [](const std::string& text) {
     if (text.empty()) return std::string("is empty, expected a value");
-    if (text.starts_with("--")) return "'" + text + "' is no value, expected one (of a file: ./" + text + ")";
+    if (text.starts_with("--"))
+      return "'" + text + "' looks like an option, expected a value (a file of that name: ./" + text + ")";
     return std::string();
   };
   for (CLI::Option* option : command.get_options()) option->check(is_value);

@@ -1,5 +1,5 @@
-// The command line of our programs. CLI11 does the work, behind this header: it takes seconds to compile,
-// once here.
+// The command line of all programs. This header hides CLI11, which takes seconds to compile: only
+// command_line.cpp includes it.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class Option;
 
 namespace canhil::command_line {
 
-/// An option or argument of a command, which owns it.
+/// An option or argument. The command owns it.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -27,9 +27,9 @@ class Option {
   Option required() const;
   Option needs(Option other) const;
   Option excludes(Option other) const;
-  /// Each time it is given it takes one word, and leaves those after it to the arguments.
+  /// Each occurrence takes exactly one value; later words remain arguments.
   Option one_word_each() const;
-  /// Takes exactly so many words.
+  /// Takes exactly `count` values.
   Option words(int count) const;
   Option one_of(std::vector<std::string> words) const;
   /// After parsing.
@@ -39,7 +39,8 @@ class Option {
   CLI::Option* option_;
 };
 
-/// A program or a subcommand of one, owned by the Program. Values that options write to must outlive parsing.
+/// A program or one of its subcommands. The Program owns it. Variables that options write to must outlive
+/// parsing.
 class Command {
  public:
   explicit Command(CLI::App* command) : command_(command) {}
@@ -49,9 +50,8 @@ class Command {
   Option add_option(const std::string& name, std::vector<std::string>& value, const std::string& help) const;
   Option add_flag(const std::string& name, bool& value, const std::string& help) const;
 
-  /// A decimal whole number from `least` to `most`. Refused otherwise, in one line: CLI11 itself reads whole
-  /// numbers as strtoull does, where -1 is a large number, 010 is eight, and what is too large is the
-  /// largest.
+  /// A decimal whole number from `least` to `most`; anything else is rejected with one line. CLI11's own
+  /// parser follows strtoull: it reads -1 as a large number and 010 as eight, and clips large numbers.
   Option add_number(const std::string& name, std::optional<int>& value, const std::string& help, int least,
                     int most) const;
   Option add_number(const std::string& name, std::optional<std::uint64_t>& value, const std::string& help,
@@ -60,13 +60,13 @@ class Command {
   /// A flag that may have such a number: `usual` where it has none.
   Option add_flag_or_number(const std::string& name, std::optional<int>& value, const std::string& help,
                             int usual, int least, int most) const;
-  /// A decimal number from `least` to `most`: "nan" is none.
+  /// A decimal number from `least` to `most`; "nan" is rejected.
   Option add_number(const std::string& name, double& value, const std::string& help, double least,
                     double most) const;
 
   Command add_subcommand(const std::string& name, const std::string& help) const;
   void require_subcommands(std::size_t least, std::size_t most) const;
-  /// Called at the end of parsing if this command was given. Its subcommands' are called first.
+  /// Sets a callback for the end of parsing if this command was given. Callbacks of subcommands run first.
   void on_given(std::function<void()> callback) const;
 
   /// After parsing.
@@ -89,10 +89,11 @@ class Program : public Command {
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  /// Refuses '' as the value of any option or argument, also of subcommands. To be called when all are there.
+  /// Rejects '' as the value of any option or argument, also of subcommands. Call it after adding all of
+  /// them.
   void refuse_no_values();
 
-  /// What was wrong, in a line; or the exit code where help or the version was asked for, and printed.
+  /// Error: what was wrong, in one line. An exit code if help or the version was requested and printed.
   Result<std::optional<int>> parse(int argc, const char* const* argv);
 
  private:
@@ -101,11 +102,11 @@ class Program : public Command {
   std::unique_ptr<CLI::App> app_;
 };
 
-/// A message with '?' for what would break its line or steer a terminal: names of files may hold anything.
+/// Replaces control characters in a message by '?': file names may contain line breaks and escape sequences.
 std::string one_line(std::string message);
 
-/// The exit code of a program that ends with `code`: 2, with a line on stderr, if standard output did not
-/// take all that was printed. Nothing is added to 2, which has its line.
+/// The exit code of a program that ends with `code`. If writing to standard output failed, prints a line on
+/// stderr and returns 2. If `code` is 2, the program has printed its error line already.
 int finish(const char* program, int code);
 
 /// Ends parsing from a callback: "WHAT is required".

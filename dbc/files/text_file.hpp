@@ -10,11 +10,11 @@
 
 namespace canhil {
 
+/// 2^20 bytes.
 inline constexpr std::size_t mebibyte = std::size_t{1} << 20U;
 
-/// The content of a file, a pipe or a device, read until its end. Error: one line with the path that says
-/// that it cannot be read, and why, or that it holds more than `most_bytes`, and that `kind` was expected. No
-/// more than that is read: a device may have no end.
+/// The content of a file, a pipe or a device. Reads at most `most_bytes`, as a device may have no end. Error:
+/// one line with the path, the reason (unreadable, or more than `most_bytes`) and the expected `kind`.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::string_view kind,
                                    std::size_t most_bytes);
 

@@ -1,4 +1,4 @@
-// What a file is called until it is whole.
+// The name of a file while it is being written.
 #pragma once
 
 #include <unistd.h>
@@ -7,7 +7,7 @@
 
 namespace canhil {
 
-/// A name of this process alone: two that are told the same path must not write into one file.
+/// Unique to this process: two processes that write to the same path must not share a temporary file.
 inline std::string unfinished_name(const std::string& path) {
   return path + "." + std::to_string(getpid()) + ".part";
 }

@@ -25,7 +25,7 @@ std::string to_json(const std::vector<Linted>& files) {
                      {"signals", linted.signals},
                      {"findings", findings}});
   }
-  // The name of a file may be any bytes.
+  // A file name may contain bytes that are not UTF-8.
   return ordered_json{{"files", pages}}.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

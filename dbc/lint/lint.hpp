@@ -1,4 +1,4 @@
-// What is odd about DBC files: their findings in the order of their lines, and three ways to write them.
+// Findings about DBC files, in the order of their lines, and three output formats.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 namespace canhil::dbc {
 
 struct Linted {
-  std::string file;               ///< as it was named
+  std::string file;               ///< the path as the user gave it
   std::vector<Finding> findings;  ///< by line and column
-  bool loads = false;             ///< the lenient reader takes it; then:
+  bool loads = false;             ///< the lenient reader accepts it; then:
   std::size_t messages = 0;
   std::size_t signals = 0;
 };
@@ -20,10 +20,10 @@ struct Linted {
 /// Error if the file cannot be read.
 Result<Linted> lint(const std::string& file);
 
-/// How many findings are as severe as this.
+/// The number of findings of this severity.
 std::size_t count(const Linted& linted, Severity severity);
 
-/// A line for each finding, "file:line:column: severity rule: what; what follows", and one for each file.
+/// One line for each finding, "file:line:column: severity rule: what; consequence", and one for each file.
 std::string to_text(const std::vector<Linted>& files);
 std::string to_json(const std::vector<Linted>& files);
 /// SARIF 2.1.0 (OASIS), for code-review systems.

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A path as a reference (RFC 3986): what is not allowed there in hexadecimal; an absolute path as a file's.
+/// A path as a URI reference (RFC 3986), percent-encoded; an absolute path becomes a file:// URI.
 std::string uri_of(const std::string& path) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
   std::string uri = path.starts_with('/') ? "file://" : "";

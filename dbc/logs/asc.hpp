@@ -1,4 +1,4 @@
-// Vector's ASCII log: a header, then an event a line, most of them frames. Other events are ignored.
+// Vector's ASCII log: a header, then one event per line. Events other than frames are ignored.
 //     date Tue Nov 24 08:12:13.000 2026
 //     base hex  timestamps absolute
 //     internal events logged
@@ -17,10 +17,10 @@
 
 namespace canhil::logs {
 
-/// Takes the lines of a log one after the other.
+/// Parses a log line by line.
 class AscParser {
  public:
-  /// The frame of a line; none: the line is not of a frame, or of a remote one. Error: what was expected.
+  /// The frame in a line; none: the line holds no frame or a remote frame. Error: what was expected.
   Result<std::optional<LogEntry>> line(std::string_view text);
 
  private:
@@ -34,8 +34,8 @@ class AscParser {
   [[nodiscard]] std::string interface_of(unsigned channel) const;
 
   int base_ = 16;
-  bool relative_ = false;      // each time is since the event before
-  std::int64_t start_ns_ = 0;  // of the block
+  bool relative_ = false;      // times count from the event before
+  std::int64_t start_ns_ = 0;  // of the trigger block
   std::int64_t last_ns_ = 0;   // of the last event, since the start
   std::map<unsigned, std::string> names_;
 };

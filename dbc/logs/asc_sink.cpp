@@ -11,7 +11,7 @@
 namespace canhil::logs {
 namespace {
 
-// In local time, as the format has no zone.
+// In local time: the format has no time zone.
 std::string date(std::int64_t s) {
   return fmt::format("{:%a %b %d %H:%M:%S}.000 {:%Y}", fmt::localtime(s), fmt::localtime(s));
 }
@@ -32,7 +32,7 @@ class AscSink final : public LogSink {
     if (!begun_) begin(entry.t_ns);
     const std::size_t channel = channel_of(entry.interface);
     const Frame& frame = entry.frame;
-    // A frame that was stamped before the first one: the format has no times before its start.
+    // The format has no times before its start: a frame with an earlier stamp than the first gets 0.
     const std::int64_t since_us = std::max<std::int64_t>(entry.t_ns - start_s_ * ns_per_s, 0) / 1000;
     std::string line = fmt::format("{:4}.{:06} ", since_us / 1'000'000, since_us % 1'000'000);
     const std::string_view direction = entry.transmitted ? "Tx" : "Rx";
@@ -68,12 +68,12 @@ class AscSink final : public LogSink {
   }
   std::size_t channel_of(const std::string& interface) {
     const auto found = std::ranges::find(interfaces_, interface);
-    const auto place = static_cast<std::size_t>(found - interfaces_.begin());
+    const auto index = static_cast<std::size_t>(found - interfaces_.begin());
     if (found == interfaces_.end()) {
       interfaces_.push_back(interface);
-      lines_.write(fmt::format("// channel {}: {}\n", place + 1, interface));
+      lines_.write(fmt::format("// channel {}: {}\n", index + 1, interface));
     }
-    return place + 1;
+    return index + 1;
   }
 
   LineWriter lines_;

@@ -147,7 +147,7 @@ Result<std::optional<LogEntry>> AscParser::event(const std::vector<std::string_v
   LogEntry entry{.t_ns = start_ns_ + last_ns_, .interface = interface_of(*channel), .frame = {}};
   const std::size_t first = fd && is_direction(rest[0]) ? 1 : 0;
   if (rest.size() > first && same(rest[first], "errorframe")) {
-    constexpr std::uint32_t bus_error = 0x80;  // CAN_ERR_BUSERROR: the format does not say more
+    constexpr std::uint32_t bus_error = 0x80;  // CAN_ERR_BUSERROR: the format has no further detail
     entry.frame = {.id = bus_error, .size = 8, .error = true};
     return std::optional(std::move(entry));
   }
@@ -160,7 +160,7 @@ Result<std::optional<LogEntry>> AscParser::event(const std::vector<std::string_v
   return std::optional(std::move(entry));
 }
 
-// True: the line is one of the header.
+// True if the line belongs to the header.
 bool AscParser::header(std::string_view text, const std::vector<std::string_view>& words) {
   constexpr std::string_view channel = "// channel ";
   if (text.starts_with(channel)) {

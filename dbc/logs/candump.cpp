@@ -16,7 +16,7 @@ using logs::ns_per_s;
 constexpr unsigned flag_brs = 1;
 constexpr unsigned flag_fd = 4;  // kernels from 6.1 on set it in every FD frame, and candump shows it
 
-/// Goes along a line and remembers where the first thing went wrong.
+/// Scans a line and remembers the position of the first error.
 class Cursor {
  public:
   explicit Cursor(std::string_view line) : line_(line) {}
@@ -37,7 +37,7 @@ class Cursor {
   }
   void require(char c, const char* what) { expect(accept(c), what); }
 
-  /// The characters up to the next one that is not of the kind.
+  /// The characters up to the first for which `is_kind` is false.
   template <class Kind>
   std::string_view run(Kind is_kind) {
     const std::size_t start = at_;
@@ -123,7 +123,7 @@ void parse_data(Cursor& cursor, Frame& frame) {
   }
 }
 
-// A remote frame asks for data and carries none: "(1.000000) can0 123#R8". No message of a DBC is one.
+// A remote frame requests data and carries none: "(1.000000) can0 123#R8". A DBC describes no remote frames.
 bool is_remote(std::string_view line) {
   const std::size_t hash = line.find('#');
   return hash != std::string_view::npos && line.substr(hash + 1).starts_with('R');
@@ -193,8 +193,7 @@ class CandumpSource final : public LogSource {
       if (is_remote(text)) continue;
       auto entry = parse_log_line(text, lines_.where());
       if (!entry) return tl::unexpected(entry.error());
-      // A recorder that was killed may have cut the line at the end of a byte: the rest would pass for a
-      // shorter frame.
+      // A killed recorder may have cut the last line between two bytes; it would look like a shorter frame.
       if (!(*line)->ended)
         return failure(fmt::format("{}:{}: expected the end of the line: the log is cut", lines_.where(),
                                    text.size() + 1));

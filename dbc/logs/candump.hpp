@@ -1,10 +1,10 @@
-// The log format of can-utils (`candump -L`), so that candump, canplayer and log2asc can be used on our logs
-// and ours on theirs: one line a frame,
+// The log format of can-utils (`candump -L`), compatible with candump, canplayer and log2asc: one frame per
+// line,
 //     (1436509052.249713) vcan0 044#2A366C2BBA R
-// FD: ID##FDATA, F a hex digit of flags; extended and error frames have 8 digits of id. ` T` and ` R` at the
-// end tell what the recorder sent and received; they may be missing (canplayer and log2asc take both). Times
-// are written in microseconds, rounded down, as canplayer reads nine digits wrongly; nine digits are read
-// (newer candump -N).
+// CAN FD: ID##FDATA, where F is a hex digit of flags. Extended and error frames have an id of 8 digits. An
+// optional ` T` or ` R` at the end marks a frame that the recorder sent or received; canplayer and log2asc
+// accept lines with and without it. Times are written in microseconds, rounded down, as canplayer misreads
+// nine digits; times with nine digits (newer candump -N) are accepted.
 #pragma once
 
 #include <string>

@@ -10,7 +10,7 @@
 namespace canhil::logs {
 
 void LineWriter::write(std::string_view text) {
-  if (error_ != 0 || !file_) return;  // a log ends somewhere, it has no holes
+  if (error_ != 0 || !file_) return;  // a log may end early but has no gaps
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) error_ = errno;
 }
 
@@ -30,19 +30,19 @@ Result<std::optional<LineReader::Line>> LineReader::next() {
     if (length == 0) return std::optional<Line>();
   }
   ++number_;
-  if (!file_.eof() && read) --length;  // the end of the line was read, too
+  if (!file_.eof() && read) --length;  // gcount() includes the line end
   if (length > longest_line) {
     return failure(
         fmt::format("{}: is longer than {} characters, expected a line of a log", where(), longest_line));
   }
   Line line{.text = {line_.data(), length}, .ended = !file_.eof()};
-  if (line.text.ends_with('\r')) line.text.remove_suffix(1);  // of a log that went through Windows
+  if (line.text.ends_with('\r')) line.text.remove_suffix(1);  // Windows line end
   return std::optional(line);
 }
 
 Result<std::string> beginning_of(const std::string& path, std::size_t most) {
   std::error_code ignored;
-  const bool is_folder = std::filesystem::is_directory(path, ignored);  // opens, and cannot be read
+  const bool is_folder = std::filesystem::is_directory(path, ignored);  // opening it would succeed
   std::ifstream file(path, std::ios::binary);
   if (!file || is_folder)
     return failure(fmt::format("cannot read log '{}': {}", path, std::strerror(is_folder ? EISDIR : errno)));

@@ -1,4 +1,4 @@
-// What the formats share.
+// File access that the log formats share.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class LineWriter {
  public:
   explicit LineWriter(File file) : file_(std::move(file)) {}
   void write(std::string_view text);
-  /// The number of the first error; 0: none.
+  /// The errno of the first error; 0: none.
   int close();
 
  private:
@@ -40,15 +40,15 @@ class LineReader {
 
   struct Line {
     std::string_view text;
-    bool ended = true;  ///< false: the file ends without the end of a line
+    bool ended = true;  ///< false: the file ends without a line end
   };
-  /// Nothing at the end of the file; the text is valid until the next call.
+  /// None at the end of the file. The text is valid until the next call.
   Result<std::optional<Line>> next();
-  /// "FILE:LINE", of the line that was read last.
+  /// "FILE:LINE" of the last line read.
   [[nodiscard]] std::string where() const;
 
  private:
-  /// A frame takes some 200 characters.
+  /// A frame takes about 200 characters.
   static constexpr std::size_t longest_line = 4096;
 
   std::ifstream file_;
@@ -57,7 +57,7 @@ class LineReader {
   std::size_t number_ = 0;
 };
 
-/// Up to so many characters of the beginning of a file. Error: one line; it cannot be read.
+/// The first characters of a file, at most `most`. Error: one line; the file cannot be read.
 Result<std::string> beginning_of(const std::string& path, std::size_t most);
 
 }  // namespace canhil::logs

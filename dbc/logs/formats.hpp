@@ -1,4 +1,4 @@
-// The formats, each in a file of its own.
+// The log formats; each has its own source file.
 #pragma once
 
 #include "dbc/logs/file.hpp"
@@ -13,7 +13,7 @@ std::unique_ptr<LogSink> asc_sink(File file);
 std::unique_ptr<LogSource> asc_source(const std::string& path);
 
 std::unique_ptr<LogSink> pcap_sink(File file);
-/// Error: one line; the capture is not of a SocketCAN interface.
+/// Error: one line; the capture cannot be read, or its link type is not SocketCAN.
 Result<std::unique_ptr<LogSource>> pcap_source(const std::string& path);
 
 }  // namespace canhil::logs

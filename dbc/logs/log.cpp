@@ -22,7 +22,7 @@ bool is_capture(std::string_view beginning) {
   return std::ranges::any_of(captures, [&](std::string_view magic) { return beginning.starts_with(magic); });
 }
 
-// Its header has the date first, or the base of its numbers, after comments.
+// An ASC header begins with comments, the date or the number base.
 bool is_asc(std::string_view beginning) {
   return beginning.starts_with("date ") || beginning.starts_with("base ") || beginning.starts_with("//");
 }

@@ -1,11 +1,9 @@
-// Recorded frames in files of three formats. A writer takes the format from the file's name, a reader from
-// the file's content:
-//   *.pcap   libpcap's, link type SocketCAN, stamps in nanoseconds: tcpdump, Wireshark, tshark. It has
-//   neither
-//            names of interfaces nor who sent a frame
-//   *.asc    Vector's ASCII log, stamps in microseconds: CANoe, CANalyzer, python-can. Of an error frame it
-//   has
-//            the time alone
+// Recorded frames in files of three formats. A writer chooses the format by the file's name, a reader by the
+// file's content:
+//   *.pcap   libpcap's, link type SocketCAN, stamps in nanoseconds: tcpdump, Wireshark, tshark. Does not
+//            record interface names or the sender of a frame
+//   *.asc    Vector's ASCII log, stamps in microseconds: CANoe, CANalyzer, python-can. Records only the time
+//            of an error frame
 //   others   candump's (candump.hpp), stamps in microseconds: can-utils, python-can
 #pragma once
 
@@ -25,7 +23,7 @@ struct LogEntry {
   std::int64_t t_ns = 0;  ///< CLOCK_REALTIME
   std::string interface;
   Frame frame;
-  bool transmitted = false;  ///< by the recorder
+  bool transmitted = false;  ///< sent by the recorder itself
 };
 
 /// Writes one format.
@@ -35,8 +33,9 @@ class LogSink {
   LogSink(const LogSink&) = delete;
   LogSink& operator=(const LogSink&) = delete;
   virtual ~LogSink() = default;
+  /// Appends an entry; an error shows in close().
   virtual void write(const LogEntry& entry) = 0;
-  /// The number of the error that stopped it; 0: all is written.
+  /// The errno of the error that stopped writing; 0: everything is written.
   virtual int close() = 0;
 };
 
@@ -47,17 +46,19 @@ class LogSource {
   LogSource(const LogSource&) = delete;
   LogSource& operator=(const LogSource&) = delete;
   virtual ~LogSource() = default;
+  /// The next entry; none at the end. Error: one line with its place.
   virtual Result<std::optional<LogEntry>> next() = 0;
 };
 
 /// Writes a log, buffered. A write that fails (disk full) makes close() fail.
 class LogWriter {
  public:
-  /// `final_name`: the name that the file will get, which decides the format and stands in messages; empty:
+  /// `final_name`: the name that the file gets later. It decides the format and appears in messages; empty:
   /// `path`.
   static Result<LogWriter> create(const std::string& path, const std::string& final_name = {});
+  /// Appends an entry; an error shows in close().
   void write(const LogEntry& entry) { sink_->write(entry); }
-  /// Writes out what is buffered and ends the log.
+  /// Flushes the buffer and ends the log.
   Result<void> close();
 
  private:
@@ -68,11 +69,12 @@ class LogWriter {
   std::string path_;
 };
 
-/// Reads a log, strictly. Remote frames are left out: no message of a DBC is one.
+/// Reads a log; a malformed line is an error. Remote frames are skipped: a DBC describes none.
 class LogReader {
  public:
+  /// Opens a log; its first bytes decide the format. Error: one line.
   static Result<LogReader> open(const std::string& path);
-  /// The next entry; nothing at the end. Error: "FILE:LINE:COLUMN: ...", of pcap "FILE: packet N: ...".
+  /// The next entry; none at the end. Error: "FILE:LINE:COLUMN: ...", for pcap "FILE: packet N: ...".
   Result<std::optional<LogEntry>> next() { return source_->next(); }
 
  private:

@@ -1,5 +1,5 @@
 // libpcap's format with link type SocketCAN (LINKTYPE_CAN_SOCKETCAN, 227): a header of eight bytes, then the
-// data. The header: id with flags as SocketCAN has them, big endian; length; flags of FD; three bytes of 0.
+// data. The header: id with SocketCAN's flags, big endian; length; FD flags; three zero bytes.
 #include "dbc/logs/pcap.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ class PcapSink final : public LogSink {
     const auto size = static_cast<bpf_u_int32>(header_size + frame.size);
     pcap_pkthdr header{};
     header.ts.tv_sec = entry.t_ns / ns_per_s;
-    header.ts.tv_usec = entry.t_ns % ns_per_s;  // nanoseconds, by the precision of the capture
+    header.ts.tv_usec = entry.t_ns % ns_per_s;  // nanoseconds: the capture's precision
     header.caplen = header.len = size;
     pcap_dump(reinterpret_cast<u_char*>(dump_), &header, packet.data());
     if (std::ferror(pcap_dump_file(dump_)) != 0) error_ = errno;

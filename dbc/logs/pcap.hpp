@@ -1,4 +1,4 @@
-// A packet of a capture of SocketCAN.
+// Packets of SocketCAN captures.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace canhil::logs {
 
-/// The frame of a packet; none: a remote frame. Error: what is wrong with it.
+/// The frame in a packet; none: a remote frame. Error: what is wrong with the packet.
 Result<std::optional<Frame>> frame_of_packet(std::span<const std::uint8_t> packet);
 
 }  // namespace canhil::logs

@@ -30,7 +30,7 @@ std::string_view name_of(Owner owner) {
 
 bool is_relation(Owner owner) { return owner >= Owner::node_message; }
 
-/// The owner whose keyword is next, taken; the network if there is no keyword.
+/// Takes the next keyword and returns its owner; the network if there is no keyword.
 Owner read_owner(Reader& in, bool relation) {
   Owner owner = Owner::network;
   if (in.peek().kind == TokenKind::word) {
@@ -68,7 +68,7 @@ AttributeValue read_label(Reader& in, const AttributeDefinition& definition) {
     label = in.take().text;
     if (std::ranges::find(definition.labels, label) == definition.labels.end()) {
       fail_at(Rule::attribute_label, at,
-              fmt::format("\"{}\" is no value of attribute \"{}\", expected one of {}", label,
+              fmt::format("\"{}\" is not a value of attribute \"{}\", expected one of {}", label,
                           definition.name, joined(definition.labels)));
     }
     return label;
@@ -76,7 +76,7 @@ AttributeValue read_label(Reader& in, const AttributeDefinition& definition) {
   const std::int64_t index = in.integer("a value of the enumeration");
   if (index < 0 || index >= std::ssize(definition.labels)) {
     fail_at(Rule::attribute_label, at,
-            fmt::format("{} is no value of attribute \"{}\", expected 0..{}", index, definition.name,
+            fmt::format("{} is not a value of attribute \"{}\", expected 0..{}", index, definition.name,
                         std::ssize(definition.labels) - 1));
   }
   return definition.labels[static_cast<std::size_t>(index)];
@@ -157,7 +157,7 @@ void read_definition(Reader& in, Draft& draft, bool relation) {
   if (definitions.contains(definition.name)) {
     fail_at(
         Rule::duplicate_definition, at,
-        fmt::format("attribute \"{}\" defined a second time, expected a name of its own", definition.name));
+        fmt::format("attribute \"{}\" is defined a second time, expected a unique name", definition.name));
   }
   read_type(in, draft, definition);
   in.semicolon();
@@ -173,7 +173,7 @@ void read_default(Reader& in, Draft& draft, bool relation) {
     fail_at(Rule::duplicate_default, at,
             fmt::format("default of attribute \"{}\" a second time, expected it once", definition.name));
   }
-  // Tools write "" as the default of an enumeration without one.
+  // Tools write "" for an enumeration without a default.
   const bool none = definition.type == AttributeType::enumeration && in.peek().kind == TokenKind::string &&
                     in.peek().text.empty();
   if (none) {

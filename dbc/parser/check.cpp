@@ -1,5 +1,4 @@
-// What only the whole text can tell: the meaning of attributes, multiplexing, and the layout of every
-// message.
+// Checks that need the whole text: the meaning of attributes, multiplexing, and the layout of every message.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,7 +16,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// find_attribute() for every message and signal, of which there may be tens of thousands as of definitions.
+/// A fast find_attribute(): a DBC may have tens of thousands of messages, signals and definitions.
 class Defaults {
  public:
   explicit Defaults(const Database& database) {
@@ -127,7 +126,7 @@ bool check_numbers(Findings& findings, const Message& message, Signal& signal) {
   const std::string name = full_name(message, signal);
   const auto find = [&](Rule rule, std::string what) { findings.add(rule, signal.at, std::move(what)); };
   const auto drop_limits = [&] { signal.minimum = signal.maximum = 0; };
-  if (signal.length > 512) return false;  // found when it was read
+  if (signal.length > 512) return false;  // reported when it was read
   if (signal.length == 0 || signal.length > 64) {
     find(Rule::signal_length, fmt::format("signal {} has {} bits, expected 1..64", name, signal.length));
     return false;
@@ -173,7 +172,7 @@ void check_values(Findings& findings, const Message& message, const Signal& sign
   }
 }
 
-/// Marks the signal's bits (byte * 8 + bit) and says whether all are inside of the message.
+/// Marks the signal's bits (byte * 8 + bit). True if all of them are inside the message.
 bool bits_of(const Message& message, const Signal& signal, std::bitset<512>& bits) {
   for (unsigned i = 0; i < signal.length; ++i) {
     const unsigned bit = wire::bit_position(signal.start_bit, i, signal.byte_order == ByteOrder::big_endian);
@@ -189,7 +188,7 @@ void check_layout(Findings& findings, const Message& message, LeftOut& left_out)
     const Signal& signal = message.signals[i];
     if (left_out[i]) continue;
     if (!bits_of(message, signal, bits[i])) {
-      // A start bit that no message has was found when it was read.
+      // A start bit beyond 64 bytes was reported when it was read.
       if (signal.start_bit < bits[i].size()) {
         findings.add(
             Rule::signal_beyond_message, signal.at,
@@ -211,7 +210,7 @@ void check_layout(Findings& findings, const Message& message, LeftOut& left_out)
   }
 }
 
-/// Takes the signals out of the message and of its groups.
+/// Removes the signals from the message and from its groups.
 void leave_out(Message& message, const LeftOut& left_out) {
   if (std::ranges::find(left_out, true) == left_out.end()) return;
   std::vector<Signal> kept;
@@ -224,7 +223,7 @@ void leave_out(Message& message, const LeftOut& left_out) {
                   [&](const std::string& name) { return find_signal(message, name) == nullptr; });
 }
 
-/// What no frame can hold, or not this one; sections about it have been read.
+/// Removes messages and signals that no frame can hold, after all sections about them have been read.
 void leave_out_messages(Draft& draft) {
   std::vector<Message> kept;
   for (std::size_t i = 0; i < draft.left_out.size(); ++i) {

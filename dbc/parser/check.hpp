@@ -1,4 +1,4 @@
-// The checks that need all of a message. Internal to the parser.
+// Checks that need a complete message. Internal to the parser.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@
 
 namespace canhil::dbc {
 
-/// Of each signal of a message: whether it is left out.
+/// For each signal of a message: whether it is left out.
 using LeftOut = std::vector<bool>;
 
 /// "Message.signal"
 std::string full_name(const Message& message, const Signal& signal);
 
-/// Gives every multiplexed signal its multiplexor. multiplexing.cpp
+/// Assigns a multiplexor to every multiplexed signal. multiplexing.cpp
 void resolve_multiplexors(Findings& findings, Message& message, LeftOut& left_out);
-/// Types and values of multiplexors, and circles.
+/// Checks types and values of multiplexors, and finds cycles.
 void check_multiplexing(Findings& findings, const Message& message, LeftOut& left_out);
-/// Leaves out what lies under a multiplexor that is left out.
+/// Leaves out the signals of multiplexors that are left out.
 void leave_out_multiplexed(Findings& findings, const Message& message, LeftOut& left_out);
 
 }  // namespace canhil::dbc

@@ -1,5 +1,5 @@
-// The codec for a DBC known only at run time, by names and a value at a time: a thin layer over plan.hpp,
-// which is what to use for more than a few frames.
+// A codec for a DBC known only at run time. It finds signals by name, one value at a time: a thin layer over
+// plan.hpp. For more than a few frames use plan.hpp itself.
 #pragma once
 
 #include <cstdint>
@@ -30,25 +30,26 @@ std::uint64_t to_raw(const Signal& signal, double value);
 /// The name of a raw value (right-aligned bits); empty: it has none.
 std::string_view value_name(const Signal& signal, std::uint64_t raw);
 
-/// True if the frame holds the signal: every multiplexor above it has one of the values it asks for.
+/// True if the frame holds the signal: every multiplexor above it has one of the values that select it.
 bool is_present(const Message& message, const Signal& signal, std::span<const std::uint8_t> data);
 
+/// A signal that a frame holds, and its physical value.
 struct DecodedSignal {
   const Signal* signal = nullptr;
   double value = 0;
 };
 
-/// The signals that a frame holds, in the order of the DBC. Error if the data is not as long as the message.
+/// The signals that a frame holds, in the order of the DBC. Error if data and message differ in length.
 Result<std::vector<DecodedSignal>> decode(const Message& message, std::span<const std::uint8_t> data);
 
+/// A physical value for the signal of that name.
 struct NamedValue {
   std::string_view signal;
   double value = 0;
 };
 
-/// The message's bytes for physical values; signals not named are encoded from 0, bits of no signal are 0,
-/// and multiplexed signals that the multiplexors' values leave out are not written. Error for a name that is
-/// no signal.
+/// Encodes physical values. Signals that are not named get the value 0; unused bits are 0; multiplexed
+/// signals that the multiplexors do not select are not written. Error for an unknown signal name.
 Result<std::vector<std::uint8_t>> encode(const Message& message, std::span<const NamedValue> values);
 
 }  // namespace canhil::dbc

@@ -7,7 +7,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// The condition under which a signal is in a frame: its multiplexor, that one's multiplexor, and so on up.
+/// One condition for a signal's presence in a frame: a multiplexor above it and the values that select it.
 struct Condition {
   std::string_view multiplexor;
   const std::vector<MuxRange>* ranges;
@@ -32,7 +32,7 @@ bool disjoint(const std::vector<MuxRange>& a, const std::vector<MuxRange>& b) {
 
 constexpr double two_63 = 9223372036854775808.0;
 
-/// An integral double as 64 bits of two's complement, held inside what the type can take.
+/// An integral double as 64 bits of two's complement, saturated to the range of the type.
 std::int64_t to_bits(double value, bool is_signed) {
   if (is_signed) {
     if (value >= two_63) return std::numeric_limits<std::int64_t>::max();
@@ -88,7 +88,7 @@ std::optional<RawRange> raw_range(const Signal& signal) {
     double first = (signal.minimum - signal.offset) / signal.scale;
     double last = (signal.maximum - signal.offset) / signal.scale;
     if (signal.scale < 0) std::swap(first, last);
-    // Limits are decimal: 1.31 / 2e-5 may come out just below 65500, and means it.
+    // Limits are decimal: 1.31 / 2e-5 means 65500, but the division may yield slightly less.
     const auto slack = [](double x) { return 1e-9 * std::max(1.0, std::abs(x)); };
     lowest = std::max(lowest, std::ceil(first - slack(first)));
     highest = std::min(highest, std::floor(last + slack(last)));

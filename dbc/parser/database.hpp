@@ -1,5 +1,4 @@
-// A DBC file as values: what the text says, resolved and checked. Filled in by parse(), read by the codec and
-// dbcgen.
+// The content of a DBC file, resolved and checked. parse() fills it in; the codec and dbcgen read it.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,7 @@
 
 namespace canhil::dbc {
 
-/// Where something stands in the text, both counted from 1; columns count characters.
+/// A position in the text. Lines and columns count from 1; columns count characters.
 struct Position {
   int line = 1;
   int column = 1;
@@ -22,7 +21,7 @@ struct Position {
 using AttributeValue = std::variant<std::int64_t, double, std::string>;
 using Attributes = std::map<std::string, AttributeValue, std::less<>>;
 
-/// What an attribute may be attached to; the last three are relations of a node to one of these.
+/// The kinds of objects that have attributes. The last three are relations between a node and another object.
 enum class Owner : std::uint8_t {
   network,
   node,
@@ -34,8 +33,10 @@ enum class Owner : std::uint8_t {
   node_variable
 };
 
+/// The type of an attribute: INT, HEX, FLOAT, STRING, ENUM.
 enum class AttributeType : std::uint8_t { integer, hexadecimal, real, text, enumeration };
 
+/// A definition of an attribute (BA_DEF_), with its default (BA_DEF_DEF_).
 struct AttributeDefinition {
   std::string name;
   Owner owner = Owner::network;
@@ -46,6 +47,7 @@ struct AttributeDefinition {
   std::optional<AttributeValue> initial;
 };
 
+/// The name of one raw value.
 struct ValueName {
   std::int64_t value = 0;
   std::string name;
@@ -58,13 +60,16 @@ struct ValueTable {
   std::vector<ValueName> values;
 };
 
+/// A node of the bus (BU_).
 struct Node {
   std::string name;
   std::string comment;
   Attributes attributes;
 };
 
+/// The order of a signal's bytes: Intel or Motorola.
 enum class ByteOrder : std::uint8_t { little_endian, big_endian };
+/// The type of a raw value.
 enum class RawType : std::uint8_t { unsigned_integer, signed_integer, float32, float64 };
 
 /// Raw values of a multiplexor, both ends included.
@@ -85,13 +90,13 @@ struct Signal {
   RawType type = RawType::unsigned_integer;
   double scale = 1;
   double offset = 0;
-  double minimum = 0;  ///< minimum and maximum both 0: no limits but those of the raw value
+  double minimum = 0;  ///< minimum and maximum both 0: only the limits of the raw value
   double maximum = 0;
   std::vector<std::string> receivers;
   std::vector<ValueName> values;
   bool multiplexor = false;
-  std::string multiplexed_by;        ///< name of the multiplexor; empty: always there
-  std::vector<MuxRange> mux_ranges;  ///< there when the multiplexor's raw value is in one of these
+  std::string multiplexed_by;        ///< name of the multiplexor; empty: always present
+  std::vector<MuxRange> mux_ranges;  ///< present if the multiplexor's raw value is in one of these
   Attributes attributes;
   Position at;
 
@@ -99,22 +104,26 @@ struct Signal {
   double sensor_sigma = 0;
   bool carries_remainder = false;
 
+  /// True for two's complement integers.
   [[nodiscard]] bool is_signed() const { return type == RawType::signed_integer; }
+  /// True for IEEE 754 numbers.
   [[nodiscard]] bool is_float() const { return type == RawType::float32 || type == RawType::float64; }
 };
 
+/// A group of signals of one message (SIG_GROUP_).
 struct SignalGroup {
   std::string name;
   int repetitions = 1;
   std::vector<std::string> signals;
 };
 
+/// A message (BO_) with its signals.
 struct Message {
   std::string name;
   std::uint32_t id = 0;  ///< without the flag of the extended format
   bool extended = false;
   unsigned size = 0;   ///< bytes
-  std::string sender;  ///< empty: Vector__XXX, nobody
+  std::string sender;  ///< empty: none (Vector__XXX)
   std::vector<std::string> further_senders;
   std::string comment;
   std::vector<Signal> signals;
@@ -130,6 +139,7 @@ struct Message {
   std::vector<std::string> answers;  ///< sample groups, separated by spaces in the text
 };
 
+/// An environment variable (EV_).
 struct EnvironmentVariable {
   std::string name;
   std::string unit;
@@ -149,11 +159,12 @@ struct RelationAttribute {
   std::string attribute;
   Owner owner = Owner::node_message;
   std::string node;
-  std::uint32_t message_id = 0;  ///< as in the text, bit 31 set: extended
+  std::uint32_t message_id = 0;  ///< as in the text: bit 31 marks an extended id
   std::string target;            ///< signal or variable
   AttributeValue value;
 };
 
+/// All that a DBC file says.
 struct Database {
   std::string version;
   std::string comment;
@@ -173,27 +184,29 @@ const Message* find_message(const Database& database, std::uint32_t id, bool ext
 const Message* find_message(const Database& database, std::string_view name);
 /// The signal with this name, or none.
 const Signal* find_signal(const Message& message, std::string_view name);
-/// The value of an attribute: the object's own, else the default of its definition, else none.
+/// The value of an attribute: the object's own; otherwise the default; without a default none.
 const AttributeValue* find_attribute(const Database& database, const Attributes& attributes, Owner owner,
                                      std::string_view name);
 
-/// True for what an attribute of a message may give as a time: 0, it gives none, or 1 us to 1e9 ms. A
-/// negative or a vanishing one would pass for none, and a larger one overflow as nanoseconds.
+/// True for a valid time in an attribute of a message: 0 (none), or 1 us to 1e9 ms. Negative or tiny times
+/// would be mistaken for none; larger ones overflow in nanoseconds.
 bool is_message_time_ms(double ms);
+/// The range of is_message_time_ms(), for messages.
 inline constexpr std::string_view message_time_range = "0 (none) or 0.001..1e9";
 
-/// True if no frame can hold both: a multiplexor above both has different values for them.
+/// True if no frame can hold both signals: different values of a multiplexor above both select them.
 bool mutually_exclusive(const Message& message, const Signal& a, const Signal& b);
 
-/// The raw values that a signal may take: as wide as its bits, and inside [minimum, maximum].
-/// Integers: in `lowest` and `highest` as two's complement of 64 bits. Empty if no raw value lies inside.
+/// The raw values that a signal can take: those that fit its bits and lie inside [minimum, maximum].
+/// Integers: `lowest` and `highest` hold 64-bit two's complement. Empty if no raw value lies inside.
 struct RawRange {
   std::int64_t lowest = 0;
   std::int64_t highest = 0;
 };
+/// The range of an integer signal; none: no raw value is inside.
 std::optional<RawRange> raw_range(const Signal& signal);
 
-/// Whether a signal can carry a physical value: within a step of what its bits and its limits allow.
+/// Whether a signal can carry a physical value. Up to one step outside its range is accepted.
 bool holds(const Signal& signal, double value);
 
 /// The same for a float signal: finite, and inside [minimum, maximum].
@@ -201,6 +214,7 @@ struct RealRange {
   double lowest = 0;
   double highest = 0;
 };
+/// The range of a float signal.
 RealRange real_range(const Signal& signal);
 
 }  // namespace canhil::dbc

@@ -1,5 +1,5 @@
-// What is odd about a DBC text: each oddity is a finding of a rule. The table of the rules says what follows
-// from it; docs/dbc.md shows the table.
+// Findings: each oddity in a DBC text violates a rule. The table of rules gives the consequence of each;
+// docs/dbc.md shows the table.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,11 @@
 
 namespace canhil::dbc {
 
-/// note: nothing is lost, and the strict reader takes it too. warning: the strict reader refuses the file,
-/// the lenient one takes it as the rule's consequence says. error: neither takes the file.
+/// note: nothing is lost; the strict reader accepts the file too. warning: the strict reader rejects the
+/// file; the lenient reader accepts it with the rule's consequence. error: both reject the file.
 enum class Severity : std::uint8_t { note, warning, error };
 
+/// The rules; rule_texts() has the text of each.
 enum class Rule : std::uint8_t {
   not_a_dbc,
   unfinished_string,
@@ -83,35 +84,42 @@ enum class Rule : std::uint8_t {
   duplicate_attribute,
 };
 
+/// The text of a rule.
 struct RuleText {
   Rule rule;
   std::string_view id;  ///< for programs and for people: "undeclared-node"
   Severity severity;
   std::string_view finding;      ///< what is odd, for any file
-  std::string_view consequence;  ///< what the lenient reader does then
+  std::string_view consequence;  ///< what the lenient reader does
 };
 
 /// All rules, in the order of the enumeration.
 std::span<const RuleText> rule_texts();
+/// The text of one rule.
 const RuleText& text_of(Rule rule);
+/// The name of a severity: "note", "warning", "error".
 std::string_view name_of(Severity severity);
 
+/// Where a text breaks a rule.
 struct Finding {
   Rule rule;
   Position at;
-  std::string what;  ///< one line: what, and what was expected
+  std::string what;  ///< one line: what was found, and what was expected
 };
 
-/// Where the readers of a text put what they find. After 10,000 findings it throws Abandoned.
+/// Collects the findings about a text. Throws Abandoned after 10,000 of them.
 class Findings {
  public:
   struct Abandoned {};
 
+  /// Adds a finding; throws Abandoned after 10,000.
   void add(Rule rule, Position at, std::string what);
-  /// The same once for each name: a node that is not declared may be named a thousand times.
+  /// Adds a finding only once per name: an undeclared node may occur a thousand times.
   void add_once(Rule rule, Position at, const std::string& name, std::string what);
 
+  /// The findings so far.
   [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
+  /// Moves the findings out.
   [[nodiscard]] std::vector<Finding> take() { return std::move(all_); }
 
  private:

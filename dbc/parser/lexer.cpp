@@ -111,7 +111,7 @@ class Lexer {
     }
     return text;
   }
-  // Backslash escapes a quote or itself; a backslash before anything else is one. Line breaks stay, as \n.
+  // A backslash escapes a quote or itself; before anything else it is kept. Line breaks become \n.
   std::string string(Position start) {
     std::string text;
     take();

@@ -11,7 +11,8 @@
 
 namespace canhil::dbc {
 
-/// Leaves a section of the text from any depth: the reader goes on with the next one. Never seen outside.
+/// Thrown to leave a section from any depth; the reader continues with the next section. Never leaves the
+/// parser.
 struct SectionFailure {
   Position at;
   std::string what;
@@ -30,13 +31,13 @@ struct Token {
   Position at;
 };
 
-/// Tokens of UTF-8 text, the last one of kind end. A character of no use becomes a mark of itself.
+/// Tokens of UTF-8 text, the last one of kind end. An unexpected character becomes a mark token.
 std::vector<Token> tokens_of(std::string_view text, Findings& findings);
 
-/// The text as UTF-8: unchanged if it is, else taken for Windows-1252. A byte order mark is dropped.
+/// The text as UTF-8; text that is not UTF-8 is converted from Windows-1252. A byte order mark is dropped.
 std::string to_utf8(std::string_view text);
 
-/// The first byte that belongs to no UTF-8 character, if there is one.
+/// The first byte that is not part of a valid UTF-8 character, if there is one.
 std::optional<Position> first_not_utf8(std::string_view text);
 
 }  // namespace canhil::dbc

@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned largest_size = 64;
 constexpr unsigned last_bit = 8 * largest_size - 1;
 
-// M: multiplexor; m3: there when it is 3; m3M: both.
+// M: multiplexor; m3: present when the multiplexor is 3; m3M: both.
 void read_mux_indicator(Reader& in, Signal& signal) {
   const std::string expected = "':' or a multiplexing indicator M, m<number> or m<number>M";
   std::string_view text = in.peek().text;
@@ -81,7 +81,7 @@ Signal read_signal(Reader& in, Draft& draft) {
   return signal;
 }
 
-/// Whether a frame can have the id. The pseudo message is left out too.
+/// Whether a frame can have the id. False for the pseudo message too.
 bool check_id(Draft& draft, const Message& message, std::uint32_t written_id) {
   if (message.id == independent_signals_id) {
     draft.findings.add(
@@ -112,7 +112,7 @@ void read_sender(Reader& in, Draft& draft, Message& message) {
   }
 }
 
-/// A signal of the message that was read last. One that cannot be read does not hide the next.
+/// Reads a signal of the current message. After an unreadable signal the next one is still read.
 void read_next_signal(Reader& in, Draft& draft) {
   Signal signal;
   try {
@@ -124,9 +124,9 @@ void read_next_signal(Reader& in, Draft& draft) {
   }
   Message& message = draft.database.messages.back();
   if (!draft.signals.back().emplace(signal.name, message.signals.size()).second) {
-    draft.findings.add(
-        Rule::duplicate_signal, signal.at,
-        fmt::format("signal {}.{} a second time, expected a name of its own", message.name, signal.name));
+    draft.findings.add(Rule::duplicate_signal, signal.at,
+                       fmt::format("signal {}.{} is defined a second time, expected a unique name",
+                                   message.name, signal.name));
   }
   message.signals.push_back(std::move(signal));
 }
@@ -150,11 +150,12 @@ void read_message(Reader& in, Draft& draft) {
   const auto [other, is_new] = draft.messages_by_id.emplace(raw_id, index);
   if (!is_new) {
     draft.findings.add(Rule::duplicate_id, message.at,
-                       fmt::format("message {} has the id {} of {}, expected an id of its own", message.name,
+                       fmt::format("message {} has the id {} of {}, expected a unique id", message.name,
                                    message.id, draft.database.messages[other->second].name));
   } else if (!draft.messages.emplace(message.name, index).second) {
-    draft.findings.add(Rule::duplicate_message, name_at,
-                       fmt::format("message {} a second time, expected a name of its own", message.name));
+    draft.findings.add(
+        Rule::duplicate_message, name_at,
+        fmt::format("message {} is defined a second time, expected a unique name", message.name));
   }
   draft.left_out.push_back(!is_kept || !is_new || message.size > largest_size);
   draft.database.messages.push_back(std::move(message));
@@ -238,7 +239,7 @@ void read_extended_mux(Reader& in, Draft& draft) {
   }
   if (!multiplexor.multiplexor) {
     draft.findings.add(Rule::indicator_missing, mux_at,
-                       fmt::format("signal {}.{} is no multiplexor, expected the indicator M in its SG_",
+                       fmt::format("signal {}.{} is not a multiplexor, expected the indicator M in its SG_",
                                    message.name, multiplexor.name));
     multiplexor.multiplexor = true;
   }
@@ -247,7 +248,7 @@ void read_extended_mux(Reader& in, Draft& draft) {
     const Position range_at = in.peek().at;
     MuxRange range;
     range.first = in.natural("a range first-last", UINT64_MAX);
-    // "3-5" is read as the numbers 3 and -5.
+    // The lexer reads "3-5" as the numbers 3 and -5.
     if (in.peek().kind == TokenKind::number && in.peek().text.starts_with('-')) {
       range.last = in.natural_after_minus("the last value");
     } else {

@@ -1,4 +1,4 @@
-// Which multiplexor decides over which signal, as far as only the whole message can tell.
+// Assigns multiplexors to signals, and checks that need the complete message.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 bool has_multiplexor(const Signal& signal) { return !signal.multiplexed_by.empty(); }
 
-/// Simple multiplexing: by the message's only multiplexor, which the text does not name.
+/// Simple multiplexing: the text does not name the multiplexor; it is the only one of the message.
 bool is_unnamed(const Signal& signal) { return !signal.mux_ranges.empty() && !has_multiplexor(signal); }
 
 void check_type(Findings& findings, const Message& message, const Signal& signal) {
@@ -29,7 +29,7 @@ void check_ranges(Findings& findings, const Message& message, const Signal& sign
     if (range.last <= largest) continue;
     findings.add(
         Rule::multiplexor_value, signal.at,
-        fmt::format("signal {} is there when {} is {}, expected a value of its {} bits: 0..{}",
+        fmt::format("signal {} is present when {} is {}, expected a value of its {} bits: 0..{}",
                     full_name(message, signal), multiplexor.name, range.last, multiplexor.length, largest));
   }
 }
@@ -84,7 +84,7 @@ void check_multiplexing(Findings& findings, const Message& message, LeftOut& lef
     if (!is_in_a_circle(message, signal)) continue;
     findings.add(
         Rule::multiplexing_circle, signal.at,
-        fmt::format("signal {} is multiplexed in a circle, expected a multiplexor that is always there",
+        fmt::format("signal {} is multiplexed in a circle, expected a multiplexor that is always present",
                     full_name(message, signal)));
     left_out[i] = true;
   }

@@ -13,13 +13,13 @@ namespace {
 
 void read_version(Reader& in, Draft& draft) { draft.database.version = in.string("the version"); }
 
-// The new symbols: names, many of them keywords, up to BS_ or BU_. They say nothing about the bus.
+// NS_: a list of names, many of them keywords, up to BS_ or BU_. It does not describe the bus.
 void read_new_symbols(Reader& in, Draft& /*draft*/) {
   in.mark(':');
   while (in.peek().kind == TokenKind::word && !in.at_word("BS_") && !in.at_word("BU_")) in.take();
 }
 
-// Bit timing: obsolete, mostly empty.
+// BS_: bit timing, obsolete, mostly empty.
 void read_bit_timing(Reader& in, Draft& /*draft*/) {
   in.mark(':');
   if (in.peek().kind != TokenKind::number) return;
@@ -75,13 +75,13 @@ constexpr std::array<Section, 20> sections{{
     {"BA_REL_", read_relation_attribute},
 }};
 
-/// Leaves the rest of a section out, of which one token at least has been taken.
+/// Skips the rest of a section. At least one of its tokens has been taken.
 void skip_section(Reader& in) {
   while (!in.at_section_end()) in.take();
   in.take_mark_if(';');
 }
 
-/// The section that begins with the next token. False if none begins there.
+/// Reads the section that begins with the next token. False if none begins there.
 bool read_section(Reader& in, Draft& draft) {
   const Token first = in.peek();
   const auto section = std::ranges::find(sections, first.text, &Section::keyword);
@@ -104,7 +104,7 @@ bool read_section(Reader& in, Draft& draft) {
   return true;
 }
 
-/// False: there is text, and no section of a DBC in it.
+/// False: the text is not empty but contains no section of a DBC.
 bool read_sections(Reader& in, Draft& draft) {
   bool any = in.peek().kind == TokenKind::end;
   while (in.peek().kind != TokenKind::end) any = read_section(in, draft) || any;
@@ -117,7 +117,7 @@ std::string line_of(const Finding& finding, std::string_view file_name) {
   return fmt::format("{}:{}:{}: {}", file_name, finding.at.line, finding.at.column, finding.what);
 }
 
-/// The database unless a finding is as severe as this.
+/// The database, unless a finding is at least as severe as `refused`.
 Result<Database> database_unless(Inspection inspection, Severity refused, std::string_view file_name) {
   const auto worst = std::ranges::find_if(
       inspection.findings, [refused](const Finding& finding) { return severity_of(finding) >= refused; });
@@ -140,10 +140,10 @@ Inspection inspect(std::string_view text) {
     if (const auto at = first_not_utf8(text))
       findings.add(Rule::windows_1252, *at, "the text is not UTF-8, expected UTF-8");
     Reader in(tokens_of(to_utf8(text), findings), findings);
-    if (!read_sections(in, draft))  // what else is odd about the text says nothing
+    if (!read_sections(in, draft))  // other findings about such a text would not help
       return {{}, {{Rule::not_a_dbc, {}, "no section of a DBC file, expected one such as BO_"}}};
     finish(draft);
-  } catch (const Findings::Abandoned&) {  // its error is the last finding
+  } catch (const Findings::Abandoned&) {  // the last finding is the error
   }
   Inspection inspection{std::nullopt, findings.take()};
   if (std::ranges::count(inspection.findings, Severity::error, severity_of) == 0) {
@@ -154,7 +154,7 @@ Inspection inspect(std::string_view text) {
 }
 
 Result<Inspection> inspect_file(const std::string& path) {
-  // A token takes up to some twenty times the memory of its text.
+  // A token takes up to about twenty times the memory of its text.
   const auto text = read_text_file(path, "a DBC file", 16 * mebibyte);
   if (!text) return tl::unexpected(text.error());
   return inspect(*text);

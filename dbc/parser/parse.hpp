@@ -1,5 +1,6 @@
-// Reads a DBC file. One reader reports all that is odd about a text as findings (finding.hpp); the strict
-// functions, for the contract that code is generated from, take no warning, the lenient ones no error.
+// Reads a DBC file. One reader reports all oddities of a text as findings (finding.hpp). The strict
+// functions, for the contract from which code is generated, reject a file with warnings or errors; the
+// lenient ones reject only errors.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +15,13 @@
 
 namespace canhil::dbc {
 
+/// The result of inspect().
 struct Inspection {
-  std::optional<Database> database;  ///< none: there is an error among the findings
+  std::optional<Database> database;  ///< none: one of the findings is an error
   std::vector<Finding> findings;     ///< in the order in which they were found
 };
 
-/// All that a DBC text says and all that is odd about it.
+/// The database of a DBC text, and all findings about it.
 Inspection inspect(std::string_view text);
 
 /// inspect() of a file's content. Error if the file cannot be read, or is larger than 16 MiB.
@@ -32,18 +34,19 @@ Result<Database> usable(Inspection inspection, std::string_view file_name);
 /// Error: one line `file_name:line:column: what, expected ...`.
 Result<Database> parse(std::string_view text, std::string_view file_name);
 
-/// Lenient, usable(inspect(text), file_name): the same for DBC files of others. What is odd and harmless is
-/// taken as the rules say.
+/// Lenient, for DBC files from elsewhere: usable(inspect(text), file_name). Harmless oddities have the
+/// consequences that the rules give.
 Result<Database> parse_leniently(std::string_view text, std::string_view file_name);
 
 /// parse() of a file's content. Error also if the file cannot be read, or is larger than 16 MiB.
 Result<Database> read_file(const std::string& path);
+/// parse_leniently() of a file's content; errors like read_file().
 Result<Database> read_file_leniently(const std::string& path);
 
-/// FNV-1a, 64 bits, of the text without carriage returns: one contract, whatever the checkout's line ends.
+/// FNV-1a, 64 bits, of the text without carriage returns, so that a checkout's line ends do not change it.
 std::uint64_t hash(std::string_view text);
 
-/// A 64-bit hash folded into 24 bits by exclusive or of its pieces, for the frames that exchange it.
+/// Folds a 64-bit hash into 24 bits by exclusive or of its parts, for the frames that carry it.
 constexpr std::uint32_t fold24(std::uint64_t hash) {
   return static_cast<std::uint32_t>((hash ^ (hash >> 24U) ^ (hash >> 48U)) & 0xFF'FFFFU);
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr unsigned window = 8;  // bytes
 
-/// Data of at least a window: shorter data is copied, and zeros follow it.
+/// Data of at least one window's size: shorter data is copied and padded with zeros.
 class Window {
  public:
   explicit Window(std::span<const std::uint8_t> data) : data_(data.data()) {
@@ -46,8 +46,8 @@ void store(std::uint8_t* data, std::uint64_t word, bool big_endian) {
 
 BitPlacement::BitPlacement(const Signal& signal, std::size_t size)
     : mask(wire::mask(signal.length)), big_endian(signal.byte_order == ByteOrder::big_endian) {
-  // Bits in the order in which they follow one another; in a byte Intel counts from its least significant
-  // one, Motorola from its most significant one.
+  // The sequential number of the signal's first bit: within a byte Intel counts from the least significant
+  // bit, Motorola from the most significant one.
   const unsigned first = big_endian ? signal.start_bit / 8 * 8 + 7 - signal.start_bit % 8 : signal.start_bit;
   const auto last_window = static_cast<unsigned>(std::max<std::size_t>(size, window)) - window;
   first_byte = static_cast<std::uint8_t>(std::min(first / 8, last_window));
@@ -106,7 +106,7 @@ double Conversion::physical(std::uint64_t raw) const {
       number = wire::real<double>(raw);
       break;
   }
-  // Plain values are not computed with: a signalling NaN keeps its bits.
+  // Plain values are passed on without arithmetic: a signalling NaN keeps its bits.
   return is_plain ? number : wire::physical(number, scale, offset);
 }
 
@@ -143,7 +143,7 @@ std::uint64_t quantised(const Conversion& conversion, const RawLimits& limits, d
 }
 
 MessagePlan::MessagePlan(const Message& message) : size_(message.size) {
-  std::map<std::string_view, std::uint32_t> numbers;  // of two signals of the same name, the first
+  std::map<std::string_view, std::uint32_t> numbers;  // keeps the first of two signals with the same name
   for (const Signal& signal : message.signals) {
     const auto number = static_cast<std::uint32_t>(steps_.size());
     numbers.emplace(signal.name, number);

@@ -1,6 +1,6 @@
-// A message compiled for the codec at run time: where the bits of each signal lie, how they become a number,
-// and when a frame holds it. Made once when a DBC is read; using it allocates nothing. Bit for bit what
-// generated code does: the arithmetic is dbc/wire/quantise.hpp.
+// A message compiled for the run-time codec: for each signal its bits, its conversion to a number, and the
+// condition for its presence. Built once when a DBC is read; using it allocates nothing. Results equal those
+// of generated code bit for bit: both use dbc/wire/quantise.hpp.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace canhil::dbc {
 
-/// Where a signal lies in the data, as a window of eight bytes, shifted and masked. A signal of 58 bits or
-/// more may reach into a ninth byte.
+/// The position of a signal: a window of eight bytes with shift and mask. A signal of 58 bits or more may
+/// reach into a ninth byte.
 struct BitPlacement {
   std::uint64_t mask = 0;
   std::uint8_t first_byte = 0;  ///< of the window
@@ -22,17 +22,18 @@ struct BitPlacement {
   bool big_endian = false;
 
   BitPlacement() = default;
-  /// For data of at least `size` bytes, of which all bits of the signal are a part.
+  /// For data of at least `size` bytes that contain all bits of the signal.
   BitPlacement(const Signal& signal, std::size_t size);
 
-  /// The signal's bits, right-aligned. The data has eight bytes at least.
+  /// The signal's bits, right-aligned. The data has at least eight bytes.
   [[nodiscard]] std::uint64_t raw(const std::uint8_t* data) const;
-  /// Writes them; leaves other bits alone.
+  /// Writes the signal's bits; does not change other bits.
   void put(std::uint64_t raw, std::uint8_t* data) const;
 };
 
 /// How raw bits become a physical value: raw * scale + offset.
 struct Conversion {
+  /// How the raw bits are read; wide_unsigned: 64 bits without a sign.
   enum class Kind : std::uint8_t { integer, wide_unsigned, float32, float64 };
 
   double scale = 1;
@@ -43,8 +44,10 @@ struct Conversion {
   bool is_plain = true;  ///< scale 1, offset 0
 
   Conversion() = default;
+  /// The conversion of a signal.
   explicit Conversion(const Signal& signal);
 
+  /// Raw bits as a signed integer.
   [[nodiscard]] std::int64_t sign_extended(std::uint64_t raw) const {
     return static_cast<std::int64_t>((raw ^ sign_bit) - sign_bit);
   }
@@ -52,12 +55,13 @@ struct Conversion {
   [[nodiscard]] double physical(std::uint64_t raw) const;
 };
 
-/// What the raw number may be, before it is rounded.
+/// The limits of the raw number before rounding.
 struct RawLimits {
   double lowest = 0;
   double highest = 0;
 
   RawLimits() = default;
+  /// The limits of a signal: its bits, and [minimum, maximum].
   explicit RawLimits(const Signal& signal);
 };
 
@@ -65,27 +69,28 @@ struct RawLimits {
 /// the minimum.
 std::uint64_t quantised(const Conversion& conversion, const RawLimits& limits, double value);
 
+/// A message compiled for decoding and encoding at run time.
 class MessagePlan {
  public:
-  /// Of a message as the parser gives it.
+  /// For a message from the parser.
   explicit MessagePlan(const Message& message);
 
   /// Bytes of the message.
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// How many signals the message has; they are numbered as in Message::signals.
+  /// The number of signals; they are numbered as in Message::signals.
   [[nodiscard]] std::size_t signals() const { return steps_.size(); }
 
-  /// The physical value of every signal that the frame holds, NaN for the others. False, and nothing is
-  /// written, if the data is shorter than the message or there is not a value for each signal.
+  /// Writes the physical value of every signal in the frame, NaN for absent signals. Returns false and writes
+  /// nothing if the data is shorter than the message or `values` is not one value per signal.
   [[nodiscard]] bool decode(std::span<const std::uint8_t> data, std::span<double> values) const;
 
-  /// The message's bytes for physical values. Bits of no signal are 0, and signals that the multiplexors'
-  /// values leave out are not written; where signals overlap, the later one counts. Bytes beyond the message
-  /// stay. False, and nothing is written, as for decode().
+  /// Encodes physical values. Unused bits are 0; signals that the multiplexors do not select are not written;
+  /// where signals overlap, the later one wins. Bytes beyond the message do not change. Returns false and
+  /// writes nothing in the same cases as decode().
   [[nodiscard]] bool encode(std::span<const double> values, std::span<std::uint8_t> data) const;
 
-  /// Whether the frame holds a signal: every multiplexor above it has one of the values that it asks for. The
-  /// data is as long as the message.
+  /// Whether the frame holds a signal: every multiplexor above it has one of the values that select it. The
+  /// data has the length of the message.
   [[nodiscard]] bool is_present(std::size_t signal, std::span<const std::uint8_t> data) const;
 
  private:
@@ -94,7 +99,7 @@ class MessagePlan {
   struct Step {
     BitPlacement bits;
     Conversion conversion;
-    std::uint32_t multiplexor = always;  ///< its number
+    std::uint32_t multiplexor = always;  ///< number of its signal
     std::uint32_t first_range = 0, end_range = 0;
   };
 
@@ -105,7 +110,7 @@ class MessagePlan {
   std::vector<Step> steps_;
   std::vector<RawLimits> limits_;
   std::vector<MuxRange> ranges_;      ///< of all signals
-  std::vector<std::uint32_t> order_;  ///< of encoding: multiplexors before what they decide
+  std::vector<std::uint32_t> order_;  ///< of encoding: multiplexors before the signals that they select
 };
 
 }  // namespace canhil::dbc

@@ -70,7 +70,7 @@ bool Reader::at_section() const {
          (index_ == 0 || tokens_[index_ - 1].at.line != token.at.line);
 }
 
-// "2017_5" is read as the number 2017 and the word _5.
+// The lexer reads "2017_5" as the number 2017 and the word _5.
 bool Reader::at_name_with_digit() const {
   const Token& digits = peek();
   const Token& rest = peek(1);

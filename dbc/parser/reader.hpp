@@ -1,4 +1,4 @@
-// Walks over the tokens of a DBC text and holds what is read so far. Internal to the parser.
+// Reads the tokens of a DBC text into a draft of the database. Internal to the parser.
 #pragma once
 
 #include <algorithm>
@@ -23,9 +23,9 @@ class Reader {
     return tokens_[std::min(index_ + ahead, tokens_.size() - 1)];
   }
   const Token& take() { return tokens_[index_ + 1 < tokens_.size() ? index_++ : index_]; }
-  /// The token to come is the first on its line, and a word that a section may begin with.
+  /// The next token is the first on its line and a keyword that can begin a section.
   [[nodiscard]] bool at_section() const;
-  /// At ';', or where there can be none any more.
+  /// At ';', or where the section ends without one.
   [[nodiscard]] bool at_section_end() const {
     return at_mark(';') || at_section() || peek().kind == TokenKind::end;
   }
@@ -35,7 +35,7 @@ class Reader {
   [[nodiscard]] bool at_word(std::string_view word) const {
     return peek().kind == TokenKind::word && peek().text == word;
   }
-  /// At what word() takes.
+  /// At a token that word() accepts.
   [[nodiscard]] bool at_name() const {
     return at_name_with_digit() || (peek().kind == TokenKind::word && !is_keyword(peek().text));
   }
@@ -43,23 +43,23 @@ class Reader {
 
   void mark(char mark);
   void semicolon();                         ///< the end of a section
-  std::string word(std::string_view what);  ///< any name that is no keyword
+  std::string word(std::string_view what);  ///< any name except keywords
   std::string string(std::string_view what);
   double real(std::string_view what);
   std::int64_t integer(std::string_view what);
   std::uint64_t natural(std::string_view what, std::uint64_t maximum);
-  /// The same, but what is larger is a finding, and maximum + 1.
+  /// Like natural(), but a number above the maximum becomes a finding and returns maximum + 1.
   std::uint64_t natural_or(Rule rule, std::string_view what, std::uint64_t maximum);
-  /// An integer; another number is a finding, and rounded.
+  /// An integer; another number becomes a finding and is rounded.
   std::int64_t whole(std::string_view what);
-  /// A real number; one too large for a double is a finding, and the largest double.
+  /// A real number; one too large for a double becomes a finding and returns the largest double.
   double limit(std::string_view what);
   /// A natural number with a '-' in front of it: the end of a range.
   std::uint64_t natural_after_minus(std::string_view what);
 
-  /// At the token to come.
+  /// Reports the next token as unexpected and leaves the section.
   [[noreturn]] void fail(const std::string& expected) const;
-  /// The same without leaving the section.
+  /// Reports the next token as unexpected and stays in the section.
   void report(Rule rule, const std::string& expected);
 
  private:
@@ -70,13 +70,14 @@ class Reader {
   std::size_t index_ = 0;
 };
 
-/// The DBC's word for no node.
+/// The DBC's placeholder for a missing node.
 inline constexpr std::string_view nobody = "Vector__XXX";
 
-/// Where the object of each name stands in its list: a list may have tens of thousands.
+/// Name -> index in a list. Lists may have tens of thousands of entries.
 using Index = std::map<std::string, std::size_t, std::less<>>;
 
-/// A Database in the making. What is left out stays until finish() drops it, as sections may be about it.
+/// A Database under construction. Left-out objects stay until finish() removes them, as later sections may
+/// refer to them.
 struct Draft {
   explicit Draft(Findings& all) : findings(all) {}
 
@@ -90,26 +91,26 @@ struct Draft {
   std::map<std::string, Position, std::less<>> mux_extended;  ///< "id signal" given by SG_MUL_VAL_
 };
 
-/// Identifier of the pseudo message VECTOR__INDEPENDENT_SIG_MSG, whose signals are in no frame.
+/// Id of the pseudo message VECTOR__INDEPENDENT_SIG_MSG, whose signals no frame carries.
 inline constexpr std::uint32_t independent_signals_id = 0xC000'0000;
 inline constexpr std::uint32_t extended_flag = 0x8000'0000;
 inline constexpr std::uint32_t last_standard_id = 0x7FF;
 inline constexpr std::uint32_t last_extended_id = 0x1FFF'FFFF;
 
-/// An id as the text should have it: with the flag where only an extended id is so large.
+/// An id as it should be in the text: with the flag if only an extended id can be that large.
 constexpr std::uint64_t text_id(std::uint64_t id) {
   return id > last_standard_id && id <= last_extended_id ? id | extended_flag : id;
 }
 
-/// These leave the section where there is no such thing.
+/// Both leave the section if the object does not exist.
 Message& message_of(Draft& draft, std::uint64_t raw_id, Position at);
 Signal& signal_of(Draft& draft, Message& message, std::string_view name, Position at);
 Node& node_of(Draft& draft, std::string_view name, Position at);
-/// A finding where BU_ does not list the node.
+/// Adds a finding if BU_ does not list the node.
 void check_node(Draft& draft, const std::string& name, Position at);
 EnvironmentVariable& variable_of(Draft& draft, std::string_view name, Position at);
 
-/// One section each; the keyword has been taken.
+/// Each function reads one section, after its keyword.
 void read_message(Reader& in, Draft& draft);                    // messages.cpp: BO_ and its SG_
 void read_transmitters(Reader& in, Draft& draft);               // BO_TX_BU_
 void read_signal_group(Reader& in, Draft& draft);               // SIG_GROUP_
@@ -125,7 +126,7 @@ void read_default(Reader& in, Draft& draft, bool relation);     // BA_DEF_DEF_, 
 void read_attribute(Reader& in, Draft& draft);                  // BA_
 void read_relation_attribute(Reader& in, Draft& draft);         // BA_REL_
 
-/// Fills in what attributes say of messages and signals, then checks everything that needs the whole.
+/// Copies attribute values into messages and signals, then runs the checks that need the whole text.
 /// check.cpp
 void finish(Draft& draft);
 

@@ -1,4 +1,4 @@
-// What the kernel says beside a received frame.
+// The kernel's time stamps of a received frame.
 #pragma once
 
 #include <sys/socket.h>
@@ -8,7 +8,7 @@
 namespace canhil {
 
 struct Ancillary {
-  std::int64_t software_ns = 0;  ///< CLOCK_REALTIME as the driver handed the frame over; 0: none
+  std::int64_t software_ns = 0;  ///< CLOCK_REALTIME when the driver handed the frame over; 0: none
   std::int64_t hardware_ns = 0;  ///< the controller's own clock; 0: none
 };
 

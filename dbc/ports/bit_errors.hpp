@@ -9,15 +9,17 @@
 
 namespace canhil {
 
-/// Disturbs every bit on the wire with the same probability p, each by itself: a frame of n bits is hit with
-/// 1 - (1 - p)^n, and what counts is its first disturbed bit. All nodes see it: the sender that it did not
-/// read what it sent, the receivers by the sender's error flag, so two flags follow one another. Same seed,
-/// same errors, on every machine: by number of the attempt.
+/// Disturbs every bit on the wire independently with probability p: an error hits a frame of n bits with
+/// probability 1 - (1 - p)^n, at the first disturbed bit. All nodes notice it: the sender reads another bit
+/// than it sent, the receivers see the sender's error flag, so two flags follow one another. Errors depend
+/// only on the seed and the number of the attempt, on every machine.
 class BitErrors {
  public:
+  /// `rate`: probability of an error per bit; `rates`: of the wire.
   BitErrors(double rate, const wire::BitRates& rates, std::uint64_t seed)
       : rate_(rate), rates_(rates), engine_(seed) {}
 
+  /// The error that hits this attempt, if any.
   std::optional<WireError> operator()(const Attempt& attempt);
 
  private:

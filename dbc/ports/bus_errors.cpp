@@ -10,19 +10,19 @@
 namespace canhil {
 namespace {
 
-// CAN_ERR_CNT is of Linux 6.0. Kernels before put the counters into frames of the class "controller" without
-// saying so.
+// Linux 6.0 introduced CAN_ERR_CNT. Earlier kernels put the counters into frames of the class "controller"
+// without a flag.
 void take_counters(BusErrors& errors, const Frame& frame) {
-  const bool told = (frame.id & CAN_ERR_CNT) != 0;
+  const bool flagged = (frame.id & CAN_ERR_CNT) != 0;
   const bool old = (frame.id & CAN_ERR_CRTL) != 0 && (frame.data[6] != 0 || frame.data[7] != 0);
-  if (frame.size < CAN_ERR_DLC || (!told && !old)) return;
+  if (frame.size < CAN_ERR_DLC || (!flagged && !old)) return;
   errors.tx_counter = frame.data[6];
   errors.rx_counter = frame.data[7];
   errors.tx_counter_max = std::max(errors.tx_counter_max, frame.data[6]);
   errors.rx_counter_max = std::max(errors.rx_counter_max, frame.data[7]);
 }
 
-// One of the two counters led to the state, or both: as can_change_state() of the kernel.
+// Sets the bits of the counters that led to the state, like can_change_state() of the kernel.
 std::uint8_t controller_bits(const ControllerNews& news, unsigned transmit, unsigned receive) {
   return static_cast<std::uint8_t>((news.tx_counter >= news.rx_counter ? transmit : 0U) |
                                    (news.rx_counter >= news.tx_counter ? receive : 0U));
@@ -71,7 +71,7 @@ std::optional<BusEvent> add(BusErrors& errors, const Frame& frame) {
   count(controller(CAN_ERR_CRTL_RX_OVERFLOW), errors.rx_overflow);
   count(controller(CAN_ERR_CRTL_TX_OVERFLOW), errors.tx_overflow);
   take_counters(errors, frame);
-  // In the order of gravity: the last one stands.
+  // In ascending order of severity: the last change wins.
   change(controller(CAN_ERR_CRTL_ACTIVE), errors.active, BusEvent::error_active);
   change(controller(CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING), errors.warning,
          BusEvent::error_warning);
@@ -112,7 +112,7 @@ Frame error_frame(const ControllerNews& news) {
     frame.id |= CAN_ERR_RESTARTED;
   } else if (news.event == BusEvent::bus_off) {
     frame.id |= CAN_ERR_BUSOFF;
-    return frame;  // the counters of a controller that is off say nothing
+    return frame;  // the counters of a bus-off controller have no meaning
   }
   frame.id |= CAN_ERR_CNT;
   frame.data[6] = static_cast<std::uint8_t>(std::min(news.tx_counter, 255));
@@ -120,7 +120,7 @@ Frame error_frame(const ControllerNews& news) {
   return frame;
 }
 
-std::string words(const BusErrors& errors) {
+std::string to_text(const BusErrors& errors) {
   const std::array<std::pair<std::string_view, std::uint64_t>, 13> said{
       {{"bus off", errors.bus_off},
        {"restarted", errors.restarted},
@@ -139,7 +139,7 @@ std::string words(const BusErrors& errors) {
   for (const auto& [what, count] : said) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", what, count);
   }
-  if (text.empty() && errors.frames > 0) text = "of no known class";
+  if (text.empty() && errors.frames > 0) text = "of an unknown class";
   if (errors.tx_counter_max > 0 || errors.rx_counter_max > 0)
     text +=
         fmt::format("; error counters at most tx {}, rx {}", errors.tx_counter_max, errors.rx_counter_max);

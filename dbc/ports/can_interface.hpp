@@ -1,4 +1,4 @@
-// What the kernel says of a CAN interface.
+// Queries the kernel about a CAN interface.
 #pragma once
 
 #include <optional>
@@ -7,11 +7,11 @@
 
 namespace canhil {
 
-/// Its index; 0: there is none of this name.
+/// The interface's index; 0: no interface has this name.
 int interface_index(const std::string& interface);
 
-/// Nothing, or one line why this interface cannot be used: not there, no CAN, down, classic where FD is asked
-/// for. Asks by way of any socket.
+/// One line that says why the interface cannot be used (missing, not CAN, down, or classic although FD is
+/// needed); none: it can. `socket` may be any socket.
 std::optional<std::string> objection(int socket, std::string_view interface, bool fd);
 
 }  // namespace canhil

@@ -44,7 +44,7 @@ class FdGroups final : public Port {
       if (const SendOutcome outcome = inner_->send(*due); outcome != SendOutcome::sent) return outcome;
       packer_.clear();
     }
-    FdPacker packer = packer_;  // takes the frame only if the bus takes what goes with it
+    FdPacker packer = packer_;  // a copy, kept only if the bus accepts the frames that it packs
     if (const auto full = packer.put(frame)) {
       if (const SendOutcome outcome = inner_->send(*full); outcome != SendOutcome::sent) return outcome;
     }
@@ -73,7 +73,7 @@ class FdGroups final : public Port {
   [[nodiscard]] RoomWait room_wait() const override { return inner_->room_wait(); }
   [[nodiscard]] bool closed() const override { return inner_->closed(); }
   [[nodiscard]] bool up() const override { return inner_->up(); }
-  /// Of the frames on the wire.
+  /// Counts frames on the wire.
   [[nodiscard]] PortCounters counters() const override {
     PortCounters counters = inner_->counters();
     counters.foreign += foreign_;
@@ -91,7 +91,7 @@ class FdGroups final : public Port {
   std::unique_ptr<Port> inner_;
   FdPacker packer_;
   FdUnpacked unpacked_;
-  std::size_t next_ = 0;  // the first of unpacked_ that was not received yet
+  std::size_t next_ = 0;  // the first of unpacked_ that has not been received
   Received envelope_;
   std::uint64_t foreign_ = 0;
 };
@@ -171,7 +171,7 @@ Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions opt
   if (joined || !is_local(bus)) return joined;
   options.fd = format != BusFormat::classic;
   auto hosted = host_local_bus(bus, options, std::move(rules));
-  // Where somebody hosts it after all, why it could not be joined says more.
+  // If another process hosts the bus by now, the reason for the failed join is more helpful.
   if (!hosted && joined.error().message.starts_with(nobody_hosts)) return tl::unexpected(hosted.error());
   if (!hosted) return joined;
   return format == BusFormat::fd ? in_fd_groups(std::move(*hosted)) : std::move(*hosted);

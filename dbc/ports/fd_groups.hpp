@@ -1,9 +1,9 @@
-// The FD contract on a bus: classic frames to its nodes, containers on the wire.
+// The FD contract on a bus: nodes exchange classic frames, the wire carries containers.
 //
-// A container (dbc/codegen/fd.hpp) is an envelope: what is packed into it comes out again in the same order,
-// with the same bytes, so codecs, sample groups and E2E know nothing of it. A slot of zeros is a message that
-// is not there; no message of the contract looks like that, so nothing is ever made up: a lost frame stays
-// lost, and its receiver sees it by the E2E counter as on a classic bus.
+// A container (dbc/codegen/fd.hpp) is an envelope: unpacking restores the packed frames in order, byte for
+// byte, so codecs, sample groups and E2E do not depend on it. An all-zero slot means an absent message; no
+// valid message is all zeros. A lost frame therefore stays lost, and its receiver detects the loss by the E2E
+// counter as on a classic bus.
 #pragma once
 
 #include <array>
@@ -19,31 +19,32 @@
 
 namespace canhil {
 
-/// What a bus carries: one of the project's two contracts, or the CAN FD frames of another one, as they are.
+/// What a bus carries: one of the project's two contracts, or unmodified CAN FD frames of another contract.
 enum class BusFormat : std::uint8_t { classic, fd, fd_frames };
 
+/// The name of the contract, as for `--dbc`.
 constexpr std::string_view name_of(BusFormat format) {
   return format == BusFormat::fd ? "canhil-fd" : "canhil";
 }
 /// "CAN FD (canhil-fd)".
-constexpr std::string_view words(BusFormat format) {
+constexpr std::string_view to_text(BusFormat format) {
   return format == BusFormat::fd          ? "CAN FD frames (canhil-fd)"
          : format == BusFormat::fd_frames ? "CAN FD frames"
                                           : "classic frames (canhil)";
 }
 
-/// Collects the frames of a group for their container. At most one container is begun at a time, so frames
-/// keep their order on the bus: one that does not continue it sends it off first, as it is.
+/// Collects the frames of a group into their container. At most one container is open at a time, so frames
+/// keep their order on the bus: a frame that does not continue the open container sends it first, incomplete.
 class FdPacker {
  public:
   /// The container that must go on the bus before this frame, or none.
   [[nodiscard]] std::optional<Frame> due_before(const Frame& frame) const;
-  /// Forgets the container begun.
+  /// Discards the open container.
   void clear() { container_ = none; }
-  /// Takes a frame that nothing is due before; gives what goes on the bus with it: the container that it
-  /// completes, itself as an FD frame if it belongs to none, or nothing yet.
+  /// Takes a frame for which due_before() is none. Returns what to send: the container that it completes, the
+  /// frame itself as an FD frame if it belongs to no container, or nothing yet.
   std::optional<Frame> put(const Frame& frame);
-  /// All of it: gives what goes on the bus before the frame, and with it, to `out`.
+  /// Passes everything that must be sent before and with the frame to `out`.
   template <class Out>
   void pack(const Frame& frame, const Out& out) {
     if (const auto due = due_before(frame)) {
@@ -61,11 +62,13 @@ class FdPacker {
   std::array<std::uint8_t, Frame::max_size> data_{};
 };
 
-/// What a frame of an FD bus holds: the messages of a container, or itself as a classic frame.
+/// The content of a frame of an FD bus: the messages of a container, or the frame itself as a classic one.
 class FdUnpacked {
  public:
   FdUnpacked() = default;
+  /// Unpacks a frame of an FD bus.
   explicit FdUnpacked(const Frame& frame);
+  /// The frames, in the order in which they were packed.
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), count_}; }
 
  private:
@@ -73,17 +76,18 @@ class FdUnpacked {
   std::size_t count_ = 0;
 };
 
-/// A node of an FD bus: packs what is sent, unpacks what comes, own echoes too, with the stamp of their
-/// container. A frame that waits for others of its group counts as sent; should they never come it goes with
-/// the next frame of another kind, which on this bus is the next Sync or heartbeat. Classic frames of others
-/// are marked foreign and counted. `inner` must have been opened with fd; only_ids, if any, are ids of the
-/// wire.
+/// A node of an FD bus: packs sent frames and unpacks received ones, own echoes included; each unpacked frame
+/// has the stamp of its container. A frame that waits for others of its group counts as sent. If they do not
+/// follow, the next frame outside the group, at the latest a Sync or heartbeat, sends the container
+/// incomplete. Received classic frames are marked foreign and counted. `inner` must have been opened with fd;
+/// its only_ids, if any, are ids on the wire.
 std::unique_ptr<Port> in_fd_groups(std::unique_ptr<Port> inner);
 
-/// A log as classic frames, whichever contract's bus was recorded: `hil-bench run --log` writes classic
-/// frames in both, candump on an FD bus the containers.
+/// Reads a log of either contract as classic frames: `hil-bench run --log` records classic frames on both
+/// kinds of bus, candump on an FD bus records containers.
 class ClassicLogReader {
  public:
+  /// Takes over an open log.
   explicit ClassicLogReader(LogReader reader) : reader_(std::move(reader)) {}
   /// As LogReader::next().
   Result<std::optional<LogEntry>> next();
@@ -91,19 +95,19 @@ class ClassicLogReader {
  private:
   LogReader reader_;
   FdUnpacked unpacked_;
-  std::size_t next_ = 0;  // the first of unpacked_ that was not given yet
+  std::size_t next_ = 0;  // the first of unpacked_ that has not been returned
   LogEntry envelope_;
 };
 
 /// open_port() for a contract.
 Result<std::unique_ptr<Port>> open_bus(std::string_view bus, PortOptions options, BusFormat format);
 
-/// open_bus(); an embedded bus that nobody hosts is hosted here, by these rules.
+/// open_bus(); hosts an embedded bus, with these rules, if no process hosts it.
 Result<std::unique_ptr<Port>> join_or_host(std::string_view bus, PortOptions options, BusFormat format,
                                            HubRules rules = {});
 
-/// The contract that `--dbc` names: canhil, canhil-fd, or a file that holds the text of one of the two as
-/// this program was built with. Error: one line.
+/// The contract that `--dbc` names: canhil, canhil-fd, or a file with the text of one of these two, identical
+/// to the text that this program was built from. Error: one line.
 Result<BusFormat> named_contract(const std::string& name_or_file);
 
 }  // namespace canhil

@@ -9,7 +9,7 @@ namespace canhil::local {
 HubWire::HubWire(const WireSettings& settings)
     : settings_(settings),
       frame_ns_(wire::duration_ns(wire::worst_case_length(8, false), settings.rates)),
-      wire_(settings.rates, {{.order = settings.order, .told = true}, {}}, disturbance(settings)) {}
+      wire_(settings.rates, {{.order = settings.order, .reports_errors = true}, {}}, disturbance(settings)) {}
 
 bool HubWire::has_room(std::size_t node) const {
   return wire_.waiting(node) < WireNode{}.depth && wire_.state(node) != NodeState::bus_off;

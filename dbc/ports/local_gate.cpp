@@ -11,16 +11,16 @@
 namespace canhil::local {
 namespace {
 
-constexpr int most_told = 20;
+constexpr int most_reports = 20;
 
-// A node costs one descriptor; what else the process opens must not fail for the nodes' sake.
+// Each node needs one file descriptor; nodes must not exhaust those of the process.
 std::size_t most_nodes(std::size_t wanted) {
   rlimit files{};
   if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return wanted;
   return std::min<std::size_t>(wanted, files.rlim_cur / 4);
 }
 
-// When the arrears of a node that is behind come to the limit, if it takes no frame before.
+// When the arrears of a node that is behind reach the limit, if it takes no frame until then.
 std::int64_t overdue_ns(const Peer& peer, const HubRules& rules) {
   return peer.behind_since_ns + rules.reading_limit_ns - peer.arrears_ns;
 }
@@ -34,17 +34,17 @@ Gate::Gate(Descriptor listener, HubRules rules, std::string bus)
 
 Gate::Admission Gate::admit(std::vector<Peer>& peers) {
   pollfd waiting{.fd = listener_.get(), .events = POLLIN, .revents = 0};
-  if (::poll(&waiting, 1, 0) != 1) return Admission::none;  // far cheaper than an accept() in vain
+  if (::poll(&waiting, 1, 0) != 1) return Admission::none;  // far cheaper than an accept() that fails
   Descriptor socket(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!socket) return Admission::none;
   const Process process = process_behind(socket.get());
   if (!is_of_this_user(process)) {
-    tell(fmt::format("a process ({})", words(process)), "is another user's and was refused");
+    report(fmt::format("a process ({})", to_text(process)), "is another user's and was refused");
     return Admission::refused;
   }
   if (peers.size() >= rules_.most_nodes) {
-    tell(fmt::format("a process ({})", words(process)),
-         fmt::format("was refused: the bus has {} nodes, its most", peers.size()));
+    report(fmt::format("a process ({})", to_text(process)),
+           fmt::format("was refused: the bus has {} nodes, its limit", peers.size()));
     return Admission::refused;
   }
   Peer& peer = peers.emplace_back();
@@ -69,9 +69,9 @@ void Gate::drop_silent(std::vector<Peer>& peers, bool fd_bus) {
     Datagram none;
     Frame no_frame;
     const Reading last = read(peer, fd_bus, none, no_frame);
-    if (last == Reading::joined) return false;  // it had spoken; it was the host that did not look
-    if (last == Reading::nothing) tell(words(peer), "never said who it is and was dropped");
-    if (last == Reading::nonsense) tell_of_nonsense(peer);
+    if (last == Reading::joined) return false;  // its Hello was in time; the hub reads it only now
+    if (last == Reading::nothing) report(to_text(peer), "sent no Hello and was dropped");
+    if (last == Reading::nonsense) report_nonsense(peer);
     return true;
   });
   set_alarm(peers);
@@ -81,13 +81,13 @@ bool Gate::has_waited_enough(const Peer& peer, std::int64_t now_ns) const {
   return now_ns >= overdue_ns(peer, rules_);
 }
 
-void Gate::tell_of_dropped_reader(const Peer& peer) {
-  tell(words(peer), "did not read what the bus brought and was dropped");
+void Gate::report_dropped_reader(const Peer& peer) {
+  report(to_text(peer), "did not read its frames and was dropped");
 }
 
-void Gate::tell_of_nonsense(const Peer& peer) {
-  tell(words(peer), peer.joined ? "sent what is no frame of this bus and was dropped"
-                                : "did not join as a node of this version does and was dropped");
+void Gate::report_nonsense(const Peer& peer) {
+  report(to_text(peer), peer.joined ? "sent an invalid frame and was dropped"
+                                    : "sent an invalid Hello (another version?) and was dropped");
 }
 
 void Gate::set_alarm(const std::vector<Peer>& peers) {
@@ -100,8 +100,8 @@ void Gate::set_alarm(const std::vector<Peer>& peers) {
   alarm_.set(at_ns);
 }
 
-void Gate::tell(std::string_view who, std::string_view what) {
-  if (rules_.on_turned_away && ++told_ <= most_told)
+void Gate::report(std::string_view who, std::string_view what) {
+  if (rules_.on_turned_away && ++reported_ <= most_reports)
     rules_.on_turned_away(fmt::format("bus '{}': {} {}", bus_, who, what));
 }
 

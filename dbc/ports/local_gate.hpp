@@ -1,4 +1,4 @@
-// Who may be on the embedded bus: whom the hub lets in, with whom it loses patience.
+// Admits nodes to the embedded bus and decides which ones to drop.
 #pragma once
 
 #include <cstddef>
@@ -15,38 +15,38 @@ namespace canhil::local {
 
 class Gate {
  public:
-  /// `bus`: for the lines that tell of those turned away.
+  /// `bus`: for the lines about nodes that are turned away.
   Gate(Descriptor listener, HubRules rules, std::string bus);
 
-  /// Readable when somebody waits to be let in.
+  /// Readable when a node waits for admission.
   [[nodiscard]] int listener() const { return listener_.get(); }
-  /// Readable when patience() has come to its end.
+  /// Readable when a node's time limit has expired.
   [[nodiscard]] int alarm() const { return alarm_.descriptor(); }
 
-  /// Takes the next one that waits: into `peers`, or away with it. Nobody waited: none.
+  /// Admits the next waiting node into `peers`, or refuses it; none: no node was waiting.
   enum class Admission : std::uint8_t { none, refused, admitted };
   Admission admit(std::vector<Peer>& peers);
 
-  /// Drops those that have connected and said nothing in time.
+  /// Drops connections that sent no Hello in time.
   void drop_silent(std::vector<Peer>& peers, bool fd_bus);
 
-  /// Whether the bus has waited for the node for long enough; then it is to be dropped.
+  /// Whether the node has stalled the bus for too long and must be dropped.
   [[nodiscard]] bool has_waited_enough(const Peer& peer, std::int64_t now_ns) const;
-  void tell_of_dropped_reader(const Peer& peer);
-  void tell_of_nonsense(const Peer& peer);
+  void report_dropped_reader(const Peer& peer);
+  void report_nonsense(const Peer& peer);
 
-  /// Sets the alarm to when the next of the nodes is to be dropped.
+  /// Sets the alarm to the time at which the next node must be dropped.
   void set_alarm(const std::vector<Peer>& peers);
 
  private:
-  void tell(std::string_view who, std::string_view what);
+  void report(std::string_view who, std::string_view what);
 
   Descriptor listener_;
   HubRules rules_;
   std::string bus_;
   Timer alarm_;
-  bool strangers_ = false;  // some peers had said no Hello when last looked at
-  int told_ = 0;
+  bool strangers_ = false;  // at the last check some peers had not sent their Hello
+  int reported_ = 0;
 };
 
 }  // namespace canhil::local

@@ -25,19 +25,19 @@ namespace canhil {
 namespace {
 
 using local::Datagram;
+using local::Format;
 using local::Gate;
 using local::HubWire;
 using local::Peer;
-using local::Place;
 using local::Reading;
 
 constexpr int backlog = 64;                // nodes that wait to be accepted
-constexpr std::size_t ready_limit = 4096;  // own frames that the host has not read back
+constexpr std::size_t ready_limit = 4096;  // own frames that the host has not yet read back
 constexpr int accept_every = 64;           // frames in a row after which new nodes get their turn
-// Nodes may send, and come and go, for ever: one call takes no more than this, and what is left keeps the
+// Nodes may send, join and leave without end, so one call handles at most this many; the rest keeps the
 // descriptor readable.
 constexpr int most_at_once = 256;
-constexpr int most_let_in = 4;  // who comes costs far more than a frame
+constexpr int most_let_in = 4;  // admitting a node costs far more than a frame
 
 class Hub final : public LocalHub {
  public:
@@ -74,12 +74,11 @@ class Hub final : public LocalHub {
     return SendOutcome::sent;
   }
 
-  /// Costs one system call where a frame waits. For new nodes it looks where it finds nothing twice in a row:
-  /// a host that waits in between is woken by them, and one that is only between two frames need not pay for
-  /// the look.
+  /// Costs one system call if a frame waits. Looks for new nodes only after finding no frame twice in a row:
+  /// new nodes wake a host that waits in between, and a host that is only between two frames saves the call.
   std::optional<Received> receive() override {
     if (wire_) run_wire();
-    if (!ready_.empty()) return next_ready();  // older than anything still to be read
+    if (!ready_.empty()) return next_ready();  // older than all unread frames
     if (wire_) return std::nullopt;
     std::optional<Received> received(std::in_place);
     Datagram datagram;
@@ -105,7 +104,7 @@ class Hub final : public LocalHub {
   }
 
   [[nodiscard]] int descriptor() const override { return epoll_.get(); }
-  /// An epoll descriptor is never writable: while the bus stands still it turns readable once the slow node
+  /// An epoll descriptor is never writable: while the bus is stalled it becomes readable once the slow node
   /// has room.
   [[nodiscard]] RoomWait room_wait() const override {
     if (behind_ > 0) return {.events = POLLIN};
@@ -144,7 +143,7 @@ class Hub final : public LocalHub {
     }
   }
 
-  /// While the bus stands still only the nodes it waits for may wake the host: nobody else's frames can pass.
+  /// While the bus is stalled, only the nodes that stall it may wake the host: no other frames can pass.
   void watch_all() {
     const std::uint32_t others = behind_ > 0 ? 0 : std::uint32_t{EPOLLIN};
     watch(gate_.listener(), others);
@@ -153,8 +152,8 @@ class Hub final : public LocalHub {
     gate_.set_alarm(peers_);
   }
 
-  /// Delivers the pending frame to the nodes that had no room for it, and drops those for which the bus has
-  /// waited long enough; true if none is left.
+  /// Delivers the pending frame to the nodes that had no room for it, and drops nodes that have stalled the
+  /// bus for too long; true if the frame has been delivered to all.
   bool catch_up() {
     if (behind_ == 0) return true;
     const int before = behind_;
@@ -166,15 +165,15 @@ class Hub final : public LocalHub {
       --behind_;
       peer.behind = false;
       peer.arrears_ns += now_ns - peer.behind_since_ns;
-      if (!delivered) gate_.tell_of_dropped_reader(peer);
+      if (!delivered) gate_.report_dropped_reader(peer);
       return !delivered;
     });
     if (behind_ != before) watch_all();
     return behind_ == 0;
   }
 
-  /// Gives one frame to every node that wants it. Only one frame can be pending: the next is taken when none
-  /// is.
+  /// Delivers one frame to every node that wants it. Only one frame can be pending: the next one is read when
+  /// none is.
   void deliver(Datagram& datagram, int origin) {
     for (Peer& peer : peers_) deliver_to(peer, datagram, origin);
     if (behind_ > 0) watch_all();
@@ -189,7 +188,7 @@ class Hub final : public LocalHub {
     pending_origin_ = origin;
   }
 
-  /// The next frame of any node, in turn, and whose it is.
+  /// Reads the next frame, from each node in turn; returns the node's index.
   int read_any(Datagram& datagram, Frame& frame) {
     for (std::size_t idle = 0; idle < peers_.size();) {
       if (next_ >= peers_.size()) next_ = 0;
@@ -206,7 +205,7 @@ class Hub final : public LocalHub {
           ++next_;
           return peer.socket.get();
         case Reading::nonsense:
-          gate_.tell_of_nonsense(peer);
+          gate_.report_nonsense(peer);
           [[fallthrough]];
         case Reading::gone:
           peers_.erase(peers_.begin() + static_cast<std::ptrdiff_t>(next_));
@@ -216,7 +215,7 @@ class Hub final : public LocalHub {
     return no_origin;
   }
 
-  /// Lets waiting nodes in; true if there were any.
+  /// Admits waiting nodes; true if there were any.
   bool accept_nodes() {
     reads_since_accept_ = 0;
     gate_.drop_silent(peers_, fd_);
@@ -232,7 +231,7 @@ class Hub final : public LocalHub {
     return !only_some_ || frame.error || (!frame.extended && wanted_.test(frame.id));
   }
 
-  /// Frames that the host will receive next.
+  /// Queues a frame for the host to receive.
   void queue_ready(const Frame& frame, std::int64_t t_ns, bool own) {
     if (ready_.empty()) ::eventfd_write(ready_event_.get(), 1);
     ready_.push_back({.frame = frame, .t_ns = t_ns, .source = StampSource::hub, .own = own});
@@ -256,12 +255,12 @@ class Hub final : public LocalHub {
     return SendOutcome::sent;
   }
 
-  /// Lets what the nodes have sent onto the wire, and delivers what has been sent on it by now.
+  /// Puts the nodes' frames onto the wire, and delivers the frames that the wire has carried by now.
   void run_wire() {
     int left = most_at_once;
     while (catch_up()) {
       if (const auto report = wire_->report()) {
-        tell(*report);
+        deliver(*report);
         continue;
       }
       take_in(left);
@@ -272,7 +271,7 @@ class Hub final : public LocalHub {
         return wire_->set_alarm();
       }
     }
-    wire_->stop_alarm();  // the bus stands still
+    wire_->stop_alarm();  // the bus is stalled
   }
 
   [[nodiscard]] std::vector<Peer>::iterator peer_of(std::size_t wire_node) {
@@ -281,8 +280,8 @@ class Hub final : public LocalHub {
     });
   }
 
-  /// Hands the report of a controller to its own node alone.
-  void tell(const WireReport& report) {
+  /// Delivers a controller's report to its own node only.
+  void deliver(const WireReport& report) {
     if (report.node == HubWire::host) return queue_ready(report.frame, report.t_ns, false);
     const auto peer = peer_of(report.node);
     if (peer == peers_.end()) return;
@@ -303,8 +302,8 @@ class Hub final : public LocalHub {
     if ((!own || own_echo_) && wants(carried.frame)) queue_ready(carried.frame, carried.delivered_ns, own);
   }
 
-  /// Takes over what the nodes have sent, as far as their queues on the wire have room, the host keeps up
-  /// with reading, and no more than is `left` to take.
+  /// Reads frames from the nodes into their queues on the wire, as long as the queues have room, the host
+  /// keeps up with reading, and at most `left` frames.
   void take_in(int& left) {
     for (int n = 0; n < most_let_in && accept_nodes(); ++n) {
     }
@@ -314,7 +313,7 @@ class Hub final : public LocalHub {
       hold_full_nodes();
       const int origin = read_any(datagram, frame);
       if (origin == no_origin) return;
-      if (frame.error) {  // the report of a controller: nothing on the wire
+      if (frame.error) {  // a controller's report: it does not use the wire
         datagram.t_ns = clock_ns(CLOCK_MONOTONIC);
         deliver(datagram, origin);
         if (wants(frame)) queue_ready(frame, datagram.t_ns, false);
@@ -352,7 +351,7 @@ class Hub final : public LocalHub {
   std::size_t next_ = 0;
   int reads_since_accept_ = 0;
   bool found_nothing_ = false;
-  int behind_ = 0;  ///< how many peers are
+  int behind_ = 0;  ///< number of peers that are behind
   Datagram pending_{};
   int pending_origin_ = no_origin;
   std::deque<Received> ready_;
@@ -370,7 +369,7 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
 
   auto claim = local::Claim::take(bus, name->name);
   if (!claim) return tl::unexpected(claim.error());
-  Descriptor listener = claim->listen(options.fd ? Place::fd : Place::classic, backlog);
+  Descriptor listener = claim->listen(options.fd ? Format::fd : Format::classic, backlog);
   if (!listener) return failure(fmt::format("bus '{}': {}", bus, std::strerror(errno)));
   std::optional<HubWire> wire;
   if (name->wire.rates.nominal > 0) wire.emplace(name->wire);
@@ -381,7 +380,7 @@ Result<std::unique_ptr<LocalHub>> host_local_bus(std::string_view bus, const Por
 
 void run_hub(Port& hub, const std::function<bool()>& stop) {
   constexpr std::int64_t look_up_ns = 100'000'000;
-  constexpr int at_most = 1000;  // frames in a row: a full bus must not hide stop()
+  constexpr int at_most = 1000;  // frames in a row, so that stop() is called on a full bus too
   while (!stop()) {
     wait(hub, WaitFor::frame, clock_ns(CLOCK_MONOTONIC) + look_up_ns);
     for (int n = 0; n < at_most && hub.receive(); ++n) {

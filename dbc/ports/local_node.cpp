@@ -19,7 +19,7 @@ namespace canhil {
 namespace {
 
 using local::Datagram;
-using local::Place;
+using local::Format;
 
 class LocalNode final : public Port {
  public:
@@ -42,14 +42,14 @@ class LocalNode final : public Port {
     Datagram datagram;
     ssize_t bytes = 0;
     do {
-      // The hub closing with frames of ours unread is ECONNRESET once; what it had sent before still comes
-      // after that.
+      // If the hub closes with unread frames of ours, recv() fails once with ECONNRESET; frames that the hub
+      // sent earlier still follow.
       bytes = ::recv(socket_.get(), &datagram, sizeof datagram, 0);
     } while (bytes < 0 && (errno == EINTR || errno == ECONNRESET));
     if (bytes < 0 && errno == EAGAIN) return std::nullopt;
     std::optional<Received> received(std::in_place);
     if (bytes <= 0 || !local::decode(datagram, static_cast<std::size_t>(bytes), fd_, received->frame)) {
-      closed_ = true;  // the hub is gone, or it is no hub
+      closed_ = true;  // the hub is gone, or the peer is not a hub
       return std::nullopt;
     }
     received->t_ns = datagram.t_ns;
@@ -74,7 +74,7 @@ class LocalNode final : public Port {
   Descriptor socket_;
   std::string name_;
   bool fd_;
-  WireFacts wire_;  // as the name says: the hub tells nothing of it
+  WireFacts wire_;  // from the bus's name: the hub does not report it
   bool closed_ = false;
   PortCounters counters_;
 };
@@ -84,7 +84,7 @@ std::string why_not_joined(std::string_view bus, const std::string& directory, c
   if (error == EAGAIN)
     return fmt::format("bus '{}': its host takes no more nodes (too many wait to join)", bus);
   if (error != ECONNREFUSED && error != ENOENT) return fmt::format("bus '{}': {}", bus, std::strerror(error));
-  if (local::connect_to(directory, name, fd ? Place::classic : Place::fd)) {
+  if (local::connect_to(directory, name, fd ? Format::classic : Format::fd)) {
     return fd ? fmt::format(
                     "bus '{}' is classic CAN and this node wants CAN FD: host it with FD, or join without",
                     bus)
@@ -105,11 +105,11 @@ Result<std::unique_ptr<Port>> join_local_bus(std::string_view bus, const PortOpt
   const auto directory = local::directory();
   if (!directory) return failure(fmt::format("bus '{}': {}", bus, directory.error().message));
 
-  Descriptor socket = local::connect_to(*directory, name->name, options.fd ? Place::fd : Place::classic);
+  Descriptor socket = local::connect_to(*directory, name->name, options.fd ? Format::fd : Format::classic);
   if (!socket) return failure(why_not_joined(bus, *directory, name->name, options.fd, errno));
   if (const local::Process host = local::process_behind(socket.get()); !local::is_of_this_user(host)) {
     return failure(fmt::format("bus '{}': its host is {}, expected a process of uid {}", bus,
-                               local::words(host), ::geteuid()));
+                               local::to_text(host), ::geteuid()));
   }
 
   local::Hello hello;

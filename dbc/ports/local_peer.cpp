@@ -17,7 +17,7 @@ Reading read_hello(Peer& peer) {
   if (bytes != sizeof hello || hello.magic != Hello::expected_magic) return Reading::nonsense;
   hello.node_name.back() = '\0';
   peer.name = hello.node_name.data();
-  // It is shown to people: no line breaks, nothing that moves a cursor.
+  // The name is printed: replaces line breaks and terminal escape sequences.
   std::ranges::replace_if(
       peer.name, [](char c) { return c < ' ' || c > '~'; }, '?');
   peer.own_echo = hello.own_echo != 0;
@@ -30,9 +30,9 @@ Reading read_hello(Peer& peer) {
 
 }  // namespace
 
-std::string words(const Peer& peer) {
+std::string to_text(const Peer& peer) {
   return fmt::format("{} ({})", peer.joined ? fmt::format("node '{}'", peer.name) : "a process",
-                     words(peer.process));
+                     to_text(peer.process));
 }
 
 Reading read(Peer& peer, bool fd_bus, Datagram& datagram, Frame& frame) {
@@ -59,7 +59,7 @@ bool offer(Peer& peer, Datagram& datagram, bool own) {
     return true;
   }
   if (errno == EAGAIN || errno == ENOBUFS || errno == EINTR) return false;
-  peer.mute = true;  // dead; reading from it will end with that
+  peer.mute = true;  // dead: reading from it will report the end
   return true;
 }
 

@@ -16,17 +16,17 @@
 namespace canhil::local {
 namespace {
 
-constexpr std::array<std::string_view, 2> place_names{".classic", ".fd"};
+constexpr std::array<std::string_view, 2> format_suffixes{".classic", ".fd"};
 constexpr std::size_t longest_name = 64;
 constexpr std::size_t longest_directory =
-    sizeof sockaddr_un{}.sun_path - 1 - longest_name - place_names[0].size() - 1;
+    sizeof sockaddr_un{}.sun_path - 1 - longest_name - format_suffixes[0].size() - 1;
 
 bool is_ours_alone(const struct stat& entry) {
   return S_ISDIR(entry.st_mode) && entry.st_uid == ::geteuid() && (entry.st_mode & 077U) == 0;
 }
 
-std::string socket_of(const std::string& path, Place place) {
-  return path + std::string(place_names.at(static_cast<std::size_t>(place)));
+std::string socket_of(const std::string& path, Format format) {
+  return path + std::string(format_suffixes.at(static_cast<std::size_t>(format)));
 }
 std::string lock_of(const std::string& path) { return path + ".lock"; }
 
@@ -41,8 +41,8 @@ Descriptor new_socket() {
   return Descriptor(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
 }
 
-// Whether the file that was opened still has its name: a host that ends takes its lock file along, and a lock
-// on a file that nobody else can find excludes nobody.
+// Whether the opened file still has its name: a host that ends removes its lock file, and a lock on a removed
+// file does not exclude other processes.
 bool still_named(const Descriptor& file, const std::string& path) {
   struct stat opened {
   }, named{};
@@ -74,7 +74,7 @@ Result<std::string> directory() {
   const std::string runtime = set == nullptr ? "" : set;
   struct stat entry {};
   std::string path = runtime + "/canhil";
-  // That of another user comes along with su and sudo; a long one has no room for a socket's name.
+  // su and sudo may keep another user's directory; a long path leaves no room for a socket's name.
   const bool fit = runtime.starts_with('/') && path.size() <= longest_directory &&
                    ::lstat(runtime.c_str(), &entry) == 0 && is_ours_alone(entry);
   if (!fit) path = fmt::format("/tmp/canhil-uid-{}", ::geteuid());
@@ -96,7 +96,7 @@ Result<Claim> Claim::take(std::string_view bus, const std::string& name) {
           fmt::format("bus '{}' is hosted already by another process: join it or take another name", bus));
     }
     if (!still_named(lock, lock_path)) continue;
-    for (const Place left_behind : {Place::classic, Place::fd})
+    for (const Format left_behind : {Format::classic, Format::fd})
       ::unlink(socket_of(path, left_behind).c_str());
     return Claim(std::move(lock), path);
   }
@@ -104,13 +104,13 @@ Result<Claim> Claim::take(std::string_view bus, const std::string& name) {
 
 Claim::~Claim() {
   if (!lock_) return;
-  for (const Place place : {Place::classic, Place::fd}) ::unlink(socket_of(path_, place).c_str());
-  ::unlink(lock_of(path_).c_str());  // before the lock goes, see still_named()
+  for (const Format format : {Format::classic, Format::fd}) ::unlink(socket_of(path_, format).c_str());
+  ::unlink(lock_of(path_).c_str());  // before the lock is released, see still_named()
 }
 
-Descriptor Claim::listen(Place place, int backlog) const {
+Descriptor Claim::listen(Format format, int backlog) const {
   Descriptor socket = new_socket();
-  const sockaddr_un at = address(socket_of(path_, place));
+  const sockaddr_un at = address(socket_of(path_, format));
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0 ||
       ::listen(socket.get(), backlog) != 0) {
     return {};
@@ -118,9 +118,9 @@ Descriptor Claim::listen(Place place, int backlog) const {
   return socket;
 }
 
-Descriptor connect_to(const std::string& directory, const std::string& name, Place place) {
+Descriptor connect_to(const std::string& directory, const std::string& name, Format format) {
   Descriptor socket = new_socket();
-  const sockaddr_un at = address(socket_of(directory + "/" + name, place));
+  const sockaddr_un at = address(socket_of(directory + "/" + name, format));
   if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&at), sizeof at) != 0) return {};
   return socket;
 }
@@ -132,7 +132,7 @@ Process process_behind(int socket) {
   return {.pid = credentials.pid, .uid = credentials.uid};
 }
 
-std::string words(const Process& process) {
+std::string to_text(const Process& process) {
   return fmt::format("pid {} of uid {}", process.pid, process.uid);
 }
 

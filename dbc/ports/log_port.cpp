@@ -34,7 +34,7 @@ class LogPort final : public Port {
   std::optional<Received> receive() override {
     while (!closed_) {
       const auto entry = reader_.next();
-      if (!entry || !*entry) {  // checked on opening: an error can only come from a file that changed since
+      if (!entry || !*entry) {  // checked on opening: an error means that the file has changed since
         closed_ = true;
       } else if (const Frame& frame = (*entry)->frame; passes(frame)) {
         ++counters_.received;

@@ -8,9 +8,9 @@
 
 namespace canhil {
 
-/// Opens `log:FILE` as a bus on which only the recorded frames are: receive() gives them at once, with their
-/// times (StampSource::process), and the port closes after the last. Nobody hears what send() takes. The
-/// whole log is checked on opening.
+/// Opens `log:FILE` as a bus that carries only the recorded frames: receive() returns them without waiting,
+/// with their recorded times (StampSource::process), and the port closes after the last one. Sent frames are
+/// discarded. The whole log is checked on opening.
 Result<std::unique_ptr<Port>> open_log_port(std::string_view bus, const PortOptions& options);
 
 }  // namespace canhil

@@ -20,7 +20,7 @@ timespec to_timespec(std::int64_t ns) {
   return {.tv_sec = static_cast<std::time_t>(ns / ns_per_s), .tv_nsec = static_cast<long>(ns % ns_per_s)};
 }
 
-// Until one of the events, the pause or the deadline; see wait().
+// Waits for one of the events, the pause or the deadline; see wait().
 bool wait_for(const Port& port, RoomWait how, std::int64_t deadline_ns) {
   if (how.events == 0 && how.pause_ns == 0) return true;
   const bool forever = deadline_ns == no_deadline && how.pause_ns == 0;  // saves a clock reading and a timer
@@ -48,7 +48,7 @@ bool Port::wait_for_frame(std::int64_t deadline_ns) {
 bool Port::wait_for_room(std::int64_t deadline_ns) { return wait_for(*this, room_wait(), deadline_ns); }
 
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns) {
-  // An interface that is down or removed has room at any time, and its return is no event of the socket.
+  // A socket whose interface is down always has room, and the return of the interface is not a poll() event.
   if (!port.up()) return wait_for(port, {.events = POLLIN, .pause_ns = look_again_ns}, deadline_ns);
   if (what == WaitFor::frame) return port.wait_for_frame(deadline_ns);
   return port.wait_for_room(deadline_ns);

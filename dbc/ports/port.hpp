@@ -21,31 +21,33 @@ namespace canhil {
 /// Where a time stamp was taken, best first.
 enum class StampSource : std::uint8_t { hardware, kernel, hub, process, virtual_time };
 
-/// A frame as it came from a bus.
+/// A frame received from a bus.
 struct Received {
   Frame frame;
   std::int64_t t_ns = 0;         ///< when it was on the bus, by the clock that Port::stamp_clock() names
   std::int64_t hardware_ns = 0;  ///< the controller's own stamp, on its own clock (differences only); 0: none
-  StampSource source = StampSource::process;  ///< the best stamp at hand; hardware: hardware_ns is set too
+  StampSource source = StampSource::process;  ///< of the best stamp; hardware: hardware_ns is set too
   bool own = false;  ///< the echo of a frame that this port sent: its stamp is the transmit time
   bool foreign =
-      false;  ///< FD where the bus's contract is classic, or classic where it is FD: not part of it
-  std::uint8_t bus = 0;  ///< of several buses behind one port: which, see Port::bus_name()
+      false;  ///< FD although the bus's contract is classic, or the reverse: not part of the contract
+  std::uint8_t bus = 0;  ///< index among several buses behind one port, see Port::bus_name()
 };
 
+/// What became of a frame given to Port::send().
 enum class SendOutcome : std::uint8_t {
-  sent,        ///< taken over by the bus
-  queue_full,  ///< no room now and nothing was taken: wait(port, WaitFor::room, ...), then try again
+  sent,        ///< the bus has accepted the frame
+  queue_full,  ///< no room: wait(port, WaitFor::room, ...), then try again
   down,        ///< the bus is gone or the interface is down, see Port::up()
-  refused  ///< this bus cannot carry such a frame: FD on a classic bus, a size without DLC, an id too large
+  refused      ///< the bus cannot carry the frame: FD on a classic bus, a size without DLC, an id too large
 };
 
 /// How to wait for room after SendOutcome::queue_full.
 struct RoomWait {
-  short events = 0;           ///< poll() events on Port::descriptor() that tell of it; 0: none does
-  std::int64_t pause_ns = 0;  ///< where none does: try again after this time
+  short events = 0;           ///< poll() events on Port::descriptor() that signal room; 0: none does
+  std::int64_t pause_ns = 0;  ///< without such an event: try again after this time
 };
 
+/// What a port has counted since it was opened.
 struct PortCounters {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
@@ -54,77 +56,82 @@ struct PortCounters {
   std::uint64_t foreign = 0;  ///< see Received
 };
 
+/// How to open a port.
 struct PortOptions {
   bool fd = false;                        ///< CAN FD frames too
   bool own_echo = false;                  ///< receive own frames back, with their transmit time stamps
-  bool foreign = false;                   ///< SocketCAN without fd: FD frames too, marked as foreign
-  std::vector<std::uint32_t> only_ids{};  ///< receive just these standard ids; empty: all
-  std::string node_name{};                ///< who we are, for messages and for the hub's list of nodes
-  int receive_buffer_bytes = 0;  ///< SocketCAN: size of the receive queue; 0: 4 MiB, or what is permitted
+  bool foreign = false;                   ///< SocketCAN without fd: receive FD frames too, marked as foreign
+  std::vector<std::uint32_t> only_ids{};  ///< receive only these standard ids; empty: all
+  std::string node_name{};                ///< own name, for messages and for the hub's list of nodes
+  int receive_buffer_bytes = 0;           ///< SocketCAN: size of the receive queue; 0: up to 4 MiB
 };
 
-/// What is known of a wire: how long a frame takes, and which one a node sends first.
+/// Known properties of a wire: how long a frame takes, and which one a node sends first.
 struct WireFacts {
-  wire::BitRates rates{};     ///< nominal 0: not known, or a frame takes no time
-  bool urgent_first = false;  ///< false: the oldest first, as Linux does
+  wire::BitRates rates{};     ///< nominal 0: unknown, or a frame takes no time
+  bool urgent_first = false;  ///< each node sends its most urgent frame first; false: its oldest, like Linux
   bool fd = false;            ///< the contract on CAN FD: messages travel in wire::fd_carriers
 };
 
-/// Whose time passes on a bus.
+/// The time that passes on a bus.
 enum class BusTime : std::uint8_t {
-  host,  ///< the host's
-  told,  ///< virtual: what Port::tell_time() said last
-  waits  ///< virtual: it passes while somebody waits
+  host,  ///< real time
+  set,   ///< virtual: the time that Port::set_time() set last
+  waits  ///< virtual: it advances while a caller waits
 };
 
-/// What a bus can do and what is known of it: asked of its port, never read from its name.
+/// Properties of a bus. Ask its port for them; never infer them from the bus's name.
 struct Capabilities {
-  bool reports_errors = false;  ///< of itself: where none was seen there was none
-  bool in_process = false;      ///< the port's other end is the device: nobody else can be there
+  bool reports_errors = false;  ///< reports every bus error: none reported means that none occurred
+  bool in_process = false;      ///< the port's other end is the device: there are no other nodes
   BusTime time = BusTime::host;
-  WireFacts wire{};                             ///< as far as the port knows; of a controller the kernel does
+  WireFacts wire{};                             ///< as far as the port knows; a controller's: ask the kernel
   Rounding rounding = Rounding::as_on_the_bus;  ///< of the frames that it carries
 };
 
-/// Now on a clock of clock_gettime() [ns].
+/// The current time of a clock of clock_gettime() [ns].
 std::int64_t clock_ns(int clock);
 
+/// One node's access to a bus. Not for several threads at once.
 class Port {
  public:
   virtual ~Port() = default;
-  /// Hands one frame to the bus; never blocks.
+  /// Sends one frame; never blocks.
   virtual SendOutcome send(const Frame& frame) = 0;
   /// The next frame from the bus, if one is waiting; never blocks.
   virtual std::optional<Received> receive() = 0;
   /// For poll(): readable when receive() has something to do or the bus is gone. Then call receive() until it
-  /// gives nothing. For room to send see room_wait().
+  /// returns none. For room to send see room_wait().
   [[nodiscard]] virtual int descriptor() const = 0;
+  /// How to wait for room after SendOutcome::queue_full.
   [[nodiscard]] virtual RoomWait room_wait() const = 0;
-  /// Waits like wait() for a frame: a port that can take it by the same call does.
+  /// Waits like wait() for a frame. A port may read the frame in the same system call.
   virtual bool wait_for_frame(std::int64_t deadline_ns);
   /// Waits like wait() for room.
   virtual bool wait_for_room(std::int64_t deadline_ns);
-  /// True once the bus is gone for good (hub closed, log at its end).
+  /// True once the bus has ended (hub closed, end of the log).
   [[nodiscard]] virtual bool closed() const = 0;
-  /// False while an interface is down or removed: send() and receive() look for its return, wait() gives them
-  /// the occasion.
+  /// False while an interface is down or removed. send() and receive() check for its return; wait() wakes the
+  /// caller often enough for that.
   [[nodiscard]] virtual bool up() const { return true; }
+  /// The counters so far.
   [[nodiscard]] virtual PortCounters counters() const = 0;
+  /// The properties of the bus.
   [[nodiscard]] virtual Capabilities capabilities() const { return {}; }
   /// The clock of Received::t_ns: CLOCK_REALTIME or CLOCK_MONOTONIC.
   [[nodiscard]] virtual int stamp_clock() const = 0;
-  /// Now on that clock [ns].
+  /// The current time of that clock [ns].
   [[nodiscard]] virtual std::int64_t now_ns() const { return clock_ns(stamp_clock()); }
-  /// Now on the clock of deadlines [ns]: CLOCK_MONOTONIC, except where the port simulates time and waiting
-  /// moves it.
+  /// The current time of the clock of deadlines [ns]: CLOCK_MONOTONIC, unless the port simulates time that
+  /// advances by waiting.
   [[nodiscard]] virtual std::int64_t monotonic_ns() const { return clock_ns(CLOCK_MONOTONIC); }
-  /// Virtual time has come to `t_ns` since the start of the run; for a port that is told the time. Others
-  /// know it.
-  virtual void tell_time(std::int64_t /*t_ns*/) {}
+  /// Sets the virtual time since the start of the run, for ports with BusTime::set. Others ignore it.
+  virtual void set_time(std::int64_t /*t_ns*/) {}
   /// As given to --bus.
   [[nodiscard]] virtual const std::string& name() const = 0;
-  /// Of several buses behind one port: the name of one, and which of them send() gives a frame to.
+  /// For several buses behind one port: the name of one, and the one to which send() passes a frame.
   [[nodiscard]] virtual const std::string& bus_name(std::uint8_t /*bus*/) const { return name(); }
+  /// The index of the bus to which send() passes this frame.
   [[nodiscard]] virtual std::uint8_t bus_of(const Frame& /*frame*/) const { return 0; }
 };
 
@@ -132,12 +139,14 @@ class Port {
 /// what was expected.
 Result<std::unique_ptr<Port>> open_port(std::string_view bus, const PortOptions& options);
 
+/// What wait() waits for.
 enum class WaitFor : std::uint8_t { frame, room };
 
+/// A deadline that never comes.
 constexpr std::int64_t no_deadline = std::numeric_limits<std::int64_t>::max();
 
-/// Waits until the port is worth another receive() or send(): true; or until deadline_ns on the clock of
-/// Port::monotonic_ns(), or a signal came: false. A frame may turn out not to be there: receive() decides.
+/// Waits until another receive() or send() may succeed: true. False at deadline_ns on the clock of
+/// Port::monotonic_ns(), or after a signal. May return true although receive() then finds no frame.
 bool wait(Port& port, WaitFor what, std::int64_t deadline_ns);
 
 }  // namespace canhil

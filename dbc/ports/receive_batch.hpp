@@ -1,4 +1,4 @@
-// Frames taken from a CAN socket by one system call.
+// Frames read from a CAN socket by one system call.
 #pragma once
 
 #include <linux/can.h>
@@ -27,17 +27,16 @@ class ReceiveBatch {
   ReceiveBatch& operator=(const ReceiveBatch&) = delete;
 
   [[nodiscard]] bool empty() const { return next_ == count_; }
-  /// The next frame, of one that is not empty; valid until fetch().
+  /// The next frame; the batch must not be empty. Valid until fetch().
   Item take();
-  /// Takes all that waits, up to the capacity. False: nothing came, errno says why. `flags` as for
-  /// recvmmsg(): MSG_DONTWAIT, or MSG_WAITFORONE to wait for the first frame as long as the socket's
-  /// SO_RCVTIMEO.
+  /// Reads all waiting frames, up to the capacity. False: no frame; errno says why. `flags` as for
+  /// recvmmsg(): MSG_DONTWAIT, or MSG_WAITFORONE to wait for the first frame up to the socket's SO_RCVTIMEO.
   bool fetch(int socket, int flags);
   /// True if the last fetch() left nothing behind.
   [[nodiscard]] bool took_all() const { return count_ < capacity; }
 
  private:
-  // Enough for the control message that read_ancillary() knows.
+  // Enough for the control message that read_ancillary() reads.
   static constexpr std::size_t control_bytes = 128;
   struct alignas(cmsghdr) Control {
     std::array<char, control_bytes> bytes;

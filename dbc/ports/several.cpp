@@ -12,7 +12,7 @@
 namespace canhil {
 namespace {
 
-constexpr std::int64_t retry_ns = 200'000;  // poll() on a set of descriptors tells nothing of room
+constexpr std::int64_t retry_ns = 200'000;  // poll() on a set of descriptors cannot signal room
 
 bool add(const Descriptor& set, const Port& port) {
   epoll_event event{.events = EPOLLIN, .data = {}};
@@ -63,7 +63,7 @@ class Several final : public Port {
     }
     return sum;
   }
-  /// No wire: each bus has its own.
+  /// Reports no wire: each bus has its own.
   [[nodiscard]] Capabilities capabilities() const override {
     return {.reports_errors = std::ranges::all_of(
                 ports_, [](const auto& port) { return port->capabilities().reports_errors; })};
@@ -78,7 +78,7 @@ class Several final : public Port {
   }
 
  private:
-  // An interface that came back has another socket, and the set has dropped the old one.
+  // An interface that returns has a new socket, and the epoll set has dropped the old one.
   void watch(std::size_t i) {
     const bool up = ports_[i]->up();
     if (up && !was_up_[i]) add(readable_, *ports_[i]);
@@ -87,7 +87,7 @@ class Several final : public Port {
 
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<bool> was_up_;
-  std::vector<std::optional<Received>> waiting_;  // the next of each port
+  std::vector<std::optional<Received>> waiting_;  // the next frame of each port
   PortRoute route_;
   Descriptor readable_;
 };
@@ -111,7 +111,7 @@ Result<std::unique_ptr<Port>> join_ports(std::vector<std::unique_ptr<Port>> port
   Descriptor readable(::epoll_create1(EPOLL_CLOEXEC));
   for (const auto& port : ports) {
     if (port->stamp_clock() != ports.front()->stamp_clock())
-      return failure(fmt::format("buses '{}' and '{}' have clocks of their own, expected several of one kind",
+      return failure(fmt::format("buses '{}' and '{}' have different clocks, expected buses of one kind",
                                  ports.front()->name(), port->name()));
     if (!add(readable, *port))
       return failure(fmt::format("bus '{}': {}", port->name(), std::strerror(errno)));

@@ -8,13 +8,13 @@
 namespace canhil {
 namespace {
 
-// ISO 11898-1:2015, 12.1.4: the counters and what they lead to.
+// ISO 11898-1:2015, 12.1.4: error counters and their limits.
 constexpr int error_warning_from = 96;
 constexpr int error_passive_above = 127;
 constexpr int bus_off_above = 255;
 constexpr int transmit_error = 8;
 constexpr int receive_error = 1;
-constexpr int first_to_notice = 8;  // a dominant bit follows its own error flag
+constexpr int first_to_notice = 8;  // increment if a dominant bit follows its own error flag
 constexpr int receive_errors_after_success = 119;
 constexpr std::int64_t recovery_runs = 128;
 constexpr std::int64_t recessive_run_bits = 11;
@@ -62,11 +62,11 @@ std::optional<Carried> SimulatedWire::next(std::int64_t until_ns) {
       if (running_->over_ns > until_ns) return std::nullopt;
       if (!running_->error) return succeed();
       fail();
-      if (has_report()) return std::nullopt;  // it is older than the next frame
+      if (has_report()) return std::nullopt;  // the report is older than the next frame
       continue;
     }
     const std::int64_t start_ns = first_start_ns();
-    if (start_ns == never || until_ns < start_ns + bit_ns_) {  // someone may still join
+    if (start_ns == never || until_ns < start_ns + bit_ns_) {  // more nodes may still join the arbitration
       idle_until(until_ns);
       return std::nullopt;
     }
@@ -87,7 +87,7 @@ std::int64_t SimulatedWire::next_event_ns() const {
   const std::int64_t start_ns = first_start_ns();
   std::int64_t event_ns = start_ns == never ? never : start_ns + bit_ns_;
   for (const Node& node : nodes_) {
-    if (!node.off || !node.setup.told) continue;
+    if (!node.off || !node.setup.reports_errors) continue;
     const std::int64_t runs = recovery_runs - node.recessive_runs;
     event_ns = std::min(event_ns, idle_ns_ + runs * recessive_run_bits * bit_ns_);
   }
@@ -100,7 +100,7 @@ NodeState SimulatedWire::state(std::size_t node) const {
   return is_passive(n.tec, n.rec) ? NodeState::error_passive : NodeState::error_active;
 }
 
-/// When the first node that has a frame may begin to send it.
+/// The earliest time at which a node with a queued frame may start to send.
 std::int64_t SimulatedWire::first_start_ns() const {
   std::int64_t first = never;
   for (const Node& node : nodes_) {
@@ -110,7 +110,7 @@ std::int64_t SimulatedWire::first_start_ns() const {
   return first;
 }
 
-/// The frame that wins the arbitration among all that are ready before the first bit is over.
+/// The frame that wins the arbitration among all frames that are ready before the first bit ends.
 std::optional<SimulatedWire::Candidate> SimulatedWire::winner(std::int64_t start_ns) const {
   const std::int64_t closed_ns = start_ns + bit_ns_;
   std::optional<Candidate> best;
@@ -130,7 +130,7 @@ std::optional<SimulatedWire::Candidate> SimulatedWire::winner(std::int64_t start
   return best;
 }
 
-/// True if another node is on the bus to acknowledge.
+/// True if another node is on the bus and acknowledges.
 bool SimulatedWire::acknowledged(std::size_t sender) const {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (n != sender && !nodes_[n].off) return true;
@@ -138,13 +138,13 @@ bool SimulatedWire::acknowledged(std::size_t sender) const {
   return false;
 }
 
-/// The error that hits the attempt, if one does: no earlier than its second bit, no later than its end.
+/// The error that hits the attempt, if any: between its second bit and its end.
 std::optional<WireError> SimulatedWire::error_of(const Attempt& attempt, bool acknowledged) {
   const std::int64_t length_ns = attempt.end_ns - attempt.start_ns;
   std::optional<WireError> error = disturb_ ? disturb_(attempt) : std::nullopt;
   if (error && error->at && state(*error->at) != NodeState::error_active) {
     if (!nodes_[*error->at].off) nodes_[*error->at].rec += receive_error;
-    error.reset();  // the flag of an error passive receiver is recessive: nobody sees it
+    error.reset();  // the flag of an error passive receiver is recessive: other nodes cannot see it
   }
   if (error) {
     error->after_ns = std::clamp(error->after_ns, bit_ns_, length_ns - intermission_bits * bit_ns_);
@@ -192,12 +192,12 @@ Carried SimulatedWire::succeed() {
     other.rec = other.rec > error_passive_above ? receive_errors_after_success : std::max(other.rec - 1, 0);
   }
   ++counters_.frames;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) tell(n, carried.delivered_ns, SeenError::none);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) report_to_host(n, carried.delivered_ns, SeenError::none);
   finish();
   return carried;
 }
 
-/// An error frame: the frame stays in its queue for the next attempt.
+/// Ends the attempt with an error frame; the frame stays in its queue for the next attempt.
 void SimulatedWire::fail() {
   const std::size_t from = running_->from.node;
   const std::int64_t noticed_ns = running_->attempt.start_ns + running_->error->after_ns;
@@ -207,20 +207,21 @@ void SimulatedWire::fail() {
     Node& other = nodes_[n];
     if (n == from || other.off) continue;
     other.rec += receive_error + (running_->error->at == n ? first_to_notice : 0);
-    tell(n, noticed_ns, SeenError::stuff);
+    report_to_host(n, noticed_ns, SeenError::stuff);
   }
-  // Alone on the bus an error passive sender counts no further: it must not go off for lack of company.
+  // An error passive sender without other nodes does not count missing acknowledgements: they must not drive
+  // it bus-off.
   if (running_->acknowledged || !is_passive(sender.tec, sender.rec)) sender.tec += transmit_error;
   ++counters_.error_frames;
-  tell(from, noticed_ns, missed ? SeenError::acknowledgement : SeenError::bit);
+  report_to_host(from, noticed_ns, missed ? SeenError::acknowledgement : SeenError::bit);
   finish();
   if (sender.tec > bus_off_above) go_off(sender);
 }
 
-/// The controller of a node tells of an error that it saw, and of its state where that is another.
-void SimulatedWire::tell(std::size_t node, std::int64_t t_ns, SeenError seen) {
+/// The node's controller reports an error that it saw, and its state if that has changed.
+void SimulatedWire::report_to_host(std::size_t node, std::int64_t t_ns, SeenError seen) {
   Node& n = nodes_[node];
-  if (!n.setup.told) return;
+  if (!n.setup.reports_errors) return;
   const BusEvent level = level_of(n.tec, n.rec);
   ControllerNews news{.seen = seen, .tx_counter = n.tec, .rx_counter = n.rec};
   if (level != n.level) news.event = n.level == BusEvent::bus_off ? BusEvent::restarted : level;
@@ -244,7 +245,7 @@ void SimulatedWire::finish() {
   if (is_passive(sender.tec, sender.rec)) sender.silent_until_ns = free_ns_ + suspend_bits * bit_ns_;
   running_.reset();
   see_recessive(1,
-                free_ns_);  // a delimiter, the end of frame or the rest of an error frame, the intermission
+                free_ns_);  // delimiter, end of frame or rest of the error frame, intermission
 }
 
 /// Counts the recessive bits of an idle bus.
@@ -255,8 +256,7 @@ void SimulatedWire::idle_until(std::int64_t t_ns) {
   see_recessive(runs, idle_ns_);
 }
 
-/// A node that is off comes back after 128 times 11 recessive bits. The last of these runs is over at
-/// last_ns.
+/// A bus-off node returns after 128 runs of 11 recessive bits. The last of these `runs` ends at last_ns.
 void SimulatedWire::see_recessive(std::int64_t runs, std::int64_t last_ns) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Node& node = nodes_[n];
@@ -265,7 +265,7 @@ void SimulatedWire::see_recessive(std::int64_t runs, std::int64_t last_ns) {
     node.recessive_runs += std::min(runs, missing);
     if (runs < missing) continue;
     node = Node{.setup = node.setup, .level = BusEvent::bus_off};
-    tell(n, last_ns - (runs - missing) * recessive_run_bits * bit_ns_, SeenError::none);
+    report_to_host(n, last_ns - (runs - missing) * recessive_run_bits * bit_ns_, SeenError::none);
   }
 }
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::int64_t retry_ns = 200'000;          // about 1.5 full classic frames at 1 Mbit/s
 constexpr std::int64_t blocking_ns = 20'000'000;    // the longest that a call waits for a frame
-constexpr std::int64_t look_again_ns = 10'000'000;  // for an interface that is away
+constexpr std::int64_t look_again_ns = 10'000'000;  // for an interface that is down or removed
 constexpr int large_queue_bytes = 4 << 20;          // about 5000 frames: half a second of a full bus
 
 canfd_frame to_kernel(const Frame& frame) {
@@ -54,7 +54,7 @@ bool set(int socket, int level, int option, const T& value) {
   return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
 }
 
-/// Which frames to receive: the ids, or all; never remote frames.
+/// Sets which frames to receive: the given ids, or all; never remote frames.
 bool set_filters(int socket, const std::vector<std::uint32_t>& only_ids) {
   std::vector<can_filter> filters;
   filters.reserve(only_ids.size() + 1);
@@ -81,7 +81,7 @@ bool configure(int socket, const PortOptions& options) {
          set(socket, SOL_SOCKET, SO_TIMESTAMPING, stamps) && set(socket, SOL_SOCKET, SO_RCVTIMEO, blocking) &&
          set(socket, SOL_SOCKET, SO_SNDBUF, smallest) &&
          ((!options.fd && !options.foreign) || set(socket, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) &&
-         // By force as the administrator; else up to net.core.rmem_max.
+         // SO_RCVBUFFORCE needs CAP_NET_ADMIN; SO_RCVBUF is limited to net.core.rmem_max.
          (set(socket, SOL_SOCKET, SO_RCVBUFFORCE, receive_bytes) ||
           set(socket, SOL_SOCKET, SO_RCVBUF, receive_bytes));
 }
@@ -91,8 +91,8 @@ class SocketCan final : public Port {
   SocketCan(Descriptor socket, std::string name, PortOptions options)
       : socket_(std::move(socket)), name_(std::move(name)), options_(std::move(options)) {}
 
-  /// Binds to the interface that has the name now; nothing new if the socket is bound to it. One that is
-  /// removed takes the socket's filters with it. False: errno says why.
+  /// Binds to the interface that has the name now, unless the socket is bound to it already. When an
+  /// interface is removed, the socket loses its filters. False: errno says why.
   bool bind_to_interface() {
     sockaddr_can at{};
     at.can_family = AF_CAN;
@@ -125,13 +125,13 @@ class SocketCan final : public Port {
     return received;
   }
 
-  /// The frame is taken by the call that waits for it, which saves one from its way. Such a call wakes by
-  /// itself every few milliseconds: the end is left to poll(), whose timer is exact.
+  /// Waits and reads in one system call, which shortens the frame's latency. That call's timeout is coarse,
+  /// so the last milliseconds before the deadline use poll(), whose timer is exact.
   bool wait_for_frame(std::int64_t deadline_ns) override {
     if (!batch_.empty()) return true;
     while (deadline_ns == no_deadline || deadline_ns - clock_ns(CLOCK_MONOTONIC) >= 2 * blocking_ns) {
       if (fetch(MSG_WAITFORONE)) return true;
-      if (errno != EAGAIN) return errno != EINTR;  // an outage: receive() tells
+      if (errno != EAGAIN) return errno != EINTR;  // receive() reports an outage
     }
     return Port::wait_for_frame(deadline_ns);
   }
@@ -142,8 +142,7 @@ class SocketCan final : public Port {
   }
   [[nodiscard]] bool closed() const override { return false; }
   [[nodiscard]] bool up() const override { return up_; }
-  /// The count behind SO_RXQ_OVFL, asked for: that message tells of a loss only with the next frame that is
-  /// queued.
+  /// Reads the drop counter from the kernel: SO_RXQ_OVFL would report a loss only with the next queued frame.
   [[nodiscard]] PortCounters counters() const override {
     PortCounters counters = counters_;
     std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
@@ -157,10 +156,10 @@ class SocketCan final : public Port {
   [[nodiscard]] const std::string& name() const override { return name_; }
 
  private:
-  /// Takes what waits. False: nothing does, as far as is known.
+  /// Reads the waiting frames. False: none waits, or the last read emptied the queue.
   bool fetch() {
     if (!up_) is_back();
-    if (took_all_) {  // saves a call that finds nothing: what came since, wait() sees
+    if (took_all_) {  // saves a call that would find nothing; wait() notices newer frames
       took_all_ = false;
       return false;
     }
@@ -199,14 +198,14 @@ class SocketCan final : public Port {
     clear_error();
   }
 
-  /// The error that wakes a waiting receiver is told; it must not wake it again.
+  /// Clears a pending socket error, so that it does not wake the receiver again.
   void clear_error() {
     int pending = 0;
     socklen_t size = sizeof pending;
     ::getsockopt(socket_.get(), SOL_SOCKET, SO_ERROR, &pending, &size);
   }
 
-  /// Whether the interface is up again, perhaps made anew. Asks the kernel at most every look_again_ns.
+  /// Whether the interface is up again, perhaps recreated. Asks the kernel at most every look_again_ns.
   bool is_back() {
     const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
     if (now_ns < look_ns_) return false;
@@ -220,7 +219,7 @@ class SocketCan final : public Port {
     received.t_ns = said.software_ns;
     received.hardware_ns = said.hardware_ns;
     received.source = said.hardware_ns != 0 ? StampSource::hardware : StampSource::kernel;
-    if (said.software_ns == 0) {  // the kernel turns stamping on a moment after it was asked for
+    if (said.software_ns == 0) {  // the kernel enables stamping with a short delay
       received.t_ns = clock_ns(CLOCK_REALTIME);
       if (said.hardware_ns == 0) received.source = StampSource::process;
     }
@@ -230,10 +229,10 @@ class SocketCan final : public Port {
   std::string name_;
   PortOptions options_;
   bool up_ = true;
-  std::int64_t look_ns_ = 0;  // when to look for an interface that is away
+  std::int64_t look_ns_ = 0;  // when to check next for an interface that is down
   bool interface_queue_full_ = false;
   ReceiveBatch batch_;
-  bool took_all_ = false;  // the queue was empty after the last frame that receive() gave
+  bool took_all_ = false;  // the queue was empty after the last frame that receive() returned
   PortCounters counters_;
 };
 

@@ -14,7 +14,7 @@ class Timer {
  public:
   Timer() : timer_(::timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)) {}
 
-  /// The descriptor is readable from then on [ns], until the next set(); 0: never.
+  /// Makes the descriptor readable from at_ns on, until the next set(); 0: never.
   void set(std::int64_t at_ns) {
     constexpr std::int64_t ns_per_s = 1'000'000'000;
     itimerspec time{};

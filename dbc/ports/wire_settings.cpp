@@ -11,7 +11,7 @@
 namespace canhil {
 namespace {
 
-/// What stands before the mark, or all; it and the mark are taken off the text.
+/// Removes and returns the text before the mark (all, if there is none); removes the mark too.
 std::string_view cut(std::string_view& text, char mark) {
   const std::size_t at = std::min(text.find(mark), text.size());
   const std::string_view head = text.substr(0, at);
@@ -26,7 +26,7 @@ bool read_number(std::string_view digits, Number lowest, Number highest, Number&
   return read.ec == std::errc{} && read.ptr == end && number >= lowest && number <= highest;
 }
 
-/// Takes `key=value` over; false: it is no such thing.
+/// Applies `key=value`; false: not a valid setting.
 bool read_setting(std::string_view setting, WireSettings& into) {
   const std::string_view key = cut(setting, '=');
   if (key == "bitrate") return read_number<std::int64_t>(setting, 1'000, 1'000'000, into.rates.nominal);
@@ -46,7 +46,7 @@ Result<WireSettings> wire_settings(std::string_view bus) {
   std::set<std::string_view> given;
   bool more = !rest.empty();
   while (more) {
-    more = rest.find('&') != std::string_view::npos;  // what follows a '&' is a setting, too
+    more = rest.find('&') != std::string_view::npos;  // after a '&' another setting must follow
     const std::string_view setting = cut(rest, '&');
     if (!read_setting(setting, result)) {
       return failure(
@@ -62,8 +62,8 @@ Result<WireSettings> wire_settings(std::string_view bus) {
   if (result.rates.nominal == 0 && bus.find('?') != std::string_view::npos)
     return failure(fmt::format("'{}': expected bitrate=1000..1000000 after '?'", bus));
   if (result.rates.data > 0 && result.rates.data < result.rates.nominal)
-    return failure(fmt::format("'{}': data-bitrate={} is slower than bitrate={}, expected that at the least",
-                               bus, result.rates.data, result.rates.nominal));
+    return failure(fmt::format("'{}': data-bitrate={} is slower than bitrate={}, expected at least that", bus,
+                               result.rates.data, result.rates.nominal));
   return result;
 }
 

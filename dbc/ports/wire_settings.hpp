@@ -1,4 +1,4 @@
-// The settings of a simulated wire, as they stand behind the '?' in the name of a bus.
+// The settings of a simulated wire, which follow the '?' in the name of a bus.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@
 
 namespace canhil {
 
-/// What `bitrate=500000&data-bitrate=2000000&queue=priority&bit-error-rate=1e-6&seed=3` says.
+/// The values of `bitrate=500000&data-bitrate=2000000&queue=priority&bit-error-rate=1e-6&seed=3`.
 struct WireSettings {
   wire::BitRates rates{};               ///< nominal 0: no wire, frames take no time
   QueueOrder order = QueueOrder::fifo;  ///< of every node's queue
   double bit_error_rate = 0;            ///< see BitErrors
   std::uint64_t seed = 1;               ///< of the errors
 
+  /// What these settings say of the wire.
   [[nodiscard]] WireFacts facts() const {
     return {.rates = rates, .urgent_first = order == QueueOrder::priority};
   }
 };
 
-/// Reads what follows the first '?' of a bus's name; without one there is no wire. Error: the line that says
-/// what was expected, with the bus as typed.
+/// Reads the settings after the first '?' of a bus's name; without a '?' there is no wire. Error: one line
+/// with the bus as typed and what was expected.
 Result<WireSettings> wire_settings(std::string_view bus);
 
-/// What disturbs the wire: nothing at a bit error rate of 0.
+/// The disturbance of the wire; empty at a bit error rate of 0.
 Disturb disturbance(const WireSettings& settings);
 
 }  // namespace canhil

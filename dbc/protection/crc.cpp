@@ -82,8 +82,8 @@ Result<void> validate(const Crc& crc) {
   return {};
 }
 
-// One register of 64 bits serves all widths: moved to its top, a narrower CRC sees the same bits leave it,
-// and mirroring the whole register brings the mirrored CRC down to bit 0.
+// One 64-bit register serves all widths: a narrower CRC occupies its top bits, and mirroring the register
+// moves the mirrored CRC down to bit 0.
 std::uint64_t compute(const Crc& crc, std::span<const std::uint8_t> bytes) {
   const unsigned shift = Crc::widest - crc.width;
   boost::crc_basic<Crc::widest> top(crc.polynomial << shift, crc.start << shift, 0, crc.input_reflected,

@@ -1,6 +1,5 @@
-// Cyclic redundancy checks whose model is known only at run time: the parameters of the "Rocksoft" model, by
-// which the published CRCs are described (Williams, A Painless Guide to CRC Error Detection Algorithms,
-// 1993).
+// Cyclic redundancy checks with parameters known only at run time: those of the "Rocksoft" model, which
+// describes the published CRCs (Williams, A Painless Guide to CRC Error Detection Algorithms, 1993).
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,8 @@
 
 namespace canhil::protection {
 
-/// A CRC. Polynomial without its highest term; polynomial, start and final_xor have `width` bits and are
-/// written most significant bit first, reflected or not.
+/// A CRC. The polynomial omits its highest term. Polynomial, start and final_xor have `width` bits and are
+/// written most significant bit first, also for a reflected CRC.
 struct Crc {
   static constexpr unsigned narrowest = 4;
   static constexpr unsigned widest = 64;
@@ -27,24 +26,24 @@ struct Crc {
   friend bool operator==(const Crc&, const Crc&) = default;
 };
 
-/// A CRC that is described elsewhere, and the result that is published for the nine bytes "123456789".
+/// A published CRC, with its published result for the nine bytes "123456789".
 struct PublishedCrc {
   std::string_view name;
   Crc crc;
   std::uint64_t check = 0;
 };
 
-/// The published CRCs that are known by name, in the order of their widths.
+/// All published CRCs with a name, ordered by width.
 std::span<const PublishedCrc> published_crcs();
 
-/// The published CRC of a name, as "CRC-8/SAE-J1850". The error lists the names.
+/// The published CRC with a name such as "CRC-8/SAE-J1850". The error lists the names.
 Result<Crc> published_crc(std::string_view name);
 
-/// An error in one line if a value is impossible: a width outside 4..64, a polynomial that is even (one bit
-/// of the CRC would be constant; a reflected polynomial mostly looks so), or a value wider than the CRC.
+/// Error: one line if a value is impossible: a width outside 4..64, an even polynomial (one bit of the CRC
+/// would be constant; a polynomial in reflected notation is usually even), or a value wider than the CRC.
 Result<void> validate(const Crc& crc);
 
-/// The CRC of some bytes, right-aligned. The model must be valid.
+/// The CRC of the bytes, right-aligned. The model must be valid.
 std::uint64_t compute(const Crc& crc, std::span<const std::uint8_t> bytes);
 
 }  // namespace canhil::protection

@@ -29,8 +29,8 @@ inline std::uint64_t read(const Place& place, std::span<const std::uint8_t> data
   return value;
 }
 
-/// Writes the lowest bits of a value, as many as the field has; leaves other bits alone. The data must hold
-/// the place.
+/// Writes the lowest bits of a value, as many as the field has; does not change other bits. The data must
+/// hold the place.
 inline void write(const Place& place, std::uint64_t value, std::span<std::uint8_t> data) {
   for_each_bit(place, [&](unsigned byte, std::uint8_t bit, unsigned index) {
     const bool set = ((value >> index) & 1U) != 0;

@@ -10,10 +10,10 @@
 namespace canhil::protection {
 namespace {
 
-/// How a profile counts the data id in.
+/// How a profile includes the data id in the checksum.
 enum class DataId : std::uint8_t { both, alternating, low, nibble, list };
 
-/// A field of whole bytes, from the profile's byte on.
+/// A field of whole bytes, starting at a byte of the profile.
 Place bytes_at(const ProfileChoice& choice, unsigned byte, unsigned bytes, bool big_endian) {
   return {.start_bit = choice.offset_bits + 8 * byte + (big_endian ? 7 : 0),
           .length = 8 * bytes,
@@ -65,7 +65,7 @@ Settings short_header(const ProfileChoice& choice, DataId mode) {
   return settings;
 }
 
-/// A profile whose header has whole bytes: [byte, bytes] of each field; no bytes: not sent.
+/// A profile whose header fields are whole bytes: [byte, bytes] of each field; 0 bytes: not sent.
 struct Header {
   struct Field {
     unsigned byte = 0;
@@ -165,7 +165,7 @@ Result<Settings> profile(std::string_view name, const ProfileChoice& choice, uns
     return wrong(fmt::format("offset_bits {}, expected whole bytes, less than {}", choice.offset_bits,
                              8 * Frame::max_size));
   if (choice.data_id_nibble && !found->nibble)
-    return wrong("a place for the data id's nibble, expected none: variants 1c and 11c have one");
+    return wrong("a place for the data id's nibble, expected none: only variants 1c and 11c have one");
   if (found->data_id_bits == 0 && choice.data_id != 0)
     return wrong(fmt::format("data_id 0x{:X}, expected data_id_list in its place", choice.data_id));
   if (found->data_id_bits == 0 && choice.data_id_list.size() != 16)

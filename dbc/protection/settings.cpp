@@ -32,7 +32,7 @@ constexpr std::array<std::pair<std::string_view, AddedByte>, 11> added_bytes{
      {"message_id_3", {Source::message_id, 0, 3}},
      {"length", {Source::length, 0, 0}}}};
 
-/// The number behind "crc"; none: not such a word, or a width that no Crc has.
+/// The number after "crc"; none: another word, or a width that Crc does not support.
 std::optional<unsigned> crc_width(std::string_view word) {
   constexpr std::string_view crc = "crc";
   if (!word.starts_with(crc)) return std::nullopt;

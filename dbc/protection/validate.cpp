@@ -1,4 +1,4 @@
-// Whether settings are possible for a message.
+// Checks whether settings are possible for a message.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace canhil::protection {
 namespace {
 
-constexpr unsigned longest_counter = 32;  // its modulo and period fit 64 bits with room to add
+constexpr unsigned longest_counter = 32;  // sums of its modulo and period cannot overflow 64 bits
 constexpr unsigned longest_constant = 64;
 
-/// The fields that the settings write, each inside the message and over no other.
+/// The fields that the settings write. Each must be inside the message and must not overlap another.
 class Fields {
  public:
   explicit Fields(unsigned size) : size_(size) {}
@@ -31,7 +31,7 @@ class Fields {
       for (unsigned i = 0; i < size_; ++i) {
         if ((bits[i] & taken[i]) != 0)
           return failure(
-              fmt::format("{}: lies over the {} in byte {}, expected bits of its own", what, other, i));
+              fmt::format("{}: overlaps the {} in byte {}, expected bits of its own", what, other, i));
       }
     }
     taken_.push_back(Taken{std::string(what), bits});

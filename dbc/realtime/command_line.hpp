@@ -9,13 +9,13 @@
 
 namespace canhil::realtime {
 
-/// As typed.
+/// The values as typed.
 struct Options {
   bool wanted = false;
   std::optional<int> priority;
   std::optional<int> cpu;
 
-  /// What to enter() with; none without --realtime.
+  /// The argument for enter(); none without --realtime.
   [[nodiscard]] std::optional<Request> request() const {
     if (!wanted) return std::nullopt;
     return Request{.priority = priority.value_or(default_priority), .cpu = cpu};
@@ -26,7 +26,7 @@ struct Options {
 inline command_line::Option add_options(command_line::Command command, Options& options) {
   const auto realtime = command.add_flag(
       "--realtime", options.wanted,
-      "run under SCHED_FIFO with all memory locked; refused with the remedy where not permitted");
+      "run under SCHED_FIFO with all memory locked; if that is not permitted, print the remedy and end");
   command
       .add_number("--priority", options.priority,
                   "of --realtime (default " + std::to_string(default_priority) + ")", 1, 99)

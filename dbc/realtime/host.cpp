@@ -96,10 +96,10 @@ std::string missing(const Rights& rights, int priority, std::string_view user, s
   std::vector<std::string> lacks;
   if (!rights.may_schedule && rights.priority < static_cast<std::uint64_t>(priority))
     lacks.push_back(fmt::format("real-time priority {} is above the limit of {}", priority, rights.priority));
-  // A finite limit would hold at the start, and end the program when it grows.
+  // A finite limit may suffice at the start, but locking fails when the program grows.
   if (!rights.may_lock && rights.locked_bytes != std::numeric_limits<std::uint64_t>::max())
     lacks.push_back(
-        fmt::format("memory cannot all be locked within the limit of {} KiB", rights.locked_bytes / 1024));
+        fmt::format("the limit of {} KiB does not allow locking all memory", rights.locked_bytes / 1024));
   if (lacks.empty()) return "";
   return fmt::format(
       "{}: add the lines '{} - rtprio {}' and '{} - memlock unlimited' to "

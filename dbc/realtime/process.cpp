@@ -23,9 +23,9 @@ namespace {
 constexpr std::size_t page_bytes = 4096;
 constexpr std::size_t stack_bytes = 512 << 10;
 
-int cpu_sleep_request = -1;  // open as long as the process lives: closing it withdraws the request
+int cpu_sleep_request = -1;  // stays open until the process ends: closing it withdraws the request
 
-// The kernel's promise that a CPU wakes within 0 us lasts while the file is open.
+// While the file is open, the kernel limits the wake-up latency of the CPUs to 0 us.
 void keep_cpus_awake() {
   if (cpu_sleep_request >= 0) return;
   const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);
@@ -42,14 +42,14 @@ void touch(volatile char* bytes, std::size_t size) {
   for (std::size_t at = 0; at < size; at += page_bytes) bytes[at] = 0;
 }
 
-// Not inlined: the stack that it takes is free again for what comes after.
+// Not inlined, so that its stack is free again when it returns.
 [[gnu::noinline]] void touch_stack() {
   std::array<char, stack_bytes> bytes;
   touch(bytes.data(), bytes.size());
 }
 
-// Freed memory stays with the process, and large blocks come from the same heap: neither costs a page fault
-// later.
+// Freed memory stays with the process, and large blocks come from the same heap, so that neither costs page
+// faults later.
 void touch_heap(std::size_t size) {
   ::mallopt(M_TRIM_THRESHOLD, -1);
   ::mallopt(M_MMAP_MAX, 0);
@@ -110,7 +110,7 @@ Result<void> enter(const Request& request) {
   return {};
 }
 
-// Locking takes private pages as if it wrote to them.
+// mlockall() faults private pages in as if they were written to.
 bool own_memory_again() { return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0; }
 
 std::vector<int> cpus() {
@@ -153,7 +153,7 @@ Standing standing() {
           .preemption = preemption()};
 }
 
-std::string words(const Standing& standing) {
+std::string to_text(const Standing& standing) {
   return fmt::format(
       "{}{}, CPU {}, {} MiB locked, timer slack {} ns, {}{}, {}", standing.policy,
       standing.priority > 0 ? fmt::format(" {}", standing.priority) : "", list(standing.cpus),

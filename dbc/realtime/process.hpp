@@ -1,4 +1,4 @@
-// A process that is to be on time: scheduled before others, its memory held in place, on a CPU of its own.
+// A real-time process: real-time scheduling, locked memory, a CPU of its own.
 #pragma once
 
 #include <cstddef>
@@ -11,51 +11,50 @@
 
 namespace canhil::realtime {
 
-/// Below 50, at which PREEMPT_RT runs the threads of interrupts: the one that empties the CAN controller goes
-/// first, so its few buffers do not overrun while an estimator computes.
+/// Below 50, the priority of interrupt threads under PREEMPT_RT: the thread that empties the CAN controller
+/// must run first, or the controller's few buffers overrun while an estimator computes.
 inline constexpr int default_priority = 40;
 
-/// What a program is asked to take for itself.
+/// The real-time settings for a process.
 struct Request {
   int priority = default_priority;   ///< of SCHED_FIFO, 1 to 99
-  std::optional<int> cpu{};          ///< the only one to run on; none: as it was
-  std::size_t heap_bytes = 8 << 20;  ///< made present beforehand; it grows beyond when it must
+  std::optional<int> cpu{};          ///< the only CPU to run on; none: unchanged
+  std::size_t heap_bytes = 8 << 20;  ///< faulted in beforehand; the heap can still grow beyond
 };
 
-/// Puts this process under SCHED_FIFO, locks its memory, makes stack and heap present, sets the timer slack
-/// to 1 ns, pins it, and keeps the CPUs out of deep sleep where /dev/cpu_dma_latency may be written. Call it
-/// before any thread is started. Error: one line with the remedy; nothing was changed where rights are
-/// missing.
+/// Puts this process under SCHED_FIFO, locks its memory, faults in stack and heap, sets the timer slack to
+/// 1 ns, pins the process, and keeps the CPUs out of deep sleep if /dev/cpu_dma_latency is writable. Call it
+/// before starting threads. Error: one line with the remedy; if rights are missing, nothing is changed.
 Result<void> enter(const Request& request);
 
-/// Makes the memory of a process that has entered present again: after a fork() each page of it would cost a
-/// fault when it is first written to. False: the memory may not be locked.
+/// Faults in the memory of a real-time process again: after a fork() the first write to each page costs a
+/// fault. False: the memory could not be locked.
 bool own_memory_again();
 
 /// The CPUs that this process may run on.
 std::vector<int> cpus();
-/// Error: it is none of the CPUs that this process may run on. `option`: where it was asked for.
+/// Error: this process may not run on the CPU. `option`: the option that requested it.
 Result<void> check_cpu(const std::string& option, int cpu);
-/// Restricts the calling process to some CPUs; false if the kernel will not.
+/// Restricts the calling process to some CPUs; false if the kernel refuses.
 bool pin(const std::vector<int>& cpus);
 
-/// What is in force for this process, as the kernel tells it.
+/// The settings in force for this process, as the kernel reports them.
 struct Standing {
   std::string policy;  ///< SCHED_FIFO, SCHED_OTHER ...
   int priority = 0;    ///< 0 unless a real-time policy is in force
   std::vector<int> cpus;
   std::int64_t locked_kib = 0;
-  std::int64_t timer_slack_ns = 0;     ///< Linux 6.12 and later says 0 under a real-time policy
+  std::int64_t timer_slack_ns = 0;     ///< Linux 6.12 and later reports 0 under a real-time policy
   bool awake = false;                  ///< this process keeps the CPUs out of deep sleep
-  std::vector<std::string> governors;  ///< of its CPUs; empty: their frequency is not scaled by the kernel
+  std::vector<std::string> governors;  ///< of its CPUs; empty: the kernel does not scale their frequency
   std::string preemption;              ///< of the kernel
 };
 Standing standing();
 
 /// One line: "SCHED_FIFO 40, CPU 1, 71 MiB locked, timer slack 1 ns, governor performance, PREEMPT_RT".
-std::string words(const Standing& standing);
+std::string to_text(const Standing& standing);
 
-/// The line for a person when the frequency of the CPUs follows the load; else empty.
+/// A warning line if the frequency of the CPUs follows the load; else empty.
 std::string frequency_warning(const Standing& standing);
 
 }  // namespace canhil::realtime

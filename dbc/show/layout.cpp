@@ -10,7 +10,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// A, B, ... Z, AA, AB, ...: short, as a cell of the matrix has little room.
+/// A, B, ... Z, AA, AB, ...: short, as cells of the matrix are narrow.
 std::string label(std::size_t number) {
   std::string text;
   for (std::size_t rest = number + 1; rest > 0; rest = (rest - 1) / 26)
@@ -18,7 +18,7 @@ std::string label(std::size_t number) {
   return text;
 }
 
-/// "A7": bit 7 of the raw value of signal A; "A7+": and bits of other signals.
+/// "A7": bit 7 of the raw value of signal A; "A7+": also bits of other signals.
 std::string matrix(const Message& message) {
   std::vector<std::string> cells(std::size_t{8} * message.size, ".");
   for (std::size_t s = 0; s < message.signals.size(); ++s) {
@@ -102,12 +102,12 @@ std::string head(const Message& message) {
 
 std::string message_page(const Message& message) {
   std::vector<Row> rows{{"", "signal", "start", "length", "order", "type", "scale", "offset", "range", "unit",
-                         "there when", "values"}};
+                         "present when", "values"}};
   for (std::size_t i = 0; i < message.signals.size(); ++i) rows.push_back(signal_row(i, message.signals[i]));
   const std::string bits = matrix(message);
   const bool is_shared = bits.find('+') != std::string::npos;
   return head(message) + "\n" + bits + "A7: bit 7 of the raw value of signal A" +
-         (is_shared ? "; +: and bits of other signals\n\n" : "\n\n") + aligned(rows);
+         (is_shared ? "; +: also bits of other signals\n\n" : "\n\n") + aligned(rows);
 }
 
 }  // namespace canhil::dbc

@@ -11,7 +11,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// Characters of UTF-8.
+/// The number of UTF-8 characters.
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));

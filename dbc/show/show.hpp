@@ -1,4 +1,4 @@
-// What a DBC file says, as text for people.
+// The content of a DBC file as text.
 #pragma once
 
 #include <string>
@@ -14,9 +14,8 @@ std::string message_table(const Database& database);
 /// One message: its bits as a matrix of bytes and bits, and a line for each signal.
 std::string message_page(const Message& message);
 
-/// The message of this name, or of this id: decimal, or hexadecimal after 0x. Of a standard and an extended
-/// one with the same id: the standard one, or with eight hexadecimal digits the extended one. Error: one
-/// line.
+/// The message with this name, or with this id: decimal, or hexadecimal after 0x. If a standard and an
+/// extended message have the same id, eight hexadecimal digits select the extended one. Error: one line.
 Result<const Message*> named_message(const Database& database, const std::string& name);
 
 }  // namespace canhil::dbc

@@ -1,9 +1,8 @@
-// How long a frame is on the wire: exactly, by its content, and at worst, by its size alone. From that the
-// time it takes and the load of a bus.
+// The length of a frame on the wire: exact from its content, worst case from its size. From the length follow
+// the frame's duration and the bus load.
 //
-// All lengths include the intermission of 3 bits before which no other frame can start, and the
-// acknowledgement. Layouts: ISO 11898-1:2015, 10.4. The sender is taken to be error active (bit ESI of FD
-// frames).
+// All lengths include the acknowledgement and the intermission of 3 bits before the next frame. Layouts:
+// ISO 11898-1:2015, 10.4. The sender is assumed to be error active (bit ESI of FD frames).
 #pragma once
 
 #include <cstdint>
@@ -12,9 +11,9 @@
 
 namespace canhil::wire {
 
-/// Bits at the nominal bit rate and, in an FD frame that switches it, at that of the data phase. Both
-/// switches lie at the sample point of a bit, BRS and CRC delimiter: the two together last one bit of each
-/// kind, so BRS counts as nominal, the delimiter as data.
+/// Bits at the nominal bit rate and, in an FD frame with bit rate switch, at the data bit rate. The rate
+/// switches at the sample points of BRS and of the CRC delimiter. Together these two bits last one nominal
+/// and one data bit, so BRS counts as nominal and the delimiter as data.
 struct BitLength {
   std::int64_t nominal = 0;
   std::int64_t data = 0;
@@ -24,6 +23,7 @@ struct BitLength {
     data += other.data;
     return *this;
   }
+  /// All bits, whatever their rate.
   [[nodiscard]] constexpr std::int64_t bits() const { return nominal + data; }
   friend constexpr bool operator==(const BitLength&, const BitLength&) = default;
 };
@@ -31,13 +31,14 @@ struct BitLength {
 /// In bit/s, nominal above 0.
 struct BitRates {
   std::int64_t nominal = 0;
-  std::int64_t data = 0;  ///< of the data phase of FD frames; 0: as nominal
+  std::int64_t data = 0;  ///< in the data phase of FD frames; 0: same as nominal
 };
 
-/// Bits as the sender puts them on the wire: counts them with the stuff bits between them, and keeps the CRC
-/// of classic frames.
+/// The bits that a sender puts on the wire: counts them including stuff bits, and computes the CRC of classic
+/// frames.
 class BitStream {
  public:
+  /// Appends a bit, and a stuff bit before it where one is due.
   constexpr void put(bool bit) {
     if (run_ == longest_run) stuff();
     run_ = bit == last_ ? run_ + 1 : 1;
@@ -50,11 +51,13 @@ class BitStream {
   constexpr void put(std::uint32_t value, int count) {
     while (count-- > 0) put((value >> static_cast<unsigned>(count) & 1U) != 0);
   }
-  /// The stuff bit that five equal bits call for at the end of all too.
+  /// Adds the stuff bit that is due if the stream ends with five equal bits.
   constexpr void close() {
     if (run_ == longest_run) stuff();
   }
+  /// Bits so far, with stuff bits.
   [[nodiscard]] constexpr int length() const { return length_; }
+  /// The CRC of the bits so far, without stuff bits.
   [[nodiscard]] constexpr std::uint32_t crc15() const { return crc_; }
 
  private:
@@ -73,28 +76,27 @@ class BitStream {
   std::uint32_t crc_ = 0;
 };
 
-/// Behind every frame, at the nominal bit rate; the stamp of a frame is taken before.
+/// After every frame, at the nominal bit rate. A frame is stamped before its intermission.
 inline constexpr std::int64_t intermission_bits = 3;
 
 /// Acknowledgement with delimiter, end of frame, intermission.
 inline constexpr std::int64_t frame_end_bits = 2 + 7 + intermission_bits;
 
-/// The data length code of a size that has one.
+/// The data length code of a size; the size must have one.
 constexpr std::uint32_t data_length_code(unsigned size) {
   if (size <= 8) return size;
   if (size <= 24) return 9 + (size - 12) / 4;
   return size == 32 ? 13 : size == 48 ? 14 : 15;
 }
 
-/// Stuff count, CRC and CRC delimiter of an FD frame; a fixed stuff bit stands before every four bits of the
-/// first two.
+/// Stuff count, CRC and CRC delimiter of an FD frame; a fixed stuff bit precedes every four bits of stuff
+/// count and CRC.
 constexpr int fd_crc_field_bits(unsigned size) {
   const int bits = 4 + (size <= 16 ? 17 : 21);
   return bits + (bits + 3) / 4 + 1;
 }
 
-/// The length of a frame with this content. An error frame has none (0): what stood behind it on the wire is
-/// not known.
+/// The length of a frame with this content. 0 for an error frame, whose length on the wire is unknown.
 constexpr BitLength bit_length(const Frame& frame) {
   if (frame.error) return {};
   BitStream wire;
@@ -121,25 +123,26 @@ constexpr BitLength bit_length(const Frame& frame) {
   const int arbitration = wire.length();
   wire.put(data_length_code(frame.size), 5);  // ESI (0: error active), DLC
   for (const std::uint8_t byte : frame.payload()) wire.put(byte, 8);
-  // Where a stuff bit is due after the data the first fixed one takes its place: no close().
+  // No close(): the first fixed stuff bit replaces a stuff bit that is due after the data.
   const int data = wire.length() - arbitration + fd_crc_field_bits(frame.size);
   if (!frame.brs) return {.nominal = arbitration + data + frame_end_bits};
   return {.nominal = arbitration + frame_end_bits, .data = data};
 }
 
-/// The most that a classic frame of this size can take: g + 8 s + 13 + floor((g + 8 s - 1) / 4) bits, where g
-/// is 34 for 11-bit ids, 54 for 29-bit ones (Davis, Burns, Bril, Lukkien 2007, eq. 1).
+/// The largest length of a classic frame of size s: g + 8 s + 13 + floor((g + 8 s - 1) / 4) bits, where g is
+/// 34 for 11-bit ids, 54 for 29-bit ones (Davis, Burns, Bril, Lukkien 2007, eq. 1).
 constexpr BitLength worst_case_length(unsigned size, bool extended) {
   const std::int64_t stuffed = (extended ? 54 : 34) + 8 * static_cast<std::int64_t>(size);
   return {.nominal = stuffed + 13 + (stuffed - 1) / 4};
 }
 
-/// The most that an FD frame can take. Up to BRS 17 (11-bit id) or 36 bits (29-bit), of which FDF = 1 and
-/// res = 0 end every run: stuff bits fall in the 14 or 33 ahead of them, at most floor((14 - 1) / 4) = 3 or
-/// floor((33 - 1) / 4) = 8. From ESI to the last data bit 5 + 8 s; a run may begin at res, two bits earlier
-/// without a switch of the bit rate, or at BRS, one bit earlier with it, and what is due after the last bit
-/// is a fixed one: at most floor((5 + 8 s + 2 - 2) / 4) = 1 + 2 s, which holds for error passive senders
-/// (ESI = 1) too.
+/// The largest length of an FD frame of size s.
+/// Up to BRS there are 17 bits (11-bit id) or 36 bits (29-bit id). FDF = 1 and res = 0 end every run, so
+/// stuff bits fall into the 14 or 33 bits before them: at most floor((14 - 1) / 4) = 3 or floor((33 - 1) / 4)
+/// = 8. From ESI to the last data bit there are 5 + 8 s bits. A run may begin two bits earlier at res
+/// (without bit rate switch) or one bit earlier at BRS (with it), and a stuff bit due after the last bit is a
+/// fixed one: at most floor((5 + 8 s + 2 - 2) / 4) = 1 + 2 s stuff bits, also for error passive senders (ESI
+/// = 1).
 constexpr BitLength worst_case_fd_length(unsigned size, bool extended, bool brs) {
   const std::int64_t arbitration = extended ? 36 + 8 : 17 + 3;
   const std::int64_t s = size;
@@ -148,14 +151,14 @@ constexpr BitLength worst_case_fd_length(unsigned size, bool extended, bool brs)
   return {.nominal = arbitration + frame_end_bits, .data = data};
 }
 
-/// How long so many bits last, in s.
+/// The duration of a length [s].
 constexpr double duration_s(const BitLength& length, const BitRates& rates) {
   const std::int64_t data_rate = rates.data > 0 ? rates.data : rates.nominal;
   return static_cast<double>(length.nominal) / static_cast<double>(rates.nominal) +
          static_cast<double>(length.data) / static_cast<double>(data_rate);
 }
 
-/// The same for a single frame, in ns, rounded up.
+/// The duration of a single frame [ns], rounded up.
 constexpr std::int64_t duration_ns(const BitLength& length, const BitRates& rates) {
   constexpr std::int64_t ns_per_s = 1'000'000'000;
   const auto rounded_up = [](std::int64_t bits, std::int64_t rate) {
@@ -165,8 +168,7 @@ constexpr std::int64_t duration_ns(const BitLength& length, const BitRates& rate
          rounded_up(length.data, rates.data > 0 ? rates.data : rates.nominal);
 }
 
-/// The share of an interval (above 0) for which frames of these lengths in sum keep the bus busy: 1 is a full
-/// bus.
+/// The fraction of an interval (above 0) during which frames with this total length occupy the bus; 1: full.
 constexpr double bus_load(const BitLength& sum, double interval_s, const BitRates& rates) {
   return duration_s(sum, rates) / interval_s;
 }

@@ -1,5 +1,5 @@
-// Bytes of a frame to 64-bit words and back, and signals in them. Everything folds to a load, shifts and a
-// store.
+// Converts bytes of a frame to 64-bit words and back, and extracts signals. Each function compiles to a load,
+// shifts and a store.
 #pragma once
 
 #include <bit>
@@ -13,9 +13,9 @@ namespace canhil::wire {
 
 static_assert(std::endian::native == std::endian::little, "canhil is written for little-endian hosts");
 
-/// Where bit i of a signal lies, i counted from the DBC's start bit: byte * 8 + bit in the byte (0: least
-/// significant). Intel counts up from the least significant bit; Motorola down from the most significant one,
-/// byte by byte.
+/// The position of bit i of a signal, counted from the DBC's start bit: byte * 8 + bit in the byte (0: least
+/// significant). Intel counts up from the least significant bit; Motorola counts down from the most
+/// significant bit, byte by byte.
 constexpr unsigned bit_position(unsigned start_bit, unsigned i, bool big_endian) {
   if (!big_endian) return start_bit + i;
   const unsigned sequential = (start_bit / 8) * 8 + (7 - start_bit % 8) + i;
@@ -41,6 +41,7 @@ constexpr std::uint64_t load_be(const std::uint8_t* data) {
   return bytes == 0 ? 0 : __builtin_bswap64(load_le<first, bytes>(data)) >> ((64 - 8 * bytes) & 63);
 }
 
+/// The inverse of load_le().
 template <std::size_t first, std::size_t bytes>
 constexpr void store_le(std::uint8_t* data, std::uint64_t word) {
   static_assert(bytes <= 8);
@@ -51,21 +52,24 @@ constexpr void store_le(std::uint8_t* data, std::uint64_t word) {
   }
 }
 
+/// The inverse of load_be().
 template <std::size_t first, std::size_t bytes>
 constexpr void store_be(std::uint8_t* data, std::uint64_t word) {
   if constexpr (bytes > 0) store_le<first, bytes>(data, __builtin_bswap64(word) >> (64 - 8 * bytes));
 }
 
-/// Adds the word's bits to those that are there.
+/// Combines the word's bits with the existing ones (or).
 template <std::size_t first, std::size_t bytes>
 constexpr void merge_le(std::uint8_t* data, std::uint64_t word) {
   store_le<first, bytes>(data, load_le<first, bytes>(data) | word);
 }
+/// Like merge_le(), the first byte most significant.
 template <std::size_t first, std::size_t bytes>
 constexpr void merge_be(std::uint8_t* data, std::uint64_t word) {
   store_be<first, bytes>(data, load_be<first, bytes>(data) | word);
 }
 
+/// A word whose lowest `length` bits are 1.
 constexpr std::uint64_t mask(unsigned length) {
   return length >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << length) - 1;
 }

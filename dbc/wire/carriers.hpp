@@ -1,5 +1,5 @@
-// What each message travels in on a bus: itself on classic CAN; on CAN FD the container of its group, or a
-// frame of its own.
+// The frame that carries each message: on classic CAN its own; on CAN FD the container of its group, or its
+// own frame.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,15 @@ namespace canhil::wire {
 
 /// A frame on the wire.
 struct Carrier {
-  std::size_t first = 0;    ///< place in the list of messages of the first message in it, whose id it has
+  std::size_t first = 0;    ///< index of the first message in the frame; the frame has that message's id
   std::string_view name{};  ///< in the bus's contract
   BitLength longest{};
 };
 
-/// By place in all_messages.
+/// By index in all_messages.
 using Carriers = std::array<Carrier, messages::all_messages.size()>;
 
+/// On classic CAN: each message travels in a frame of its own.
 inline constexpr Carriers classic_carriers = [] {
   Carriers carriers{};
   for (std::size_t i = 0; i < carriers.size(); ++i) {
@@ -34,6 +35,7 @@ inline constexpr Carriers classic_carriers = [] {
   return carriers;
 }();
 
+/// On CAN FD: the containers of the sample groups, and frames of their own for the other messages.
 inline constexpr Carriers fd_carriers = [] {
   Carriers carriers = classic_carriers;
   for (std::size_t i = 0; i < carriers.size(); ++i) {
@@ -49,8 +51,8 @@ inline constexpr Carriers fd_carriers = [] {
   return carriers;
 }();
 
-/// Of the messages of a bus: of the project's contract as above; those of another DBC travel each in a frame
-/// of its own, as long as `fd` or classic frames may be.
+/// The carriers of a bus's messages. For the project's contract as above; each message of another DBC has its
+/// own frame.
 inline std::vector<Carrier> carriers_of(std::span<const MessageInfo> messages, bool fd) {
   if (messages.data() == messages::all_messages.data()) {
     const Carriers& own = fd ? fd_carriers : classic_carriers;

@@ -10,16 +10,17 @@
 
 namespace canhil::e2e {
 
-inline constexpr int counter_period = 15;  // 15 is not used, as the profile says
+/// Counters run from 0 to 14.
+inline constexpr int counter_period = 15;  // the profile excludes the value 15
 
 namespace detail {
 
 inline constexpr std::size_t stride =
-    7;  // bytes taken at once: what 8 bytes have after the CRC, 64 bytes nine times
+    7;  // bytes per step: an 8-byte frame has one step after the CRC byte, a 64-byte frame nine
 
-// advance[k][b]: the CRC of byte b followed by k zero bytes. The CRC is linear, so that of a stretch of bytes
-// is the exclusive or of its bytes' parts: independent look-ups, where byte by byte each would wait for the
-// one before.
+// advance[k][b]: the CRC of byte b followed by k zero bytes. The CRC is linear, so the CRC of several bytes
+// is the exclusive or of such entries. These look-ups are independent of each other; in a byte-wise loop each
+// would wait for the one before.
 consteval std::array<std::array<std::uint8_t, 256>, stride> crc_tables() {
   std::array<std::array<std::uint8_t, 256>, stride> advance{};
   for (unsigned b = 0; b < 256; ++b) {
@@ -57,24 +58,26 @@ constexpr void protect(std::span<std::uint8_t> data, std::uint16_t data_id, std:
   data[0] = crc(data, data_id);
 }
 
+/// The counter of a protected frame.
 constexpr std::uint8_t counter(std::span<const std::uint8_t> data) { return data[1] & 0x0FU; }
 
+/// The counter after this one.
 constexpr std::uint8_t next(std::uint8_t counter) {
   return static_cast<std::uint8_t>(counter + 1 == counter_period ? 0 : counter + 1);
 }
 
-/// What a received frame's protection says, given the frames before it.
+/// The result of checking a received frame, given the frames before it.
 enum class Check : std::uint8_t {
   ok,         ///< CRC right, counter follows
-  some_lost,  ///< CRC right, counter jumped: frames are missing in between
+  some_lost,  ///< CRC right, counter jumped: frames were lost in between
   repeated,   ///< CRC right, same counter as before: not new
-  wrong_crc   ///< to be dropped
+  wrong_crc   ///< discard the frame
 };
 
-/// Receiver of one message: holds the last counter.
+/// Holds the last counter of one received message.
 class Receiver {
  public:
-  /// Checks a frame and takes its counter over. `lost` is the number of frames missing before it (0..13).
+  /// Checks a frame and stores its counter. lost() is then the number of frames lost before it (0..13).
   constexpr Check check(std::span<const std::uint8_t> data, std::uint16_t data_id) {
     lost_ = 0;
     if (data.size() < 2 || data[0] != crc(data, data_id) || counter(data) >= counter_period)
@@ -87,7 +90,9 @@ class Receiver {
     lost_ = (now + counter_period - before - 1) % counter_period;
     return lost_ == 0 ? Check::ok : Check::some_lost;
   }
+  /// The frames lost before the last checked one (0..13).
   [[nodiscard]] constexpr int lost() const { return lost_; }
+  /// Forgets the last counter: the next frame with a right CRC is ok.
   constexpr void reset() { last_ = none; }
 
  private:

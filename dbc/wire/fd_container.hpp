@@ -15,13 +15,13 @@ struct FdContainer {
   static constexpr std::size_t slot_bytes = 8;
 
   std::string_view name{};  ///< of the message on CAN FD
-  std::uint16_t id = 0;     ///< that of its first slot
+  std::uint16_t id = 0;     ///< of its first slot
   std::uint8_t size = 0;
   std::uint8_t count = 0;
   std::array<std::uint16_t, max_slots> slots{};  ///< the ids of the classic frames
 };
 
-/// Where a classic id has its place.
+/// The container and slot of a classic id.
 struct FdPlace {
   static constexpr std::uint8_t nowhere = 0xFF;
   std::uint8_t container = nowhere;  ///< index

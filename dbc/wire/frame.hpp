@@ -1,4 +1,4 @@
-// A CAN frame as every part of canhil sees it: classic or FD, no socket, no time.
+// A CAN frame, classic or FD, independent of sockets and time.
 #pragma once
 
 #include <algorithm>
@@ -19,9 +19,10 @@ struct Frame {
   bool fd = false;         ///< CAN FD format
   bool brs = false;        ///< CAN FD: data phase at the higher bit rate
   bool error = false;      ///< error frame
-  bool unrounded = false;  ///< scaled signals stand behind the payload as doubles: in one process only
+  bool unrounded = false;  ///< scaled signals follow the payload as doubles: within one process only
   std::array<std::uint8_t, max_size> data{};
 
+  /// The data bytes of the frame.
   [[nodiscard]] std::span<const std::uint8_t> payload() const { return {data.data(), size}; }
 
   friend bool operator==(const Frame& a, const Frame& b) {

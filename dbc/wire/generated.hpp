@@ -1,4 +1,4 @@
-// What every generated header stands on: codec pieces, and the checks that it asserts on itself.
+// Included by every generated header: codec functions, and the checks in its static assertions.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace canhil::wire {
 
-/// True if every signal lies inside of its message and, multiplexed ones aside, on bits of its own.
+/// True if every signal lies inside its message and signals that are not multiplexed do not overlap.
 constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> signals) {
   std::array<bool, 512> taken{};
   if (message.e2e_data_id != 0) std::fill_n(taken.begin(), 12, true);
@@ -30,8 +30,7 @@ constexpr bool is_sound(const MessageInfo& message, std::span<const SignalInfo> 
   return true;
 }
 
-/// The share of a sensor's noise that rounding may add: LSB / sqrt(12) <= sigma / 4 (design, the bus
-/// contract).
+/// The limit of rounding noise relative to the sensor's noise: LSB / sqrt(12) <= sigma / 4.
 inline constexpr double largest_quantisation_ratio = 0.25;
 
 /// Standard deviation of rounding to multiples of `lsb`, over the sensor's per-sample sigma.
@@ -40,15 +39,15 @@ constexpr double quantisation_ratio(double lsb, double sensor_sigma) {
   return lsb / sqrt_12 / sensor_sigma;
 }
 
-/// What is wrong with a measurement's resolution.
+/// The verdict on a measurement's resolution.
 enum class Resolution : std::uint8_t {
   enough,
   too_coarse,       ///< LSB / sqrt(12) > sigma / 4
-  loses_remainder,  ///< an increment (delta_*) that does not carry its rounding remainder: errors would
-                    ///< accumulate
-  unknown_sigma     ///< carries a remainder, so it is a measurement, but has no SensorSigma to judge it by
+  loses_remainder,  ///< an increment (delta_*) without CarriesRemainder: rounding errors accumulate
+  unknown_sigma     ///< carries a remainder, so it is a measurement, but has no SensorSigma
 };
 
+/// Judges a signal by its LSB and the 1-sigma of its sensor, both in the signal's unit; 0: no sensor.
 constexpr Resolution resolution_of(std::string_view name, double lsb, double sensor_sigma,
                                    bool carries_remainder) {
   if (name.starts_with("delta_") && !carries_remainder) return Resolution::loses_remainder;
@@ -57,7 +56,7 @@ constexpr Resolution resolution_of(std::string_view name, double lsb, double sen
                                                                              : Resolution::too_coarse;
 }
 
-/// True if every measurement among a message's signals is fine enough for its sensor.
+/// True if the resolution of every measurement among the signals suffices for its sensor.
 constexpr bool is_fine_enough(std::span<const SignalInfo> signals) {
   return std::ranges::all_of(signals, [](const SignalInfo& s) {
     return resolution_of(s.name, lsb(s), s.sensor_sigma, s.carries_remainder) == Resolution::enough;

@@ -7,8 +7,8 @@
 
 namespace canhil {
 
-/// Packs a generated message (rounding, saturating) and, if it has an E2E data id, protects it with the
-/// counter given (0..14). Without rounding its scaled signals travel beside the packed bytes.
+/// Packs a generated message (rounding, saturating) and, if it has an E2E data id, protects it with the given
+/// counter (0..14). With Rounding::none its scaled signals also follow the packed bytes as doubles.
 template <class Message>
 Frame to_frame(const Message& message, std::uint8_t counter, Rounding rounding = Rounding::as_on_the_bus) {
   Frame frame;
@@ -25,7 +25,7 @@ Frame to_frame(const Message& message, std::uint8_t counter, Rounding rounding =
   return frame;
 }
 
-/// Unpacks a frame whose id and size are known to be the message's. The E2E fields are not looked at.
+/// Unpacks a frame that has the id and size of the message. Ignores the E2E fields.
 template <class Message>
 Message from_frame(const Frame& frame) {
   Message message =

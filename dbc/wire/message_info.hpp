@@ -1,4 +1,4 @@
-// What the DBC says of a message, as constants: filled in by dbcgen, read by codecs, monitors and schedules.
+// Messages of the DBC as constants: dbcgen fills them in; codecs, monitors and schedules read them.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct SignalInfo {
   double maximum = 0;
   double sensor_sigma =
       0;  ///< per-sample 1-sigma noise of the sensor in the signal's unit; 0: not a measurement
-  bool carries_remainder = false;  ///< an increment whose rounding remainder goes into the next sample
+  bool carries_remainder = false;  ///< an increment; the sender adds its rounding error to the next sample
   unsigned start_bit = 0;          ///< as the DBC counts
   unsigned length = 0;             ///< bits
   bool big_endian = false;
@@ -27,8 +27,9 @@ struct SignalInfo {
 
 namespace wire {
 
-/// The step between neighbouring values of a signal, in its unit; 0: a float, nothing is rounded to steps.
+/// The step between neighbouring values of a signal, in its unit; 0 for a float, which has no fixed step.
 constexpr double lsb(double scale, bool is_float) { return is_float ? 0 : scale < 0 ? -scale : scale; }
+/// The step of a signal, in its unit; 0: a float.
 constexpr double lsb(const SignalInfo& signal) { return lsb(signal.scale, signal.is_float); }
 
 }  // namespace wire
@@ -40,12 +41,12 @@ struct MessageInfo {
   bool extended = false;
   bool fd = false;
   std::uint8_t size = 0;
-  std::int64_t cycle_time_us = 0;  ///< 0: sent on events
+  std::int64_t cycle_time_us = 0;  ///< 0: event-triggered
   std::uint16_t e2e_data_id = 0;   ///< 0: not protected
   std::string_view sender{};
-  std::string_view sample_group{};              ///< empty: stands alone
-  std::span<const std::string_view> answers{};  ///< sample groups, each of which brings this message about
-  bool can_travel_unrounded = false;            ///< its scaled signals as doubles fit behind its bytes
+  std::string_view sample_group{};              ///< empty: none
+  std::span<const std::string_view> answers{};  ///< sample groups that this message answers
+  bool can_travel_unrounded = false;            ///< its scaled signals fit as doubles behind its bytes
 };
 
 }  // namespace canhil

@@ -1,5 +1,5 @@
-// From a frame's id to its message's place in a list that is known only at run time. Of the project's own
-// contract: routes.hpp.
+// Maps a frame's id to the index of its message in a list known only at run time. For the project's own
+// contract see routes.hpp.
 #pragma once
 
 #include <array>
@@ -12,12 +12,14 @@
 
 namespace canhil {
 
+/// Looks up messages by the ids of frames.
 class MessagePlaces {
  public:
   static constexpr std::size_t nowhere = 0xFF;
-  /// So many messages a list has at the most.
+  /// The largest number of messages in a list.
   static constexpr std::size_t most = nowhere;
 
+  /// For a list of at most `most` messages.
   explicit MessagePlaces(std::span<const MessageInfo> messages) {
     standard_.fill(nowhere);
     for (std::size_t i = 0; i < messages.size(); ++i) {
@@ -28,7 +30,7 @@ class MessagePlaces {
     }
   }
 
-  /// nowhere: of error frames, and of ids that no message has.
+  /// The index of the frame's message; nowhere: an error frame, or an id without a message.
   [[nodiscard]] std::size_t operator()(const Frame& frame) const {
     if (frame.error) return nowhere;
     if (!frame.extended) return frame.id < standard_.size() ? standard_[frame.id] : nowhere;

@@ -1,4 +1,5 @@
-// Physical values to raw integers and back. The generated and the run-time codec both call these: same bits.
+// Physical values to raw integers and back. The generated and the run-time codec both call these functions,
+// so they produce the same bits.
 #pragma once
 
 #include <bit>
@@ -24,32 +25,32 @@ inline constexpr std::int64_t round_half_even(double x) {
   return rest > 0.5 || (rest == 0.5 && down % 2 != 0) ? down + 1 : down;
 }
 
-/// A bound of a raw integer as double; beyond 2^53 the next double towards zero, so that it stays in the
+/// A limit of a raw integer as double; beyond 2^53 the next double towards zero, which stays inside the
 /// range.
 constexpr double bound(std::uint64_t raw) {
   if (raw >> 53U == 0) return static_cast<double>(raw);
   const int spare = 64 - 53 - __builtin_clzll(raw);
   return static_cast<double>((raw >> spare) << spare);
 }
+/// The same for a signed limit.
 constexpr double bound(std::int64_t raw) {
   const auto bits = static_cast<std::uint64_t>(raw);
   return raw < 0 ? -bound(0 - bits) : bound(bits);
 }
 
-/// x held in [low, high]; NaN gives low. Comparisons in this order are minsd and maxsd, which hand NaN on and
-/// replace it.
+/// x clamped to [low, high]; NaN becomes low. Comparisons in this order compile to minsd, which passes NaN
+/// on, and maxsd, which replaces it.
 constexpr double clamped(double x, double low, double high) {
   const double at_most = high < x ? high : x;
   return at_most > low ? at_most : low;
 }
-/// The same with NaN to high: for a negative scale, where high is the physical minimum.
+/// Like clamped(), but NaN becomes high: for a negative scale, where high is the physical minimum.
 constexpr double clamped_nan_high(double x, double low, double high) {
   const double at_least = low > x ? low : x;
   return at_least < high ? at_least : high;
 }
 
-/// The raw value, before rounding, that stands for a physical one: inside [low, high], NaN at the physical
-/// minimum.
+/// The raw value of a physical one before rounding, clamped to [low, high]; NaN becomes the physical minimum.
 constexpr double unrounded(double value, double scale, double offset, double low, double high) {
   const double raw = (offset == 0 ? value : value - offset) / scale;
   return scale > 0 ? clamped(raw, low, high) : clamped_nan_high(raw, low, high);
@@ -61,7 +62,7 @@ constexpr std::uint64_t quantised(double value, double scale, double offset, dou
   return static_cast<std::uint64_t>(round_half_even(unrounded(value, scale, offset, low, high)));
 }
 
-/// The same for an unsigned signal of 64 bits.
+/// Raw bits of an unsigned 64-bit signal: rounded half to even, saturated to [low, high].
 constexpr std::uint64_t quantised_wide(double value, double scale, double offset, double low, double high) {
   constexpr double half = 9223372036854775808.0;
   const double raw = unrounded(value, scale, offset, low, high);
@@ -80,7 +81,7 @@ constexpr std::uint64_t float_bits(double value, double scale, double offset, do
   }
 }
 
-/// The float that raw bits are.
+/// Raw bits as a float.
 template <class Float>
 constexpr Float real(std::uint64_t bits) {
   if constexpr (sizeof(Float) == 4) {
@@ -90,7 +91,7 @@ constexpr Float real(std::uint64_t bits) {
   }
 }
 
-/// An integer held in [low, high].
+/// An integer clamped to [low, high].
 template <class Integer>
 constexpr std::uint64_t saturated(Integer value, Integer low, Integer high) {
   return static_cast<std::uint64_t>(value < low ? low : value > high ? high : value);

@@ -1,4 +1,4 @@
-// An outcome or one line of explanation, for input that may be wrong. Never used on the frame path.
+// A value or an error of one line, for functions with input that may be wrong. Never used on the frame path.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace canhil {
 
-/// One line for a person: what, where, what was expected.
+/// One line for the user: what is wrong, where, and what was expected.
 struct Error {
   std::string message;
 };
@@ -15,7 +15,7 @@ struct Error {
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// Shorthand to leave a function that returns a Result with an explanation.
+/// Shorthand for returning an Error as a Result.
 inline tl::unexpected<Error> failure(std::string message) {
   return tl::unexpected<Error>(Error{std::move(message)});
 }

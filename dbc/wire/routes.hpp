@@ -1,4 +1,4 @@
-// From a frame's id to its message in one look-up.
+// Maps a frame's id to its message in one look-up.
 #pragma once
 
 #include <array>
@@ -9,30 +9,30 @@
 
 namespace canhil {
 
-/// Which of the bus's messages a receiver listens to, by standard id.
+/// The messages that a receiver reads, by standard id.
 class Routes {
  public:
   static constexpr std::size_t nowhere = 0xFF;
 
-  /// Listens to the messages that `wanted(const MessageInfo&)` holds for.
+  /// Selects the messages for which `wanted(const MessageInfo&)` is true.
   template <class Wanted>
   consteval explicit Routes(Wanted wanted) {
-    place_.fill(nowhere);
+    index_.fill(nowhere);
     for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
       const MessageInfo& info = messages::all_messages[i];
-      if (!info.extended && wanted(info)) place_[info.id] = static_cast<std::uint8_t>(i);
+      if (!info.extended && wanted(info)) index_[info.id] = static_cast<std::uint8_t>(i);
     }
   }
 
-  /// The place of a frame's message in all_messages, or nowhere: error frames, extended ids, ids not listened
-  /// to.
+  /// The index of a frame's message in all_messages; nowhere for error frames, extended ids and ids that are
+  /// not selected.
   [[nodiscard]] constexpr std::size_t operator()(const Frame& frame) const {
-    return frame.error || frame.extended || frame.id >= place_.size() ? nowhere : place_[frame.id];
+    return frame.error || frame.extended || frame.id >= index_.size() ? nowhere : index_[frame.id];
   }
 
  private:
   static_assert(messages::all_messages.size() < nowhere);
-  std::array<std::uint8_t, 2048> place_{};
+  std::array<std::uint8_t, 2048> index_{};
 };
 
 }  // namespace canhil

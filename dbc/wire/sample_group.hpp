@@ -1,4 +1,4 @@
-// Sample groups: the messages that one sample of a sensor, or one answer of the target, is spread over.
+// A sample group: the messages that together carry one sample of a sensor or one answer of the target.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,15 @@
 
 namespace canhil {
 
-/// Collects the messages of one group by their common E2E counter; a group is used whole or not at all.
+/// Collects the messages of one group by their common E2E counter. Only complete groups are used.
 template <class... Messages>
 class SampleGroup {
  public:
+  /// What put() did.
   enum class Outcome : std::uint8_t {
-    waiting,          ///< stored, more to come
-    complete,         ///< the group is whole: read it now
-    dropped_previous  ///< stored, and the group before it was incomplete and is gone
+    waiting,          ///< stored; the group is incomplete
+    complete,         ///< the group is complete: read it now
+    dropped_previous  ///< stored; the previous group was incomplete and is discarded
   };
 
   /// Stores one message that carries `counter`. A counter other than the pending group's starts a new group.
@@ -34,12 +35,14 @@ class SampleGroup {
     return started_anew ? Outcome::dropped_previous : Outcome::waiting;
   }
 
+  /// The last message of this type; valid together when put() returned complete.
   template <class Message>
   [[nodiscard]] const Message& get() const {
     return std::get<Message>(messages_);
   }
+  /// The counter of the pending or last group.
   [[nodiscard]] std::uint8_t counter() const { return counter_; }
-  /// Forgets a group in progress; true if there was one.
+  /// Discards an incomplete group; true if there was one.
   bool discard() {
     const bool had = seen_ != 0;
     seen_ = 0;

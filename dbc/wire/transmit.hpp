@@ -1,5 +1,5 @@
-// Sending side of the protocol: every message has its own E2E counter, counted up at each transmission.
-// The messages of a sample group are sent equally often, so they carry the same counter.
+// The sending side of the protocol: every message has its own E2E counter, which each transmission
+// increments. The messages of a sample group are sent equally often, so they carry the same counter.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace canhil {
 
-/// Place of a message in messages::all_messages.
+/// Index of a message in messages::all_messages.
 template <class Message>
 consteval std::size_t message_index() {
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
@@ -23,7 +23,7 @@ consteval std::size_t message_index() {
   throw "message is not in the DBC";
 }
 
-/// The E2E counters of everything that one node sends.
+/// The E2E counters of all messages that one node sends.
 class TransmitCounters {
  public:
   /// The counter for the next transmission of a message (0..14).
@@ -34,16 +34,18 @@ class TransmitCounters {
     next = e2e::next(now);
     return now;
   }
+  /// Sets all counters to 0.
   void reset() { next_.fill(0); }
 
  private:
   std::array<std::uint8_t, messages::all_messages.size()> next_{};
 };
 
-/// A fixed buffer of frames on their way out, with the counters of their sender. Never allocates.
+/// A fixed buffer of outgoing frames, with the counters of their sender. Never allocates.
 template <std::size_t capacity>
 class Outbox {
  public:
+  /// An empty buffer, all counters 0.
   explicit Outbox(Rounding rounding = Rounding::as_on_the_bus) : rounding_(rounding) {}
 
   /// Packs, protects and appends one message.
@@ -51,14 +53,17 @@ class Outbox {
   void send(const Message& message) {
     if (size_ < capacity) frames_[size_++] = to_frame(message, counters_.take<Message>(), rounding_);
   }
-  /// Appends a frame that is whole already: of another contract.
+  /// Appends a finished frame of another contract.
   void put(const Frame& frame) {
     if (size_ < capacity) frames_[size_++] = frame;
   }
+  /// The frames since the last clear(), in order.
   [[nodiscard]] std::span<const Frame> frames() const { return {frames_.data(), size_}; }
-  /// What becomes of the scaled signals of what is sent.
+  /// How scaled signals are rounded when sent.
   [[nodiscard]] Rounding rounding() const { return rounding_; }
+  /// Empties the buffer; counters go on.
   void clear() { size_ = 0; }
+  /// Sets all counters to 0.
   void reset_counters() { counters_.reset(); }
 
  private:

@@ -1,5 +1,5 @@
-// Frames that round nothing: between two ends in one process the scaled signals of a message travel beside
-// its packed bytes, as doubles. What a run loses by the resolution of the bus shows by comparison.
+// Frames without rounding: within one process the scaled signals of a message travel as doubles behind its
+// packed bytes. Comparing such a run with a normal one shows the effect of the bus's resolution.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace canhil {
 
-/// What becomes of scaled signals on the way.
+/// How scaled signals are rounded in transmission.
 enum class Rounding : std::uint8_t {
-  as_on_the_bus,  ///< to the steps that the DBC gives them
-  none            ///< nothing; possible in one process only, no bus carries such frames
+  as_on_the_bus,  ///< to the steps of the DBC
+  none            ///< not at all; only within one process, as no bus carries such frames
 };
 
 namespace wire {
@@ -25,10 +25,10 @@ struct ScaledMember {
   double highest = 0;
 };
 
-/// Appends the members to a frame that holds the packed message: saturated, NaN as the lowest value.
+/// Appends the members to a frame with the packed message: saturated, NaN as the lowest value.
 void carry_unrounded(const void* message, std::span<const ScaledMember> members, Frame& frame);
 
-/// Replaces the members of an unpacked message by what carry_unrounded() appended.
+/// Replaces the members of an unpacked message by the values that carry_unrounded() appended.
 void take_unrounded(const Frame& frame, std::span<const ScaledMember> members, void* message);
 
 }  // namespace wire

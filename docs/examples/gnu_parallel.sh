@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A campaign on the machines of a list, with GNU parallel; every machine has hil-bench and hil-bench-campaign, the campaign and the folder OUT
-# at the same place (a network file system):
+# Runs a campaign on several machines with GNU parallel. Every machine needs hil-bench, hil-bench-campaign, the campaign file and the folder
+# OUT under the same paths (a network file system):
 #   docs/examples/gnu_parallel.sh CAMPAIGN.toml OUT SHARDS [--sshloginfile MACHINES]
-# Without a list: processes of this machine, as many at a time as it has cores.
+# Without --sshloginfile it starts the processes on this machine, one per core at a time.
 set -euo pipefail
 campaign=${1:?expected a campaign file}
 out=${2:?expected a folder for the results}

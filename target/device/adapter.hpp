@@ -1,5 +1,5 @@
-// What the device asks of an estimator's adapter: sample groups in, output frames out. One adapter file an
-// estimator.
+// The interface of an estimator's adapter: sample groups in, output frames out. Each estimator has one
+// adapter file.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 
 namespace canhil::target {
 
-/// Answers to one frame: at the most, of each estimator that an IMU drives, a navigation group and the filter
-/// groups of as many fixes as may wait for the IMU. One sample may bring them all, of two estimators 134.
+/// The answers to one frame. The maximum: one IMU sample triggers, for each inertial estimator, a navigation
+/// group and the filter groups of all fixes that wait for the IMU; for two estimators 134 frames.
 using Answers = Outbox<160>;
 
-/// What was lost, by cause, since reset.
+/// Losses since reset, by cause.
 struct Losses {
   std::uint32_t frames_lost = 0;
   std::uint32_t bad_crc = 0;
@@ -24,7 +24,7 @@ struct Losses {
   std::uint32_t late = 0;
 };
 
-/// Why the device had to leave normal operation; mirrors the error bits of TargetHeartbeat.
+/// Why the device left normal operation; equals the error bits of TargetHeartbeat.
 struct Errors {
   bool dbc_mismatch = false;
   bool not_initialised = false;
@@ -34,14 +34,14 @@ struct Errors {
   bool command = false;
 };
 
-/// What the group TargetInitAir knows besides, at the same time: for a body that flies in moving air. Body
-/// axes.
+/// The content of the optional group TargetInitAir, for a body that flies in moving air: at the time of the
+/// initial state, in body axes.
 struct InitialAir {
   std::array<double, 3> velocity{};  ///< w.r.t. the air [m/s]
   std::array<double, 3> rate{};      ///< [rad/s]
 };
 
-/// Initial navigation state as the TargetInit group carries it. SI, rad, NED.
+/// Initial navigation state from the TargetInit group. SI, rad, NED.
 struct InitialState {
   std::int64_t t_us = 0;
   double latitude = 0;
@@ -57,16 +57,16 @@ struct InitialState {
   double velocity_sigma = 0;  ///< [m/s]
   double tilt_sigma = 0;
   double heading_sigma = 0;
-  std::optional<InitialAir> air{};  ///< none: not told
+  std::optional<InitialAir> air{};  ///< none: not received
 };
 
-/// What an adapter sees of the device while it works on one frame.
+/// The part of the device that an adapter can use while it processes one frame.
 struct Context {
   std::int64_t now_us = 0;  ///< time base of the bench, from the last Sync
   Answers& answers;
   Losses& losses;
   Errors& errors;
-  ConsistencyMonitor& consistency;  ///< to be told of every innovation; answers carry what it says
+  ConsistencyMonitor& consistency;  ///< must get every innovation; answers carry its verdict
 };
 
 /// Outcome of a step that can end a run.
@@ -81,19 +81,19 @@ class Adapter {
   virtual ~Adapter() = default;
 
   [[nodiscard]] virtual messages::Estimator estimator() const = 0;
-  /// Back to the state after construction, with an algorithm; false: the estimator has no such algorithm.
+  /// Restores the state after construction and selects an algorithm; false: unknown algorithm.
   virtual bool reset(messages::Algorithm algorithm) = 0;
   /// Sets a parameter; `running` after start. Accepted values take effect at the next step.
   virtual messages::ParameterStatus set(messages::Parameter parameter, double value, bool running) = 0;
-  /// Value in force; none: not a parameter of this estimator.
+  /// The value in force; none: not a parameter of this estimator.
   [[nodiscard]] virtual std::optional<double> get(messages::Parameter parameter) const = 0;
-  /// What it may be; none: not a parameter of this estimator.
+  /// The permitted values; none: not a parameter of this estimator.
   [[nodiscard]] virtual std::optional<ParameterRange> range(messages::Parameter parameter) const = 0;
   /// Starts from an initial state.
   virtual void start(const InitialState& initial) = 0;
-  /// One frame of a sensor, its protection already checked; `counter` is its E2E counter.
+  /// Processes one frame of a sensor whose protection has been checked; `counter` is its E2E counter.
   virtual Health receive(const Frame& frame, std::uint8_t counter, Context context) = 0;
-  /// The time base moved on: notices inputs that stay away.
+  /// The time base has advanced: detects missing inputs.
   virtual Health tick(Context context) = 0;
 };
 

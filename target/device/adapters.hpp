@@ -1,4 +1,4 @@
-// The estimators that this target offers.
+// The registry of the target's estimators.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ std::unique_ptr<Adapter> make_inflight_alignment_adapter();
 std::unique_ptr<Adapter> make_los_rate_adapter();
 std::unique_ptr<Adapter> make_wind_adapter();
 
-/// One of each: the list that a new estimator joins.
+/// One adapter of each estimator. Add new estimators here.
 inline std::vector<std::unique_ptr<Adapter>> make_adapters() {
   std::vector<std::unique_ptr<Adapter>> adapters;
   adapters.push_back(make_transfer_alignment_adapter());

@@ -1,4 +1,5 @@
-// Whether an estimator is as good as it says: its innovations against the covariance that it claims for them.
+// Checks whether an estimator's errors match its covariance: compares innovations with their claimed
+// covariance.
 #pragma once
 
 #include <algorithm>
@@ -12,17 +13,18 @@ namespace canhil::target {
 /// Two control charts of exponentially weighted averages (Roberts, 'Control Chart Tests Based on Geometric
 /// Moving Averages', 1959), each S <- keep S + z with z of mean 0 and variance 1 if the filter is consistent,
 /// so that S has the variance 1/(1 - keep^2):
-///   size   z = (NIS - m)/sqrt(2 m), NIS chi-squared of m: errors larger than the covariance says;
-///   bias   z = each innovation over its sigma: innovations that are not white, because what is wrong stays
-///          (a model's coefficient, a sensor's scale), even where noise that was raised makes NIS right again
+///   size   z = (NIS - m)/sqrt(2 m), NIS chi-squared of m: detects errors larger than the covariance;
+///   bias   z = each innovation over its sigma: detects innovations that are not white because of a lasting
+///          error (a model's coefficient, a sensor's scale), even if raised noise makes NIS right again
 ///          (Mehra, 'On the Identification of Variances and Adaptive Kalman Filtering', 1970).
-/// Too small a NIS is no reason to distrust: such a filter errs less than it says.
+/// A small NIS raises no alarm: such a filter errs less than it claims.
 class ConsistencyMonitor {
  public:
   void reset() { *this = {}; }
 
-  /// An innovation that was held against its covariance, whether it was then used or gated: NIS, and each
-  /// component over its own sigma (at most nine, always as many). What is no number counts as the largest.
+  /// Takes an innovation that was compared with its covariance, whether used or gated: NIS, and each
+  /// component over its own sigma (at most nine, the same number in every call). A NaN counts as the largest
+  /// value.
   void observe(double nis, std::span<const double> normalised) {
     const auto m = static_cast<double>(normalised.size());
     inconsistent_ = size_.alarmed((nis - m) / std::sqrt(2 * m));
@@ -30,15 +32,15 @@ class ConsistencyMonitor {
       inconsistent_ = bias_[i].alarmed(normalised[i]) || inconsistent_;
   }
 
-  /// What the estimator knows by itself: its sigmas do not hold now.
+  /// Sets whether the estimator itself knows that its sigmas do not hold now.
   void distrust(bool distrusted) { distrusted_ = distrusted; }
 
   [[nodiscard]] bool degraded() const { return inconsistent_ || distrusted_; }
 
  private:
-  // `updates` are remembered; a single one counts at most as `largest` sigma of its own. The alarm begins
-  // where S is more than 6 of its standard deviations above zero (`either_side`: or below), and ends after 2
-  // * updates in a row within 2.
+  // The memory is `updates` long; a single update counts at most `largest` of its sigmas. The alarm begins
+  // when S is more than 6 of its standard deviations above zero (`either_side`: or below), and ends after 2 *
+  // updates in a row within 2 standard deviations.
   template <int updates, int largest, bool either_side>
   class Chart {
    public:
@@ -58,9 +60,9 @@ class ConsistencyMonitor {
     bool alarm_ = false;
   };
 
-  // Three outliers in a row do not do it, four do; 6 standard deviations are a mean NIS of 1.8 m for m = 3,
-  // and a mean innovation of 0.19 sigma. Of consistent draws one or two in a million updates raise an alarm
-  // (5e6 each of m = 1, 2, 3 and 9).
+  // Four outliers in a row raise an alarm, three do not. 6 standard deviations are a mean NIS of 1.8 m for
+  // m = 3, and a mean innovation of 0.19 sigma. With consistent draws one or two in a million updates raise
+  // an alarm (5e6 draws each for m = 1, 2, 3 and 9).
   Chart<20, 6, false> size_;
   std::array<Chart<500, 4, true>, 9> bias_{};
   bool inconsistent_ = false, distrusted_ = false;

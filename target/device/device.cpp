@@ -14,7 +14,7 @@ using namespace messages;
 
 constexpr std::int64_t heartbeat_period_us = TargetHeartbeat::info.cycle_time_us;
 constexpr double radians = std::numbers::pi / 180.0;
-// The bench's messages; the target's own are not for it.
+// Only the bench's messages; the device ignores messages that the target sends.
 constexpr Routes routes([](const MessageInfo& info) { return info.sender != TargetHeartbeat::info.sender; });
 
 constexpr std::uint16_t saturated(std::uint32_t count) {
@@ -28,7 +28,7 @@ Device::Device(Rounding rounding) : answers_(rounding), adapters_(make_adapters(
   selected_.emplace_back();
 }
 
-// None: the target has no such estimator.
+// Null: the target has no such estimator.
 Adapter* Device::adapter_of(Estimator estimator) const {
   const auto found =
       std::ranges::find_if(adapters_, [&](const auto& adapter) { return adapter->estimator() == estimator; });
@@ -58,7 +58,8 @@ std::span<const Frame> Device::receive(const Frame& frame) {
       raise(&Errors::input_lost);
       return {};
     case e2e::Check::repeated:
-      // A bench that starts anew may repeat the counter of the last one's command: commands are always heard.
+      // Commands are always processed: a new bench may start with the counter of the previous bench's last
+      // command.
       if (frame.id != TargetCommand::info.id) {
         ++losses_.late;
         return {};
@@ -107,7 +108,7 @@ void Device::dispatch(const Frame& frame, std::uint8_t counter) {
   }
 }
 
-// An estimator that faults stops; the others go on.
+// An estimator that faults stops; the others continue.
 template <class Step>
 void Device::for_running(Step&& step) {
   for (Estimation& estimation : selected_) {
@@ -147,7 +148,7 @@ void Device::on_command(const TargetCommand& command) {
       return stop();
     case Command::none:
       break;
-    default:  // the DBC does not name it
+    default:  // not in the DBC
       raise(&Errors::command);
   }
   send_heartbeats();
@@ -170,7 +171,7 @@ void Device::reset(Estimator estimator, Algorithm algorithm) {
   enter(first, TargetState::idle);
 }
 
-// Repeated by a bench that did not hear the answer in time: then it is selected anew.
+// A bench that missed the answer repeats the command: the estimator is then selected anew.
 void Device::add(Estimator estimator, Algorithm algorithm) {
   const bool again = current().adapter != nullptr && current().adapter->estimator() == estimator;
   const bool elsewhere =
@@ -191,7 +192,7 @@ void Device::add(Estimator estimator, Algorithm algorithm) {
   enter(current(), TargetState::idle);
 }
 
-// False: the target has no such estimator, or the estimator no such algorithm.
+// False: the target does not have the estimator, or the estimator does not have the algorithm.
 bool Device::select(Estimator estimator, Algorithm algorithm, Estimation& estimation) {
   Adapter* adapter = adapter_of(estimator);
   if (adapter == nullptr || !adapter->reset(algorithm)) return false;
@@ -200,12 +201,12 @@ bool Device::select(Estimator estimator, Algorithm algorithm, Estimation& estima
   return true;
 }
 
-// All start together: their answers depend on this run's frames alone.
+// All estimators start together: their answers depend only on the frames of this run.
 void Device::start() {
-  // A bench that did not hear the answer in time commands it again.
+  // A bench that missed the answer repeats the command.
   const bool again = all_in(TargetState::running) && std::ranges::all_of(selected_, &Estimation::untouched);
   if (all_in(TargetState::ready) || again) {
-    answers_.reset_counters();  // not on how often a command was repeated
+    answers_.reset_counters();  // answers must not depend on how often a command was repeated
     for (Estimation& estimation : selected_) {
       estimation.untouched = true;
       estimation.initial.air = estimation.initial_air;
@@ -299,7 +300,7 @@ void Device::enter(Estimation& estimation, TargetState state) {
   send_heartbeat(estimation);
 }
 
-// What is lost or wrong on the bus concerns every estimator.
+// Errors on the bus concern all estimators.
 void Device::raise(bool Errors::*error) {
   for (Estimation& estimation : selected_) estimation.errors.*error = true;
 }

@@ -1,4 +1,4 @@
-// The device under test: a pure function of the frames it was given. No socket, no clock, no thread.
+// The device under test: a pure function of its input frames. No socket, no clock, no thread.
 #pragma once
 
 #include <array>
@@ -15,25 +15,24 @@
 
 namespace canhil::target {
 
-/// hil-target without its process: commands, parameters, initial state, heartbeat, counters, and the
-/// estimators at work: one, or several side by side that hear the same sensors and know nothing of each
-/// other.
+/// hil-target without its process: commands, parameters, initial state, heartbeat, counters, and the running
+/// estimators. Several estimators can run at once on the same sensor frames, independently of each other.
 class Device {
  public:
-  /// `rounding`: of its answers; other than on the bus only for a bench in the same process.
+  /// `rounding`: of the answers; Rounding::none only if the bench is in the same process.
   explicit Device(Rounding rounding = Rounding::as_on_the_bus);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   ~Device() = default;
 
-  /// Processes one frame and returns the frames that answer it, in order; valid until the next call.
+  /// Processes one frame and returns the answering frames, in order; valid until the next call.
   /// Frames that are not for the target are ignored. Allocates nothing.
   std::span<const Frame> receive(const Frame& frame);
 
-  /// Heartbeats that no frame asked for: sent by the process while no bench keeps the time base.
+  /// Heartbeats without a cause; the process sends them while no bench keeps the time base.
   std::span<const Frame> idle_heartbeat();
 
-  /// What a parameter may be, of an estimator; none: it has no such parameter.
+  /// The permitted values of an estimator's parameter; none: it has no such parameter.
   [[nodiscard]] std::optional<ParameterRange> range(messages::Estimator estimator,
                                                     messages::Parameter parameter) const;
 
@@ -45,14 +44,14 @@ class Device {
  private:
   /// A selected estimator.
   struct Estimation {
-    Adapter* adapter = nullptr;  // none: the target has no such estimator, or was told of none
+    Adapter* adapter = nullptr;  // null: no estimator selected, or one that the target does not have
     messages::Algorithm algorithm{};
     messages::TargetState state{};
     Errors errors{};
     ConsistencyMonitor consistency{};
     InitialState initial{};
     std::optional<InitialAir> initial_air{};
-    bool untouched = false;  // nothing has happened since start
+    bool untouched = false;  // no input since start
   };
 
   void dispatch(const Frame& frame, std::uint8_t counter);
@@ -78,7 +77,7 @@ class Device {
   void send_heartbeats();
   void send_counters();
   [[nodiscard]] bool all_in(messages::TargetState state) const;
-  /// The one selected last: parameters and initial state are for it.
+  /// The estimator selected last: it gets parameters and initial state.
   [[nodiscard]] Estimation& current() { return selected_.back(); }
 
   using InitialGroup =
@@ -92,8 +91,8 @@ class Device {
   Losses losses_;
   InitialGroup initial_group_;
   InitialAirGroup initial_air_group_;
-  std::vector<std::unique_ptr<Adapter>> adapters_;  // all of them, made at start-up
-  std::vector<Estimation> selected_;                // never empty; has room for all from the start
+  std::vector<std::unique_ptr<Adapter>> adapters_;  // of all estimators, created at start-up
+  std::vector<Estimation> selected_;                // never empty; reserved for all estimators
   std::int64_t now_us_ = 0;
   std::int64_t heartbeat_due_us_ = 0;
   bool lockstep_ = false;

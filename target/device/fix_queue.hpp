@@ -1,4 +1,4 @@
-// Measurements of an aid that are valid after the newest IMU epoch wait until the INS gets there.
+// Fixes that are valid after the newest IMU epoch wait until the INS reaches their time of validity.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace canhil::target {
 
-/// What the bus said when.
+/// A value from the bus with its time.
 template <class Value>
 struct At {
   std::int64_t t_us = 0;
@@ -23,14 +23,14 @@ class FixQueue {
  public:
   void clear() { count_ = 0; }
 
-  /// Keeps a fix, as it came; false: no room.
+  /// Appends a fix; false: no room.
   bool push(const At<Value>& fix) {
     if (count_ == capacity) return false;
     waiting_[count_++] = fix;
     return true;
   }
 
-  /// Hands those that the INS has reached to update(fix), in their order, until one faults.
+  /// Calls update(fix) in order for the fixes that the INS has reached, until one faults.
   template <class Update>
   Health reached(std::int64_t ins_us, const Update& update) {
     std::size_t done = 0;

@@ -1,4 +1,4 @@
-// Frames into sample groups, with what is lost on the way counted.
+// Assembles frames into sample groups and counts losses.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace canhil::target {
 
-/// Counts a group that is not used.
+/// Counts a discarded group.
 inline void drop_group(Context& context) {
   ++context.losses.bad_group;
   context.errors.input_lost = true;
 }
 
-/// Puts a frame of a group's Message; true: the group is whole, read it now. An incomplete one before it is
-/// counted as dropped.
+/// Adds a frame with one Message of a group; true: the group is complete, read it now. Counts an incomplete
+/// previous group as dropped.
 template <class Message, class Group>
 bool completes(Group& group, const Frame& frame, std::uint8_t counter, Context& context) {
   const auto outcome = group.put(from_frame<Message>(frame), counter);

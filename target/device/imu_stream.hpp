@@ -1,5 +1,5 @@
-// The stream that drives an inertial estimator: groups SlaveImu in, increments without gaps out, groups
-// AlignNav or FixNav as answers.
+// The IMU input of an inertial estimator: turns groups SlaveImu into increments without gaps, and sends
+// groups AlignNav or FixNav as answers.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 
 namespace canhil::target {
 
-/// Ends a run whose numbers are no longer to be trusted.
+/// Ends a run after a numeric error.
 inline Health numeric_fault(Context& context) {
   context.errors.numeric = true;
   return Health::fault;
 }
 
-/// Three innovations with their covariance, to the monitor.
+/// Passes three innovations with their covariance to the monitor.
 template <class UpdateResult>
 void observe(const UpdateResult& result, ConsistencyMonitor& monitor) {
   const Eigen::Vector3d sigma = result.innovation_covariance.diagonal().cwiseSqrt();
@@ -29,7 +29,7 @@ void observe(const UpdateResult& result, ConsistencyMonitor& monitor) {
   monitor.observe(result.nis, {normalised.data(), 3});
 }
 
-/// Where an INS starts that was told this.
+/// The INS state for an initial state from the bus.
 inline strapdown::NavState nav_of(const InitialState& initial) {
   return {.C_bn = strapdown::dcm_from_euler({initial.roll, initial.pitch, initial.heading}),
           .v_eb_n = {initial.v_north, initial.v_east, initial.v_down},
@@ -49,7 +49,7 @@ class ImuStream {
 
   void reset() { group_.discard(); }
 
-  /// The INS starts at t_us; the first sample is answered.
+  /// Starts the INS at t_us; the first sample is answered.
   void start(std::int64_t t_us, std::int64_t output_interval_us) {
     now_us_ = t_us;
     answered_us_ = t_us - output_interval_us;
@@ -60,14 +60,15 @@ class ImuStream {
   /// Epoch of the INS.
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
 
-  /// Faults when the IMU has stayed away too long at the bench's time.
+  /// Faults if the IMU has been silent too long by the bench's time.
   Health tick(Context& context) const {
     if (context.now_us - now_us_ <= silence_limit_us) return Health::good;
     context.errors.input_silent = true;
     return Health::fault;
   }
 
-  /// One frame; calls step(increment, t_us of its end) for each increment, those that bridge a gap included.
+  /// Processes one frame; calls step(increment, t_us of its end) for each increment, also while bridging a
+  /// gap.
   template <class Step>
   Taken receive(const Frame& frame, std::uint8_t counter, Context& context, const Step& step) {
     using namespace messages;
@@ -83,8 +84,8 @@ class ImuStream {
     }
   }
 
-  /// True if the last sample is to be answered. An interval of IMU samples need not divide the output
-  /// interval: half a sample early is in time.
+  /// True if the last sample must be answered. The output interval need not be a multiple of the IMU
+  /// interval: an answer may come half a sample early.
   [[nodiscard]] bool answer_is_due(std::int64_t output_interval_us) const {
     return now_us_ - answered_us_ >= output_interval_us - interval_us_ / 2;
   }
@@ -111,8 +112,8 @@ class ImuStream {
 
   static constexpr double us = 1e-6;
   static constexpr std::int64_t bridge_limit_us = 200'000;   // a longer gap ends the run
-  static constexpr std::int64_t most_parts = 400;            // of a gap: it is bridged within one frame
-  static constexpr std::int64_t silence_limit_us = 500'000;  // an IMU that stays away this long is named
+  static constexpr std::int64_t most_parts = 400;            // of a gap, which is bridged within one frame
+  static constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the IMU is an error
 
   template <class Message, class Step>
   Taken put(const Frame& frame, std::uint8_t counter, Context& context, const Step& step) {
@@ -132,7 +133,7 @@ class ImuStream {
     const std::int64_t t_us = unwrap_us(status.time_of_validity_us, context.now_us);
     if (theta.gyro_validity != messages::Validity::valid ||
         velocity.accel_validity != messages::Validity::valid || !(imu.dt > 0)) {
-      drop_group(context);  // the gap that it leaves is bridged by the next group
+      drop_group(context);  // the next group bridges the gap
       return Taken::waiting;
     }
     const auto interval_us = static_cast<std::int64_t>(status.interval_us);
@@ -154,8 +155,7 @@ class ImuStream {
     return Taken::stepped;
   }
 
-  // A gap is bridged with the mean of the increments before and after it, at their rate, and reported as
-  // coasting.
+  // Bridges a gap with the mean of the increments before and after it, at their rate, and reports coasting.
   template <class Step>
   void bridge(const strapdown::ImuIncrement& after, std::int64_t gap_us, const Step& step) {
     coasting_ = true;

@@ -1,4 +1,4 @@
-// In-flight alignment behind the bus: groups SlaveImu, Ssbl and Gps in, groups FixNav and FixFilter out.
+// The adapter of in-flight alignment: groups SlaveImu, Ssbl and Gps in, groups FixNav and FixFilter out.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,9 +25,9 @@ constexpr double degph = deg / 3600;
 constexpr double ug = 1e-6 * 9.80665;
 
 constexpr std::int64_t history_us = 5'000'000;
-constexpr std::size_t history_length = 5120;         // of increments, which come each millisecond at the most
-constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
-constexpr std::size_t pending_limit = 4;             // fixes ahead of the INS that are kept
+constexpr std::size_t history_length = 5120;         // increments; at most one arrives per millisecond
+constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of the INS is rejected
+constexpr std::size_t pending_limit = 4;             // of queued fixes ahead of the INS
 
 struct Fix {
   FixSource source = FixSource::ssbl;
@@ -48,7 +48,7 @@ std::optional<ia::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// Raw values beyond the globe are no position.
+// False for raw values outside the range of latitude and longitude.
 bool on_earth(double latitude_deg, double longitude_deg) {
   return std::abs(latitude_deg) < 90 && std::abs(longitude_deg) <= 180;
 }
@@ -131,7 +131,8 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
   }
 
  private:
-  // Until the heading is known so well, tilts and velocity are told in axes that may be turned by any angle.
+  // Until the heading sigma is below this limit, the axes of reported tilts and velocity may be turned by any
+  // angle.
   void doubt_heading(Context& context) const {
     constexpr double known_sigma = 30 * deg;
     context.consistency.distrust(!(ia::uncertainty(state_).attitude(2, 2) <= known_sigma * known_sigma));
@@ -157,7 +158,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return health;
   }
 
-  // The ship's position and the vehicle's relative to it.
+  // Combines the ship's position and the vehicle's position relative to it.
   Health on_ssbl(Context& context) {
     const auto& horizontal = ssbl_group_.get<SsblRelativeNE>();
     const auto& latitude = ssbl_group_.get<SsblShipLatitude>();
@@ -196,7 +197,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return on_fix({t_us, gps_group_.counter(), fix}, valid, context);
   }
 
-  // Every whole group is answered: with what it did to the filter, or with why it did nothing.
+  // Answers every complete group with its effect on the filter, or with the reason why it was not used.
   Health on_fix(const At<Fix>& fix, bool valid, Context& context) {
     const FixSource chosen = tuning_.filter.aiding == ia::Aiding::gps ? FixSource::gps : FixSource::ssbl;
     if (fix.value.source != chosen) return refuse(fix, FixOutcome::wrong_source, context);
@@ -211,7 +212,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
     return refuse(fix, FixOutcome::future, context);
   }
 
-  // A fix that says that it is worse than assumed is believed.
+  // A fix that states a larger sigma than the settings is weighted by its own.
   [[nodiscard]] ia::Settings settings_for(const Fix& fix) const {
     ia::Settings filter = tuning_.filter;
     filter.fix_noise_horizontal = std::max(filter.fix_noise_horizontal, fix.horizontal_sigma);
@@ -268,7 +269,7 @@ class InflightAlignmentAdapter final : public TunedAdapter<InflightTuning> {
                                .innovation_down_m = result.innovation.z()});
     answers.send(FixPositionLatitude{.latitude_deg = result.position.latitude / deg,
                                      .height_m = result.position.height});
-    // The INS counts on across 180 deg; the message has -180 to 180.
+    // The INS's longitude is continuous across 180 deg; the message carries -180 to 180.
     answers.send(FixPositionLongitude{
         .longitude_deg = std::remainder(result.position.longitude, 2 * std::numbers::pi) / deg});
     answers.send(FixAttitudeSigma{.tilt_sigma_north_deg = attitude.x(),

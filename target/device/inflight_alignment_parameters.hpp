@@ -1,4 +1,4 @@
-// What a bench may choose of in-flight alignment.
+// The parameters of in-flight alignment that a bench can set.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace canhil::target {
 
-/// What the parameters change.
+/// The values that the parameters set.
 struct InflightTuning {
   inflight_alignment::Settings filter;
-  double height_sigma = 0;  // 0: as that of the other coordinates
+  double height_sigma = 0;  // 0: the sigma of the other coordinates
   std::int64_t output_interval_us = 0;
 };
 
-/// In the unit of their name; defaults are those of Kang, Kim, Park 2006 with an SSBL.
+/// Parameters in the unit of their name; the defaults are those of Kang, Kim, Park 2006 with an SSBL.
 inline constexpr std::array inflight_alignment_parameters = [] {
   namespace ia = inflight_alignment;
   using Row = ParameterTable<InflightTuning>::Row;
@@ -27,48 +27,57 @@ inline constexpr std::array inflight_alignment_parameters = [] {
   constexpr bool whole = true, real = false, any_time = true, stopped_only = false;
   return std::array{
       Row{P::accel_bias_sigma_ug, 1000, 0, 1e6, real, stopped_only,
+          "1-sigma of the accelerometer biases at the start.",
           [](InflightTuning& t, double v) { t.filter.accel_bias_sigma_0 = v * ug; }},
-      Row{P::gyro_bias_sigma_degph, 1, 0, 1e6, real, stopped_only,
+      Row{P::gyro_bias_sigma_degph, 1, 0, 1e6, real, stopped_only, "1-sigma of the gyro biases at the start.",
           [](InflightTuning& t, double v) { t.filter.gyro_bias_sigma_0 = v * degph; }},
-      Row{P::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
+      Row{P::accel_noise_ugprthz, 50, 0, 1e6, real, any_time, "White noise assumed of the accelerometers.",
           [](InflightTuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
-      Row{P::gyro_noise_degprth, 0.3, 0, 1e4, real, any_time,
+      Row{P::gyro_noise_degprth, 0.3, 0, 1e4, real, any_time, "White noise assumed of the gyros.",
           [](InflightTuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
-      Row{P::closed_loop, 1, 0, 1, whole, stopped_only,
+      Row{P::closed_loop, 1, 0, 1, whole, stopped_only, "0: the INS is never corrected; 1: it is.",
           [](InflightTuning& t, double v) { t.filter.closed_loop = v > 0.5; }},
-      Row{P::output_interval_ms, 10, 1, 1000, real, any_time,
+      Row{P::output_interval_ms, 10, 1, 1000, real, any_time, "Least time between navigation answers.",
           [](InflightTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
-      Row{P::aiding, 0, 0, 1, whole, stopped_only,
+      Row{P::aiding, 0, 0, 1, whole, stopped_only, "0: SSBL; 1: GPS. Fixes of the other are refused.",
           [](InflightTuning& t, double v) { t.filter.aiding = static_cast<ia::Aiding>(std::lround(v)); }},
       Row{P::attitude_error_frame, 0, 0, 1, whole, stopped_only,
+          "`ekf`: 0: platform, as published; 1: navigation.",
           [](InflightTuning& t, double v) {
             t.filter.attitude_error_frame = static_cast<ia::AttitudeErrorFrame>(std::lround(v));
           }},
-      Row{P::ukf_root, 0, 0, 1, whole, stopped_only,
+      Row{P::ukf_root, 0, 0, 1, whole, stopped_only, "`ukf`: 0: lower Cholesky; 1: symmetric root.",
           [](InflightTuning& t, double v) { t.filter.ukf_root = static_cast<ia::UkfRoot>(std::lround(v)); }},
       Row{P::ukf_covariance, 0, 0, 1, whole, stopped_only,
+          "`ukf`: 0: covariance about the mean; 1: about the central point.",
           [](InflightTuning& t, double v) {
             t.filter.ukf_covariance = static_cast<ia::UkfCovariance>(std::lround(v));
           }},
       Row{P::fix_noise_horizontal_m, 2, 1e-3, 1e4, real, any_time,
+          "White noise assumed of a fix, 1-sigma. A fix that states more is taken with that.",
           [](InflightTuning& t, double v) { t.filter.fix_noise_horizontal = v; }},
-      Row{P::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time,
+      Row{P::fix_noise_vertical_m, 2, 1e-3, 1e4, real, any_time, "The same of the height.",
           [](InflightTuning& t, double v) { t.filter.fix_noise_vertical = v; }},
       Row{P::fix_bias_sigma_m, 3.1622777, 0, 1e4, real, stopped_only,
+          "1-sigma of the constant error assumed of SSBL fixes (ship and SSBL).",
           [](InflightTuning& t, double v) { t.filter.fix_bias_sigma_0 = v; }},
-      Row{P::fix_bias_walk_mprts, 0, 0, 1e3, real, any_time,
+      Row{P::fix_bias_walk_mprts, 0, 0, 1e3, real, any_time, "Random walk of that error.",
           [](InflightTuning& t, double v) { t.filter.fix_bias_noise_density = v; }},
       Row{P::initial_height_sigma_m, 0, 0, 1e5, real, stopped_only,
+          "1-sigma of the height at the start; 0: as `position_m`.",
           [](InflightTuning& t, double v) { t.height_sigma = v; }},
       Row{P::handover_sigma_deg, 2, 1e-3, 90, real, any_time,
+          "`sin_cos`: the heading is resolved, and fed back, below this sigma.",
           [](InflightTuning& t, double v) { t.filter.handover_sigma = v * deg; }},
       Row{P::gate_nis, 30, 0, 1e9, real, any_time,
+          "Fixes whose normalised innovation squared is beyond are rejected; 0: none.",
           [](InflightTuning& t, double v) { t.filter.gate_nis = v; }},
-      Row{P::gate_recovery, 5, 0, 1e6, whole, any_time,
+      Row{P::gate_recovery, 5, 0, 1e6, whole, any_time, "Rejections in a row after which one is taken.",
           [](InflightTuning& t, double v) {
             t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v));
           }},
       Row{P::late_fixes, 1, 0, 1, whole, stopped_only,
+          "1: a late fix is applied at its time of validity; 0: when it arrives.",
           [](InflightTuning& t, double v) {
             t.filter.late_fixes = static_cast<ia::LateFixes>(std::lround(v));
           }},

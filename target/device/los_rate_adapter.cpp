@@ -1,4 +1,4 @@
-// LOS rate behind the bus: group Seeker in, group LosRate out. Every whole group is answered.
+// The adapter of the LOS rate estimator: group Seeker in, group LosRate out. Answers every complete group.
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -17,11 +17,11 @@ namespace los = los_rate;
 using namespace messages;
 
 constexpr double us = 1e-6, ms = 1e-3;
-constexpr std::int64_t lead_limit_us = 100'000;  // a group valid further ahead of the time base is nonsense
-constexpr std::int64_t silence_limit_us = 500'000;  // a seeker that stays away this long is named
+constexpr std::int64_t lead_limit_us = 100'000;     // a group further ahead of the time base is rejected
+constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of the seeker is an error
 
-// Parameters in the unit of their name; defaults are those of the estimator. The design is made of them at
-// the start, so none may change while it runs. Within the ranges every design and its gains are finite.
+// Parameters in the unit of their name; the defaults are those of the estimator. The design is computed from
+// them at the start, so none may change while it runs. Within the ranges all designs and gains are finite.
 using Tuning = los::Settings;
 using Row = ParameterTable<Tuning>::Row;
 constexpr bool whole = true;
@@ -30,56 +30,71 @@ constexpr bool stopped_only = false;
 constexpr Tuning standard;
 constexpr std::array rows{
     Row{Parameter::jerk_density_m2ps5, standard.jerk_density, 1e-3, 1e6, real, stopped_only,
-        [](Tuning& t, double v) { t.jerk_density = v; }},
+        "Density of the target's jerk.", [](Tuning& t, double v) { t.jerk_density = v; }},
     Row{Parameter::thermal_noise_pitch_radpm2, standard.noise.pitch.thermal, 1e-14, 1e-6, real, stopped_only,
+        "Error-angle noise in pitch, a sample, over range squared. Equal noises of both planes share a gain "
+        "set.",
         [](Tuning& t, double v) { t.noise.pitch.thermal = v; }},
     Row{Parameter::thermal_noise_yaw_radpm2, standard.noise.yaw.thermal, 1e-14, 1e-6, real, stopped_only,
-        [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
+        "The same in yaw.", [](Tuning& t, double v) { t.noise.yaw.thermal = v; }},
     Row{Parameter::glint_noise_pitch_m, standard.noise.pitch.glint, 1e-3, 100, real, stopped_only,
-        [](Tuning& t, double v) { t.noise.pitch.glint = v; }},
+        "Error-angle noise in pitch, times range.", [](Tuning& t, double v) { t.noise.pitch.glint = v; }},
     Row{Parameter::glint_noise_yaw_m, standard.noise.yaw.glint, 1e-3, 100, real, stopped_only,
-        [](Tuning& t, double v) { t.noise.yaw.glint = v; }},
+        "The same in yaw.", [](Tuning& t, double v) { t.noise.yaw.glint = v; }},
     Row{Parameter::constant_noise_pitch_rad, standard.noise.pitch.constant, 0, 0.1, real, stopped_only,
+        "Error-angle noise in pitch that does not depend on the range.",
         [](Tuning& t, double v) { t.noise.pitch.constant = v; }},
     Row{Parameter::constant_noise_yaw_rad, standard.noise.yaw.constant, 0, 0.1, real, stopped_only,
-        [](Tuning& t, double v) { t.noise.yaw.constant = v; }},
+        "The same in yaw.", [](Tuning& t, double v) { t.noise.yaw.constant = v; }},
     Row{Parameter::sample_period_ms, standard.sample_period / ms, 0.5, 50, real, stopped_only,
-        [](Tuning& t, double v) { t.sample_period = v * ms; }},
+        "Period of the seeker.", [](Tuning& t, double v) { t.sample_period = v * ms; }},
     Row{Parameter::los_rate_sigma_radps, standard.rate_sigma_0, 1e-6, 10, real, stopped_only,
-        [](Tuning& t, double v) { t.rate_sigma_0 = v; }},
+        "1-sigma of the LOS rate at the start.", [](Tuning& t, double v) { t.rate_sigma_0 = v; }},
     Row{Parameter::target_acceleration_sigma_mps2, standard.acceleration_sigma_0, 1e-3, 1e4, real,
-        stopped_only, [](Tuning& t, double v) { t.acceleration_sigma_0 = v; }},
+        stopped_only, "1-sigma of the target's acceleration at the start.",
+        [](Tuning& t, double v) { t.acceleration_sigma_0 = v; }},
     Row{Parameter::start_up_s, standard.start_up, 0, 100, real, stopped_only,
+        "Time from each start in which a Kalman filter runs; then the closed gain.",
         [](Tuning& t, double v) { t.start_up = v; }},
     Row{Parameter::gap_limit_ms, standard.gap_limit / ms, 0, 1e4, real, stopped_only,
+        "`combined`, `switched_table`: after a longer time without an error angle the Kalman filter of "
+        "`start_up_s` runs again.",
         [](Tuning& t, double v) { t.gap_limit = v * ms; }},
     Row{Parameter::low_pass_bandwidth_radps, standard.low_pass_bandwidth, 0.1, 200, real, stopped_only,
-        [](Tuning& t, double v) { t.low_pass_bandwidth = v; }},
+        "`low_pass`: bandwidth.", [](Tuning& t, double v) { t.low_pass_bandwidth = v; }},
     Row{Parameter::low_pass_damping, standard.low_pass_damping, 0.1, 5, real, stopped_only,
-        [](Tuning& t, double v) { t.low_pass_damping = v; }},
+        "`low_pass`: damping.", [](Tuning& t, double v) { t.low_pass_damping = v; }},
     Row{Parameter::range_max_m, standard.range_max, 100, 1e5, real, stopped_only,
+        "Range at which the tables of gains end. The farther, the coarser the table of `combined`.",
         [](Tuning& t, double v) { t.range_max = v; }},
     Row{Parameter::closing_speed_max_mps, standard.closing_speed_max, 10, 1e4, real, stopped_only,
+        "Closing speed at which the tables of gains end.",
         [](Tuning& t, double v) { t.closing_speed_max = v; }},
     Row{Parameter::blind_range_m, standard.blind_range, 0, 1e4, real, stopped_only,
+        "Below the largest of this, 3 range sigmas and 10 samples' way the estimate is flagged blind.",
         [](Tuning& t, double v) { t.blind_range = v; }},
-    Row{Parameter::range_sigma_m, standard.range_sigma, 0, 1e3, real, stopped_only,
+    Row{Parameter::range_sigma_m, standard.range_sigma, 0, 1e3, real, stopped_only, "1-sigma of the range.",
         [](Tuning& t, double v) { t.range_sigma = v; }},
     Row{Parameter::range_gate_m, standard.range_gate, 1, 1e5, real, stopped_only,
-        [](Tuning& t, double v) { t.range_gate = v; }},
+        "A larger change of the range is a jump.", [](Tuning& t, double v) { t.range_gate = v; }},
     Row{Parameter::closing_speed_gate_mps, standard.closing_speed_gate, 1, 1e4, real, stopped_only,
+        "A larger change of the closing speed is a jump.",
         [](Tuning& t, double v) { t.closing_speed_gate = v; }},
     Row{Parameter::relock_samples, static_cast<double>(standard.relock_samples), 1, 1e4, whole, stopped_only,
+        "Samples after which a range is believed again.",
         [](Tuning& t, double v) { t.relock_samples = static_cast<int>(std::lround(v)); }},
     Row{Parameter::range_unchanged_limit_ms, standard.range_unchanged_limit / ms, 0, 1e4, real, stopped_only,
+        "A range that does not change for longer is stale.",
         [](Tuning& t, double v) { t.range_unchanged_limit = v * ms; }},
-    // Below the largest angle that the bus carries, so that an angle which saturates there is refused.
+    // Below the largest angle that the bus carries, so that a saturated angle is refused.
     Row{Parameter::field_of_view_rad, standard.field_of_view, 1e-3, 0.6, real, stopped_only,
-        [](Tuning& t, double v) { t.field_of_view = v; }},
+        "Error angles beyond are refused.", [](Tuning& t, double v) { t.field_of_view = v; }},
     Row{Parameter::antenna_rate_sigma_radps, standard.antenna_rate_sigma, 0, 100, real, stopped_only,
+        "1-sigma of the antenna rate: how fast the sigma grows while coasting.",
         [](Tuning& t, double v) { t.antenna_rate_sigma = v; }},
     Row{Parameter::missile_acceleration_sigma_mps2, standard.missile_acceleration_sigma, 0, 1e4, real,
-        stopped_only, [](Tuning& t, double v) { t.missile_acceleration_sigma = v; }},
+        stopped_only, "1-sigma of the missile's acceleration: how fast the sigma grows while coasting.",
+        [](Tuning& t, double v) { t.missile_acceleration_sigma = v; }},
 };
 
 std::optional<los::Algorithm> algorithm_of(Algorithm algorithm) {
@@ -131,7 +146,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return true;
   }
 
-  // The first usable sample starts the estimate; of the initial state only the time counts, for silence.
+  // The first usable sample starts the estimate. Only the time of the initial state is used, to detect
+  // silence.
   void start(const InitialState& initial) override {
     design_ = los::make_design(tuning_);
     acquire();
@@ -154,7 +170,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     }
   }
 
-  // No fault: whenever the seeker comes back, the target is acquired anew.
+  // Not a fault: when the seeker returns, the target is acquired anew.
   Health tick(Context context) override {
     if (context.now_us - now_us_ > silence_limit_us) context.errors.input_silent = true;
     return Health::good;
@@ -204,8 +220,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // A group whose interval begins later than the last one ended follows lost ones; one that begins earlier
-  // has increments that are not those of the step. The first one has no step before it.
+  // A group whose interval begins after the end of the last one follows lost groups. If it begins earlier,
+  // its increments do not match the step. The first group has no previous step.
   los::Measurement measured(std::int64_t t_us) const {
     const auto& antenna = group_.get<SeekerAntenna>();
     const auto& angles = group_.get<SeekerAngles>();
@@ -236,7 +252,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
     monitor.observe(result.nis, std::array{nu.pitch / std::sqrt(S.pitch), nu.yaw / std::sqrt(S.yaw)});
   }
 
-  // Answers a group that does nothing with what is known.
+  // Answers an unused group with the current estimate.
   Health refuse(std::int64_t t_us, Context& context, los::Outcome why = los::Outcome::bad_step) {
     los::UpdateResult nothing;
     nothing.outcome = why;
@@ -256,7 +272,7 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
                                  .outcome = on_bus(result.outcome),
                                  .fault = on_bus(result.fault),
                                  .blind = static_cast<std::uint8_t>(result.blind)});
-    const los::Planes<los::Sigma> sigma = los::told_sigma(result, design_);
+    const los::Planes<los::Sigma> sigma = los::reported_sigma(result, design_);
     answers.send(LosRateSigma{.los_rate_sigma_pitch_radps = sigma.pitch.rate,
                               .los_rate_sigma_yaw_radps = sigma.yaw.rate,
                               .target_acceleration_sigma_y_mps2 = sigma.yaw.acceleration,
@@ -272,8 +288,8 @@ class LosRateAdapter final : public TunedAdapter<Tuning> {
   los::State state_;
   los::UpdateResult last_;
   SampleGroup<SeekerAntenna, SeekerAngles, SeekerMotion, SeekerRange> group_;
-  std::int64_t now_us_ = 0;  // validity of the last step, or the start
-  bool tracking_ = false;    // a step was made since
+  std::int64_t now_us_ = 0;  // time of validity of the last step, or the start
+  bool tracking_ = false;    // at least one step since the start
 };
 
 }  // namespace

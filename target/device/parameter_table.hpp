@@ -1,4 +1,4 @@
-// An estimator's parameters as a table: range, default, when it may change, and what it changes.
+// An estimator's parameters as a table: range, default, when a parameter may change, and what it sets.
 #pragma once
 
 #include <algorithm>
@@ -6,16 +6,20 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "messages/canhil.hpp"
 
 namespace canhil::target {
 
-/// What a parameter may be, in the unit of its name.
+/// What a parameter may be, in the unit of its name, and what it does.
 struct ParameterRange {
   double minimum = 0;
   double maximum = 0;
   bool whole = false;  ///< an integer
+  double initial = 0;
+  bool while_running = false;
+  std::string_view meaning{};  ///< one sentence
 };
 
 /// Values of the parameters in the unit of their name, applied to an estimator's own `Tuning`.
@@ -29,12 +33,13 @@ class ParameterTable {
     double maximum;
     bool whole;  ///< an integer
     bool while_running;
+    std::string_view meaning;  ///< for the reference (hil-bench reference)
     void (*apply)(Tuning&, double);
   };
 
   constexpr explicit ParameterTable(std::span<const Row> rows) : rows_(rows) {}
 
-  /// Every parameter back to its default.
+  /// Sets every parameter to its default.
   void reset(Tuning& tuning) {
     for (std::size_t i = 0; i < rows_.size(); ++i) take(tuning, i, rows_[i].initial);
   }
@@ -60,13 +65,18 @@ class ParameterTable {
     const auto index = find(parameter);
     if (!index) return std::nullopt;
     const Row& row = rows_[*index];
-    return ParameterRange{.minimum = row.minimum, .maximum = row.maximum, .whole = row.whole};
+    return ParameterRange{.minimum = row.minimum,
+                          .maximum = row.maximum,
+                          .whole = row.whole,
+                          .initial = row.initial,
+                          .while_running = row.while_running,
+                          .meaning = row.meaning};
   }
 
  private:
   static constexpr std::size_t capacity = 64;
 
-  // A value comes as a float, which for 1e-9 is less than 1e-9.
+  // The bus carries floats; the nearest float to 1e-9 is less than 1e-9.
   static double on_the_wire(double limit) { return static_cast<double>(static_cast<float>(limit)); }
 
   [[nodiscard]] std::optional<std::size_t> find(messages::Parameter parameter) const {

@@ -1,4 +1,4 @@
-// Transfer alignment behind the bus: groups SlaveImu and MasterIns in, groups AlignNav and AlignFilter out.
+// The adapter of transfer alignment: groups SlaveImu and MasterIns in, groups AlignNav and AlignFilter out.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -25,12 +25,12 @@ constexpr double degprth = deg / 60;
 constexpr double ug = 1e-6 * 9.80665;
 
 constexpr std::int64_t history_us = 500'000;
-constexpr std::size_t history_length = 512;          // of increments, which come each millisecond at the most
-constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix valid further ahead of the INS is nonsense
-constexpr std::size_t pending_limit = 8;             // fixes ahead of the INS that are kept
+constexpr std::size_t history_length = 512;          // increments; at most one arrives per millisecond
+constexpr std::int64_t fix_lead_limit_us = 500'000;  // a fix further ahead of the INS is rejected
+constexpr std::size_t pending_limit = 8;             // of queued fixes ahead of the INS
 
-// Parameters in the unit of their name; defaults are the settings of the paper's reproduction, but for
-// the loop, which is the recommended one.
+// Parameters in the unit of their name. The defaults are the settings of the paper's reproduction, with the
+// recommended loop.
 struct Tuning {
   ta::Settings filter;
   std::int64_t output_interval_us = 0;
@@ -42,34 +42,43 @@ constexpr bool any_time = true;
 constexpr bool stopped_only = false;
 constexpr std::array rows{
     Row{Parameter::accel_bias_sigma_ug, 300, 0, 1e6, real, stopped_only,
+        "1-sigma of the accelerometer biases at the start.",
         [](Tuning& t, double v) { t.filter.accel_bias_sigma_0.setConstant(v * ug); }},
     Row{Parameter::gyro_bias_sigma_degph, 3, 0, 1e6, real, stopped_only,
+        "1-sigma of the gyro biases at the start.",
         [](Tuning& t, double v) { t.filter.gyro_bias_sigma_0.setConstant(v * degph); }},
     Row{Parameter::accel_noise_ugprthz, 50, 0, 1e6, real, any_time,
+        "White noise assumed of the accelerometers.",
         [](Tuning& t, double v) { t.filter.accel_noise_density = v * ug; }},
-    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, real, any_time,
+    Row{Parameter::gyro_noise_degprth, 0.125, 0, 1e4, real, any_time, "White noise assumed of the gyros.",
         [](Tuning& t, double v) { t.filter.gyro_noise_density = v * degprth; }},
     Row{Parameter::velocity_noise_m2ps, 0.01, 1e-9, 1e4, real, any_time,
+        "Density R of the master's velocity noise, (m/s)^2 s; the filter uses R/dt.",
         [](Tuning& t, double v) { t.filter.velocity_noise_density = v; }},
-    Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only,
+    Row{Parameter::h2_case, 2, 1, 4, whole, stopped_only, "`robust_h2`: uncertainty structure.",
         [](Tuning& t, double v) { t.filter.h2_case = static_cast<ta::H2Case>(std::lround(v)); }},
     Row{Parameter::h2_alpha_rule, 0, 0, 1, whole, stopped_only,
+        "`robust_h2`: 0: alpha from the attitude covariance; 1: constant.",
         [](Tuning& t, double v) { t.filter.alpha_rule = static_cast<ta::AlphaRule>(std::lround(v)); }},
-    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, real, any_time,
+    Row{Parameter::h2_alpha_mps2, 0, 0, 1e3, real, any_time, "`robust_h2`: alpha of rule 1.",
         [](Tuning& t, double v) { t.filter.alpha_constant = v; }},
-    Row{Parameter::fading_per_s, 0, 0, 10, real, any_time,
+    Row{Parameter::fading_per_s, 0, 0, 10, real, any_time, "`kalman`: fading memory.",
         [](Tuning& t, double v) { t.filter.fading_per_s = v; }},
     Row{Parameter::mechanization, 1, 0, 1, whole, stopped_only,
+        "0: one sample, as the published vectors; 1: two samples, coning and sculling.",
         [](Tuning& t, double v) {
           t.filter.mechanization = static_cast<strapdown::Mechanization>(std::lround(v));
         }},
     Row{Parameter::closed_loop, 2, 0, 2, whole, stopped_only,
+        "0: the INS is never corrected; 1: it is, as published; 2: it is, by an invariant error, with a "
+        "guarded H2 and gated velocities.",
         [](Tuning& t, double v) { t.filter.loop = static_cast<ta::Loop>(std::lround(v)); }},
     Row{Parameter::gate_nis, 2000, 0, 1e9, real, any_time,
+        "`closed_loop` 2: velocities whose normalised innovation squared is beyond are refused; 0: none.",
         [](Tuning& t, double v) { t.filter.gate_nis = v; }},
-    Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time,
+    Row{Parameter::gate_recovery, 5, 0, 1e6, whole, any_time, "Refusals in a row after which one is taken.",
         [](Tuning& t, double v) { t.filter.gate_recovery = static_cast<std::uint32_t>(std::lround(v)); }},
-    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time,
+    Row{Parameter::output_interval_ms, 10, 1, 1000, real, any_time, "Least time between navigation answers.",
         [](Tuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
 };
 
@@ -190,7 +199,7 @@ class TransferAlignmentAdapter final : public TunedAdapter<Tuning> {
     return Health::good;
   }
 
-  // In a closed loop the INS itself; in an open one it is corrected for each answer.
+  // The INS itself in a closed loop; in an open loop the INS corrected for each answer.
   const ta::Ins& best_estimate() {
     if (tuning_.filter.loop != ta::Loop::open) return state_.ins;
     corrected_ = ta::estimate(state_);

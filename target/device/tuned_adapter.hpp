@@ -1,4 +1,4 @@
-// What the adapters of all estimators have in common: parameters that tune them.
+// The common part of all adapters: parameters that tune the estimator.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace canhil::target {
 
-/// An adapter whose parameters are a table that sets `tuning_`.
+/// An adapter with a parameter table that sets `tuning_`.
 template <class Tuning>
 class TunedAdapter : public Adapter {
  public:

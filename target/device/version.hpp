@@ -1,4 +1,4 @@
-// Software version of the target, as the heartbeat carries it.
+// Software version of the target, for the heartbeat.
 #pragma once
 
 #include <cstdint>

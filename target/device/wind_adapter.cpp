@@ -1,4 +1,4 @@
-// Wind estimation behind the bus: groups Fins and GliderNav in, group Wind out.
+// The adapter of wind estimation: groups Fins and GliderNav in, group Wind out.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,13 +20,13 @@ using namespace messages;
 
 constexpr double deg = std::numbers::pi / 180;
 
-constexpr std::int64_t lead_limit_us = 200'000;  // a sample valid further ahead of the last Sync is nonsense
-constexpr std::int64_t silence_limit_us = 500'000;  // navigation that stays away this long is named
-// Coefficients that are wrong anew every 50 ms average out over many of these times, as the sigmas presume;
-// the gains of a start are too high for that: of 200 flights with 20 % 15 erred by more than 5 sigma within
-// 0.3 s.
+constexpr std::int64_t lead_limit_us = 200'000;     // a sample further ahead of the last Sync is rejected
+constexpr std::int64_t silence_limit_us = 500'000;  // a longer silence of navigation is an error
+// The sigmas assume that coefficient errors, redrawn every 50 ms, average out over many such intervals. The
+// gains after a start are too high for that: of 200 flights with errors of 20 %, 15 erred by more than
+// 5 sigma within 0.3 s.
 constexpr std::int64_t settling_us = 1'000'000;
-// Limits of what is physical, within what the bus can carry, so that it can carry what is not.
+// Physical limits; below the limits of the bus, so that the bus can also carry invalid values.
 constexpr double ground_speed_most = 600;
 constexpr double rate_most = 300 * deg;
 
@@ -48,7 +48,7 @@ std::optional<wind::Algorithm> algorithm_of(Algorithm algorithm) {
   }
 }
 
-// An angle [rad]. A raw value beyond the half turn is no angle: an encoder that knows no limits makes it of a
+// An angle [rad]. A raw value beyond half a turn becomes NaN: encoders without limits send such values for a
 // NaN.
 double angle(double value_deg) {
   return std::abs(value_deg) <= 180.5 ? value_deg * deg : std::numeric_limits<double>::quiet_NaN();
@@ -80,8 +80,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     design_ = wind::make_bank(tuning_.filter);
     return status;
   }
-  // Where the air velocity at release is not known, the wind is not: the first usable sample starts the
-  // filter.
+  // Without the air velocity at release the wind is unknown: the first usable sample then starts the filter.
   void start(const InitialState& initial) override {
     wind::Settings& filter = tuning_.filter;
     filter.velocity_sigma_0 = std::max(initial.velocity_sigma, 1e-3);
@@ -136,7 +135,7 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     if (completes<Message>(group_, frame, counter, context)) on_navigation(context);
   }
 
-  // The latest time at which a sample that has arrived can be valid; a run may start before its first Sync.
+  // The latest plausible time of validity of an arrived sample. A run may start before its first Sync.
   [[nodiscard]] std::int64_t latest_us(const Context& context) const {
     return std::max(context.now_us, start_us_) + lead_limit_us;
   }
@@ -156,7 +155,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
     }
   }
 
-  // Every whole group that is not used, or with reserve, is answered; of the others as many as asked for.
+  // Answers every complete group that is rejected or used with reservation; of the others, one per output
+  // interval.
   void on_navigation(Context& context) {
     const auto& horizontal = group_.get<GliderNavVelocityNE>();
     const auto& attitude = group_.get<GliderNavAttitude>();
@@ -200,8 +200,8 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
       case wind::Fault::stale:
         return drop_group(context);
       case wind::Fault::none:
-      case wind::Fault::pitch:  // a true sample, of no use to Euler angles
-      case wind::Fault::jump:   // as a gate's
+      case wind::Fault::pitch:  // a correct sample, but unusable with Euler angles
+      case wind::Fault::jump:   // treated like a gated sample
         break;
     }
   }
@@ -263,9 +263,9 @@ class WindAdapter final : public TunedAdapter<WindTuning> {
   wind::FinHistory fins_;
   SampleGroup<GliderNavVelocityNE, GliderNavAttitude, GliderNavRates, GliderNavVelocityD> group_;
   std::int64_t start_us_ = 0;
-  std::int64_t settled_us_ = 0;   // until then the sigmas are those of a start, and not to be trusted
+  std::int64_t settled_us_ = 0;   // before this time the sigmas are those of a start and unreliable
   std::int64_t newest_us_ = 0;    // the newest time of validity of navigation
-  std::int64_t answered_us_ = 0;  // that of the last answer
+  std::int64_t answered_us_ = 0;  // the time of validity of the last answer
 };
 
 }  // namespace

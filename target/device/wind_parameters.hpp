@@ -1,4 +1,4 @@
-// What a bench may choose of the wind estimator.
+// The parameters of the wind estimator that a bench can set.
 #pragma once
 
 #include <array>
@@ -10,67 +10,82 @@
 
 namespace canhil::target {
 
-/// What the parameters change.
+/// The values that the parameters set.
 struct WindTuning {
   wind::Settings filter;
   std::int64_t output_interval_us = 0;
 };
 
-/// In the unit of their name; defaults are those of the filter (settings.hpp).
+/// Parameters in the unit of their name; the defaults are those of the filter (settings.hpp).
 inline constexpr std::array wind_parameters = [] {
   using Row = ParameterTable<WindTuning>::Row;
   using P = messages::Parameter;
   constexpr double deg = wind::rad_per_deg, ms = 1e-3;
   constexpr bool whole = true, real = false, any_time = true, stopped_only = false;
   return std::array{
-      Row{P::output_interval_ms, 20, 1, 1000, real, any_time,
+      Row{P::output_interval_ms, 20, 1, 1000, real, any_time, "Least time between answers.",
           [](WindTuning& t, double v) { t.output_interval_us = std::llround(v * 1e3); }},
       Row{P::process_noise, 3, 0, 3, whole, any_time,
+          "0: block-diagonal; 1: with the correlation of wind and air velocity; 2: and with the noise of "
+          "wrong coefficients; 3: two filters of that kind, one of which believes in gusts, weighted by what "
+          "is measured.",
           [](WindTuning& t, double v) {
             t.filter.process_noise = static_cast<wind::ProcessNoise>(std::lround(v));
           }},
-      Row{P::air_velocity_noise_mpsprts, 0.02, 0, 1e3, real, any_time,
+      Row{P::air_velocity_noise_mpsprts, 0.02, 0, 1e3, real, any_time, "Process noise of the air velocity.",
           [](WindTuning& t, double v) { t.filter.density.air_velocity = v; }},
       Row{P::body_rate_noise_degpsprts, 0.2, 0, 1e3, real, any_time,
+          "Process noise of the body rates; the published filter's is 0.05.",
           [](WindTuning& t, double v) { t.filter.density.rate = v * deg; }},
-      Row{P::attitude_noise_degprts, 0.01, 0, 1e2, real, any_time,
+      Row{P::attitude_noise_degprts, 0.01, 0, 1e2, real, any_time, "Process noise of the attitude.",
           [](WindTuning& t, double v) { t.filter.density.attitude = v * deg; }},
-      Row{P::wind_noise_mpsprts, 0.3, 0, 1e3, real, any_time,
+      Row{P::wind_noise_mpsprts, 0.3, 0, 1e3, real, any_time, "Process noise of the wind.",
           [](WindTuning& t, double v) { t.filter.density.wind = v; }},
       Row{P::coefficient_sigma_percent, 5, 0, 100, real, any_time,
+          "1-sigma of the constant error of each part of an aerodynamic coefficient, for which the sigmas "
+          "allow with `process_noise` 2 or 3, but not with `h_infinity`.",
           [](WindTuning& t, double v) { t.filter.coefficient_sigma = v / 100; }},
       Row{P::glider_velocity_sigma_mps, 0.25, 1e-3, 1e3, real, any_time,
+          "Noise assumed of a velocity sample.",
           [](WindTuning& t, double v) { t.filter.velocity_sigma = v; }},
       Row{P::glider_rate_sigma_degps, 0.125, 1e-3, 1e2, real, any_time,
+          "Noise assumed of a body rate sample.",
           [](WindTuning& t, double v) { t.filter.rate_sigma = v * deg; }},
       Row{P::glider_attitude_sigma_deg, 0.25, 1e-3, 45, real, any_time,
+          "Noise assumed of an attitude sample.",
           [](WindTuning& t, double v) { t.filter.attitude_sigma = v * deg; }},
-      Row{P::theta_per_s, 1.5, 0, 1e3, real, any_time,
+      Row{P::theta_per_s, 1.5, 0, 1e3, real, any_time, "`h_infinity`: theta a second.",
           [](WindTuning& t, double v) { t.filter.theta_per_s = v; }},
-      Row{P::theta_cap_per_s, 2, 0, 1e3, real, any_time,
+      Row{P::theta_cap_per_s, 2, 0, 1e3, real, any_time, "`h_infinity`: cap of theta lambda_max a second.",
           [](WindTuning& t, double v) { t.filter.theta_cap_per_s = v; }},
-      Row{P::theta_rate_weight, 1, 0, 1e8, real, any_time,
+      Row{P::theta_rate_weight, 1, 0, 1e8, real, any_time, "`h_infinity`: weight of the rates in S.",
           [](WindTuning& t, double v) { t.filter.rate_weight = v; }},
       Row{P::adaptation_time_s, 0.3, 1e-3, 1e3, real, any_time,
+          "`adaptive_q`: time in which the variance of the noise follows the NIS.",
           [](WindTuning& t, double v) { t.filter.adaptation_time = v; }},
-      Row{P::adaptation_limit, 1e4, 1, 1e8, real, any_time,
+      Row{P::adaptation_limit, 1e4, 1, 1e8, real, any_time, "`adaptive_q`: largest factor of that variance.",
           [](WindTuning& t, double v) { t.filter.adaptation_limit = v; }},
       Row{P::initial_air_velocity_sigma_mps, 1, 1e-3, 1e3, real, stopped_only,
+          "1-sigma of the air velocity at the start.",
           [](WindTuning& t, double v) { t.filter.air_velocity_sigma_0 = v; }},
       Row{P::initial_rate_sigma_degps, 0.01, 1e-4, 1e2, real, stopped_only,
+          "1-sigma of the body rates at the start.",
           [](WindTuning& t, double v) { t.filter.rate_sigma_0 = v * deg; }},
       Row{P::initial_wind_sigma_mps, 20, 1e-3, 1e3, real, stopped_only,
+          "1-sigma of the wind at the start, when no initial air velocity is given.",
           [](WindTuning& t, double v) { t.filter.wind_sigma_0 = v; }},
-      Row{P::fins_late_ms, 30, 1, 1e4, real, any_time,
+      Row{P::fins_late_ms, 30, 1, 1e4, real, any_time, "Age of the fins from which an answer says late.",
           [](WindTuning& t, double v) { t.filter.fins_late = v * ms; }},
       Row{P::fins_missing_ms, 100, 1, 1e4, real, any_time,
+          "Age of the fins from which an answer says missing.",
           [](WindTuning& t, double v) { t.filter.fins_missing = v * ms; }},
-      // A gap is bridged within one frame, in parts of 25 ms: at most 400.
-      Row{P::glider_nav_coast_s, 2, 0, 10, real, any_time,
+      // A gap is bridged within one frame, in at most 400 parts of 25 ms.
+      Row{P::glider_nav_coast_s, 2, 0, 10, real, any_time, "Longest gap of the navigation that is bridged.",
           [](WindTuning& t, double v) { t.filter.coast_limit = v; }},
       Row{P::glider_nav_stale_ms, 100, 1, 1e6, real, any_time,
+          "Longest time for which the navigation may not change.",
           [](WindTuning& t, double v) { t.filter.stale_limit = v * ms; }},
-      Row{P::glider_nav_gate_mps, 50, 1, 1e6, real, any_time,
+      Row{P::glider_nav_gate_mps, 50, 1, 1e6, real, any_time, "Largest jump of the velocity.",
           [](WindTuning& t, double v) { t.filter.velocity_gate = v; }},
   };
 }();

@@ -29,37 +29,38 @@ void BusNotes::interface_is(bool up) {
 
 std::string BusNotes::news(const Port& port, BusFormat format) {
   std::string lines;
-  const auto tell = [&](const std::string& what) { lines += fmt::format("{}: {}\n", port.name(), what); };
+  const auto add = [&](const std::string& what) { lines += fmt::format("{}: {}\n", port.name(), what); };
   const std::int64_t now_ns = clock_ns(CLOCK_MONOTONIC);
-  if (errors_ != told_.errors &&
-      (state_changed(told_.errors, errors_) || now_ns - told_.errors_ns >= flood_period_ns)) {
-    tell(fmt::format("{} error frames ({})", errors_.frames, words(errors_)));
-    told_.errors = errors_;
-    told_.errors_ns = now_ns;
+  if (errors_ != reported_.errors &&
+      (state_changed(reported_.errors, errors_) || now_ns - reported_.errors_ns >= flood_period_ns)) {
+    add(fmt::format("{} error frames ({})", errors_.frames, to_text(errors_)));
+    reported_.errors = errors_;
+    reported_.errors_ns = now_ns;
   }
-  if (up_ && (!told_.up || downs_ != told_.downs)) {
-    tell(fmt::format("up again after {:.1f} s; {} frames were not sent meanwhile",
-                     static_cast<double>(last_outage_ns_) * 1e-9, unsent_));
+  if (up_ && (!reported_.up || downs_ != reported_.downs)) {
+    add(fmt::format("up again after {:.1f} s; {} frames were not sent meanwhile",
+                    static_cast<double>(last_outage_ns_) * 1e-9, unsent_));
     unsent_ = 0;
-  } else if (!up_ && downs_ != told_.downs) {
-    tell("the interface is down or removed; waiting for it");
+  } else if (!up_ && downs_ != reported_.downs) {
+    add("the interface is down or removed; waiting for it");
   }
-  told_.up = up_;
-  told_.downs = downs_;
-  if (late_in_queue_ != told_.late_in_queue) {
-    tell(fmt::format("late in transmit queue: {} frames since the start, not sent", late_in_queue_));
-    told_.late_in_queue = late_in_queue_;
+  reported_.up = up_;
+  reported_.downs = downs_;
+  if (late_in_queue_ != reported_.late_in_queue) {
+    add(fmt::format("late in transmit queue: {} frames since the start, not sent", late_in_queue_));
+    reported_.late_in_queue = late_in_queue_;
   }
-  if (const std::uint64_t overflowed = port.counters().overflowed; overflowed != told_.overflowed) {
-    tell(fmt::format("the receive queue overflowed: {} frames lost since the start", overflowed));
-    told_.overflowed = overflowed;
+  if (const std::uint64_t overflowed = port.counters().overflowed; overflowed != reported_.overflowed) {
+    add(fmt::format("the receive queue overflowed: {} frames lost since the start", overflowed));
+    reported_.overflowed = overflowed;
   }
   const std::uint64_t foreign = port.counters().foreign;
-  if (foreign != told_.foreign && now_ns - told_.foreign_ns >= flood_period_ns) {
+  if (foreign != reported_.foreign && now_ns - reported_.foreign_ns >= flood_period_ns) {
     const BusFormat other = format == BusFormat::fd ? BusFormat::classic : BusFormat::fd;
-    tell(fmt::format("hears {}, {} since the start, expected {}", words(other), foreign, words(format)));
-    told_.foreign = foreign;
-    told_.foreign_ns = now_ns;
+    add(fmt::format("received {}, {} since the start, expected {}", to_text(other), foreign,
+                    to_text(format)));
+    reported_.foreign = foreign;
+    reported_.foreign_ns = now_ns;
   }
   return lines;
 }

@@ -1,4 +1,4 @@
-// What the process around the device has to say of the bus, which no frame can carry.
+// The target process's messages about the bus, for stderr.
 #pragma once
 
 #include <cstdint>
@@ -9,24 +9,25 @@
 
 namespace canhil::target {
 
-/// Counts on the frame path, without a word; told from time to time beside it.
+/// Only counts on the frame path; news() reports the counts from time to time.
 class BusNotes {
  public:
   void error_frame(const Frame& frame) { add(errors_, frame); }
   /// An answer found no room in the transmit queue by its deadline.
   void late_in_queue() { ++late_in_queue_; }
-  /// An answer met an interface that is down.
+  /// An answer was not sent because the interface is down.
   void met_interface_down() { ++unsent_; }
-  /// Whether it is up; asked so often that no outage is missed between two news.
+  /// Reports the interface's state. Must be called often enough to see every outage between two calls of
+  /// news().
   void interface_is(bool up);
 
-  /// One line for each thing that changed since it was asked last, with the bus's name; empty: nothing did.
-  /// What may flood, error frames that are no change of state and frames of the other contract, is told of
-  /// once a second.
+  /// One line, with the bus's name, for each change since the last call; empty: no change. Events that may
+  /// come in floods (error frames without a change of state, frames of the other contract) appear once per
+  /// second.
   std::string news(const Port& port, BusFormat format);
 
  private:
-  struct Told {
+  struct Reported {
     BusErrors errors;
     std::int64_t errors_ns = 0;
     std::uint64_t late_in_queue = 0;
@@ -38,12 +39,12 @@ class BusNotes {
   };
   BusErrors errors_;
   std::uint64_t late_in_queue_ = 0;
-  std::uint64_t unsent_ = 0;  // since the last outage was told
+  std::uint64_t unsent_ = 0;  // since the last outage was reported
   std::uint64_t downs_ = 0;
   bool up_ = true;
   std::int64_t changed_ns_ = 0;
   std::int64_t last_outage_ns_ = 0;
-  Told told_;
+  Reported reported_;
 };
 
 }  // namespace canhil::target

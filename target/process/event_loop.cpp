@@ -18,23 +18,23 @@ constexpr std::int64_t period_ns = messages::TargetHeartbeat::info.cycle_time_us
 constexpr std::int64_t bench_silent_ns = 2 * period_ns;
 constexpr std::int64_t bench_gone_ns = 2'000'000'000;
 constexpr std::int64_t send_patience_ns = 50'000'000;
-constexpr int looks_every = 16;  // waits, at the clock
-// A bus may bring frames for ever: after so many the target looks at its clock.
+constexpr int looks_every = 16;  // the clock is read after this many waits
+// On a busy bus the target reads its clock after this many frames.
 constexpr int most_at_once = 256;
 
 std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
 
-// A start counts too: a heartbeat of the process between it and the first Sync would be one that no replay
-// has.
+// Commands count as well as Sync: a heartbeat of the process between start and the first Sync would not
+// appear in a replay.
 bool from_bench(const Frame& frame) {
   return !frame.extended &&
          (frame.id == messages::Sync::info.id || frame.id == messages::TargetCommand::info.id);
 }
 
-// Sends frames in order. A bus that stays full up to the deadline loses them, as does an interface that is
-// down: counted, and the receiver sees it by the E2E counters.
+// Sends frames in order. Frames are lost if the bus stays full until the deadline or the interface is down;
+// the loss is counted, and the receiver detects it by the E2E counters.
 void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
-  std::int64_t deadline_ns = 0;  // looked up when it matters
+  std::int64_t deadline_ns = 0;  // set when the queue is first full
   for (const Frame& frame : frames) {
     SendOutcome outcome = port.send(frame);
     while (outcome == SendOutcome::queue_full) {
@@ -47,7 +47,7 @@ void send(Port& port, std::span<const Frame> frames, BusNotes& notes) {
   }
 }
 
-void tell(const std::string& news) {
+void print(const std::string& news) {
   for (std::size_t begin = 0; begin < news.size();) {
     const std::size_t end = news.find('\n', begin);
     std::fprintf(stderr, "hil-target: %s\n", news.substr(begin, end - begin).c_str());
@@ -71,15 +71,15 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
   TimingWindow window;
   BusNotes notes;
   Outbox<1> reports;
-  // When the bench last kept the time base or commanded, as the reports saw it.
+  // When the bench last sent Sync or a command; updated with each report.
   std::int64_t bench_ns = now_ns() - bench_silent_ns;
-  // Before its first word a target listens for longer than a heartbeat: two on one bus would spoil each
-  // other's groups.
+  // Before its first frame a target listens for longer than a heartbeat period: two targets on one bus would
+  // corrupt each other's groups.
   std::int64_t report_due_ns = now_ns() + period_ns + period_ns / 4;
   bool established = false;
   bool bench_heard = false;  // since the last report
   bool heard = false;        // the last wait brought a frame
-  int unlooked = 0;          // waits since the last look at the clock
+  int unlooked = 0;          // waits since the clock was read
 
   while (!stop && !port.closed()) {
     bool more = true;  // frames may be waiting
@@ -87,7 +87,7 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
       const auto received = port.receive();
       more = received.has_value();
       if (!more) break;
-      if (received->foreign) continue;  // counted
+      if (received->foreign) continue;  // the port counts them
       if (received->frame.error) {
         notes.error_frame(received->frame);
         continue;
@@ -110,18 +110,19 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
       }
     }
     notes.interface_is(port.up());
-    // Where no frame came in time the report is due; where frames always do, it may be.
+    // A wait without a frame ended at the report's time. If frames keep coming, the clock is read now and
+    // then.
     const bool look = !heard || more || ++unlooked >= looks_every;
     const std::int64_t now = look ? now_ns() : 0;
     if (look) unlooked = 0;
     if (now >= report_due_ns) {
       report_due_ns = now + period_ns;
       if (std::exchange(bench_heard, false)) bench_ns = now;
-      tell(notes.news(port, format));
+      print(notes.news(port, format));
       established = true;
-      // Sync drives the heartbeat. In a run the process adds none of its own, however slow the bench is: the
-      // device's frames are to be those of a replay. A target that a bench has left behind speaks up again
-      // for the next one.
+      // Sync drives the heartbeat. During a run the process adds no heartbeats, even if the bench is slow, so
+      // that the frames equal those of a replay. After a bench has disappeared, heartbeats resume for the
+      // next one.
       const std::int64_t patience_ns = device.running() ? bench_gone_ns : bench_silent_ns;
       if (now - bench_ns >= patience_ns) {
         send(port, device.idle_heartbeat(), notes);
@@ -131,10 +132,10 @@ Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop) 
         send(port, reports.frames(), notes);
       }
     }
-    // A port that has taken several frames in at once says nothing of those which it still holds.
+    // A port may hold more frames from the last read; wait() does not report these.
     heard = more || wait(port, WaitFor::frame, report_due_ns);
   }
-  tell(notes.news(port, format));
+  print(notes.news(port, format));
   return {};
 }
 

@@ -1,4 +1,5 @@
-// The process around the device: waits for frames, hands them over, sends the answers, measures itself.
+// The process around the device: waits for frames, passes them to the device, sends the answers, and measures
+// its own timing.
 #pragma once
 
 #include <atomic>
@@ -10,10 +11,10 @@
 
 namespace canhil::target {
 
-/// Listens on every bus, of either contract, and answers on the first, until `stop` is set or a bus is gone.
-/// Error: a bus cannot be opened.
+/// Receives on every bus, with either contract, and answers on the first, until `stop` is set or a bus is
+/// closed. Error: a bus cannot be opened.
 Result<void> serve(const std::vector<std::string>& buses, BusFormat format, const std::atomic<bool>& stop);
-/// The same on a port that is open. Error: a target answers there already.
+/// Serves an open port. Error: another target answers there already.
 Result<void> serve(Port& port, BusFormat format, const std::atomic<bool>& stop);
 
 }  // namespace canhil::target

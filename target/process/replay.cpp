@@ -16,8 +16,8 @@ constexpr Routes from_target_route([](const MessageInfo& info) {
 });
 bool from_target(const Frame& frame) { return from_target_route(frame) != Routes::nowhere; }
 
-// Reads a log to its end, before the first line of a replay is written. One without frames for the target is
-// no recording of a run.
+// Reads the whole log before the first line of a replay is written. A log without frames for the target is
+// not a recording of a run.
 Result<void> check(const std::string& log_path) {
   std::error_code unknown;
   const auto status = std::filesystem::status(log_path, unknown);
@@ -34,7 +34,7 @@ Result<void> check(const std::string& log_path) {
     unheard = unheard && from_target((*next)->frame);
   }
   if (empty) return failure(log_path + ": holds no frames, expected the log of a run");
-  if (unheard) return failure(log_path + ": holds frames of the target alone, expected the log of a run");
+  if (unheard) return failure(log_path + ": holds only frames of the target, expected the log of a run");
   return {};
 }
 
@@ -54,7 +54,7 @@ Result<void> replay(const std::string& log_path, std::FILE* out) {
     if (!next) return tl::unexpected(next.error());
     if (!*next) return {};
     LogEntry entry = std::move(**next);
-    if (from_target(entry.frame)) continue;  // what it answered then; now it answers anew
+    if (from_target(entry.frame)) continue;  // the recorded answers; the device produces new ones
     entry.transmitted = false;
     print(entry);
     const std::span<const Frame> answers = device.receive(entry.frame);

@@ -1,4 +1,4 @@
-// A recorded log against a fresh device.
+// Replays a recorded log to a fresh device.
 #pragma once
 
 #include <cstdio>
@@ -8,9 +8,9 @@
 
 namespace canhil::target {
 
-/// Feeds the bench's frames of a candump log to a fresh device and writes them with the device's answers, as
-/// a log of its own: `hil-bench diverge` compares the two. Answers carry the time of the frame that they
-/// answer. Error: the log cannot be read; one line with file, line and column.
+/// Feeds the bench's frames of a log to a fresh device and writes them and the device's answers as a new log;
+/// `hil-bench diverge` compares both logs. Answers have the time of the frame that they answer. Error: one
+/// line with file, line and column; the log cannot be read.
 Result<void> replay(const std::string& log_path, std::FILE* out);
 
 }  // namespace canhil::target

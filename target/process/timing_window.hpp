@@ -1,4 +1,4 @@
-// The target's own timing over the last window, as TargetTiming reports it.
+// The target's own timing over the last window, for TargetTiming.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 namespace canhil::target {
 
-/// Collects what each frame that was answered waited and took: the last ones of sample groups.
+/// Collects waiting and processing times of the frames that were answered: the last frames of sample groups.
 class TimingWindow {
  public:
-  /// Its wait between stamp and processing, and the processing.
+  /// Adds a frame's wait between stamp and processing, and its processing time.
   void add(std::int64_t queue_ns, std::int64_t compute_ns) {
     queue_max_ns_ = std::max(queue_max_ns_, queue_ns);
     queue_sum_ns_ += queue_ns;
@@ -20,7 +20,7 @@ class TimingWindow {
     ++count_;
   }
 
-  /// The message of the window; starts a new one. Times saturate at 8191 us, as the message does.
+  /// The window's message; starts a new window. Times saturate at 8191 us, the limit of the message.
   messages::TargetTiming take() {
     const std::int64_t count = std::max<std::int64_t>(count_, 1);
     const messages::TargetTiming message{.queue_max_us = microseconds(queue_max_ns_),

@@ -1,6 +1,6 @@
-// What goes wrong on a wire, in a controller, with an interface: told, survived where it can be, never a
-// hang. The wire is that of wire/canhil_wire.c; the driver, the kernel and the programs do not know it from a
-// real one.
+// Faults of a wire, of a controller and of an interface: they are reported, the run continues if possible,
+// and nothing hangs. The wire is that of wire/canhil_wire.c; to the driver, the kernel and the programs it
+// looks like a real one.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ struct Outcome {
   }
 };
 
-/// A run in real time; once it is under way, the trouble.
+/// A run in real time; the fault begins when the run is under way.
 Outcome run_with(const std::function<void()>& trouble, const std::string& name = "transfer_alignment_quick") {
   const std::string json = scratch("fault.json");
   Outcome outcome;
@@ -60,8 +60,8 @@ TEST(Interface, DownAndUpAgainOnTheBenchsSideIsSurvivedAndTold) {
   EXPECT_EQ(outcome.ended.code, 1);
 }
 
-// The same where a scenario's faults have the bench do it; what a controller's own driver tells is not made
-// up.
+// The same with faults that the scenario injects. Error frames cannot be injected here, because they come
+// from the controller's own driver.
 TEST(Interface, IsSetDownAndUpByAFaultOfTheScenario) {
   set_up_on_wire();
   const auto with_fault = [](const std::string& kind) {
@@ -106,12 +106,12 @@ TEST(Interface, DownAndUpAgainOnTheTargetsSideIsSurvivedAndTold) {
       << "nobody acknowledged the bench's frames meanwhile";
 }
 
-// With nobody to acknowledge, the bench's controller tries its first frame for ever and its queue fills.
+// Without an acknowledgement, the bench's controller repeats its first frame endlessly, and its queue fills.
 TEST(Interface, DownForGoodOnTheTargetsSideEndsTheRun) {
   set_up_on_wire();
   const Outcome outcome = run_with([] { set_interface("can0", false); });
   EXPECT_FALSE(outcome.report["ending"]["completed"]);
-  // Silent since its last frame, which came just before the queue was full.
+  // Silent since its last frame, which it sent just before the queue was full.
   EXPECT_THAT(outcome.ended.out, testing::ContainsRegex("fail: .*the bus took no frame since t="));
   EXPECT_THAT(outcome.incidents(), Contains("error passive"));
   EXPECT_EQ(outcome.ended.code, 1);
@@ -146,7 +146,8 @@ TEST(BusOff, OnTheBenchsSideWithRestartIsSurvivedAndTold) {
       << "the frame that failed is lost, and counted";
 }
 
-// The bench knows why nobody is heard for longer than a target may be silent; the target has lost its input.
+// The bench reports why it received nothing for longer than a target may be silent; the target reports that
+// it has lost its input.
 TEST(BusOff, OnTheBenchsSideForLongEndsWithTheTargetsFaultNotItsSilence) {
   set_up_on_wire("", "restart-ms 700");
   const Outcome outcome = run_with([] {

@@ -1,5 +1,5 @@
 #!/bin/busybox sh
-# The first process of the guest: puts the machine's files (9p, read-only) under a layer in memory, and goes there.
+# The first process of the guest: mounts the machine's files (9p, read-only) under a writable layer in memory, and continues there.
 /bin/busybox --install -s /bin
 die() { echo "canhil: cannot $*" >/dev/console; poweroff -f; }
 mount -t devtmpfs dev /dev

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# kernel.sh: downloads Debian's kernel into a cache (once), unpacks of it what a guest with CAN controllers needs, and
-# prints that folder: vmlinuz, modules/*.ko, and build/ (the headers, to build a module). Nothing is installed.
-# Exit code 2 and one line where it cannot.
-# The cache: ${XDG_CACHE_HOME:-~/.cache}/canhil/controller/, one folder a kernel; remove it to get Debian's newest.
+# kernel.sh: downloads Debian's kernel into a cache (once), unpacks the parts that a guest with CAN controllers needs, and prints their
+# folder: vmlinuz, modules/*.ko, and build/ (the headers, to build a module). Nothing is installed.
+# On failure: exit code 2 and one line.
+# The cache: ${XDG_CACHE_HOME:-~/.cache}/canhil/controller/, one folder per kernel; remove it to get Debian's newest kernel.
 set -euo pipefail
 
 die() { echo "controller: $*" >&2; exit 2; }

@@ -1,4 +1,4 @@
-// A transmit queue of 10 frames that is really full: the kernel says ENOBUFS, of which poll() knows nothing.
+// A transmit queue of 10 frames that is really full: the kernel returns ENOBUFS, which poll() cannot detect.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace canhil::test {
 namespace {
 
-// A port's own send buffer is smaller than the queue: it takes several to fill it.
+// The send buffer of one port is smaller than the queue: several ports are needed to fill it.
 TEST(TransmitQueue, FullOfManySendersSaysSoAndLosesNothing) {
   set_up_on_wire();
   run("ip link set can1 txqueuelen 10");
@@ -67,8 +67,8 @@ TEST(TransmitQueue, FullOfManySendersSaysSoAndLosesNothing) {
   EXPECT_EQ(sent, received) << "each sender's frames, all of them, in its order";
 }
 
-// Another program's traffic fills the queue during a run: the bench waits for room, loses nothing, says how
-// late it was.
+// The traffic of another program fills the queue during a run: the bench waits for room, loses no frame, and
+// reports how late it was.
 TEST(TransmitQueue, FullDuringARunLosesNothingAndIsCounted) {
   set_up_on_wire();
   run("ip link set can1 txqueuelen 10");

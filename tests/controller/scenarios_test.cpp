@@ -1,5 +1,5 @@
-// The four estimators over the controllers and their driver: the outputs pass, and are the bits of a run in
-// process.
+// The four estimators over the controllers and their driver: the outputs pass, and are bit for bit those of a
+// run in process.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 namespace canhil::test {
 namespace {
 
-// In process on the same (emulated) processor: another one may take other instructions for a sine.
+// In process on the same (emulated) processor, because another one may compute a sine by other instructions.
 std::vector<Frame> frames_in_process(const std::string& name) {
   const std::string log = scratch("in_process.log");
   EXPECT_EQ(hil_bench(fmt::format("run {} --bus in-process --log {}", scenario(name), log)).code, 3);
@@ -43,8 +43,8 @@ TEST(LockstepAlso, TransferAlignmentPassesAt500kbps) {
   expect_pass_in_lockstep("transfer_alignment_quick");
 }
 
-// Whatever the emulated clock does to timing, which is the verdict's business. A machine that keeps the whole
-// guest waiting makes its programs miss each other: such a run is tried again.
+// The emulated clock can disturb the timing, but not the outputs. If the machine suspends the whole guest,
+// its programs miss each other; such a run is repeated.
 TEST(RealTime, TransferAlignmentPasses) {
   set_up("bitrate 1000000", "bitrate 1000000");
   const std::string name = "transfer_alignment_quick", report = scratch("report.json"),

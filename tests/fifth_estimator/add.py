@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes a copy of the project with a fifth estimator in it: python3 tests/fifth_estimator/add.py FOLDER
+"""Creates a copy of the project with a fifth estimator: python3 tests/fifth_estimator/add.py FOLDER
 
-What is changed outside tests/fifth_estimator to build it in is here, whole: a line a registry, and the contract, which gets what contract.dbc
-says.
+This file contains all changes outside tests/fifth_estimator that the estimator needs: one line in each registry, and the additions to the DBC, which
+contract.dbc lists.
 """
 import pathlib
 import sys

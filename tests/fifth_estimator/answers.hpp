@@ -9,7 +9,7 @@
 
 namespace canhil::estimators {
 
-/// Group Height: after a barometric height, at its time of validity. SI.
+/// Group Height: the state after a barometric height, at its time of validity, in SI units.
 struct HeightAnswer {
   std::int64_t cause_us = 0;
   double height = 0;  ///< above the ellipsoid

@@ -31,7 +31,8 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   for (const HeightAnswer& answer : seen.of<HeightAnswers>()) {
     const HeightError error = error_of(answer, truth.flight);
     const std::array<double, kept.size()> values{error.height, error.velocity_down, answer.height_sigma,
-                                                 told(nees_of(answer, error.height)), told(answer.nis)};
+                                                 infinite_if_nan(nees_of(answer, error.height)),
+                                                 infinite_if_nan(answer.nis)};
     samples.add(answer.cause_us, values);
   }
   return samples;
@@ -40,10 +41,10 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const HeightAnswers& answers = seen.of<HeightAnswers>();
   const Answering of{longest_wait_us(seen, messages::HeightUpdate::info.name), truth.duration_us};
-  const auto values = [&](auto told) {
-    Spool<Told> all;
+  const auto values = [&](auto point_of) {
+    Spool<TrackPoint> all;
     for (const HeightAnswer& answer : answers) {
-      all.push_back(told(answer, error_of(answer, truth.flight)));
+      all.push_back(point_of(answer, error_of(answer, truth.flight)));
       all.back().t_us = answer.cause_us;
     }
     return all;
@@ -51,21 +52,22 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   Track of_height = of.track(height, "height error");
   of_height.estimate_title = "height";
   of_height.estimate_unit = metres;
-  of_height.told = values([](const HeightAnswer& a, const HeightError& e) {
-    return Told{
+  of_height.points = values([](const HeightAnswer& a, const HeightError& e) {
+    return TrackPoint{
         .value = e.height, .sigma = a.height_sigma, .estimate = a.height, .truth = a.height - e.height};
   });
   give(std::move(of_height));
   Track of_velocity = of.track(velocity_down, "velocity error down");
-  of_velocity.told = values([](const HeightAnswer& a, const HeightError& e) {
-    return Told{.value = e.velocity_down, .sigma = a.velocity_down_sigma};
+  of_velocity.points = values([](const HeightAnswer& a, const HeightError& e) {
+    return TrackPoint{.value = e.velocity_down, .sigma = a.velocity_down_sigma};
   });
   give(std::move(of_velocity));
-  give(of.statistic(height_nis, "normalised innovation squared",
-                    values([](const HeightAnswer& a, const HeightError&) { return Told{.value = a.nis}; })));
+  give(of.statistic(
+      height_nis, "normalised innovation squared",
+      values([](const HeightAnswer& a, const HeightError&) { return TrackPoint{.value = a.nis}; })));
   give(judged(of.statistic(height_nees, "normalised error squared",
                            values([](const HeightAnswer& a, const HeightError& e) {
-                             return Told{.value = nees_of(a, e.height)};
+                             return TrackPoint{.value = nees_of(a, e.height)};
                            }))));
 }
 
@@ -81,10 +83,10 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   if (seen.of<HeightAnswers>().empty()) return {line};
   const HeightError error = error_of(seen.of<HeightAnswers>().back(), truth.flight);
   line.figures = {
-      {.name = "height", .value = error.height, .words = fmt::format("height {:+.3f} m", error.height)},
+      {.name = "height", .value = error.height, .text = fmt::format("height {:+.3f} m", error.height)},
       {.name = "velocity_down",
        .value = error.velocity_down,
-       .words = fmt::format("velocity down {:+.3f} m/s", error.velocity_down)}};
+       .text = fmt::format("velocity down {:+.3f} m/s", error.velocity_down)}};
   return {line};
 }
 

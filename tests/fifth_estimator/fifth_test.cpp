@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 std::string here(const std::string& name) { return SOURCE_DIR "/tests/fifth_estimator/" + name; }
 
-/// height.toml with one of its lines written otherwise.
+/// height.toml with one line replaced.
 std::string with(const std::string& line, const std::string& instead) {
   std::string text = read(here("height.toml"));
   const auto at = text.find(line);
@@ -51,12 +51,12 @@ TEST(FifthEstimator, ItsQuantitiesAreDrawnAndExported) {
 }
 
 TEST(FifthEstimator, ItsDefectsFail) {
-  // A gate that nothing passes: heights are answered, and not used.
+  // A gate that rejects everything: heights are answered but not used.
   const Ended gated = hil_bench(
       fmt::format("run {} --bus in-process", with("fix_noise_vertical_m = 2.0", "gate_nis = 1e-9")));
   EXPECT_EQ(gated.code, 1) << gated.out;
   EXPECT_TRUE(std::regex_search(gated.out, std::regex("FAIL +answers"))) << gated.out;
-  // Told of a barometer five times as good: NIS says so.
+  // With an assumed barometer noise of a fifth of the true one, the NIS shows it.
   const Ended sure = hil_bench(fmt::format("run {} --bus in-process",
                                            with("fix_noise_vertical_m = 2.0", "fix_noise_vertical_m = 0.4")));
   EXPECT_EQ(sure.code, 1) << sure.out;

@@ -10,7 +10,7 @@ inline constexpr Quantity height_sigma{
     .name = "height.sigma", .meaning = "sigma of the height as the target tells it", .unit = metres};
 inline constexpr Quantity height_nees{
     .name = "height.nees",
-    .meaning = "error of the height over the sigma that the target tells, squared",
+    .meaning = "error of the height over the sigma that the target reports, squared",
     .unit = plain,
     .degrees_of_freedom = 1};
 inline constexpr Quantity height_nis{.name = "height.nis",

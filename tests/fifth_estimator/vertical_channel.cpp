@@ -43,7 +43,7 @@ Outcome VerticalChannel::update(double height, const Settings& settings) {
   nav_.height -= K(height_error) * innovation;
   nav_.v_eb_n.z() -= K(velocity_error) * innovation;
   bias_ -= K(bias_error) * innovation;
-  // Joseph's form: symmetric and positive whatever the rounding.
+  // Joseph's form stays symmetric and positive in spite of rounding.
   Eigen::Matrix3d left = Eigen::Matrix3d::Identity();
   left.col(height_error) -= K;
   P_ = left * P_ * left.transpose() + K * R * K.transpose();

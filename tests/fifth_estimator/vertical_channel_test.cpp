@@ -9,7 +9,7 @@ namespace {
 
 constexpr double g = 9.80665, radius = 6'371'000;
 
-// At rest and level on the equator: what an accelerometer feels there, for a height above the ellipsoid.
+// The specific force at rest, level, on the equator, for a height above the ellipsoid.
 strapdown::ImuIncrement at_rest(double dt) {
   constexpr double earth_rate = 7.292115e-5, gravity_of_equator = 9.7803253359;
   return {.delta_theta = {earth_rate * dt, 0, 0}, .delta_v = {0, 0, -gravity_of_equator * dt}, .dt = dt};
@@ -27,7 +27,7 @@ TEST(VerticalChannel, DivergesWithoutAidAsGravitySays) {
   EXPECT_NEAR(channel.nav().height / 100, growth, 0.01);
 }
 
-// Told of a bias by what heights do: the sign and the size of all three errors.
+// The filter finds the bias from the heights: sign and size of all three errors.
 TEST(VerticalChannel, FindsTheBias) {
   VerticalChannel channel;
   const Settings settings{

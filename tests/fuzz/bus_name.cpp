@@ -1,4 +1,4 @@
-// Any text as the name of a bus, as `--bus` is given it: what is read is within its limits, or one line says
+// Any text as the name of a bus (`--bus`): the parsed settings are within their limits, or one line reports
 // what was expected.
 #include <cstdint>
 

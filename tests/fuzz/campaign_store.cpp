@@ -1,6 +1,6 @@
-// Any file as the results of a campaign: refused in one line, or the same report as before. The input changes
-// the bytes of a sound file; or it is runs of its own with samples that may be anything, written as they
-// should be: then a report must come of them.
+// Any file as the results of a campaign is rejected with one line, or gives the same report as before. The
+// input either changes bytes of a valid file, or defines runs with arbitrary samples that are written
+// correctly; these must give a report.
 #include <unistd.h>
 
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t runs = 2;
 
-// Every kind of metric, so that runs which may be anything reach them all.
+// Every kind of metric, so that arbitrary runs reach all of them.
 constexpr std::string_view asked = R"(title = "Two"
 runs = 2
 seed = 3
@@ -54,7 +54,7 @@ kind = "consistency"
 quantity = "innovation.nis"
 mean_between = [2.6, 3.4]
 )";
-// A folder of this process, in memory where there is one.
+// A folder of this process, in memory if possible.
 class Folder {
  public:
   Folder() { fs::create_directories(path_); }
@@ -78,7 +78,7 @@ quantities::Samples samples_of(const quantities::Layout& layout, double value) {
   return samples;
 }
 
-// What `hil-bench campaign report` says.
+// The output of `hil-bench campaign report`.
 Result<std::string> report_on(const fs::path& file) {
   const auto store = campaign::Store::open(file);
   if (!store) return tl::unexpected(store.error());
@@ -133,7 +133,7 @@ Sound make_sound(const fs::path& file) {
   return sound;
 }
 
-// For each change two bytes of where, one of how long, and what is turned over there.
+// Each change: two bytes for the place, one for the length, then the bits to flip.
 void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   std::string bytes = sound.bytes;
   while (script.size() >= 4) {
@@ -150,8 +150,8 @@ void damage(const fs::path& file, const Sound& sound, std::span<const std::uint8
   fuzz::expect(*report == sound.report);
 }
 
-// Four runs: ending and number of samples, then their numbers as bytes, of which many stand for one that is
-// none.
+// Four runs: outcome and number of samples, then the numbers as bytes; many byte values stand for NaN or
+// infinity.
 void fill(const fs::path& file, const Sound& sound, std::span<const std::uint8_t> script) {
   const auto byte = [&]() -> std::uint8_t {
     if (script.empty()) return 0;

@@ -1,5 +1,5 @@
-// Any text as a campaign, over a scenario of its own: a Campaign, or one line that names the file. With it
-// the settings that variants and sweeps put into a scenario.
+// Any text as a campaign, over a scenario of its own, gives a Campaign or one line that names the file. The
+// input also covers the settings that variants and sweeps put into a scenario.
 #include <cstdint>
 
 #include "bench/campaign/campaign.hpp"
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::expect_one_line(campaign.error().message, "fuzz.toml:");
     return 0;
   }
-  // What is kept with the results reads as the same campaign.
+  // The stored text of a campaign reads as the same campaign.
   const auto again = campaign::parse_campaign(campaign->sources);
   fuzz::expect(again && again->hash == campaign->hash && again->variants.size() == campaign->variants.size());
   for (const campaign::Metric& metric : campaign->metrics) {

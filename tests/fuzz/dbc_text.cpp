@@ -1,4 +1,5 @@
-// Any text: both readers end, with a Database that the codec can work with, or with one line that says where.
+// Any text as a DBC: both readers end with a Database that the codec can use, or with one line that contains
+// the place.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -15,7 +16,7 @@ void expect_one_line(const canhil::Error& error) {
   if (!error.message.starts_with("fuzz.dbc:") || error.message.find('\n') != std::string::npos) std::abort();
 }
 
-/// The sanitizers see whether it stays inside of the data.
+/// The sanitizers detect accesses outside the data.
 void expect_usable(const Database& database) {
   for (const Message& message : database.messages) {
     const MessagePlan plan(message);

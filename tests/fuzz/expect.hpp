@@ -1,4 +1,4 @@
-// What must hold of every input, and of every error.
+// Conditions that every input and every error must meet.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@ inline void expect(bool holds) {
   if (!holds) std::abort();
 }
 
-/// An error that says something. What it quotes of a file stands there as it is: who shows it makes one line
-/// of it.
+/// A non-empty error. It may quote text of the file unchanged; the caller that prints it makes one line of
+/// it.
 inline void expect_words(std::string_view message, std::string_view begins_with = "") {
   expect(!message.empty() && message.starts_with(begins_with));
 }
 
-/// An error that is one line as it is.
+/// An error that is already one line.
 inline void expect_one_line(std::string_view message, std::string_view begins_with = "") {
   expect_words(message, begins_with);
   const bool one_line = std::ranges::none_of(message, [](char c) { return c >= '\0' && c < ' '; });

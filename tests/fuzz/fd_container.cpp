@@ -1,5 +1,5 @@
-// Frames of an FD bus: what comes out of a container goes into the same one again, and classic frames come
-// out of the containers that they are packed into, in their order.
+// Frames of an FD bus: frames unpacked from a container give the same container when packed again. Classic
+// frames that are packed into containers come out in their order.
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -40,7 +40,7 @@ std::vector<Frame> unpacked(std::span<const Frame> wire) {
 
 }  // namespace
 
-// For each frame a byte of kind, one that chooses an id, and its data.
+// For each frame: a byte for its kind, a byte that selects its id, and its data.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   enum Kind : std::uint8_t { any_id = 1, fd = 2, any_size = 4, extended = 8 };
   std::span<const std::uint8_t> rest(data, size);
@@ -60,11 +60,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto taken = rest.first(std::min<std::size_t>(frame.size, rest.size()));
     std::ranges::copy(taken, frame.data.begin());
     rest = rest.subspan(taken.size());
-    // Behind the last slot there is nothing that comes out again.
+    // Bytes after the last slot are not unpacked.
     if (kind == fd) std::fill(frame.data.begin() + container.count * 8, frame.data.end(), std::uint8_t{0});
     if (!canhil::can_carry(frame, true)) continue;
     if (frame.fd) wire.push_back(frame);
-    if (is_empty(frame)) continue;  // an empty slot is a message that is not there
+    if (is_empty(frame)) continue;  // an empty slot: the message is not in the container
     if (!frame.fd) classic.push_back(frame);
     if (kind == fd) containers.push_back(frame);
   }
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto again = packed(unpacked({&container, 1}));
     expect(again.size() == 1 && again.front() == container);
   }
-  // In one stream, as a bus brings them: the same frames again.
+  // In one stream, as a bus delivers them, the frames are the same again.
   auto inside = unpacked(wire);
   std::erase_if(inside, is_empty);
   expect(unpacked(packed(inside)) == inside);

@@ -1,6 +1,6 @@
-// Peers of the embedded bus's hub that may say anything: the hub hands on what is a frame, byte by byte,
-// drops who sends what is none, and a good node hears no frame that nobody sent. Input: for each datagram one
-// byte that picks a peer and says what is wrong with it.
+// Peers of the embedded bus's hub that send anything. The hub forwards valid frames byte by byte and drops
+// peers that send anything else, and a correct node receives no frame that nobody sent. Input: for each
+// datagram, one byte that selects a peer and the fault of the datagram.
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -50,7 +50,7 @@ class Folder {
 // Peers 0 to 2; their connections come and go.
 class Peers {
  public:
-  explicit Peers(bool fd) : place_(fd ? local::Place::fd : local::Place::classic) {}
+  explicit Peers(bool fd) : place_(fd ? local::Format::fd : local::Format::classic) {}
 
   void send(std::size_t peer, const void* bytes, std::size_t count) {
     Descriptor& socket = sockets_[peer];
@@ -70,7 +70,7 @@ class Peers {
   void leave(std::size_t peer) { sockets_[peer] = Descriptor(); }
 
  private:
-  local::Place place_;
+  local::Format place_;
   std::array<Descriptor, 3> sockets_;
 };
 

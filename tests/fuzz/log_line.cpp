@@ -1,5 +1,5 @@
-// Any line, or packet, of a log: an entry, or one line of error; and what is written of an entry reads as the
-// same frame.
+// Any line or packet of a log gives an entry or one line of error. An entry that is written is read back as
+// the same frame.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

@@ -1,5 +1,5 @@
-// A bus whose other end is a target that may say anything: a Device, whose answers the input spoils, loses,
-// repeats, delays, or adds to. Time is simulated, and waiting moves it.
+// A bus with a target that sends anything: a Device whose answers the input damages, drops, repeats, delays
+// or extends. Time is simulated; waiting advances it.
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ class Meddler final : public Port {
     return first;
   }
 
-  // Each act is two bytes and what it takes besides: after how many answers, and what.
+  // Each act has two bytes (number of answers to wait, kind of act) and its parameters.
   void next_act() {
     left_ = script_.empty() ? -1 : byte();
     act_ = byte();
@@ -111,7 +111,7 @@ class Meddler final : public Port {
         return say(frame);
       case 5:
         return say(frame, std::int64_t{byte()} * 1'000'000);
-      case 6: {  // any message beside it
+      case 6: {  // additionally, any message
         say(frame);
         const MessageInfo& message = messages::all_messages[byte() % messages::all_messages.size()];
         Frame other{.id = message.id, .size = message.size};

@@ -1,12 +1,13 @@
-// The device and its estimators under any input. The first bytes choose estimators, algorithm and parameters;
-// the harness plays the handshake and starts; each further step is time that passes with sensors on a
-// plausible flight, which the input delays, loses, repeats or changes bit by bit, or a frame of the input's
-// own making. So nothing stops at counters, CRCs and groups, and most bytes of an input mean something. A
-// custom mutator that repairs checksums would have to do the same after every mutation, and could not keep
-// the sensors of a hundred steps plausible.
+// The device and its estimators under any input. The first bytes select estimators, algorithm and parameters;
+// the harness plays the handshake and starts. Each further step either advances the time, with sensors on a
+// plausible flight whose frames the input delays, drops, repeats or changes bit by bit, or sends a frame that
+// the input defines. So inputs get past counters, CRCs and groups, and most of their bytes have an effect. A
+// custom mutator that repairs checksums would have to do so after every mutation, and could not keep the
+// sensors of a hundred steps plausible.
 //
-// What must hold: the device survives; answers with whole groups of its own frames, counted up one by one;
-// tells no attitude that is none; and after a reset gives the same answers to the same frames, bit for bit.
+// Conditions: the device survives; it answers with complete groups of its own frames, with consecutive
+// counters; its attitude is always a valid rotation; after a reset it gives the same answers to the same
+// frames, bit for bit.
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -51,7 +52,7 @@ constexpr std::array choices{
     Choice{Estimator::wind, Algorithm::adaptive_q, 20'000},
 };
 
-// Answers, each checked against the contract and those before it.
+// Answers, each checked against the DBC and the answers before it.
 class Answers {
  public:
   void take(std::span<const Frame> answers) {
@@ -74,9 +75,9 @@ class Answers {
   [[nodiscard]] const std::vector<Frame>& all() const { return all_; }
 
  private:
-  // Of a NaN packing makes the least angle that the message carries, -180 deg.
+  // Packing converts NaN to the smallest angle of the message, -180 deg.
   static void expect_pitch(double pitch_deg) { expect(std::abs(pitch_deg) < 90.01); }
-  // Messages of a group are sent equally often; in the directory they stand together.
+  // All messages of a group are sent equally often; they are adjacent in the directory.
   void expect_whole_groups() const {
     for (std::size_t i = 1; i < all_messages.size(); ++i) {
       const bool together = all_messages[i].sender == "Target" && !all_messages[i].sample_group.empty() &&
@@ -164,14 +165,14 @@ void run(canhil::target::Device& device, Script& script, std::vector<Frame>& fed
   bench.command(Command::start, chosen[0].estimator, chosen[0].algorithm);
 
   std::array<std::uint8_t, all_messages.size()> counters{};
-  constexpr int most_samples = 150;  // so that an execution takes a few milliseconds
+  constexpr int most_samples = 150;  // limits an execution to a few milliseconds
   for (int samples = 0; !script.over() && samples < most_samples;) {
     const std::uint8_t what = script.byte();
     const Choice& of = chosen[(what >> 3U) % running];
     switch (what % 8) {
       case 0:
       case 1:
-      case 2: {  // the flight goes on: spoilt first, then as it should be
+      case 2: {  // the flight continues: first with faults, then without
         constexpr std::array repeats{1, 4, 16, 64};
         const int count = repeats[(what >> 4U) % 4];
         const bool aided = what % 8 != 0;
@@ -190,7 +191,7 @@ void run(canhil::target::Device& device, Script& script, std::vector<Frame>& fed
         }
         break;
       }
-      case 3: {  // an aid that is early or late
+      case 3: {  // an early or late aiding sensor
         const std::int64_t lead_us = static_cast<std::int8_t>(script.byte()) * std::int64_t{10'000};
         bench.aid(of.estimator, what < 0x80 ? Spoil{} : Spoil::read(script), bench.t_us + lead_us,
                   (header & gps) != 0);

@@ -1,5 +1,6 @@
 // The bench's side of the reception fuzzer: the handshake, and sensors on a plausible flight whose frames the
-// input may spoil. Frames are right by construction: packed, counted and protected by the project's own code.
+// input can change. The frames are correct by construction: the project's own code packs, counts and protects
+// them.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 
 namespace canhil::fuzz {
 
-/// What happens to the messages of one group on their way.
+/// Changes of the messages of one group on their way.
 struct Spoil {
   enum Flag : std::uint8_t { lose_one = 1, wrong_crc = 2, twice = 4, late = 8 };
 
@@ -78,7 +79,8 @@ class Bench {
     send(spoil, messages::TargetInitRate{}, messages::TargetInitAirVelocity{.air_velocity_x_mps = speed});
   }
 
-  /// What drives an estimator at its rate: a sample valid at t_us, `interval_us` after the one before.
+  /// The sensor that drives an estimator at its rate: a sample valid at t_us, `interval_us` after the one
+  /// before.
   void drive(messages::Estimator estimator, const Spoil& spoil, std::int64_t interval_us) {
     switch (estimator) {
       case messages::Estimator::transfer_alignment:
@@ -161,7 +163,7 @@ class Bench {
   void seeker(const Spoil& spoil, std::int64_t interval_us) {
     using namespace messages;
     constexpr double closing = 900, first_range = 5000;
-    const double flown = closing * us * static_cast<double>(t_us % 5'000'000);  // then a target anew
+    const double flown = closing * us * static_cast<double>(t_us % 5'000'000);  // then a new target
     send(spoil, SeekerAntenna{.antenna_increment_yaw_rad = 1e-5, .antenna_validity = valid},
          SeekerAngles{.error_pitch_rad = 1e-3,
                       .interval_us = static_cast<double>(interval_us),

@@ -1,7 +1,6 @@
-// Any JSON as a report of a run: a page and a comparison are made of it, or one line says what it lacks. The
-// input is either the text of a file, or changes to the report of a run that is flown at the start: values
-// taken out, put elsewhere, or replaced. A report of 30 kB that is changed byte by byte is no JSON any more
-// after a few steps.
+// Any JSON as a report of a run gives a page and a comparison, or one line with the missing key. The input is
+// either the text of a file, or a list of changes to the report of a run that is flown at the start: values
+// removed, moved or replaced. Changing bytes of a report of 30 kB would soon give invalid JSON.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -25,7 +24,8 @@ namespace {
 using namespace canhil;
 using Json = nlohmann::ordered_json;
 
-// Over a simulated wire: with distributions of times. Few of a kind, as to read them takes most of the time.
+// A run over a simulated wire, because it has distributions of times. It has few samples of a kind, because
+// reading them takes most of the time.
 Json flown() {
   const auto scenario = scenario::parse(fuzz::short_scenario, "short.toml", drive::contract());
   fuzz::expect(scenario.has_value());
@@ -62,7 +62,7 @@ class Changes {
     return first;
   }
 
-  // Down from the root, at each step to one of what is inside; `above`: what it is in.
+  // Walks down from the root, at each step to one of the members. `above` is the parent.
   Json* walk(Json& root, Json*& above, std::size_t& place) {
     Json* at = &root;
     for (int steps = byte() % 8; steps > 0 && at->is_structured() && !at->empty(); --steps) {
@@ -130,7 +130,7 @@ class Changes {
   std::span<const std::uint8_t> rest_;
 };
 
-// What `hil-bench report` and `hil-bench compare` do.
+// The operations of `hil-bench report` and `hil-bench compare`.
 void use(const std::string& text, const report::Reports& whole) {
   static const int file = ::memfd_create("report", 0);
   static const std::string path = "/proc/self/fd/" + std::to_string(file);

@@ -1,5 +1,5 @@
-// Any text as a scenario: a Scenario, or one line that names the file. What was read goes on to where a run
-// begins, if that is short: its truth, its nodes and their first transmissions.
+// Any text as a scenario gives a Scenario, or one line that names the file. A short scenario is then prepared
+// as for a run: its truth, its nodes and their first transmissions.
 #include <cstdint>
 
 #include "bench/drive/contract.hpp"
@@ -15,7 +15,7 @@ void begin(const scenario::Scenario& scenario) {
   if (!truth) return fuzz::expect_one_line(truth.error().message);
   auto flight = drive::make_flight(scenario, *truth, 0);
   if (!flight) return fuzz::expect_one_line(flight.error().message);
-  drive::Schedule schedule = drive::make_schedule(scenario, *truth, flight->own_truth, 0, true);
+  drive::Schedule schedule = drive::make_schedule(scenario, *truth, flight->per_run_truth, 0, true);
   for (int n = 0; n < 50 && schedule.due_us() != nodes::never_us; ++n) schedule.take();
 }
 
@@ -23,7 +23,7 @@ void begin(const scenario::Scenario& scenario) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  static const scenario::Contract contract = drive::contract();
+  static const scenario::DbcVocabulary contract = drive::contract();
   const auto scenario = scenario::parse(text, "fuzz.toml", contract);
   if (!scenario) {
     fuzz::expect_one_line(scenario.error().message, "fuzz.toml:");

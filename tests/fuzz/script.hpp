@@ -1,4 +1,4 @@
-// A fuzzer's input as a list of things to do.
+// Interprets the input of a fuzzer as a list of actions.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class Script {
     rest_ = rest_.subspan(taken.size());
     return taken;
   }
-  /// What is there goes to the front; the rest stays as it is.
+  /// Moves the existing elements to the front and keeps the rest.
   void fill(std::span<std::uint8_t> to) { std::ranges::copy(bytes(to.size()), to.begin()); }
 
  private:

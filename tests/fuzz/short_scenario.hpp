@@ -1,4 +1,4 @@
-// The least that a scenario needs, for fuzzers of what is about scenarios.
+// The smallest valid scenario, for fuzzers of scenarios.
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,6 @@
-// The bench against a target that may say anything: handshake, run, verdict, reports and a campaign's samples
-// of what was heard. The input says what becomes of the answers of a sound device; most are left as they are,
-// so that a run goes on to its end and what is odd meets what is not.
+// The bench against a target that sends anything: handshake, run, verdict, reports, and the samples that a
+// campaign would store. The input changes the answers of a correct device. Most answers stay unchanged, so
+// that runs reach their end and changed answers meet unchanged ones.
 #include <atomic>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -56,7 +56,7 @@ checks::Observations collected(observe::Monitor& monitor, const observe::BusWatc
   return seen;
 }
 
-// All that is made of a run. A report that the bench writes it must read.
+// All results of a run. The bench must be able to read every report that it writes.
 void report_all(const scenario::Scenario& scenario, const drive::Run& run) {
   fuzz::expect(!report::text(scenario, run).empty());
   fuzz::expect(!report::junit(scenario, run).empty());
@@ -78,7 +78,7 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
   fuzz::Meddler port(script);
   drive::Link link(port);
   drive::Schedule schedule =
-      drive::make_schedule(scenario, truth, flight->own_truth, 0, (how & lockstep) != 0);
+      drive::make_schedule(scenario, truth, flight->per_run_truth, 0, (how & lockstep) != 0);
   observe::BusWatch bus(port);
   observe::Intruders intruders;
   const drive::Attached bus_watched(link, bus), intruders_watched(link, intruders);
@@ -105,13 +105,13 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
   std::string timing_unfit = checks::unfit_for_timing(seen);
   const checks::Verdict verdict =
       checks::judge(scenario, {.seen = seen,
-                               .truth = drive::truth_of(truth, flight->own_truth, scenario.duration_us),
+                               .truth = drive::truth_of(truth, flight->per_run_truth, scenario.duration_us),
                                .estimators = estimators::all(),
                                .ended_early = ending.detail,
                                .timing_unfit = timing_unfit});
   fuzz::expect(verdict.checks.size() >= scenario.checks.size());
   if ((how & samples) != 0) {
-    const drive::Collected whole{.ending = ending, .seen = seen, .own_truth = flight->own_truth};
+    const drive::Collected whole{.ending = ending, .seen = seen, .per_run_truth = flight->per_run_truth};
     for (const estimators::Estimator* one : estimators::all()) {
       const auto series = campaign::series_of(0, whole, truth, *one);
       const auto again = quantities::decode(quantities::encode(series.samples), one->layout);
@@ -123,7 +123,7 @@ void fly(const Prepared& prepared, std::uint8_t how, std::span<const std::uint8_
                           .ending = ending,
                           .seen = std::move(seen),
                           .truth = truth,
-                          .own_truth = std::move(flight->own_truth),
+                          .per_run_truth = std::move(flight->per_run_truth),
                           .options = {},
                           .clock = drive::ClockKind::simulated_wire,
                           .timing_unfit = std::move(timing_unfit)});

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""How often do the acceptance campaigns fail a good target? Flies them in process with seed after seed and counts.
+"""How often do the acceptance campaigns fail a good target? Flies them in process with many seeds and counts.
 
   python3 tests/mutants/false_alarms.py [--seeds N] [--from SEED] [--json FILE]
 
-Only the campaigns depend on a seed: single flights are compared with a reference of their own seed, and a dialogue has none. A device in
-process gives the same samples as the program behind a bus, to the last bit (campaign_programs.Target.*), in a tenth of the time.
-A line a metric that failed, with its seed; at the end how many seeds failed, and how many bars were held against how many figures.
-Exit code: 0 at most 1 % of the seeds failed, 1 more did, 2 wrong usage or a campaign that cannot be flown.
+Only the campaigns depend on a seed: single flights are compared with a reference of the same seed, and a dialogue has no seed. A device in
+process gives bit for bit the same samples as the program behind a bus (campaign_programs.Target.*), in a tenth of the time.
+Prints one line for each metric that failed, with its seed. The last lines contain the number of failed seeds, limits and figures.
+Exit code: 0 at most 1 % of the seeds failed, 1 more failed, 2 wrong usage or a campaign that cannot be flown.
 """
 import argparse
 import json

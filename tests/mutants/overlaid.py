@@ -1,7 +1,7 @@
-"""A target with one file replaced: what the file touches is compiled again, the rest is linked as it was built.
+"""Builds a target with one file replaced: compiles all sources that read the file, and links them with the existing objects.
 
-build(folder, name, file, text) says where the program is. The build folder is asked for everything: `ninja -t deps` which objects read
-the file, `ninja -t compdb` how they are compiled, `ninja -t commands` how the target is linked.
+build(folder, name, file, text) returns the path of the program. All information comes from the build folder: `ninja -t deps` lists the objects
+that read the file, `ninja -t compdb` how they are compiled, `ninja -t commands` how the target is linked.
 """
 import functools
 import json

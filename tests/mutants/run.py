@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
-"""What does `hil-bench accept` catch? Seeds one defect after the other into the target and flies the acceptance suites against each.
+"""Which defects does `hil-bench accept` detect? Seeds one defect after the other into the target and flies the acceptance suites against each.
 
   python3 tests/mutants/run.py [--only REGEX] [--dozen SEED] [--list] [--json FILE] [--jobs N] [--target-passes]
 
-The defects are in tests/mutants/*.toml, a file a family; seeded.py says what they are made of. The project is left as it is: build/default,
-which has to be built, says how the target is compiled and linked; overlaid.py compiles again what a defect touches, from a file beside
-the project's, and links it with the rest. The suites are flown up to the first requirement that is not met, that of the defect's family
-first. Before all that they are flown against the target as it is, which must pass.
+The defects are in tests/mutants/*.toml, one file per family; seeded.py describes their format. The sources of the project are not changed.
+build/default must be built; it defines how the target is compiled and linked. overlaid.py compiles the changed file from a copy and links it with
+the existing objects. A suite ends at the first requirement that is not met; the suite of the defect's family is flown first. Before that, the
+unchanged target must pass all suites.
 
-A mutant is caught when a requirement is not met, and survives when all are, or were not measured.
+A mutant is caught if a requirement is not met. It survives if all requirements are met or not measured.
 
---only takes those whose FAMILY.NAME the regular expression is found in; --dozen twelve, one of each family at the least, the same ones for
-the same seed (today: the day's date); --target-passes leaves out the flights against the target as it is, which somebody else has flown; --list says what they are and flies nothing; --jobs is how many are flown at once (1: also those of timing can be measured).
-A line a mutant, at the end a table by family, to FILE as JSON. Those that equivalent.toml proves to be equivalent are not flown.
-Exit code: 0 all caught, 1 one survived or does not build, 2 wrong usage, or the target does not pass as it is.
+--only          mutants whose FAMILY.NAME contains a match of the regular expression
+--dozen         twelve mutants, at least one of each family, the same ones for the same seed (today: the current date)
+--target-passes skips the flights of the unchanged target, for callers that have flown them
+--list          lists the mutants and flies nothing
+--jobs          the number of parallel flights (1: timing can be measured too)
+
+Prints one line per mutant and a table by family; --json writes them to FILE. Mutants that equivalent.toml lists as equivalent are not flown.
+Exit code: 0 all caught, 1 one survived or does not build, 2 wrong usage, or the unchanged target does not pass.
 """
 import argparse
 import concurrent.futures

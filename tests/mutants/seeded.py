@@ -1,7 +1,7 @@
-"""The seeded defects of the target, as the files beside this one say them: a file a family, a table [[mutant]] a defect.
+"""Reads the seeded defects of the target from the files in this folder: one file per family, one table [[mutant]] per defect.
 
-A mutant is a `name`, a `file`, the text that `was` there (once) and that `is` there instead, and `what` is then wrong; one that only shows
-in times has `real_time = true`.
+Keys of a mutant: `name`; `file`; `was`, the original text, which occurs once in the file; `is`, the text that replaces it; `what`, a description of
+the defect; `real_time = true` for a defect that only affects timing.
 """
 import pathlib
 import tomllib

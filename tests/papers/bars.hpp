@@ -1,4 +1,4 @@
-// A campaign's bars as a test.
+// The acceptance limits ('bars') of a campaign as a test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 
 namespace canhil::papers {
 
-/// Flies a campaign file, from the root of the project, and expects every bar to be met, and that there are
-/// `bars` of them; with as many runs as the file has, or `runs`. Gives the answers.
+/// Flies a campaign file (path from the root of the project), with the number of runs in the file or with
+/// `runs`. Expects exactly `bars` limits, all met. Returns the results.
 inline std::vector<campaign::Answer> expect_bars_met(const std::string& file, std::size_t bars,
                                                      std::optional<std::uint64_t> runs = {}) {
   auto campaign = campaign::read_campaign(SOURCE_DIR "/" + file);

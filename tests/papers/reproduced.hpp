@@ -1,4 +1,4 @@
-// A reproduction with two runs a variant: every campaign is read and flown, every figure drawn.
+// A reproduction with two runs per variant: every campaign is read and run, every figure is drawn.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Builds and runs every benchmark of tests/perf, prints the figures, and records them with what they were measured on.
+# Builds and runs every benchmark of tests/perf, prints the figures, and stores them with a description of the machine.
 #   bash tests/perf/run.sh [BENCHMARK OPTIONS...]        e.g.  --benchmark_filter=unpack --benchmark_repetitions=5
-# Records, in build/perf/DATE/: PROGRAM.json of each *_benchmark, whose "context" holds processor, kernel, compiler and commit;
-# machine.txt, which holds the same, and NAME.txt of each other program and of the instruction counts.
-# Figures, no verdict: exit code 1 only when something did not build or run.
+# Files in build/perf/DATE/: PROGRAM.json of each *_benchmark, whose "context" contains processor, kernel, compiler and commit;
+# machine.txt with the same; NAME.txt of each other program and of the instruction counts.
+# There is no verdict: exit code 1 only if something did not build or run.
 set -euo pipefail
 exec </dev/null
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -52,7 +52,7 @@ while read -r program; do
   esac
 done < <(find "$build/tests/perf" -type f -perm -u+x | LC_ALL=C sort)
 as_text ports_vcan tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py "$build/tests/perf/ports/vcan_node"
-# At a priority of their own where that is permitted. One CPU: no wake-up of another hides what the target costs.
+# At real-time priority if permitted. On one CPU, so that waking another CPU does not hide the cost of the target.
 real_time=(chrt -f 30)
 "${real_time[@]}" true 2>/dev/null || real_time=()
 last_cpu=$(taskset -cp $$ | sed 's/.*[ ,-]//')

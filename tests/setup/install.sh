@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages of this project; does nothing, and needs no rights, when all are there.
-#   install.sh build       what it takes to build and run the programs (the default)
-#   install.sh tests       that, and what tests/run.sh uses besides
-#   install.sh coverage    that, and what tests/run.sh --coverage does
-#   install.sh tidy        what tests/run.sh --tidy and --analyse use
-#   install.sh package     that, and what tests/package/debian.sh uses
-#   install.sh full        all that tests/run.sh --full and tests/perf/run.sh use
+# Installs the Debian 12 packages that this project needs. If all are installed it does nothing and needs no root rights.
+#   install.sh build       packages for building and running the programs (the default)
+#   install.sh tests       build, and the packages for tests/run.sh
+#   install.sh coverage    tests, and the packages for tests/run.sh --coverage
+#   install.sh tidy        packages for tests/run.sh --tidy and --analyse
+#   install.sh package     packages for tests/package/debian.sh, too
+#   install.sh docs        packages for the API pages (target api), and the pictures and figures in docs
+#   install.sh full        all packages for tests/run.sh --full and tests/perf/run.sh
 #   install.sh list SET    prints the package names of a set
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/progress.sh"
@@ -19,17 +20,19 @@ build_packages=(
 )
 test_packages=(
   clang-format
-  python3 python3-can python3-canmatrix tshark # an independent DBC reader and CAN node; reads our captures
+  python3 python3-can python3-canmatrix tshark # an independent CAN node, DBC reader and reader of captures
   can-utils iproute2 kmod busybox user-mode-linux # vcan where the kernel has none
 )
-paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper; without it that says so and flies nothing
+paper_packages=(gnuplot-nox) # draws the figures of hil-bench campaign --paper, which refuses to run without it
 tidy_packages=(clang clang-tidy)
-package_packages=(dpkg-dev file debootstrap help2man) # makes a Debian package and tries it in a fresh system
+docs_packages=(doxygen openssh-client) # API pages; the tutorial signs a report
+picture_packages=(chromium fonts-dejavu-core) # pictures of the report page
+package_packages=(dpkg-dev file debootstrap help2man) # builds a Debian package and tests it in a fresh system
 full_packages=(
   rt-tests valgrind libclang-rt-14-dev
   qemu-system-x86 make gcc-12 libelf1 # two CAN controllers with the kernel's driver, in an emulated PC; its kernel is not installed
   chromium chromium-driver python3-selenium # looks at the live view's page
-  help2man # pages of the manual, for a package
+  help2man # manual pages, for a package
   slurm-wlm munge # a cluster of one machine, for campaigns as job arrays; started by the test itself, never as a service
 )
 
@@ -43,8 +46,9 @@ select_packages() {
     coverage) wanted+=("${test_packages[@]}" "${paper_packages[@]}") ;;
     tidy) wanted+=("${test_packages[@]}" "${tidy_packages[@]}") ;;
     package) wanted+=("${package_packages[@]}") ;;
-    full) wanted+=("${test_packages[@]}" "${paper_packages[@]}" "${tidy_packages[@]}" "${full_packages[@]}") ;;
-    *) die "unknown set '$1': expected build, tests, coverage, tidy, package or full" ;;
+    docs) wanted+=("${docs_packages[@]}" "${picture_packages[@]}" "${paper_packages[@]}" tshark) ;;
+    full) wanted+=("${docs_packages[@]}" "${test_packages[@]}" "${paper_packages[@]}" "${tidy_packages[@]}" "${full_packages[@]}") ;;
+    *) die "unknown set '$1': expected build, tests, coverage, tidy, package, docs or full" ;;
   esac
 }
 
@@ -79,9 +83,9 @@ apt() {
 log=$(mktemp)
 trap 'progress_stop; rm -f "$log"' EXIT
 echo "install.sh: installing ${missing[*]}"
-"${as_root[@]}" true # a password is asked for before the line that moves
+"${as_root[@]}" true # sudo asks for a password before the progress line starts
 progress_start packages "$log"
-# Without package lists, or with old ones, the first try fails within a second: only then are they fetched.
+# Without package lists, or with old ones, the first attempt fails within a second; only then fetch them.
 if ! apt install --no-install-recommends "${missing[@]}" >"$log" 2>&1; then
   progress_stop
   echo "install.sh: fetching package lists"

@@ -1,13 +1,13 @@
-# Says how far a long command is, of which the output goes to a log. To be sourced.
-#   progress_start WHAT LOG   from now on says "WHAT: 120 of 180 (1:05)": on a terminal one line that moves, else a line every 30 s
-#   progress_stop             ends that; on a terminal the line goes away
-#   progress_rest LOG         prints the log without the lines that only count: what failed, and what CTest says at its end
-# Read from the log: Ninja's [n/m], CTest's cases, apt's packages. Said on the caller's stdout, which both calls must share.
+# Shows the progress of a long command whose output goes to a log. Source this file.
+#   progress_start WHAT LOG   starts to print "WHAT: 120 of 180 (1:05)": one updated line on a terminal, else a line every 30 s
+#   progress_stop             stops that; removes the line from a terminal
+#   progress_rest LOG         prints the log without progress lines: failures, and CTest's summary
+# It reads the log for Ninja's [n/m], CTest's cases and apt's packages, and prints to stdout, which must be the same for both calls.
 progress_interval_s=30
 progress_watcher=
-export NINJA_STATUS='[%f/%t] ' # whatever the user's own is
+export NINJA_STATUS='[%f/%t] ' # overrides the user's setting
 
-progress_of() { # progress_of LOG: "120 of 180", or nothing when the log does not say
+progress_of() { # progress_of LOG: "120 of 180", or nothing if the log shows no progress
   awk '
     /^\[[0-9]+\/[0-9]+\] / { split(substr($1, 2), n, /[\/\]]/); state = n[1] " of " n[2] }
     /^ *[0-9]+\/[0-9]+ Test +#[0-9]+: / { split($1, n, "/"); state = n[1] " of " n[2] }
@@ -18,9 +18,9 @@ progress_of() { # progress_of LOG: "120 of 180", or nothing when the log does no
     END { if (state) print state }' "$1" 2>/dev/null
 }
 
-progress_watch() { # progress_watch WHAT LOG: until it is killed, or the shell that started it is gone
+progress_watch() { # progress_watch WHAT LOG: runs until it is killed or its parent shell has ended
   local what=$1 log=$2 start=$SECONDS said=$SECONDS state now
-  # The sleep holds no output open: who reads it to its end must not wait for a sleep.
+  # The sleep must not keep the output open, or a reader of the output would wait for it to end.
   while sleep 1 >/dev/null 2>&1 && kill -0 $$ 2>/dev/null; do
     if [[ ! -t 1 ]] && ((SECONDS - said < progress_interval_s)); then continue; fi
     said=$SECONDS

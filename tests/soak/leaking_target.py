@@ -1,4 +1,4 @@
-"""A target with a defect, for the soak to find: it keeps a descriptor more every half second, or memory.
+"""A target with a leak, which the soak must detect: every half second it keeps one more descriptor, or more memory.
 
     leaking_target.py descriptors|memory HIL_TARGET [OPTIONS OF HIL_TARGET...]
 """

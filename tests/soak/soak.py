@@ -1,11 +1,13 @@
-"""Flies random scenarios with random faults, one after the other, against one target that lives all the while.
+"""Flies random scenarios with random faults, one after the other, against one target that runs all the time.
 
-    python3 tests/soak/soak.py PROGRAMS [--minutes 60] [--seed 1] [--target COMMAND] [--results FOLDER]
+    python3 tests/soak/soak.py PROGRAMS [--minutes 60] [--seed 1] [--target COMMAND]
 
-PROGRAMS is the folder of hil-bench and hil-target. Each run is a bench of its own on an embedded bus that stands all the
-while (hil-bench bus), in lockstep and in real time by turns. What a run says of its estimator does not count here: faults make checks fail. What counts is that every run comes to
-its end, and that nothing grows with their number: memory and descriptors of the target and of the bus, those of the bench (its peaks), and files
-of either, whose folders for such things are this program's own. Ends with 0 only then.
+PROGRAMS is the folder of hil-bench and hil-target. Each run is a new bench process on one permanent embedded bus (hil-bench bus). Lockstep and real
+time alternate. The verdicts of the checks do not count, because faults make checks fail. Exit code 0 means that
+
+* every run came to its end;
+* memory and descriptors of the target, of the bus and of the bench (its peaks) do not grow with the number of runs;
+* neither do the files that the programs leave. Their folders for temporary files belong to this program alone.
 """
 
 import argparse
@@ -30,6 +32,8 @@ LONGEST_S = {"lockstep": 12, "real time": 3}  # of the flight
 # A host that keeps a program waiting for 0.4 s makes the target silent in real time: that flight is flown again, the same one. A
 # target that is silent by itself is so each time.
 MOST_FLIGHTS = {"lockstep": 1, "real time": 4}
+# Faults that last for a stretch of time: they do not strike every so many samples (docs/faults.md).
+STRETCHES = ["silent", "slow", "clock_step", "clock_drift", "restart", "stranger", "flood"]
 PATIENCE_S = 60  # a run that takes longer hangs
 
 
@@ -63,21 +67,48 @@ class Contract:
 
     @staticmethod
     def flies(bench, probe, fault):
-        """Whether no more than these keys are needed."""
-        probe.write_text(scenario("transfer_alignment_quick", 1, 1, [fault]))
+        """Whether the kind flies in process with these keys."""
+        probe.write_text(scenario("transfer_alignment_quick", 1, 1, [timed(fault, 0.2, 0.5, 2)]))
         told = subprocess.run([bench, "run", probe, "--bus", "in-process"], capture_output=True, text=True)
         return told.returncode != 2
 
     def fault(self, draw, kind, node):
         messages = self.messages[node.replace("_", "")]
         name = draw.choice(sorted(messages))
-        fault = {"kind": kind, "messages": [name]}
-        if kind == "changed":
-            signal_name, least, most = draw.choice(messages[name])
-            fault |= {"signal": signal_name, "value": draw.choice([least, most, draw.uniform(least, most)])}
-        elif draw.random() < 0.5:
-            fault["messages"] = sorted(messages)
-        return fault
+        signal_name, least, most = draw.choice(messages[name])
+        of_signal = {"messages": [name], "signal": signal_name}
+        size = (most - least) * 10 ** draw.uniform(-5, -1)
+        keys = {
+            "changed": of_signal | {"value": draw.choice([least, most, draw.uniform(least, most)])},
+            "bias": of_signal | {"by": size},
+            "drift": of_signal | {"by": -size},
+            "spike": of_signal | {"by": size},
+            "stuck": of_signal,
+            "saturated": of_signal | {"at": size},
+            "noise": of_signal | {"sigma": size},
+            "reversed": of_signal,
+            "invalid": {"node": node},
+            "late": {"node": node, "by_ms": round(draw.uniform(0.5, 50), 2)},
+            "silent": {"node": node},
+            "slow": {"node": node, "longer_percent": draw.uniform(1, 100)},
+            "clock_step": {"node": node, "by_ms": round(draw.uniform(-50, 50), 2)},
+            "clock_drift": {"node": node, "by_ppm": draw.uniform(-1000, 1000)},
+            "restart": {"node": node, "silent_s": round(draw.uniform(0.01, 0.2), 3)},
+            "counter_jump": {"messages": [name], "by": draw.randint(1, 14)},
+            "delayed": {"messages": [name], "by_ms": round(draw.uniform(0.5, 50), 2)},
+            "stranger": {"period_ms": round(draw.uniform(0.5, 20), 2)},
+            "flood": {"period_us": draw.randint(200, 1000)},
+        }.get(kind, {"messages": [name] if draw.random() < 0.5 else sorted(messages)})
+        if kind == "invalid" and all((least, most) != (0, 1) for signals in messages.values() for _, least, most in signals):
+            kind = "silent"  # no signal of this node is a flag
+        return {"kind": kind} | keys
+
+
+def timed(fault, from_s, to_s, every):
+    fault |= {"from_s": from_s}
+    if fault["kind"] != "restart":
+        fault |= {"to_s": to_s}
+    return fault if fault["kind"] in STRETCHES else fault | {"every": every}
 
 
 def toml(value):
@@ -102,8 +133,7 @@ def random_scenario(draw, contract, longest_s):
     for _ in range(draw.randint(0, 3)):
         fault = contract.fault(draw, draw.choice(contract.kinds), draw.choice(nodes))
         from_s = round(draw.uniform(0, duration_s), 2)
-        fault |= {"from_s": from_s, "to_s": round(draw.uniform(from_s, duration_s), 2), "every": draw.randint(1, 20)}
-        faults.append(fault)
+        faults.append(timed(fault, from_s, round(draw.uniform(from_s, duration_s), 2), draw.randint(2, 20)))
     return base, scenario(base, draw.randrange(2**31), duration_s, faults), faults
 
 

@@ -1,4 +1,4 @@
-"""How the soak judges, on made courses."""
+"""Tests the verdict of the soak on artificial courses of memory and descriptors."""
 
 import random
 import sys

@@ -1,6 +1,6 @@
-"""A copy of the project that is changed and built on its own.
+"""A copy of the project that can be changed and built separately.
 
-A file of the copy that stays the same is not written again, so that a build of it goes on where it was.
+Unchanged files of the copy are not written again, so that its build is incremental.
 """
 import pathlib
 

@@ -1,7 +1,7 @@
-"""Prints which share of the lines of dbc, target and bench the programs of a build folder ran: coverage.py BUILD_FOLDER
+"""Prints the share of the lines of dbc, target and bench that the programs of a build folder have run: coverage.py BUILD_FOLDER
 
-The build is one with --coverage. A line counts where the compiler made code of it, and as covered when any object ran it; headers
-count as sources do, what is generated does not. Objects that never ran count with all their lines.
+The build needs --coverage. A line counts if the compiler generated code for it, and is covered if any object ran it. Headers count like sources;
+generated files do not count. All lines of objects that never ran count as not covered.
 """
 
 import concurrent.futures

@@ -1,4 +1,4 @@
-"""The seeded defects of tests/mutants: each can be put into the target, and what reads and chooses them."""
+"""The seeded defects of tests/mutants: each can be inserted into the target. Also tests the code that reads and selects them."""
 
 import re
 import sys

@@ -1,12 +1,11 @@
 """Runs clang-tidy on every source of a build folder: tidy.py [--each] BUILD_FOLDER [NAME_PART...]
 
-Most of its time goes into headers (Eigen, Boost), half a minute for a source of ten lines. So the sources of one part of the
-tree are joined, included by one file, and the headers are read once for all of them. A source that does not compile behind
-the others (it has a name of its own that theirs have too) is left for the next such file. The static analyser looks into no
-joined sources: --each takes every source by itself, and the analyser with it.
+clang-tidy spends most of its time in headers (Eigen, Boost): half a minute for a source of ten lines. Therefore one file includes all sources of a part
+of the tree, and the headers are read only once. A source that does not compile together with the others (because of a local name that exists
+twice) goes into the next such file. The static analyser does not analyse joined sources; --each checks every source separately, with the analyser.
 
-A source that was clean is not checked again until its text, a header it includes, its flags or the rules change:
-BUILD_FOLDER/tidy/ holds one empty file for each such state, named by its hash. What it includes is what Ninja recorded.
+A clean source is not checked again until its text, an included header, its flags or the rules change: BUILD_FOLDER/tidy/ contains one empty file for
+each clean state, named by its hash. The list of included headers comes from Ninja.
 """
 
 import concurrent.futures

@@ -1,5 +1,4 @@
-// What can go wrong on a SocketCAN interface, on a real kernel's vcan0 and vcan1 (tests/vcan/run.sh provides
-// them).
+// Faults of a SocketCAN interface, on vcan0 and vcan1 of a real kernel (tests/vcan/run.sh provides them).
 #include <gmock/gmock.h>
 #include <linux/can/error.h>
 #include <poll.h>
@@ -15,7 +14,7 @@ namespace {
 
 using ::testing::EndsWith;
 
-/// Receives, as every user of a port does, until the interface is away, or back.
+/// Receives, as every user of a port does, until the interface is gone, or back.
 void wait_until(Port& port, bool up) {
   const std::int64_t deadline = in_seconds(5);
   while (port.up() != up && clock_ns(CLOCK_MONOTONIC) < deadline) {
@@ -26,7 +25,7 @@ void wait_until(Port& port, bool up) {
   ASSERT_EQ(port.up(), up);
 }
 
-/// How often a waiting loop goes round in a tenth of a second.
+/// The number of iterations of a waiting loop in a tenth of a second.
 int rounds(Port& port, WaitFor what) {
   const std::int64_t deadline = clock_ns(CLOCK_MONOTONIC) + 100'000'000;
   int count = 0;
@@ -115,8 +114,8 @@ TEST(SocketCan, AWaitWithoutDeadlineSeesTheReturn) {
   }
 }
 
-/// An interface that is removed and made anew has another index, and the sockets that were bound to it
-/// nothing.
+/// An interface that is removed and created anew has another index, and the sockets that were bound to the
+/// old one receive nothing.
 TEST(SocketCan, BindsToAnInterfaceThatWasMadeAnew) {
   const Interface interface("canhil7", 72);
   const auto a = open("canhil7", {.fd = true, .own_echo = true});

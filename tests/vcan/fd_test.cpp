@@ -1,4 +1,4 @@
-// CAN FD and classic programs on one interface, as a user sees it, and an interface that is classic.
+// CAN FD and classic programs on one interface, as a user sees it, and an interface that is classic only.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <linux/can.h>
@@ -20,7 +20,7 @@ TEST(Fd, AClassicInterfaceIsRefusedWithTheRemedy) {
       remedy);
 }
 
-/// A target on vcan0 while it lives; what it said.
+/// A target on vcan0 during its lifetime, and its output.
 std::string with_target(const std::string& options, const std::string& then) {
   const std::string said = scratch("target.err");
   const Ended ended = shell(
@@ -47,11 +47,12 @@ TEST(Fd, ATargetOfTheOtherContractIsNamedBeforeTheBenchGivesUp) {
 TEST(Fd, ATargetTellsThatItHearsTheOtherContract) {
   EXPECT_EQ(
       with_target("", "cansend vcan0 0A0##10011223344556677"),
-      "0\nhil-target: vcan0: hears CAN FD frames (canhil-fd), 1 since the start, expected classic frames "
+      "0\nhil-target: vcan0: received CAN FD frames (canhil-fd), 1 since the start, expected classic frames "
       "(canhil)\n");
-  EXPECT_EQ(with_target("--dbc canhil-fd", "cansend vcan0 0A0#0011223344556677"),
-            "0\nhil-target: vcan0: hears classic frames (canhil), 1 since the start, expected CAN FD frames "
-            "(canhil-fd)\n");
+  EXPECT_EQ(
+      with_target("--dbc canhil-fd", "cansend vcan0 0A0#0011223344556677"),
+      "0\nhil-target: vcan0: received classic frames (canhil), 1 since the start, expected CAN FD frames "
+      "(canhil-fd)\n");
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Holds the latencies that hil-bench reports against an independent measurement: candump's stamps of the same bus.
+"""Compares the latencies that hil-bench reports with an independent measurement: candump's stamps of the same bus.
 
   tests/vcan/run.sh /usr/bin/python3 tests/vcan/latency.py HIL_BENCH CANHIL.dbc SCENARIO...
 
-Flies each scenario in real time over vcan0 while candump records it. Pairs, from that log and the DBC alone (as canmatrix reads
-it), the last frame of every stimulus group with the answers to it: by the time of validity that both carry. Nearest-rank p50 and
-p99 of every answering message must agree with those of --json to 2 us (candump cuts its stamps to whole us, the bench's buckets
-are 1 us wide), and the counts exactly. Prints the table; exit code 1 and a line for each disagreement.
+Flies each scenario in real time over vcan0 while candump records it. From this log and the DBC alone (read by canmatrix), it pairs the last frame of
+every sample group with its answers by the time of validity that both carry. Nearest-rank p50 and p99 of every answer message must agree with those
+of --json within 2 us (candump truncates its stamps to whole us, and the bench's buckets are 1 us wide). The counts must be equal. Prints the table;
+exit code 1 and one line for each disagreement.
 """
 
 import collections

@@ -1,4 +1,4 @@
-// The SocketCAN port on a real kernel's vcan0 and vcan1 (tests/vcan/run.sh provides them), and beside
+// The SocketCAN port on vcan0 and vcan1 of a real kernel (tests/vcan/run.sh provides them), and together with
 // can-utils.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST(SocketCan, CarriesClassicFrames) {
   EXPECT_EQ(b->counters().received, 3U);
 }
 
-// The call that waits has a time-out of its own, much shorter.
+// The waiting call has a time-out of its own, which is much shorter.
 TEST(SocketCan, AWaitThatHearsNothingLastsToItsDeadline) {
   const auto port = open("vcan0");
   const std::int64_t deadline_ns = clock_ns(CLOCK_MONOTONIC) + 200'000'000;
@@ -72,7 +72,7 @@ TEST(SocketCan, CarriesFdFramesOfEverySize) {
 TEST(SocketCan, GivesTheKernelsStamps) {
   const auto a = open("vcan0");
   const auto b = open("vcan0");
-  bool stamping = false;  // the kernel turns it on a moment after it was asked for
+  bool stamping = false;  // the kernel enables it a moment after the request
   for (const std::int64_t deadline = in_seconds(5); !stamping && clock_ns(CLOCK_MONOTONIC) < deadline;) {
     a->send(frame_of(1));
     stamping = next_frame(*b)->source == StampSource::kernel;
@@ -150,7 +150,7 @@ TEST(SocketCan, ExplainsWhatItCannotOpen) {
   EXPECT_TRUE(open("canhil8"));
 }
 
-/// A program of can-utils that listens on vcan1, its output in a file.
+/// A program of can-utils that listens on vcan1, with its output in a file.
 class Candump {
  public:
   Candump(int frames, const std::string& arguments) : path_("/tmp/candump-test.log") {

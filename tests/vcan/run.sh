@@ -1,10 +1,10 @@
 #!/bin/bash
-# run.sh COMMAND...: runs COMMAND where there are vcan0 and vcan1 (mtu 72, so classic and FD), in the directory and with
-# the environment of the caller. Its exit status, stdout and stderr are those of COMMAND. Takes the first way that works:
-#   1. this kernel has vcan: in a network namespace of its own, so other runs and a vcan0 in use are not disturbed;
-#   2. user-mode Linux: a kernel as a process, on this machine's files (Debian: user-mode-linux kmod iproute2 busybox gcc).
-#      /tmp, /run and /dev are the guest's own; one CPU.
-# CANHIL_VCAN_WAY=kernel or uml asks for one of them; CANHIL_VCAN_TIMEOUT_S (600) is when user-mode Linux is given up.
+# run.sh COMMAND...: runs COMMAND on a machine with vcan0 and vcan1 (mtu 72, so classic and FD), in the directory and with the environment of the
+# caller. Its exit status, stdout and stderr are those of COMMAND. It uses the first of these ways that works:
+#   1. this kernel has vcan: a network namespace of its own, so that it does not disturb other runs or an existing vcan0;
+#   2. user-mode Linux: a kernel as a process, with this machine's files (Debian: user-mode-linux kmod iproute2 busybox gcc).
+#      /tmp, /run and /dev are private to the guest; one CPU.
+# CANHIL_VCAN_WAY=kernel or uml selects one of them. CANHIL_VCAN_TIMEOUT_S (600) is the time limit of user-mode Linux.
 set -u
 here=$(dirname "$(readlink -f "$0")")
 

@@ -1,9 +1,9 @@
 // Hours of traffic through the port: two processes on one interface, every frame counted.
 //   soak INTERFACE SECONDS [FRAMES_PER_S]
-// The sender keeps its pace by absolute deadlines of a millisecond, which slip where the host stalls it, and
-// receives its own echo as the bench does; sender and receiver check that no number is missing or out of
-// order. Ten lines on the way, then the result; ends with 0 only if nothing was lost or mixed up and resident
-// anonymous memory stayed flat.
+// The sender keeps its rate with absolute deadlines of a millisecond; if the host stalls it, the deadlines
+// slip. It receives its own echo, as the bench does. Sender and receiver check that no number is missing or
+// out of order. The program prints ten lines on the way, then the result. It ends with 0 only if nothing was
+// lost or reordered and the resident anonymous memory did not grow.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,8 +38,8 @@ std::int64_t now_ns() { return clock_ns(CLOCK_MONOTONIC); }
   std::exit(1);
 }
 
-/// Anonymous memory alone: the pages of the program and its libraries come in when their code first runs, which
-/// is no leak.
+/// Only anonymous memory: pages of the program and its libraries are loaded when their code first runs, which
+/// is not a leak.
 std::int64_t resident_kib() {
   std::ifstream file("/proc/self/statm");
   std::int64_t size = 0;
@@ -85,7 +85,7 @@ class Memory {
     most_kib_ = std::max(warm ? most_kib_ : 0, now_kib);
   }
   [[nodiscard]] bool flat() const { return most_kib_ - warm_kib_ <= flat_kib; }
-  [[nodiscard]] std::string words() const {
+  [[nodiscard]] std::string to_text() const {
     return fmt::format("{} KiB, at most {} KiB", warm_kib_, most_kib_);
   }
 
@@ -103,7 +103,7 @@ std::unique_ptr<Port> open(const std::string& interface, bool own_echo) {
 int verdict(std::string_view who, const Port& port, const Tally& tally, std::uint64_t sent,
             const Memory& memory) {
   fmt::print("{:<9} {} frames: {} lost, {} reordered, {} overflowed; resident {}\n", who, tally.received(),
-             tally.lost(sent), tally.reordered(), port.counters().overflowed, memory.words());
+             tally.lost(sent), tally.reordered(), port.counters().overflowed, memory.to_text());
   const bool good = sent > 0 && tally.lost(sent) == 0 && tally.reordered() == 0 && tally.received() == sent;
   return good && memory.flat() ? 0 : 1;
 }
@@ -157,7 +157,7 @@ int send(Port& port, std::int64_t duration_ns, std::int64_t rate) {
     }
     const std::int64_t late_ns = now_ns() - due_ns;
     latest_ns = std::max(latest_ns, late_ns);
-    if (late_ns > catch_up_ns) due_ns += late_ns;  // no bus carries what a stalled host would catch up with
+    if (late_ns > catch_up_ns) due_ns += late_ns;  // no bus could carry the backlog of a stalled host
     for (const auto due = static_cast<std::uint64_t>(tick * rate * tick_ns / ns_per_s); sent < due; ++sent)
       send(port, numbered_id, sent);
     drain();

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The first process in user-mode Linux: uml_init.sh DIR CWD. Makes the interfaces, runs DIR/command, leaves DIR/status.
+# The first process in user-mode Linux: uml_init.sh DIR CWD. Creates the interfaces, runs DIR/command, writes its exit status to DIR/status.
 dir=$1
 cwd=$2
 die() { echo "canhil: cannot $*" >/dev/console; busybox poweroff -f; }

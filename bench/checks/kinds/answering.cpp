@@ -13,13 +13,13 @@ namespace {
 
 std::string at(std::int64_t t_us) { return fmt::format("{:g} s", static_cast<double>(t_us) * 1e-6); }
 
-// The first value or sigma that is no number; empty: there is none.
+// The first value or sigma that is not a number; empty: there is none.
 std::string no_number(const Evidence& evidence, const std::vector<Subject>& subjects) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
-      for (const quantities::Told& told : track->told) {
-        if (!std::isfinite(told.value) || !std::isfinite(told.sigma.value_or(0)))
-          return fmt::format("{} at {} is no number", subject.words, at(told.t_us));
+      for (const quantities::TrackPoint& point : track->points) {
+        if (!std::isfinite(point.value) || !std::isfinite(point.sigma.value_or(0)))
+          return fmt::format("{} at {} is not a number", subject.text, at(point.t_us));
       }
     }
   }
@@ -45,10 +45,10 @@ std::vector<scenario::Window> without(const scenario::Window& whole, std::vector
 Answering Answering::read(scenario::Section& /*section*/, const scenario::CheckContext& context) {
   Answering rule;
   for (const estimators::Estimator* one : running(context)) {
-    const std::vector<Subject> told = told_always(*one);
-    rule.of.insert(rule.of.end(), told.begin(), told.end());
+    const std::vector<Subject> reported = always_reported(*one);
+    rule.judged.insert(rule.judged.end(), reported.begin(), reported.end());
   }
-  // A sample that was measured before a fault may be sent in it.
+  // A sample measured before a fault may be transmitted during it.
   for (const scenario::FaultWindow& fault : context.faults)
     rule.excused.push_back(
         {.from_us = fault.window.from_us - context.latency_us, .to_us = fault.window.to_us});
@@ -61,16 +61,16 @@ Finding Answering::judge(const Evidence& evidence) const {
   const Observations& seen = evidence.seen;
   if (seen.target_bad_crc > 0)
     return failed(fmt::format("{} frames of the target with a wrong CRC or size", seen.target_bad_crc));
-  if (auto wrong = no_number(evidence, of); !wrong.empty()) return failed(std::move(wrong));
-  std::size_t told = 0;
-  for (const Subject& subject : of) {
+  if (auto wrong = no_number(evidence, judged); !wrong.empty()) return failed(std::move(wrong));
+  std::size_t values = 0;
+  for (const Subject& subject : judged) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity))
-      told += track->told.size();
+      values += track->points.size();
   }
-  if (told == 0) return failed("no answers");
+  if (values == 0) return failed("no answers");
   const scenario::Window whole{.from_us = 0, .to_us = evidence.truth.duration_us};
   for (const scenario::Window& stretch : without(whole, excused)) {
-    if (auto gap = silence_of(evidence, of, stretch); !gap.empty()) return failed(std::move(gap));
+    if (auto gap = silence_of(evidence, judged, stretch); !gap.empty()) return failed(std::move(gap));
   }
   const double longest = longest_wait_us(static_cast<double>(messages::TargetHeartbeat::info.cycle_time_us));
   for (const scenario::Window& silence : seen.complaints.silences()) {
@@ -79,7 +79,7 @@ Finding Answering::judge(const Evidence& evidence) const {
         return failed("no heartbeat " + seconds(owed));
     }
   }
-  return {Outcome::pass, fmt::format("{} values", told), expected};
+  return {Outcome::pass, fmt::format("{} values", values), expected};
 }
 
 }  // namespace canhil::checks

@@ -1,4 +1,5 @@
-// Whatever befalls its inputs, a target goes on: answers and heartbeats come, with numbers, in whole frames.
+// A target keeps answering whatever its inputs do: answers and heartbeats without gaps, finite values, whole
+// frames.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -7,17 +8,20 @@ namespace canhil::checks {
 
 struct Answering {
   static constexpr std::string_view kind = "answering";
-  std::vector<Subject> of;  ///< what is told with every answer
-  /// In these answers may be missing: faults of the scenario, which may leave nothing to be answered.
+  static constexpr std::string_view meaning =
+      "Passes when answers and heartbeats come without a gap, all values are numbers, and no frame of the "
+      "target is damaged.";
+  std::vector<Subject> judged;  ///< reported with every answer
+  /// Windows in which answers may be missing: faults of the scenario, which may leave no input to answer.
   std::vector<scenario::Window> excused;
 
   static Answering read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::vector<Subject> subjects() const { return of; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return judged; }
   [[nodiscard]] std::vector<std::string> held_against_truth() const { return {}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// What is left of a window without others, in order.
+/// The rest of a window after removing others, in order.
 std::vector<scenario::Window> without(const scenario::Window& whole, std::vector<scenario::Window> others);
 
 }  // namespace canhil::checks

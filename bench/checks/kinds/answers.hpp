@@ -1,4 +1,4 @@
-// How many answers of a window an estimator marked, by outcome or flag, and when it first did.
+// How many answers in a window carry a mark (an outcome or flag), and when the first did.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -7,15 +7,18 @@ namespace canhil::checks {
 
 struct Answers {
   static constexpr std::string_view kind = "answers";
+  static constexpr std::string_view meaning =
+      "Passes when so many answers of the window have a mark. MARK stands for each mark of the estimator "
+      "(scenarios.md).";
   struct Count {
-    std::string mark;  ///< a name of the estimator's marks
+    std::string mark;  ///< one of the estimator's marks
     std::optional<std::int64_t> at_least{}, at_most{};
-    std::optional<std::int64_t> before_us{};  ///< the first of them is earlier than this
+    std::optional<std::int64_t> before_us{};  ///< the first must come earlier than this
   };
   std::string estimator;
   scenario::Window window;
   std::vector<Count> counts;
-  bool one_of_several{};  ///< that run
+  bool one_of_several{};  ///< several estimators run
 
   static Answers read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;

@@ -11,7 +11,7 @@
 namespace canhil::checks {
 namespace {
 
-// A data rate counts where FD frames were sent; without one they are as fast as the nominal.
+// The data rate matters only if FD frames were sent; without it they use the nominal rate.
 bool equally_fast(const wire::BitRates& a, const wire::BitRates& b, const Observations& seen) {
   const auto data = [](const wire::BitRates& rates) { return rates.data > 0 ? rates.data : rates.nominal; };
   const bool fd = std::ranges::any_of(seen.length_by_second,
@@ -26,27 +26,39 @@ BusLoad BusLoad::read(scenario::Section& section, const scenario::CheckContext& 
   BusLoad rule;
   constexpr std::int64_t kilo = 1000;
   constexpr std::int64_t fastest = 1000, fastest_data = 8000;  // ISO 11898-2
-  rule.bitrate = section.integer("bitrate_kbitps", 1) * kilo;
+  rule.bitrate =
+      section.integer({"bitrate_kbitps", fmt::format("Bit rate of the load, at most {}.", fastest)}, 1) *
+      kilo;
   if (rule.bitrate > fastest * kilo)
     section.reject("bitrate_kbitps", "is faster than CAN", fmt::format("kbit/s, at most {}", fastest));
-  rule.data_bitrate = section.optional_integer("data_bitrate_kbitps", 1).value_or(0) * kilo;
+  rule.data_bitrate =
+      section
+          .optional_integer(
+              {"data_bitrate_kbitps",
+               fmt::format("Bit rate of the data phase of FD frames, from `bitrate_kbitps` to {}.",
+                           fastest_data)},
+              1)
+          .value_or(0) *
+      kilo;
   if (rule.data_bitrate != 0 &&
       (rule.data_bitrate < rule.bitrate || rule.data_bitrate > fastest_data * kilo)) {
     section.reject("data_bitrate_kbitps", fmt::format("is {}", rule.data_bitrate / kilo),
                    fmt::format("from bitrate_kbitps to {}", fastest_data));
   }
-  rule.below = section.plain_number("below_percent", Limits::above(0, 100)) / 100;
+  rule.below = section.plain_number({"below_percent", "The load of each whole second is below."},
+                                    Limits::above(0, 100)) /
+               100;
   return rule;
 }
 
 std::string BusLoad::subject() const {
-  return fmt::format("at {}", words({.nominal = bitrate, .data = data_bitrate}));
+  return fmt::format("at {}", to_text({.nominal = bitrate, .data = data_bitrate}));
 }
 
 Finding BusLoad::judge(const Evidence& evidence) const {
   const Observations& seen = evidence.seen;
   std::vector<wire::BitRates> buses{{.nominal = bitrate, .data = data_bitrate}};
-  // A wire slower than the bus that the rule is about may be full where that bus would not be.
+  // If the run's own bus is slower than the rule's, it may be full although the rule's bus would not be.
   if (seen.bit_rates.nominal > 0 && !equally_fast(seen.bit_rates, buses.front(), seen))
     buses.push_back(seen.bit_rates);
   Finding finding{.outcome = Outcome::pass, .measured = {}, .expected = {}};
@@ -54,11 +66,11 @@ Finding BusLoad::judge(const Evidence& evidence) const {
     const Load load = bus_load(seen, rates);
     if (!(load.busiest > 0 && load.busiest < below)) finding.outcome = Outcome::fail;
     if (!finding.measured.empty())
-      finding.measured += fmt::format("; at the {} of this run's bus ", words(rates));
+      finding.measured += fmt::format("; at the {} of this run's bus ", to_text(rates));
     finding.measured += fmt::format("{:.1f} % in the busiest second, {:.1f} % in the mean",
                                     load.busiest * 100, load.mean * 100);
   }
-  finding.expected = fmt::format("< {:g} % of {}", below * 100, words(buses.front()));
+  finding.expected = fmt::format("< {:g} % of {}", below * 100, to_text(buses.front()));
   if (buses.size() > 1) finding.expected += ", and of this run's bus";
   return finding;
 }

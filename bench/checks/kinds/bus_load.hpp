@@ -1,16 +1,19 @@
-// The frames of everybody keep the bus busy for less than a share of each second, at a bit rate.
+// The load of all frames stays below a fraction of each second, at a bit rate.
 #pragma once
 
 #include "bench/checks/rule.hpp"
 
 namespace canhil::checks {
 
-/// Judged on the bus that the rule is about, and on the run's own where that is faster or slower.
+/// Judged for the bus of the rule, and also for the run's own bus if its rate differs.
 struct BusLoad {
   static constexpr std::string_view kind = "bus_load";
+  static constexpr std::string_view meaning =
+      "Passes when all frames, by their exact length, keep the bus busy for less than that share of each "
+      "whole second.";
   std::int64_t bitrate = 0;       ///< [bit/s]
-  std::int64_t data_bitrate = 0;  ///< of the data phase of FD frames [bit/s]; 0: as the other
-  double below = 0;               ///< share: 0.5 is 50 %
+  std::int64_t data_bitrate = 0;  ///< of the data phase of FD frames [bit/s]; 0: the nominal rate
+  double below = 0;               ///< fraction: 0.5 is 50 %
 
   static BusLoad read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;

@@ -10,12 +10,13 @@
 namespace canhil::checks {
 namespace {
 
-// The mean of n independent chi-squares of k degrees of freedom is chi-square of n k, divided by n.
+// The sum of n independent chi-squares of k degrees of freedom is chi-square of n k; the mean divides it by
+// n.
 std::pair<double, double> interval(const Consistency& rule, std::size_t count) {
   if (const auto* between = std::get_if<MeanBetween>(&rule.bound)) return {between->low, between->high};
   const double probability = std::get<Probability>(rule.bound).value;
   const auto n = static_cast<double>(std::max<std::size_t>(count, 1));
-  const double degrees_of_freedom = n * rule.of.quantity->degrees_of_freedom;
+  const double degrees_of_freedom = n * rule.judged.quantity->degrees_of_freedom;
   return {chi_squared_quantile(degrees_of_freedom, (1 - probability) / 2) / n,
           chi_squared_quantile(degrees_of_freedom, (1 + probability) / 2) / n};
 }
@@ -24,36 +25,40 @@ std::pair<double, double> interval(const Consistency& rule, std::size_t count) {
 
 Consistency Consistency::read(scenario::Section& section, const scenario::CheckContext& context) {
   Consistency rule;
-  section.refuse("statistic", "is a key of before", "quantity, such as 'innovation.nis'");
-  rule.of = read_subject(
+  section.refuse("statistic", "is a former key", "quantity, such as 'innovation.nis'");
+  rule.judged = read_subject(
       section, context, [](const quantities::Quantity& quantity) { return quantity.degrees_of_freedom > 0; });
   rule.window = scenario::read_window(section, context.duration_us);
   if (!section.has("probability")) {
-    const auto [low, high] = section.interval("mean_between", scenario::Limits::at_least(0));
+    const auto [low, high] =
+        section.interval({"mean_between", "The mean lies between."}, scenario::Limits::at_least(0));
     rule.bound = MeanBetween{.low = low, .high = high};
     section.optional("probability");
     return rule;
   }
   section.refuse("mean_between", "is given beside probability", "one of the two");
-  // Errors of one run are correlated in time, so the mean of their NEES is not chi-square; innovations are
-  // white.
-  if (!rule.of.quantity->white)
+  // Errors within one run are correlated in time, so the mean of their NEES is not chi-square distributed;
+  // innovations are white.
+  if (!rule.judged.quantity->white)
     section.reject("probability", "is for innovations (NIS) only", "mean_between = [low, high]");
-  rule.bound = Probability{.value = section.number("probability", scenario::Limits::between(0.5, 0.999999))};
+  rule.bound = Probability{.value = section.number({"probability",
+                                                    "Of a NIS, in place of `mean_between`: the mean lies in "
+                                                    "the central chi-square interval of this probability."},
+                                                   scenario::Limits::between(0.5, 0.999999))};
   return rule;
 }
 
 Finding Consistency::judge(const Evidence& evidence) const {
-  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
+  const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
   const Stretch stretch{.window = window};
   const Places part = tracks.empty() ? Places() : inside(*tracks.front(), stretch);
   const auto [low, high] = interval(*this, part.size());
   const std::string expected = fmt::format("mean between {:.3g} and {:.3g} {}", low, high, seconds(window));
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
   double sum = 0;
-  for (const std::size_t place : part) sum += tracks.front()->told[place].value;
+  for (const std::size_t index : part) sum += tracks.front()->points[index].value;
   const double mean = sum / static_cast<double>(part.size());
   return {pass_if(mean >= low && mean <= high), fmt::format("mean {:.3f} of {}", mean, part.size()),
           expected};

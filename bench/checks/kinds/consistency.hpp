@@ -1,5 +1,4 @@
-// The mean of a normalised error squared (NEES, NIS) over a window lies where that of a consistent filter
-// does.
+// The mean of a normalised error squared (NEES, NIS) over a window lies in the range of a consistent filter.
 #pragma once
 
 #include <variant>
@@ -14,20 +13,22 @@ struct MeanBetween {
   double low = 0;
   double high = 0;
 };
-/// The mean lies in the central chi-square interval that holds this probability: for white statistics (NIS).
+/// The mean lies in the central chi-square interval of this probability: for white statistics (NIS).
 struct Probability {
   double value = 0;
 };
 
 struct Consistency {
   static constexpr std::string_view kind = "consistency";
-  Subject of;
+  static constexpr std::string_view meaning =
+      "Passes when the mean of a NEES or NIS over the window lies between the bounds.";
+  Subject judged;
   scenario::Window window;
   std::variant<MeanBetween, Probability> bound;
 
   static Consistency read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.words; }
-  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::string subject() const { return judged.text; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

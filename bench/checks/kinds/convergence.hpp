@@ -1,4 +1,4 @@
-// The error of a quantity enters a band before a time, and stays there to the end of the run.
+// The error of a quantity enters a band before a given time and stays in it to the end of the run.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -8,15 +8,17 @@ namespace canhil::checks {
 
 struct Convergence {
   static constexpr std::string_view kind = "convergence";
-  Subject of;
+  static constexpr std::string_view meaning =
+      "Passes when |estimated - true| stays within the bound for good before that time.";
+  Subject judged;
   double within = 0;  ///< [SI]
   quantities::Unit unit{};
   std::int64_t before_us = 0;
   std::int64_t end_us = 0;  ///< of the run
 
   static Convergence read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.words; }
-  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::string subject() const { return judged.text; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
   [[nodiscard]] std::optional<Bar> bar() const;
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };

@@ -1,4 +1,4 @@
-// The target's own counters at the end (TargetCounters).
+// The target's own counters at the end of the run (TargetCounters).
 #pragma once
 
 #include <span>
@@ -7,9 +7,11 @@
 
 namespace canhil::checks {
 
-/// Absent: not judged.
+/// Limits; an absent one is not judged.
 struct Counters {
   static constexpr std::string_view kind = "counters";
+  static constexpr std::string_view meaning =
+      "Passes when the target's own counters stay within their bounds.";
   std::optional<std::int64_t> frames_lost_at_most{}, bad_crc_at_most{}, bad_group_at_most{}, late_at_most{};
 
   static Counters read(scenario::Section& section, const scenario::CheckContext& context);
@@ -21,7 +23,7 @@ struct CountLimit {
   std::optional<std::int64_t> at_most;  ///< none: not judged
   std::uint64_t value = 0;
 };
-/// Passes if all are kept: "bad CRC 0, late 2", expected "bad CRC <= 0, late <= 3".
+/// Passes if all limits are kept: "bad CRC 0, late 2", expected "bad CRC <= 0, late <= 3".
 Finding within_limits(std::span<const CountLimit> limits);
 
 }  // namespace canhil::checks

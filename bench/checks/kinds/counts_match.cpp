@@ -11,7 +11,7 @@
 namespace canhil::checks {
 namespace {
 
-// The counts stay at their end.
+// The counters saturate at this value.
 std::uint64_t largest() {
   const auto signals = messages::TargetCounters::signals();
   return static_cast<std::uint64_t>(std::ranges::max_element(signals, {}, &SignalInfo::maximum)->maximum);
@@ -19,16 +19,16 @@ std::uint64_t largest() {
 
 struct Count {
   std::string_view what;
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   std::uint64_t least = 0, most = 0;
 };
 
-Count count(std::string_view what, std::uint64_t told, std::uint64_t least, std::uint64_t most,
+Count count(std::string_view what, std::uint64_t reported, std::uint64_t least, std::uint64_t most,
             std::int64_t slack) {
   const auto room = static_cast<std::uint64_t>(slack);
   const std::uint64_t saturated_at = largest();
   return {.what = what,
-          .told = told,
+          .reported = reported,
           .least = std::min(least - std::min(least, room), saturated_at),
           .most = std::min(most + room, saturated_at)};
 }
@@ -36,7 +36,10 @@ Count count(std::string_view what, std::uint64_t told, std::uint64_t least, std:
 }  // namespace
 
 CountsMatch CountsMatch::read(scenario::Section& section, const scenario::CheckContext& /*context*/) {
-  const auto slack = [&](std::string_view key) { return section.optional_integer(key, 0).value_or(0); };
+  const auto slack = [&](std::string_view key) {
+    return section.optional_integer({key, "So many more or fewer may be counted; 0 if not given."}, 0)
+        .value_or(0);
+  };
   return {.frames_lost_slack = slack("frames_lost_slack"),
           .bad_crc_slack = slack("bad_crc_slack"),
           .bad_group_slack = slack("bad_group_slack"),
@@ -56,13 +59,13 @@ Finding CountsMatch::judge(const Evidence& evidence) const {
   Finding finding{.outcome = Outcome::pass, .measured = "", .expected = ""};
   for (const Count& one : counts) {
     const std::string_view separator = finding.expected.empty() ? "" : ", ";
-    finding.measured += fmt::format("{}{} {}", separator, one.what, one.told);
+    finding.measured += fmt::format("{}{} {}", separator, one.what, one.reported);
     finding.expected += fmt::format("{}{} {}", separator, one.what, one.least);
     if (one.most > one.least) finding.expected += fmt::format(" to {}", one.most);
-    if (one.told < one.least || one.told > one.most) finding.outcome = Outcome::fail;
+    if (one.reported < one.least || one.reported > one.most) finding.outcome = Outcome::fail;
   }
   finding.expected += ", as the bench withheld and damaged";
-  // What the bus lost the bench did not withhold.
+  // Frames lost on the bus were not withheld by the bench.
   const std::uint64_t outages = seen.bus.downs + seen.bus.errors.bus_off;
   if (finding.outcome == Outcome::fail && outages > 0) {
     finding.outcome = Outcome::not_measured;

@@ -11,28 +11,29 @@ namespace canhil::checks {
 
 DelayBelow DelayBelow::read(scenario::Section& section, const scenario::CheckContext& context) {
   DelayBelow rule;
-  rule.of = read_subject(section, context, [](const quantities::Quantity& quantity) {
+  rule.judged = read_subject(section, context, [](const quantities::Quantity& quantity) {
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
   rule.window = scenario::read_window(section, context.duration_us);
-  rule.below_us = section.time_us("below_ms", scenario::Limits::above(0));
+  rule.below_us = section.time_us({"below_ms", "The delay is below."}, scenario::Limits::above(0));
   return rule;
 }
 
 Finding DelayBelow::judge(const Evidence& evidence) const {
   const double bar_s = 1e-6 * static_cast<double>(below_us);
-  const std::string expected = fmt::format("told less than {:g} ms late {}", bar_s * 1e3, seconds(window));
-  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+  const std::string expected =
+      fmt::format("reported less than {:g} ms late {}", bar_s * 1e3, seconds(window));
+  const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   const auto delay = delay_of(*tracks.front(), window);
   if (!delay)
-    return {Outcome::not_measured, "the truth moves too little, or too few answers came, to know it",
+    return {Outcome::not_measured, "the truth moves too little, or too few answers came, to determine it",
             expected};
   const std::string measured =
       fmt::format("{:.1f} +- {:.1f} ms", delay->delay_s * 1e3, delay->half_width_s * 1e3);
   if (delay->delay_s + delay->half_width_s < bar_s) return {Outcome::pass, measured, expected};
   if (delay->delay_s - delay->half_width_s >= bar_s) return {Outcome::fail, measured, expected};
-  return {Outcome::not_measured, measured + ", which does not tell on which side of the bar", expected};
+  return {Outcome::not_measured, measured + ", too uncertain to compare with the bar", expected};
 }
 
 }  // namespace canhil::checks

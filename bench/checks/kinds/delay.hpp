@@ -1,4 +1,4 @@
-// How late a quantity is told, by the truth.
+// The delay of a reported quantity, measured against the truth.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -7,13 +7,15 @@ namespace canhil::checks {
 
 struct DelayBelow {
   static constexpr std::string_view kind = "delay";
-  Subject of;
+  static constexpr std::string_view meaning =
+      "Passes when the delay of the quantity against the truth is below the bar (mapping.md).";
+  Subject judged;
   scenario::Window window;
   std::int64_t below_us = 0;
 
   static DelayBelow read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.words; }
-  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::string subject() const { return judged.text; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

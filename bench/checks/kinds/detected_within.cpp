@@ -11,8 +11,8 @@ namespace canhil::checks {
 
 DetectedWithin DetectedWithin::read(scenario::Section& section, const scenario::CheckContext& context) {
   DetectedWithin rule;
-  rule.of = read_disturbance(section, context);
-  rule.within_us = read_within(section, context, rule.of.window.from_us);
+  rule.disturbance = read_disturbance(section, context);
+  rule.within_us = read_within(section, context, rule.disturbance.window.from_us);
   rule.by = read_signs(section, context);
   return rule;
 }
@@ -21,15 +21,15 @@ Finding DetectedWithin::judge(const Evidence& evidence) const {
   const auto seconds_of = [](std::int64_t t_us) { return static_cast<double>(t_us) * 1e-6; };
   const std::string expected =
       fmt::format("{} within {:g} s of {}", by.empty() ? "a sign" : fmt::format("{}", fmt::join(by, ", ")),
-                  seconds_of(within_us), of.words());
-  const std::vector<Sign> signs = signs_of(evidence, of, by);
-  const std::int64_t onset_us = of.window.from_us;
-  // The time of a cause may lie before the onset, as its sample was sent after it.
-  const auto first = first_in(signs, of.valid_from_us, evidence.truth.duration_us);
+                  seconds_of(within_us), disturbance.to_text());
+  const std::vector<Sign> signs = signs_of(evidence, disturbance, by);
+  const std::int64_t onset_us = disturbance.window.from_us;
+  // The time of a cause may precede the onset: its sample was measured before and sent after.
+  const auto first = first_in(signs, disturbance.valid_from_us, evidence.truth.duration_us);
   if (!first) return {Outcome::fail, "no sign", expected};
   const std::int64_t after_us = std::max<std::int64_t>(first->t_us - onset_us, 0);
   return {pass_if(after_us <= within_us),
-          fmt::format("after {:.3f} s: {}", seconds_of(after_us), first->words), expected};
+          fmt::format("after {:.3f} s: {}", seconds_of(after_us), first->text), expected};
 }
 
 }  // namespace canhil::checks

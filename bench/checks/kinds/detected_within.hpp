@@ -1,4 +1,4 @@
-// After the onset of a fault the target says that something is wrong.
+// After the onset of a fault the target reports a sign of trouble.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -7,12 +7,14 @@ namespace canhil::checks {
 
 struct DetectedWithin {
   static constexpr std::string_view kind = "detected_within";
-  Disturbance of;
+  static constexpr std::string_view meaning =
+      "Passes when the target gives a sign soon enough after the onset.";
+  Disturbance disturbance;
   std::int64_t within_us = 0;
-  std::vector<std::string> by;  ///< names of signs; empty: any that is new
+  std::vector<std::string> by;  ///< names of signs; empty: any new sign
 
   static DetectedWithin read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.fault; }
+  [[nodiscard]] std::string subject() const { return disturbance.fault; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> statistics{"max", "rms", "mean", "final"};
 
-// In the order of the enumeration: what is below the bar, and how the figure is called.
+// In the order of the enumeration: the figure that is compared with the bar.
 constexpr std::array<std::string_view, 4> asked{"|error|", "RMS", "mean |error|",
                                                 "|error| of the last answer"};
 
@@ -25,17 +25,22 @@ std::string_view name(Error::Statistic statistic) { return statistics[static_cas
 
 Error Error::read(scenario::Section& section, const scenario::CheckContext& context) {
   Error rule;
-  rule.of = read_subject(section, context, [](const quantities::Quantity& quantity) {
+  rule.judged = read_subject(section, context, [](const quantities::Quantity& quantity) {
     return quantity.degrees_of_freedom == 0 && !quantity.white;
   });
-  rule.statistic = scenario::read_enum<Statistic>(section, "statistic", statistics, Statistic::max);
-  rule.stretch = read_stretch(section, context, rule.of);
-  std::tie(rule.below, rule.unit) = read_bar(section, "below", *rule.of.quantity);
+  rule.statistic = scenario::read_enum<Statistic>(
+      section,
+      {"statistic",
+       "Of |estimated - true| in the window: the largest, the RMS, the mean, or that of the last answer."},
+      statistics, Statistic::max);
+  rule.stretch = read_stretch(section, context, rule.judged);
+  std::tie(rule.below, rule.unit) =
+      read_bar(section, "below", "The statistic is below.", *rule.judged.quantity);
   return rule;
 }
 
 std::string Error::subject() const {
-  std::string text = of.words;
+  std::string text = judged.text;
   if (statistic != Statistic::max) text += fmt::format(" {}", name(statistic));
   if (stretch.to_go_s)
     text += fmt::format(" {:g} to {:g} s to go", stretch.to_go_s->second, stretch.to_go_s->first);
@@ -43,25 +48,25 @@ std::string Error::subject() const {
 }
 
 std::optional<Bar> Error::bar() const {
-  Bar bar{.of = {}, .stretch = stretch, .below = below, .statistic = name(statistic)};
-  for (const quantities::Quantity* part : parts_of(*of.quantity))
-    bar.of.push_back({.estimator = of.estimator, .quantity = part});
+  Bar bar{.judged = {}, .stretch = stretch, .below = below, .statistic = name(statistic)};
+  for (const quantities::Quantity* part : parts_of(*judged.quantity))
+    bar.judged.push_back({.estimator = judged.estimator, .quantity = part});
   return bar;
 }
 
 Finding Error::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("{} < {:g} {} {}", asked[static_cast<std::size_t>(statistic)],
-                                           below / unit.factor, unit.name, words(stretch));
-  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+                                           below / unit.factor, unit.name, to_text(stretch));
+  const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   const Places part = inside(*tracks.front(), stretch);
   if (auto gap = silence(*tracks.front(), stretch, part); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
   double worst = 0, sum = 0, squares = 0, last = 0;
   bool finite = true;
-  for (const std::size_t place : part) {
+  for (const std::size_t index : part) {
     for (const quantities::Track* track : tracks) {
-      const double error = track->told[place].value;
+      const double error = track->points[index].value;
       last = std::abs(error);
       finite = finite && std::isfinite(error);
       worst = std::max(worst, last);

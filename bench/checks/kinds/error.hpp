@@ -8,8 +8,10 @@ namespace canhil::checks {
 
 struct Error {
   static constexpr std::string_view kind = "error";
+  static constexpr std::string_view meaning =
+      "Passes when the statistic of |estimated - true| in the window is below the bar.";
   enum class Statistic : std::uint8_t { max, rms, mean, final };
-  Subject of;  ///< of a quantity that has parts, those together
+  Subject judged;  ///< if the quantity has parts, the norm of the parts
   Statistic statistic = Statistic::max;
   Stretch stretch;
   double below = 0;  ///< [SI]
@@ -17,7 +19,7 @@ struct Error {
 
   static Error read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;
-  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
   [[nodiscard]] std::optional<Bar> bar() const;
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };

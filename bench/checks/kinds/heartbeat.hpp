@@ -1,5 +1,5 @@
-// No gap between heartbeats, or another message by which the target shows that it lives, longer than this, up
-// to the end of the run.
+// No gap between heartbeats (or another message that shows that the target is alive) is longer than a limit,
+// up to the end of the run.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -9,6 +9,8 @@ namespace canhil::checks {
 
 struct Heartbeat {
   static constexpr std::string_view kind = "heartbeat";
+  static constexpr std::string_view meaning =
+      "Passes when no gap between heartbeats is longer than the bound.";
   std::string message{messages::TargetHeartbeat::info.name};
   std::int64_t silent_at_most_us = 0;
 

@@ -16,19 +16,21 @@ Honest Honest::read(scenario::Section& section, const scenario::CheckContext& co
   Honest rule;
   rule.estimators = running(context);
   std::erase_if(rule.estimators, [](const estimators::Estimator* one) {
-    return !quantities::tells(one->layout, quantities::trusted_over_sigma);
+    return !quantities::has(one->layout, quantities::trusted_over_sigma);
   });
   std::vector<std::string> names;
   for (const estimators::Estimator* one : rule.estimators) names.emplace_back(one->name);
   if (names.empty())
-    section.reject("kind", fmt::format("'{}' is of estimators that tell trusted.over_sigma", kind),
+    section.reject("kind", fmt::format("'{}' is for estimators that report trusted.over_sigma", kind),
                    "another kind");
   section.optional("estimator");
   if (section.has("estimator")) {
-    rule.named = section.one_of("estimator", names);
+    rule.named = section.one_of({"estimator", "By default all that run."}, names);
     std::erase_if(rule.estimators, [&](const estimators::Estimator* one) { return one->name != rule.named; });
   }
-  rule.over_sigma = section.plain_number("over_sigma", scenario::Limits::above(0), rule.over_sigma);
+  rule.over_sigma = section.plain_number(
+      {"over_sigma", "Largest error over sigma of an answer that the target vouches for."},
+      scenario::Limits::above(0), rule.over_sigma);
   return rule;
 }
 
@@ -47,14 +49,13 @@ Finding Honest::judge(const Evidence& evidence) const {
   std::size_t judged = 0;
   for (const estimators::Estimator* one : estimators) {
     const quantities::Samples samples = one->samples(evidence.seen, evidence.truth);
-    if (samples.empty())
-      return {Outcome::fail, fmt::format("{}: no answer to be judged", one->name), expected};
+    if (samples.empty()) return {Outcome::fail, fmt::format("{}: no answers to judge", one->name), expected};
     judged += samples.size();
-    for (std::size_t place = 0; place < samples.size(); ++place) {
-      const double ratio = samples.value(place, quantities::trusted_over_sigma);
+    for (std::size_t index = 0; index < samples.size(); ++index) {
+      const double ratio = samples.value(index, quantities::trusted_over_sigma);
       if (!(ratio > worst)) continue;
       worst = ratio;
-      at_us = samples.times()[place];
+      at_us = samples.times()[index];
       to_go = one->layout.to_go_stretch_us > 0;
     }
   }

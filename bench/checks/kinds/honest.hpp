@@ -1,4 +1,5 @@
-// No answer is sure and wrong: one that says neither degraded nor blind has no error far beyond its sigma.
+// No answer is both confident and wrong: unless it reports degraded or blind, its error is not far beyond its
+// sigma.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -7,9 +8,10 @@ namespace canhil::checks {
 
 struct Honest {
   static constexpr std::string_view kind = "honest";
+  static constexpr std::string_view meaning = "Passes when no answer is sure and wrong (honesty.md).";
   std::vector<const estimators::Estimator*> estimators;
-  std::string named;      ///< the estimator that the check names; empty: all that run
-  double over_sigma = 5;  ///< the quantity trusted.over_sigma is to stay at or below it
+  std::string named;      ///< the estimator of the check; empty: all that run
+  double over_sigma = 5;  ///< upper limit of the quantity trusted.over_sigma
 
   static Honest read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const { return named; }

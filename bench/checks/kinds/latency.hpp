@@ -1,4 +1,4 @@
-// Timing: from the last frame of the stimulus to the message that answers it.
+// Timing: the time from the last frame of the stimulus to the message that answers it.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -7,6 +7,8 @@ namespace canhil::checks {
 
 struct Latency {
   static constexpr std::string_view kind = "latency";
+  static constexpr std::string_view meaning =
+      "Timing. Passes when that quantile of the latencies in the window is below the bar.";
   std::string message;
   scenario::Window window;
   std::int64_t below_us = 0;
@@ -18,7 +20,7 @@ struct Latency {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// The key "message": one that answers something and is sent in this scenario.
+/// The key "message": a message that answers something and is sent in this scenario.
 std::string read_answer(scenario::Section& section, const scenario::CheckContext& context);
 
 }  // namespace canhil::checks

@@ -18,7 +18,9 @@ LatencyGrowth LatencyGrowth::read(scenario::Section& section, const scenario::Ch
   const std::int64_t third_us = (window.to_us - window.from_us) / 3;
   rule.first = {.from_us = window.from_us, .to_us = window.from_us + third_us};
   rule.last = {.from_us = window.to_us - third_us, .to_us = window.to_us};
-  rule.ratio_below = section.number("ratio_below", Limits::above(1));
+  rule.ratio_below = section.number(
+      {"ratio_below", "The median of the last third of the window over that of the first is below."},
+      Limits::above(1));
   return rule;
 }
 
@@ -29,17 +31,18 @@ Finding LatencyGrowth::judge(const Evidence& evidence) const {
   const TimedWindow* early = find_window(evidence.seen.timing, message, first);
   const TimedWindow* late = find_window(evidence.seen.timing, message, last);
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
-  if (early == nullptr || late == nullptr) return {Outcome::not_measured, "no times were taken", expected};
+  if (early == nullptr || late == nullptr) return {Outcome::not_measured, "no times were measured", expected};
   if (early->latency.count() == 0 || late->latency.count() == 0)
     return {Outcome::fail, "no answers", expected};
   const double before_s = early->latency.quantile_ns(median) * 1e-9;
   const double after_s = late->latency.quantile_ns(median) * 1e-9;
-  // A host that slows down does so to the bench too: what it grew by itself is to be small beside the bar.
+  // A host that slows down delays the bench too: the growth of the bench's own lateness must be small
+  // compared with the bar.
   const double host_s = (late->lateness.quantile_ns(median) - early->lateness.quantile_ns(median)) * 1e-9;
   if (host_s > lateness_share * (ratio_below - 1) * before_s)
     return {Outcome::not_measured,
-            fmt::format("this host kept the bench itself longer by {:.3f} ms (median), more than {:g} % of "
-                        "what the latency may grow by",
+            fmt::format("this host delayed the bench itself more by {:.3f} ms (median), more than {:g} % of "
+                        "the allowed growth of the latency",
                         host_s * 1e3, lateness_share * 100),
             expected};
   return {pass_if(after_s < ratio_below * before_s),

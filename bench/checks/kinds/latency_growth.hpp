@@ -1,13 +1,15 @@
-// Timing: whether answers become slower as a run goes on, as where computing time or a queue grows.
+// Timing: whether answers become slower during a run, as when computing time or a queue grows.
 #pragma once
 
 #include "bench/checks/rule.hpp"
 
 namespace canhil::checks {
 
-/// The median latency of the window's last third over that of its first.
+/// The median latency of the window's last third divided by that of its first.
 struct LatencyGrowth {
   static constexpr std::string_view kind = "latency_growth";
+  static constexpr std::string_view meaning =
+      "Timing. Passes when the latencies do not grow from the first third of the window to the last.";
   std::string message;
   scenario::Window first, last;
   double ratio_below = 0;

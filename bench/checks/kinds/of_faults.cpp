@@ -11,7 +11,7 @@
 
 namespace canhil::checks {
 
-std::string Disturbance::words() const {
+std::string Disturbance::to_text() const {
   if (!fault.empty()) return fmt::format("fault '{}'", fault);
   return fmt::format("{:g} s", static_cast<double>(window.from_us) * 1e-6);
 }
@@ -22,14 +22,16 @@ std::optional<Disturbance> read_fault(scenario::Section& section, const scenario
   std::vector<std::string> names;
   for (const scenario::FaultWindow& fault : context.faults) names.push_back(fault.name);
   if (names.empty()) {
-    section.reject("fault", "names one, and the scenario has none", "a [[fault]] beside it, or times");
+    section.reject("fault", "names a fault, but the scenario has none", "a [[fault]] beside it, or times");
     return Disturbance{};
   }
-  const std::string name = section.one_of("fault", names);
+  const std::string name =
+      section.one_of({"fault", "Name of a `[[fault]]` of the scenario, in place of times."}, names);
   const auto found = std::ranges::find(context.faults, name, &scenario::FaultWindow::name);
   if (found == context.faults.end()) return Disturbance{};
   if (found->window.from_us >= context.duration_us)
-    section.reject("fault", fmt::format("'{}' begins after the end of the run", name), "one that flies");
+    section.reject("fault", fmt::format("'{}' begins after the end of the run", name),
+                   "one that begins before it");
   return Disturbance{.fault = name,
                      .window = found->window,
                      .valid_from_us = std::max<std::int64_t>(found->window.from_us - context.latency_us, 0)};
@@ -41,13 +43,15 @@ Disturbance read_disturbance(scenario::Section& section, const scenario::CheckCo
     return *fault;
   }
   const std::int64_t t_us =
-      scenario::read_time(section, "from_s", scenario::Limits::at_least(0), context.duration_us);
+      scenario::read_time(section, {"from_s", "Time at which something goes wrong, in place of `fault`."},
+                          scenario::Limits::at_least(0), context.duration_us);
   return {.fault = {}, .window = {.from_us = t_us, .to_us = t_us}, .valid_from_us = t_us};
 }
 
 std::int64_t read_within(scenario::Section& section, const scenario::CheckContext& context,
                          std::int64_t after_us) {
-  const std::int64_t within_us = section.time_us("within_s", scenario::Limits::above(0));
+  const std::int64_t within_us =
+      section.time_us({"within_s", "Longest time until then."}, scenario::Limits::above(0));
   if (after_us + within_us > context.duration_us)
     section.reject(
         "within_s", fmt::format("after {:g} s ends after the run", static_cast<double>(after_us) * 1e-6),
@@ -59,7 +63,8 @@ std::int64_t read_within(scenario::Section& section, const scenario::CheckContex
 std::vector<std::string> read_signs(scenario::Section& section, const scenario::CheckContext& context) {
   section.optional("by");
   if (!section.has("by")) return {};
-  return section.some_of("by", sign_names(running(context)));
+  return section.some_of({"by", "Signs that count; by default any that did not come in the 5 s before."},
+                         sign_names(running(context)));
 }
 
 std::vector<Sign> signs_of(const Evidence& evidence, const Disturbance& of,
@@ -78,13 +83,13 @@ std::vector<const estimators::Estimator*> running(const scenario::CheckContext& 
   return running;
 }
 
-std::vector<Subject> told_always(const estimators::Estimator& estimator) {
+std::vector<Subject> always_reported(const estimators::Estimator& estimator) {
   std::vector<Subject> subjects;
   for (const quantities::Quantity* quantity : estimator.of_runs) {
     if (quantity->degrees_of_freedom == 0 && !quantity->white && quantity->parts.empty())
       subjects.push_back({.estimator = std::string(estimator.name),
                           .quantity = quantity,
-                          .words = std::string(quantity->name)});
+                          .text = std::string(quantity->name)});
   }
   return subjects;
 }
@@ -93,12 +98,12 @@ std::string silence_of(const Evidence& evidence, const std::vector<Subject>& sub
                        const scenario::Window& window) {
   for (const Subject& subject : subjects) {
     for (const quantities::Track* track : tracks_of(evidence, subject.estimator, *subject.quantity)) {
-      // Before the end of the flight, after which nobody answers.
+      // Up to the end of the flight: no answers are expected after it.
       const Stretch stretch{.window = {window.from_us, std::min(window.to_us, track->answers_end_us)}};
       if (static_cast<double>(stretch.window.to_us - stretch.window.from_us) <= track->longest_wait_us)
         continue;
       if (std::string gap = silence(*track, stretch, inside(*track, stretch)); !gap.empty())
-        return fmt::format("{}: {}", subject.words, gap);
+        return fmt::format("{}: {}", subject.text, gap);
     }
   }
   return {};

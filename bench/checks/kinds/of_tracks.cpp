@@ -31,7 +31,7 @@ bool lies_in(const std::pair<double, double>& to_go_s, double value) {
   return value >= to_go_s.first && value < to_go_s.second;
 }
 
-// The unit that the key has which begins with the stem.
+// The unit of the key that begins with the stem.
 quantities::Unit read_unit(scenario::Section& section, std::string_view stem, const Quantity& quantity) {
   if (quantity.unit.name != quantities::mrad.name) return quantity.unit;
   const std::string mrad = key_of(stem, quantities::mrad), degrees = key_of(stem, quantities::degrees);
@@ -45,16 +45,20 @@ quantities::Unit read_unit(scenario::Section& section, std::string_view stem, co
 }  // namespace
 
 std::string read_estimator(scenario::Section& section, const std::vector<std::string>& candidates) {
-  if (candidates.size() == 1) return section.one_of("estimator", candidates, candidates.front());
-  // Said before the keys that are of this estimator or that.
+  if (candidates.size() == 1)
+    return section.one_of(
+        {"estimator", "The estimator that is meant, where several that run send the quantity."}, candidates,
+        candidates.front());
+  // Reported before the keys that depend on the estimator.
   if (!section.has("estimator"))
     section.reject("estimator", "is missing", fmt::format("one of: {}", fmt::join(candidates, ", ")));
-  return section.one_of("estimator", candidates);
+  return section.one_of(
+      {"estimator", "The estimator that is meant, where several that run send the quantity."}, candidates);
 }
 
 Subject read_subject(scenario::Section& section, const scenario::CheckContext& context,
                      const std::function<bool(const Quantity&)>& wanted) {
-  const auto told_by = [&](const Quantity& quantity) {
+  const auto reported_by = [&](const Quantity& quantity) {
     std::vector<std::string> names;
     for (const estimators::Estimator* one : context.contract.known) {
       if (runs(context, one->name) && tells(*one, quantity)) names.emplace_back(one->name);
@@ -63,14 +67,14 @@ Subject read_subject(scenario::Section& section, const scenario::CheckContext& c
   };
   const Quantity* quantity = read_quantity(
       section, estimators::quantities_of(context.contract.known), [&](const Quantity& one) -> std::string {
-        if (!wanted(one)) return "is none that this kind asks for";
-        return told_by(one).empty() ? "is told by no estimator of this scenario" : "";
+        if (!wanted(one)) return "cannot be used with this kind";
+        return reported_by(one).empty() ? "is reported by no estimator of this scenario" : "";
       });
-  const std::vector<std::string> names = told_by(*quantity);
+  const std::vector<std::string> names = reported_by(*quantity);
   Subject subject{.estimator = names.empty() ? "" : read_estimator(section, names),
                   .quantity = quantity,
-                  .words = std::string(quantity->name)};
-  if (names.size() > 1) subject.words += " of " + subject.estimator;
+                  .text = std::string(quantity->name)};
+  if (names.size() > 1) subject.text += " of " + subject.estimator;
   return subject;
 }
 
@@ -82,24 +86,31 @@ Stretch read_stretch(scenario::Section& section, const scenario::CheckContext& c
     return {.window = scenario::read_window(section, context.duration_us)};
   }
   if (estimator != nullptr && estimator->layout.to_go_stretch_us == 0)
-    section.reject("time_to_go_s", "is of flights that go to a target", "from_s and to_s");
+    section.reject("time_to_go_s", "is for flights that go to a target", "from_s and to_s");
   for (const std::string_view key : {"from_s", "to_s"})
     section.refuse(key, "has no effect beside time_to_go_s", "one of the two");
   return {.window = {.from_us = 0, .to_us = context.duration_us},
-          .to_go_s = section.interval("time_to_go_s", scenario::Limits::at_least(0))};
+          .to_go_s = section.interval(
+              {"time_to_go_s", "Part of an engagement by its time to go, in place of `from_s` and `to_s`."},
+              scenario::Limits::at_least(0))};
 }
 
 std::pair<double, quantities::Unit> read_bar(scenario::Section& section, std::string_view stem,
-                                             const Quantity& quantity) {
+                                             std::string_view meaning, const Quantity& quantity) {
   const quantities::Unit unit = read_unit(section, stem, quantity);
-  return {section.number(key_of(stem, unit), scenario::Limits::above(0)), unit};
+  return {
+      section.number({key_of(stem, unit), meaning, fmt::format("{}_UNIT", stem)}, scenario::Limits::above(0)),
+      unit};
 }
 
 std::pair<std::pair<double, double>, quantities::Unit> read_range(scenario::Section& section,
                                                                   std::string_view stem,
+                                                                  std::string_view meaning,
                                                                   const Quantity& quantity) {
   const quantities::Unit unit = read_unit(section, stem, quantity);
-  return {section.interval(key_of(stem, unit), scenario::Limits::at_least(0)), unit};
+  return {section.interval({key_of(stem, unit), meaning, fmt::format("{}_UNIT", stem)},
+                           scenario::Limits::at_least(0)),
+          unit};
 }
 
 std::vector<const Quantity*> parts_of(const Quantity& quantity) {
@@ -109,7 +120,7 @@ std::vector<const Quantity*> parts_of(const Quantity& quantity) {
 
 int digits_of(const quantities::Unit& unit) { return unit.name == "m" ? 2 : unit.name == "m/s" ? 4 : 3; }
 
-std::string words(const Stretch& stretch) {
+std::string to_text(const Stretch& stretch) {
   if (!stretch.to_go_s) return seconds(stretch.window);
   return fmt::format("from {:g} to {:g} s to go", stretch.to_go_s->second, stretch.to_go_s->first);
 }
@@ -117,8 +128,8 @@ std::string words(const Stretch& stretch) {
 Places inside(const Track& track, const Stretch& stretch) {
   Places places;
   auto epoch = track.to_go.begin();
-  for (std::size_t place = 0; place < track.told.size(); ++place) {
-    const std::int64_t t_us = track.told[place].t_us;
+  for (std::size_t index = 0; index < track.points.size(); ++index) {
+    const std::int64_t t_us = track.points[index].t_us;
     if (stretch.to_go_s) {
       while (epoch != track.to_go.end() && epoch->t_us < t_us) ++epoch;
       if (epoch == track.to_go.end() || epoch->t_us != t_us || !lies_in(*stretch.to_go_s, epoch->to_go_s))
@@ -126,7 +137,7 @@ Places inside(const Track& track, const Stretch& stretch) {
     } else if (!within(stretch.window, t_us)) {
       continue;
     }
-    places.push_back(place);
+    places.push_back(index);
   }
   return places;
 }
@@ -144,7 +155,7 @@ std::string silence(const Track& track, const Stretch& stretch, const Places& pa
   if (part.empty()) return "no answers";
   if (track.unanswered) return track.unanswered(stretch.window.from_us, stretch.window.to_us);
   Spool<std::int64_t> times;
-  for (const std::size_t place : part) times.push_back(track.told[place].t_us);
+  for (const std::size_t index : part) times.push_back(track.points[index].t_us);
   const auto silent = silent_stretch(times, stretch.window, track.answers_end_us, track.longest_wait_us);
   return silent ? "no answers " + seconds(*silent) : std::string();
 }

@@ -26,11 +26,13 @@ void expect_sent(scenario::Section& section, const scenario::CheckContext& conte
 
 OutputPeriod OutputPeriod::read(scenario::Section& section, const scenario::CheckContext& context) {
   OutputPeriod rule;
-  rule.message = section.one_of("message", context.contract.messages);
+  rule.message = section.one_of({"message", "Message of the target."}, context.contract.messages);
   expect_sent(section, context, rule.message);
   rule.window = scenario::read_window(section, context.duration_us);
-  rule.within = section.number("within_percent", Limits::above(0));
-  rule.quantile = section.number("quantile", Limits::above(0, 1), 1);
+  rule.within = section.number(
+      {"within_percent", "The deviation from the period is within this share of it."}, Limits::above(0));
+  rule.quantile =
+      section.number({"quantile", "Quantile of the deviations; 1: the largest."}, Limits::above(0, 1), 1);
   return rule;
 }
 
@@ -42,8 +44,8 @@ Finding OutputPeriod::judge(const Evidence& evidence) const {
   if (auto why = unfit(evidence, quantile, nominal * within); !why.empty())
     return {Outcome::not_measured, std::move(why), expected};
   const TimedWindow* timed = find_window(evidence.seen.timing, message, window);
-  if (timed == nullptr) return {Outcome::not_measured, "no times were taken", expected};
-  // A bench that would fail the check itself cannot fail the target by it.
+  if (timed == nullptr) return {Outcome::not_measured, "no times were measured", expected};
+  // If the bench's own stimuli exceed the limit, the target cannot be blamed.
   if (const double off_s = timed->stimulus_deviation.quantile_ns(quantile) * 1e-9;
       off_s > lateness_share * nominal * within) {
     return {Outcome::not_measured, fmt::format("the bench's own stimuli came {:.3f} ms off", off_s * 1e3),

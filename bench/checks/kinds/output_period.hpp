@@ -7,6 +7,8 @@ namespace canhil::checks {
 
 struct OutputPeriod {
   static constexpr std::string_view kind = "output_period";
+  static constexpr std::string_view meaning =
+      "Timing. Passes when that quantile of the deviation from the message's period is within the bound.";
   std::string message;
   scenario::Window window;
   double within = 0;    ///< fraction of the period: 0.1 is 10 %
@@ -18,7 +20,7 @@ struct OutputPeriod {
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };
 
-/// Rejects `message` where nobody that runs sends it: nothing is there to be timed.
+/// Rejects `message` if no running estimator sends it.
 void expect_sent(scenario::Section& section, const scenario::CheckContext& context,
                  const std::string& message);
 

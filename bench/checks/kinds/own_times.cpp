@@ -13,18 +13,18 @@ OwnTimes OwnTimes::read(scenario::Section& /*section*/, const scenario::CheckCon
 }
 
 Finding OwnTimes::judge(const Evidence& evidence) const {
-  const std::string expected = "TargetTiming tells of times above 0 and no longer than the latencies";
+  const std::string expected = "TargetTiming reports times above 0 and no longer than the latencies";
   if (!evidence.timing_unfit.empty()) return {Outcome::not_measured, evidence.timing_unfit, expected};
   if (!evidence.seen.target_timing_seen) return {Outcome::fail, "no TargetTiming", expected};
-  const LatencySplit& split = evidence.seen.timing.split;
-  if (split.stimuli == 0) return {Outcome::fail, "no answers", expected};
-  if (split.told == 0) return {Outcome::fail, "TargetTiming tells of no stimulus", expected};
+  const LatencyBreakdown& breakdown = evidence.seen.timing.breakdown;
+  if (breakdown.stimuli == 0) return {Outcome::fail, "no answers", expected};
+  if (breakdown.accounted == 0) return {Outcome::fail, "TargetTiming accounts for no stimulus", expected};
   const auto mean_us = [](std::int64_t sum_ns, std::uint64_t count) {
     return 1e-3 * static_cast<double>(sum_ns) / static_cast<double>(count);
   };
-  const double queue_us = mean_us(split.target_queue_ns, split.told);
-  const double compute_us = mean_us(split.target_compute_ns, split.told);
-  const double latency_us = mean_us(split.latency_ns, split.stimuli);
+  const double queue_us = mean_us(breakdown.target_queue_ns, breakdown.accounted);
+  const double compute_us = mean_us(breakdown.target_compute_ns, breakdown.accounted);
+  const double latency_us = mean_us(breakdown.latency_ns, breakdown.stimuli);
   const double told_us = queue_us + compute_us;
   return {pass_if(told_us > 0 && told_us <= latency_us),
           fmt::format("mean queueing {:.1f} us, computing {:.1f} us, latency {:.1f} us", queue_us, compute_us,

@@ -1,4 +1,4 @@
-// Counters and checksums of a target's messages, as the bench received them, stay within limits.
+// Counter and checksum errors in a target's messages, as the bench received them, stay within limits.
 #pragma once
 
 #include "bench/checks/kinds/counters.hpp"
@@ -7,7 +7,9 @@ namespace canhil::checks {
 
 struct Protection {
   static constexpr std::string_view kind = "protection";
-  std::optional<std::string> message{};  ///< none: all of the target's
+  static constexpr std::string_view meaning =
+      "For a target with a mapping. Passes when its messages are protected as the mapping says.";
+  std::optional<std::string> message{};  ///< none: all messages of the target
   std::int64_t wrong_checksums_at_most = 0, wrong_counters_at_most = 0, wrong_sizes_at_most = 0,
                lost_at_most = 0;
 

@@ -14,10 +14,11 @@ namespace canhil::checks {
 
 RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::CheckContext& context) {
   RecoversWithin rule;
-  rule.of = read_disturbance(section, context);
-  if (!rule.of.fault.empty() && rule.of.window.to_us >= context.duration_us)
-    section.reject("fault", fmt::format("'{}' lasts to the end of the run", rule.of.fault), "one that ends");
-  rule.within_us = read_within(section, context, rule.of.window.to_us);
+  rule.disturbance = read_disturbance(section, context);
+  if (!rule.disturbance.fault.empty() && rule.disturbance.window.to_us >= context.duration_us)
+    section.reject("fault", fmt::format("'{}' lasts to the end of the run", rule.disturbance.fault),
+                   "one that ends");
+  rule.within_us = read_within(section, context, rule.disturbance.window.to_us);
   rule.by = read_signs(section, context);
   section.optional("quantity");
   section.optional("estimator");
@@ -25,17 +26,20 @@ RecoversWithin RecoversWithin::read(scenario::Section& section, const scenario::
     rule.error = read_subject(section, context, [](const quantities::Quantity& quantity) {
       return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
     });
-    std::tie(rule.below, rule.unit) = read_bar(section, "below", *rule.error->quantity);
+    std::tie(rule.below, rule.unit) =
+        read_bar(section, "below", "From then on |estimated - true| is below. Only with `quantity`.",
+                 *rule.error->quantity);
   }
   for (const estimators::Estimator* one : running(context)) {
-    const std::vector<Subject> told = told_always(*one);
-    rule.answering.insert(rule.answering.end(), told.begin(), told.end());
+    const std::vector<Subject> reported = always_reported(*one);
+    rule.answering.insert(rule.answering.end(), reported.begin(), reported.end());
   }
   return rule;
 }
 
 std::string RecoversWithin::subject() const {
-  return fmt::format("{}{}{}", of.fault, of.fault.empty() || !error ? "" : " ", error ? error->words : "");
+  return fmt::format("{}{}{}", disturbance.fault, disturbance.fault.empty() || !error ? "" : " ",
+                     error ? error->text : "");
 }
 
 std::vector<Subject> RecoversWithin::subjects() const {
@@ -53,26 +57,26 @@ Finding RecoversWithin::judge(const Evidence& evidence) const {
   std::string expected =
       fmt::format("{} from {:g} s after the end of {} on",
                   by.empty() ? "no sign of it" : fmt::format("no {}", fmt::join(by, ", no ")),
-                  seconds_of(within_us), of.words());
-  if (error) expected += fmt::format(", |{}| < {:g} {}", error->words, below / unit.factor, unit.name);
-  const std::int64_t end_us = of.window.to_us, due_us = end_us + within_us;
+                  seconds_of(within_us), disturbance.to_text());
+  if (error) expected += fmt::format(", |{}| < {:g} {}", error->text, below / unit.factor, unit.name);
+  const std::int64_t end_us = disturbance.window.to_us, due_us = end_us + within_us;
   const scenario::Window after{.from_us = due_us, .to_us = evidence.truth.duration_us};
   if (auto gap = silence_of(evidence, answering, after); !gap.empty())
     return {Outcome::fail, std::move(gap), expected};
   bool holds = true;
   std::string measured = "no sign after its end";
-  if (const auto last = last_after(signs_of(evidence, of, by), end_us)) {
+  if (const auto last = last_after(signs_of(evidence, disturbance, by), end_us)) {
     holds = last->t_us <= due_us;
-    measured = fmt::format("last sign {:.3f} s after: {}", seconds_of(last->t_us - end_us), last->words);
+    measured = fmt::format("last sign {:.3f} s after: {}", seconds_of(last->t_us - end_us), last->text);
   }
   if (!error) return {pass_if(holds), std::move(measured), std::move(expected)};
   const auto tracks = tracks_of(evidence, error->estimator, *error->quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
-  std::int64_t beyond_us = -1;  // the last time that it was not below; -1: it always was
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
+  std::int64_t beyond_us = -1;  // the last time at which the error was not below; -1: it always was below
   std::size_t judged = 0;
-  for (const quantities::Told& told : tracks.front()->told) {
-    if (told.t_us > due_us) ++judged;
-    if (told.t_us > end_us && !(std::abs(told.value) < below)) beyond_us = told.t_us;
+  for (const quantities::TrackPoint& point : tracks.front()->points) {
+    if (point.t_us > due_us) ++judged;
+    if (point.t_us > end_us && !(std::abs(point.value) < below)) beyond_us = point.t_us;
   }
   if (judged == 0) return {Outcome::fail, "no answers after that", expected};
   measured += beyond_us < 0 ? ", always below"

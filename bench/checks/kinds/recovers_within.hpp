@@ -1,4 +1,4 @@
-// After the end of a fault the signs of trouble go, for good, and the error of a quantity is small again.
+// After the end of a fault the signs of trouble stop for good, and the error of a quantity is small again.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -8,13 +8,15 @@ namespace canhil::checks {
 
 struct RecoversWithin {
   static constexpr std::string_view kind = "recovers_within";
-  Disturbance of;
+  static constexpr std::string_view meaning =
+      "Passes when no sign comes any more soon enough after the end, and answers do.";
+  Disturbance disturbance;
   std::int64_t within_us = 0;
-  std::vector<std::string> by;     ///< names of signs; empty: any that was not there before the fault
-  std::optional<Subject> error{};  ///< whose error is to be below again
+  std::vector<std::string> by;     ///< names of signs; empty: any sign that was absent before the fault
+  std::optional<Subject> error{};  ///< the quantity whose error must be below `below` again
   double below = 0;                ///< [SI]
   quantities::Unit unit{};
-  std::vector<Subject> answering;  ///< of what silence is none that recovers
+  std::vector<Subject> answering;  ///< silence of these quantities is not recovery
 
   static RecoversWithin read(scenario::Section& section, const scenario::CheckContext& context);
   [[nodiscard]] std::string subject() const;

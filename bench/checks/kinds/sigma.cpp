@@ -12,11 +12,12 @@ namespace canhil::checks {
 
 Sigma Sigma::read(scenario::Section& section, const scenario::CheckContext& context) {
   Sigma rule;
-  rule.of = read_subject(section, context, [](const quantities::Quantity& quantity) {
+  rule.judged = read_subject(section, context, [](const quantities::Quantity& quantity) {
     return quantity.degrees_of_freedom == 0 && !quantity.white && quantity.parts.empty();
   });
-  rule.stretch = read_stretch(section, context, rule.of);
-  const auto [range, unit] = read_range(section, "between", *rule.of.quantity);
+  rule.stretch = read_stretch(section, context, rule.judged);
+  const auto [range, unit] =
+      read_range(section, "between", "Every sigma lies between.", *rule.judged.quantity);
   std::tie(rule.low, rule.high) = range;
   rule.unit = unit;
   return rule;
@@ -24,9 +25,9 @@ Sigma Sigma::read(scenario::Section& section, const scenario::CheckContext& cont
 
 Finding Sigma::judge(const Evidence& evidence) const {
   const std::string expected = fmt::format("sigma between {:g} and {:g} {} {}", low / unit.factor,
-                                           high / unit.factor, unit.name, words(stretch));
-  const auto tracks = tracks_of(evidence, of.estimator, *of.quantity);
-  if (tracks.empty()) return {Outcome::fail, "nothing to be judged against", expected};
+                                           high / unit.factor, unit.name, to_text(stretch));
+  const auto tracks = tracks_of(evidence, judged.estimator, *judged.quantity);
+  if (tracks.empty()) return {Outcome::fail, "no truth to compare with", expected};
   const quantities::Track& track = *tracks.front();
   const Places part = inside(track, stretch);
   if (auto gap = silence(track, stretch, part); !gap.empty())
@@ -34,13 +35,13 @@ Finding Sigma::judge(const Evidence& evidence) const {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   std::size_t without = 0;
   bool within = true;
-  for (const std::size_t place : part) {
-    const std::optional<double>& sigma = track.told[place].sigma;
+  for (const std::size_t index : part) {
+    const std::optional<double>& sigma = track.points[index].sigma;
     if (!sigma) {
       ++without;
       continue;
     }
-    within = within && *sigma >= low && *sigma <= high;  // what is no number is not within
+    within = within && *sigma >= low && *sigma <= high;  // NaN is outside
     least = std::min(least, *sigma);
     most = std::max(most, *sigma);
   }

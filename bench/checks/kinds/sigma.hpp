@@ -1,5 +1,5 @@
-// The sigma that a target tells beside a quantity lies where it should. A filter's covariance hardly depends
-// on the noise that it saw, so one run tells what the mean of its squared errors tells only over many.
+// The reported sigma of a quantity lies in a range. A filter's covariance hardly depends on the noise of one
+// run, so a single run suffices; the mean of squared errors needs many runs.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -9,14 +9,16 @@ namespace canhil::checks {
 
 struct Sigma {
   static constexpr std::string_view kind = "sigma";
-  Subject of;
+  static constexpr std::string_view meaning =
+      "Passes when every answer of the window has a sigma of the quantity, and it lies between the bounds.";
+  Subject judged;
   Stretch stretch;
   double low = 0, high = 0;  ///< [SI]
   quantities::Unit unit{};
 
   static Sigma read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.words; }
-  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::string subject() const { return judged.text; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
   [[nodiscard]] std::vector<std::string> held_against_truth() const { return {}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };

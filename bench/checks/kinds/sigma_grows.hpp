@@ -1,4 +1,4 @@
-// The sigma that a target tells grows while it has nothing to go by: through a fault, or a window.
+// The reported sigma grows while the target lacks information: during a fault, or in a window.
 #pragma once
 
 #include "bench/checks/kinds/of_faults.hpp"
@@ -7,14 +7,16 @@ namespace canhil::checks {
 
 struct SigmaGrows {
   static constexpr std::string_view kind = "sigma_grows";
-  Subject of;
+  static constexpr std::string_view meaning =
+      "Passes when the sigma of the quantity grows while there is nothing to measure.";
+  Subject judged;
   std::string fault;  ///< empty: the check gives the window
   scenario::Window window;
-  double by = 1;  ///< more than so many times
+  double by = 1;  ///< the factor that it must exceed
 
   static SigmaGrows read(scenario::Section& section, const scenario::CheckContext& context);
-  [[nodiscard]] std::string subject() const { return of.words; }
-  [[nodiscard]] std::vector<Subject> subjects() const { return {of}; }
+  [[nodiscard]] std::string subject() const { return judged.text; }
+  [[nodiscard]] std::vector<Subject> subjects() const { return {judged}; }
   [[nodiscard]] std::vector<std::string> held_against_truth() const { return {}; }
   [[nodiscard]] Finding judge(const Evidence& evidence) const;
 };

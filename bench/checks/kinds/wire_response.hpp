@@ -1,4 +1,4 @@
-// No frame takes longer over the bus than its worst case by theory; needs a bus whose bit rate is known.
+// No frame takes longer over the bus than its theoretical worst case; needs a bus of known bit rate.
 #pragma once
 
 #include "bench/checks/rule.hpp"
@@ -7,6 +7,8 @@ namespace canhil::checks {
 
 struct WireResponseRule {
   static constexpr std::string_view kind = "wire_response";
+  static constexpr std::string_view meaning =
+      "Passes when no frame took longer over the bus than its bound. Needs a bus whose bit rate is known.";
 
   static WireResponseRule read(scenario::Section& /*section*/, const scenario::CheckContext& /*context*/) {
     return {};

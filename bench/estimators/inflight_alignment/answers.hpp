@@ -1,4 +1,4 @@
-// What an in-flight alignment answers: its navigation, and what became of each fix.
+// Answers of an in-flight alignment: its navigation, and the outcome of each fix.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace canhil::estimators {
 
-/// Group FixFilter: what became of a fix of the SSBL or the GPS, and the filter after it. SI, rad.
+/// Group FixFilter: the outcome of an SSBL or GPS fix, and the filter after it. SI, rad.
 struct FixAnswer {
   std::int64_t cause_us = 0;
   std::int64_t navigation_us = -1;  ///< cause of the last navigation answer before this one; -1: none
@@ -24,19 +24,19 @@ struct FixAnswer {
   world::Vector3 accel_bias = world::Vector3::Zero();      ///< body
   world::Vector3 fix_bias = world::Vector3::Zero();        ///< NED [m]
   world::Vector3 fix_bias_sigma = world::Vector3::Zero();  ///< NED [m]
-  bool degraded = false;                                   ///< it says that its sigmas do not hold
-  bool handed_over = false;                                ///< the heading is resolved and fed back
-  std::uint32_t repairs = 0;                               ///< of the covariance, since start
-  std::uint32_t gated = 0;                                 ///< fixes rejected by the gate, since start
-  std::uint32_t refused = 0;                               ///< fixes not used for another reason, since start
+  bool degraded = false;      ///< the target reports that its sigmas are not valid
+  bool handed_over = false;   ///< the heading is resolved and fed back to the INS
+  std::uint32_t repairs = 0;  ///< of the covariance, since start
+  std::uint32_t gated = 0;    ///< fixes rejected by the gate, since start
+  std::uint32_t refused = 0;  ///< fixes not used for another reason, since start
 };
 
-/// True if the filter made use of the fix.
+/// True if the filter used the fix.
 constexpr bool used(messages::FixOutcome outcome) {
   return outcome == messages::FixOutcome::accepted || outcome == messages::FixOutcome::recovered;
 }
 
-/// A fix that the bench sent: it needs an answer.
+/// A fix that the bench sent and that must be answered.
 struct SentFix {
   messages::FixSource source = messages::FixSource::ssbl;
   std::int64_t valid_us = 0;
@@ -48,12 +48,12 @@ struct InflightAnswers {
   Spool<SentFix> sent;
 };
 
-/// Where more than two fixes in a row that the bench sent in a window were not answered; empty: nowhere.
+/// Where more than two fixes in a row in a window were not answered; empty: nowhere.
 std::string unanswered_fixes(const InflightAnswers& answers, const scenario::Window& window);
 
-/// Whether the position in an answer holds at a known time: that of a fix that the filter used or gated.
+/// Whether the position in an answer has a known time: that of a fix that the filter used or gated.
 bool tells_of_its_time(const FixAnswer& answer, const world::FlightRecord& truth);
-/// Its error, NED [m].
+/// The position error, NED [m].
 world::Vector3 position_error(const FixAnswer& answer, const world::FlightRecord& truth);
 std::unique_ptr<Reception> inflight_reception();
 

@@ -37,8 +37,8 @@ constexpr auto of_runs = and_alignment_told(
                                     &position_norm, &position_innovation_north, &position_innovation_east,
                                     &position_innovation_down, &innovation_nis, &heading_nees});
 
-double velocity_down_over_its_sigma(const Samples& samples, std::size_t place) {
-  return samples.value(place, velocity_down) / samples.value(place, velocity_down_sigma);
+double velocity_down_over_its_sigma(const Samples& samples, std::size_t index) {
+  return samples.value(index, velocity_down) / samples.value(index, velocity_down_sigma);
 }
 
 constexpr std::array derived{
@@ -56,11 +56,13 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
     const world::Vector3 p = position_error(update, truth.flight);
-    const double nis = used(update.outcome) ? told(update.nis) : std::numeric_limits<double>::quiet_NaN();
-    const double trusted = update.degraded ? 0
-                                           : std::max({told(over_sigma(phi, update.attitude_sigma)),
-                                                       told(over_sigma(v, update.velocity_sigma)),
-                                                       told(over_sigma(p, update.position_sigma))});
+    const double nis =
+        used(update.outcome) ? infinite_if_nan(update.nis) : std::numeric_limits<double>::quiet_NaN();
+    const double trusted = update.degraded
+                               ? 0
+                               : std::max({infinite_if_nan(over_sigma(phi, update.attitude_sigma)),
+                                           infinite_if_nan(over_sigma(v, update.velocity_sigma)),
+                                           infinite_if_nan(over_sigma(p, update.position_sigma))});
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
                                                  phi.z(),
@@ -84,8 +86,9 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   return samples;
 }
 
-// The longest time that is no silence between answers to fixes: so many in a row may go unanswered. By the
-// median, as the bench may keep fixes back on purpose; of two sources the slower one counts.
+// The longest time between answers to fixes that does not count as silence: several fixes in a row may go
+// unanswered. From the median interval, because the bench may withhold fixes on purpose; with two sources the
+// slower one counts.
 double wait_for_fixes_us(const InflightAnswers& answers) {
   double period_us = 0;
   for (const messages::FixSource source : messages::enumerators<messages::FixSource>) {
@@ -106,11 +109,11 @@ double wait_for_fixes_us(const InflightAnswers& answers) {
 
 void give_positions(const InflightAnswers& answers, const Answering& filters, const Truth& truth,
                     const TrackSink& give) {
-  const auto fill = [&](Track track, auto told) {
+  const auto fill = [&](Track track, auto point_of) {
     for (const FixAnswer& fix : answers.fixes) {
       if (!tells_of_its_time(fix, truth.flight)) continue;
-      track.told.push_back(told(fix, position_error(fix, truth.flight)));
-      track.told.back().t_us = fix.cause_us;
+      track.points.push_back(point_of(fix, position_error(fix, truth.flight)));
+      track.points.back().t_us = fix.cause_us;
     }
     give(std::move(track));
   };
@@ -118,19 +121,19 @@ void give_positions(const InflightAnswers& answers, const Answering& filters, co
             [&](const Quantity& quantity, const std::string& name, int axis) {
               fill(filters.track(quantity, "position error " + name),
                    [=](const FixAnswer& fix, const world::Vector3& error) {
-                     return Told{.value = error(axis), .sigma = fix.position_sigma(axis)};
+                     return TrackPoint{.value = error(axis), .sigma = fix.position_sigma(axis)};
                    });
             });
   fill(judged(filters.track(position_horizontal, "position error horizontal")),
-       [](const auto&, const world::Vector3& error) { return Told{.value = error.head<2>().norm()}; });
+       [](const auto&, const world::Vector3& error) { return TrackPoint{.value = error.head<2>().norm()}; });
   fill(judged(filters.track(position_norm, "position error norm")),
-       [](const auto&, const world::Vector3& error) { return Told{.value = error.norm()}; });
+       [](const auto&, const world::Vector3& error) { return TrackPoint{.value = error.norm()}; });
 }
 
 void tracks_of(const checks::Observations& seen, const Truth& truth, const TrackSink& give) {
   const InflightAnswers& answers = seen.of<InflightAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
-  // The bench may keep fixes back on purpose: those that it did not send need no answer.
+  // Fixes that the bench withheld on purpose need no answer.
   const auto unanswered = [&answers](std::int64_t from_us, std::int64_t to_us) {
     return unanswered_fixes(answers, {.from_us = from_us, .to_us = to_us});
   };
@@ -142,7 +145,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
       .navigates = {longest_wait_us(seen, messages::FixVelocityD::info.name), truth.duration_us},
       .filters = {wait_for_fixes_us(answers), truth.duration_us, unanswered}};
   give_alignment(alignment, answers.fixes, give);
-  Spool<Told> nis, of_heading;
+  Spool<TrackPoint> nis, of_heading;
   for (const FixAnswer& answer : answers.fixes) {
     if (!used(answer.outcome)) continue;
     nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
@@ -155,8 +158,8 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   give_positions(answers, filters, truth, give);
 }
 
-// Navigation answers that bridged lost input; fixes by what became of them, whose answers after which the
-// covariance had been repaired, and those after which the heading was resolved and fed back.
+// Navigation answers that bridged lost input; fixes by outcome; fixes after which the covariance had been
+// repaired; fixes after which the heading was resolved and fed back.
 std::vector<Mark> marks_of(const checks::Observations& seen) {
   const InflightAnswers& answers = seen.of<InflightAnswers>();
   std::vector<Mark> marks{
@@ -191,14 +194,14 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   }
   const double heading_sigma_deg = last.attitude_sigma.z() / degrees.factor;
   filter.add("heading_sigma", last.attitude_sigma.z(),
-             fmt::format("heading sigma told at the end {:.3f} deg", heading_sigma_deg));
+             fmt::format("heading sigma reported at the end {:.3f} deg", heading_sigma_deg));
   lines.push_back(std::move(filter));
   return lines;
 }
 
 constexpr std::array closing{messages::FixVelocityD::info.name, messages::FixUpdate::info.name};
 
-// Where there are two sources, that which is heard least: the filter may use it alone.
+// With two sources, the slower one: the filter may depend on it alone.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   double longest_us = checks::longest_wait_us(0);
   for (const scenario::NodeSettings& node : scenario.nodes) {

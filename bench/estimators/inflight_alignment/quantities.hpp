@@ -1,4 +1,4 @@
-// What in-flight alignment alone tells.
+// Quantities of in-flight alignment alone.
 #pragma once
 
 #include "bench/quantities/list.hpp"
@@ -18,12 +18,13 @@ inline constexpr Quantity position_down{.name = "position.down",
                                         .meaning = "error of the position down, at the time of a fix",
                                         .unit = metres,
                                         .once = "p_down"};
-inline constexpr Quantity velocity_down_sigma{.name = "velocity.down.sigma",
-                                              .meaning = "sigma of the velocity down as the target tells it",
-                                              .unit = mps};
+inline constexpr Quantity velocity_down_sigma{
+    .name = "velocity.down.sigma",
+    .meaning = "sigma of the velocity down as the target reports it",
+    .unit = mps};
 inline constexpr Quantity velocity_down_over_sigma{
     .name = "velocity.down.over_sigma",
-    .meaning = "error of the velocity down over the sigma that the target tells",
+    .meaning = "error of the velocity down over the sigma that the target reports",
     .unit = plain};
 /// Of the covariance, since the start.
 inline constexpr Quantity covariance_repairs{.name = "covariance.repairs",

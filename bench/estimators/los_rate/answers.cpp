@@ -45,8 +45,8 @@ Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRec
   return errors;
 }
 
-Spool<quantities::Told> nis_of(const LosAnswers& answers) {
-  Spool<quantities::Told> series;
+Spool<quantities::TrackPoint> nis_of(const LosAnswers& answers) {
+  Spool<quantities::TrackPoint> series;
   for (const LosAnswer& answer : answers) {
     if (updated(answer.outcome)) series.push_back({answer.cause_us, answer.nis});
   }

@@ -1,4 +1,4 @@
-// LOS rates as they are answered, against the engagement.
+// LOS rate answers and their errors.
 #pragma once
 
 #include <memory>
@@ -9,27 +9,27 @@
 
 namespace canhil::estimators {
 
-/// Group LosRate: the LOS rate at the time of a sample of the seeker, in its antenna's axes. SI, rad.
+/// Group LosRate: the LOS rate at the time of a seeker sample, in the antenna's axes. SI, rad.
 struct LosAnswer {
   std::int64_t cause_us = 0;
   messages::LosRateOutcome outcome = messages::LosRateOutcome::waiting;
   messages::LosRateFault fault = messages::LosRateFault::none;
-  bool blind = false;  ///< too near: guidance is to hold its command
+  bool blind = false;  ///< too near: the guidance must hold its command
   world::Planes<double> rate{};
   world::Planes<double> rate_sigma{};
   world::Planes<double> target{};  ///< its acceleration along z (pitch) and y (yaw)
   world::Planes<double> target_sigma{};
   double nis = 0;         ///< of 2 degrees of freedom; 0 without an update
-  bool degraded = false;  ///< it says that its sigmas do not hold
+  bool degraded = false;  ///< the target reports that its sigmas are not valid
 };
 
 using LosAnswers = Spool<LosAnswer>;
 
-/// True if the filter was corrected by the sample, and by nothing it was told in place of one.
+/// True if the sample corrected the filter; a substitute for a sample does not count.
 constexpr bool updated(messages::LosRateOutcome outcome) {
   return outcome == messages::LosRateOutcome::updated || outcome == messages::LosRateOutcome::start_up;
 }
-/// True if there is an estimate at all.
+/// True if there is an estimate.
 constexpr bool tells_rate(messages::LosRateOutcome outcome) {
   return updated(outcome) || outcome == messages::LosRateOutcome::coasting;
 }
@@ -39,18 +39,17 @@ struct LosError {
   std::int64_t t_us = 0;
   double time_to_go = 0;          ///< true range over closing speed [s]
   world::Planes<double> rate{};   ///< [rad/s]
-  world::Planes<double> sigma{};  ///< as told [rad/s]
-  bool trusted = false;           ///< the answer says neither that it is blind nor that it is degraded
+  world::Planes<double> sigma{};  ///< as reported [rad/s]
+  bool trusted = false;           ///< the answer reports neither blind nor degraded
 };
 
-/// Errors of all answers that tell a rate, whose cause is an epoch of the engagement.
+/// Errors of all answers with a rate whose cause is an epoch of the engagement.
 Spool<LosError> los_errors(const LosAnswers& answers, const world::EngagementRecord& engagement);
 
 /// NIS (2 degrees of freedom) of each answer that was an update.
-Spool<quantities::Told> nis_of(const LosAnswers& answers);
+Spool<quantities::TrackPoint> nis_of(const LosAnswers& answers);
 
-/// Root of the mean square, over both planes, of the errors with time to go in [least, most); none: no errors
-/// there.
+/// RMS over both planes of the errors with time to go in [least, most); none: no errors there.
 std::optional<double> los_rms(const Spool<LosError>& errors, double least, double most);
 
 std::unique_ptr<Reception> los_reception();

@@ -29,12 +29,12 @@ constexpr std::array<const Quantity*, 9> kept{&los_rate_pitch,      &los_rate_ya
                                               &miss_pitch,          &miss_yaw,           &los_rate_sigma,
                                               &los_rate_over_sigma, &trusted_over_sigma, &degraded};
 
-double both_planes(const Samples& samples, std::size_t place) {
-  const double pitch = samples.value(place, los_rate_pitch), yaw = samples.value(place, los_rate_yaw);
+double both_planes(const Samples& samples, std::size_t index) {
+  const double pitch = samples.value(index, los_rate_pitch), yaw = samples.value(index, los_rate_yaw);
   return std::sqrt((pitch * pitch + yaw * yaw) / 2);
 }
-double miss_of(const Samples& samples, std::size_t place) {
-  return std::hypot(samples.value(place, miss_pitch), samples.value(place, miss_yaw));
+double miss_of(const Samples& samples, std::size_t index) {
+  return std::hypot(samples.value(index, miss_pitch), samples.value(index, miss_yaw));
 }
 constexpr std::array derived{Derived{.quantity = &los_rate_both, .of = both_planes},
                              Derived{.quantity = &miss_distance, .of = miss_of}};
@@ -45,7 +45,7 @@ constexpr std::array<const Quantity*, 4> of_runs{&los_rate_pitch, &los_rate_yaw,
 constexpr Layout layout{
     .kept = kept, .derived = derived, .to_go_stretch_us = stretch_us, .end_known_by = &miss_distance};
 
-/// What falls into one stretch.
+/// The sums of one stretch.
 struct Stretch {
   double pitch_squares = 0, yaw_squares = 0, nis_sum = 0;
   double variances = 0, over_variances = 0, trusted = 0;
@@ -71,11 +71,12 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     stretch.over_variances += pitch * pitch + yaw * yaw;
     ++stretch.rates;
     if (error.trusted)
-      stretch.trusted = std::max({stretch.trusted, told(std::abs(pitch)), told(std::abs(yaw))});
+      stretch.trusted =
+          std::max({stretch.trusted, infinite_if_nan(std::abs(pitch)), infinite_if_nan(std::abs(yaw))});
     else
       ++stretch.untrusted;
   }
-  for (const Told& update : nis_of(seen.of<LosAnswers>())) {
+  for (const TrackPoint& update : nis_of(seen.of<LosAnswers>())) {
     const world::EngagementTruth* epoch = engagement.at(update.t_us);
     if (epoch == nullptr) continue;
     Stretch& stretch = at(epoch->time_to_go());
@@ -83,19 +84,19 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
     ++stretch.updates;
   }
   const world::Vector3 miss_n = engagement.miss_n.value_or(world::Vector3::Constant(nan));
-  for (const auto& [place, stretch] : stretches) {
+  for (const auto& [index, stretch] : stretches) {
     if (stretch.rates == 0) continue;
     const std::array<double, kept.size()> values{
         std::sqrt(stretch.pitch_squares / stretch.rates),
         std::sqrt(stretch.yaw_squares / stretch.rates),
-        stretch.updates > 0 ? told(stretch.nis_sum / stretch.updates) : nan,
+        stretch.updates > 0 ? infinite_if_nan(stretch.nis_sum / stretch.updates) : nan,
         miss_n.z(),
         miss_n.y(),
         std::sqrt(stretch.variances / (2 * stretch.rates)),
         std::sqrt(stretch.over_variances / (2 * stretch.rates)),
         stretch.trusted,
         static_cast<double>(stretch.untrusted) / stretch.rates};
-    samples.add((place - 1) * stretch_us, values);
+    samples.add((index - 1) * stretch_us, values);
   }
   return samples;
 }
@@ -105,7 +106,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   const LosAnswers& answers = seen.of<LosAnswers>();
   const world::EngagementRecord& engagement = *truth.engagement;
   const auto errors = los_errors(answers, engagement);
-  // In the last moments before the passage the rate itself grows beyond any picture.
+  // In the last moments before the passage the rate grows too large to draw.
   constexpr double least_to_go_s = 0.08;
   const auto last = std::find_if(errors.rbegin(), errors.rend(),
                                  [](const LosError& e) { return e.time_to_go >= least_to_go_s; });
@@ -123,11 +124,11 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
     AnswerTo answer_to(answers);
     for (const LosError& e : errors) {
       const LosAnswer& answer = answer_to(e.t_us);
-      track.told.push_back({.t_us = e.t_us,
-                            .value = e.rate.*member,
-                            .sigma = answer.rate_sigma.*member,
-                            .estimate = answer.rate.*member,
-                            .truth = answer.rate.*member - e.rate.*member});
+      track.points.push_back({.t_us = e.t_us,
+                              .value = e.rate.*member,
+                              .sigma = answer.rate_sigma.*member,
+                              .estimate = answer.rate.*member,
+                              .truth = answer.rate.*member - e.rate.*member});
     }
     give(std::move(track));
   };

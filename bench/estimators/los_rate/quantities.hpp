@@ -1,4 +1,4 @@
-// What the LOS rate of a seeker tells.
+// Quantities of the line-of-sight rate.
 #pragma once
 
 #include <array>
@@ -25,23 +25,24 @@ inline constexpr Quantity los_rate_both{
     .unit = mradps,
     .once = "los_rate",
     .parts = los_rate_planes};
-/// As the target tells it; both planes, RMS.
+/// As the target reports it; RMS of both planes.
 inline constexpr Quantity los_rate_sigma{
     .name = "los.rate.sigma",
-    .meaning = "sigma of the LOS rate as the target tells it: RMS of both planes and 20 ms of the time to go",
+    .meaning =
+        "sigma of the LOS rate as the target reports it: RMS of both planes and 20 ms of the time to go",
     .unit = mradps};
 inline constexpr Quantity los_rate_over_sigma{
     .name = "los.rate.over_sigma",
     .meaning = "error of the LOS rate over its sigma: RMS of both planes and 20 ms of the time to go",
     .unit = plain};
-/// Mean over the updates of a stretch, of 2 degrees of freedom each; NaN without an update.
+/// Mean over the updates of a stretch, each of 2 degrees of freedom; NaN without an update.
 inline constexpr Quantity los_mean_nis{
     .name = "los.nis.mean",
     .meaning = "mean NIS of the updates (2 degrees of freedom each) in 20 ms of the time to go",
     .unit = plain,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "los_nis"};
-/// As the start's axes divide it; NaN: the target was not passed.
+/// In the axes at the start; NaN: the missile did not pass the target.
 inline constexpr Quantity miss_pitch{.name = "miss.pitch",
                                      .meaning = "closest approach in pitch, of the axes at the start",
                                      .unit = metres,
@@ -64,6 +65,6 @@ inline constexpr Quantity los_nis{.name = "los.nis",
                                   .unit = plain,
                                   .degrees_of_freedom = 2,
                                   .white = true,
-                                  .may_be_untold = true};
+                                  .nan_allowed = true};
 
 }  // namespace canhil::quantities

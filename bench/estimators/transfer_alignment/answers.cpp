@@ -43,8 +43,9 @@ std::unique_ptr<Reception> transfer_reception() {
   return std::make_unique<ReceptionOf<TransferAnswers, Navigation, FilterGroup>>();
 }
 
-Spool<quantities::Told> nees_of(const Spool<FilterAnswer>& filter, const Spool<NavigationError>& errors) {
-  Spool<quantities::Told> series;
+Spool<quantities::TrackPoint> nees_of(const Spool<FilterAnswer>& filter,
+                                      const Spool<NavigationError>& errors) {
+  Spool<quantities::TrackPoint> series;
   for (const FilterAnswer& answer : filter) {
     const NavigationError* after = first_after(errors, answer.cause_us, answer.navigation_us);
     if (after == nullptr) continue;

@@ -1,4 +1,4 @@
-// What a transfer alignment answers: its navigation, and its filter after each velocity update.
+// Answers of a transfer alignment: its navigation, and its filter after each velocity update.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ struct FilterAnswer {
   world::Vector3 velocity_sigma = world::Vector3::Zero();
   world::Vector3 gyro_bias = world::Vector3::Zero();   ///< body
   world::Vector3 accel_bias = world::Vector3::Zero();  ///< body
-  bool degraded = false;                               ///< it says that its sigmas do not hold
+  bool degraded = false;                               ///< the target reports that its sigmas are not valid
 };
 
 struct TransferAnswers {
@@ -27,7 +27,8 @@ struct TransferAnswers {
 };
 
 /// Attitude NEES (3 degrees of freedom) after each velocity update: nees() of phi from first_after().
-Spool<quantities::Told> nees_of(const Spool<FilterAnswer>& filter, const Spool<NavigationError>& errors);
+Spool<quantities::TrackPoint> nees_of(const Spool<FilterAnswer>& filter,
+                                      const Spool<NavigationError>& errors);
 
 std::unique_ptr<Reception> transfer_reception();
 

@@ -1,4 +1,4 @@
-// What transfer alignment alone tells.
+// Quantities of transfer alignment alone.
 #pragma once
 
 #include "bench/quantities/list.hpp"
@@ -8,10 +8,10 @@ namespace canhil::quantities {
 /// NEES of the misalignment, with the covariance of AlignAttitudeSigma and AlignAttitudeCorrelation.
 inline constexpr Quantity attitude_nees{
     .name = "attitude.nees",
-    .meaning = "normalised error squared of the misalignment, with sigmas and correlations as told",
+    .meaning = "normalised error squared of the misalignment, with sigmas and correlations as reported",
     .unit = plain,
     .degrees_of_freedom = 3,
-    .may_be_untold = true,
+    .nan_allowed = true,
     .once = "attitude_nees"};
 
 /// Of a velocity update, NED.

@@ -32,15 +32,15 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
   Samples samples(layout);
   const TransferAnswers& answers = seen.of<TransferAnswers>();
   const auto errors = navigation_errors(answers.navigation, truth.flight);
-  // One value an update, in order, up to the last one that a navigation answer follows.
-  const Spool<Told> nees = nees_of(answers.filter, errors);
+  // One value per update, in order, up to the last update that a navigation answer follows.
+  const Spool<TrackPoint> nees = nees_of(answers.filter, errors);
   for (std::size_t i = 0; i < nees.size(); ++i) {
     const FilterAnswer& update = answers.filter[i];
     const auto* after = first_after(errors, update.cause_us, update.navigation_us);
     if (after == nullptr) continue;
     const auto& [t_us, angles, v, phi] = *after;
-    // Of the attitude alone: the velocity's sigma is of the cause's time, and until the answer after it a
-    // turned heading and 1 g make more of an error than that.
+    // Attitude only: the velocity's sigma holds at the cause's time; before the next answer, acceleration of
+    // 1 g with a heading error causes larger velocity errors.
     const double trusted = update.degraded ? 0 : over_sigma(phi, update.attitude_sigma);
     const std::array<double, kept.size()> values{phi.x(),
                                                  phi.y(),
@@ -51,10 +51,10 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
                                                  v.x(),
                                                  v.y(),
                                                  v.z(),
-                                                 told(nees[i].value),
-                                                 told(update.nis),
+                                                 infinite_if_nan(nees[i].value),
+                                                 infinite_if_nan(update.nis),
                                                  update.attitude_sigma.z(),
-                                                 told(trusted),
+                                                 infinite_if_nan(trusted),
                                                  update.degraded ? 1.0 : 0.0};
     samples.add(update.cause_us, values);
   }
@@ -72,7 +72,7 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
       .navigates = {longest_wait_us(seen, messages::AlignVelocityD::info.name), truth.duration_us},
       .filters = {longest_wait_us(seen, messages::AlignUpdate::info.name), truth.duration_us}};
   give_alignment(alignment, answers.filter, give);
-  Spool<Told> nis, of_heading;
+  Spool<TrackPoint> nis, of_heading;
   for (const FilterAnswer& answer : answers.filter) {
     nis.push_back({.t_us = answer.cause_us, .value = answer.nis});
     add_heading_nees(of_heading, errors, answer);

@@ -1,5 +1,5 @@
 // Transfer alignment of a slave INS to a master INS by velocity matching: a sample is a velocity update, with
-// the errors of the first navigation answer that knew of it.
+// the errors of the first navigation answer that includes it.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

@@ -66,16 +66,16 @@ Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecor
   return errors;
 }
 
-Spool<quantities::Told> nis_of(const WindAnswers& answers) {
-  Spool<quantities::Told> all;
+Spool<quantities::TrackPoint> nis_of(const WindAnswers& answers) {
+  Spool<quantities::TrackPoint> all;
   for (const WindAnswer& answer : answers) {
     if (answer.outcome == messages::WindOutcome::updated) all.push_back({answer.cause_us, answer.nis});
   }
   return all;
 }
 
-Spool<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide) {
-  Spool<quantities::Told> all;
+Spool<quantities::TrackPoint> nees_of(const WindAnswers& answers, const world::GlideRecord& glide) {
+  Spool<quantities::TrackPoint> all;
   for (const WindAnswer& answer : answers) {
     if (!lies_within(answer, glide)) continue;
     const Vector3 error = error_of(answer, glide).error_n;

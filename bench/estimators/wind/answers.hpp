@@ -1,4 +1,4 @@
-// What a wind filter answers, against a glider's truth.
+// Answers of a wind filter and their errors.
 #pragma once
 
 #include <memory>
@@ -8,17 +8,17 @@
 
 namespace canhil::estimators {
 
-/// Group Wind: what the wind filter made of a GliderNav group. SI, rad, NED.
+/// Group Wind: the result of the wind filter for a GliderNav group. SI, rad, NED.
 struct WindAnswer {
   std::int64_t cause_us = 0;
-  bool started = false;  ///< the filter runs; else only the wind counts
+  bool started = false;  ///< the filter runs; false: only the wind is valid
   messages::WindOutcome outcome = messages::WindOutcome::waiting;
-  bool outside = false;  ///< of the range of the model, in any of its variables
+  bool outside = false;  ///< some variable is outside of the model's range
   bool fins_late = false;
   bool fins_missing = false;
   bool fins_not_physical = false;
   bool theta_capped = false;
-  bool degraded = false;  ///< it says that its sigmas do not hold
+  bool degraded = false;  ///< the target reports that its sigmas are not valid
   world::Vector3 wind_n = world::Vector3::Zero();
   world::Vector3 sigma = world::Vector3::Zero();
   world::Vector3 correlation = world::Vector3::Zero();  ///< north-east, north-down, east-down
@@ -29,9 +29,9 @@ struct WindAnswer {
 
 using WindAnswers = Spool<WindAnswer>;
 
-/// The error (estimated - true) of one wind answer of a filter that had started, at the time of validity of
-/// its cause. Along track is along the true horizontal air velocity, about the heading: the air speed is what
-/// is observed least.
+/// The error (estimated - true) of a wind answer of a started filter, at the time of validity of its cause.
+/// Along track is the direction of the true horizontal air velocity, close to the heading: the air speed is
+/// least observable.
 struct WindError {
   std::int64_t t_us = 0;
   world::Vector3 error_n = world::Vector3::Zero();  ///< NED [m/s]
@@ -43,9 +43,9 @@ struct WindError {
 Spool<WindError> wind_errors(const WindAnswers& answers, const world::GlideRecord& glide);
 
 /// NIS (9 degrees of freedom) of each update.
-Spool<quantities::Told> nis_of(const WindAnswers& answers);
-/// NEES of the wind (3 degrees of freedom), with the covariance that the bus carries.
-Spool<quantities::Told> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
+Spool<quantities::TrackPoint> nis_of(const WindAnswers& answers);
+/// NEES of the wind (3 degrees of freedom), with the covariance on the bus.
+Spool<quantities::TrackPoint> nees_of(const WindAnswers& answers, const world::GlideRecord& glide);
 
 std::unique_ptr<Reception> wind_reception();
 

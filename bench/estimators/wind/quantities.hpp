@@ -1,11 +1,11 @@
-// What a wind estimate tells.
+// Quantities of the wind estimate.
 #pragma once
 
 #include "bench/quantities/list.hpp"
 
 namespace canhil::quantities {
 
-/// Along the horizontal air velocity, to its right, down; the norm is of all three.
+/// Along the horizontal air velocity, to its right, and down; the norm of all three.
 inline constexpr Quantity wind_along{.name = "wind.along",
                                      .meaning = "error of the wind along the horizontal air velocity",
                                      .unit = mps,
@@ -27,18 +27,18 @@ inline constexpr Quantity wind_nis{.name = "wind.nis",
                                    .unit = plain,
                                    .degrees_of_freedom = 9,
                                    .white = true,
-                                   .may_be_untold = true,
+                                   .nan_allowed = true,
                                    .once = "wind_nis"};
 inline constexpr Quantity wind_nees{
     .name = "wind.nees",
-    .meaning = "normalised error squared of the wind, with sigmas and correlations as told",
+    .meaning = "normalised error squared of the wind, with sigmas and correlations as reported",
     .unit = plain,
     .degrees_of_freedom = 3,
     .once = "wind_nees"};
-/// As the target tells it.
+/// As the target reports it.
 inline constexpr Quantity wind_along_sigma{
     .name = "wind.along.sigma",
-    .meaning = "sigma of the wind along the track as the target tells it",
+    .meaning = "sigma of the wind along the track as the target reports it",
     .unit = mps,
     .once = "wind_along_sigma"};
 

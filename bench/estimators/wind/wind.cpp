@@ -28,9 +28,9 @@ using namespace quantities;
 constexpr std::array<const Quantity*, 8> kept{&wind_along, &wind_cross,       &wind_down,          &wind_nis,
                                               &wind_nees,  &wind_along_sigma, &trusted_over_sigma, &degraded};
 
-double of_all_three(const Samples& samples, std::size_t place) {
-  return std::hypot(samples.value(place, wind_along), samples.value(place, wind_cross),
-                    samples.value(place, wind_down));
+double of_all_three(const Samples& samples, std::size_t index) {
+  return std::hypot(samples.value(index, wind_along), samples.value(index, wind_cross),
+                    samples.value(index, wind_down));
 }
 constexpr std::array derived{Derived{.quantity = &wind_norm, .of = of_all_three}};
 
@@ -53,10 +53,10 @@ Samples samples_of(const checks::Observations& seen, const Truth& truth) {
         errors[i].along_track,
         errors[i].cross_track,
         errors[i].error_n.z(),
-        updated ? told(answer->nis) : std::numeric_limits<double>::quiet_NaN(),
-        told(normalised[i].value),
+        updated ? infinite_if_nan(answer->nis) : std::numeric_limits<double>::quiet_NaN(),
+        infinite_if_nan(normalised[i].value),
         answer->along_track_sigma,
-        told(trusted),
+        infinite_if_nan(trusted),
         answer->degraded ? 1.0 : 0.0};
     samples.add(errors[i].t_us, values);
     ++answer;
@@ -69,11 +69,11 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
   const WindAnswers& answers = seen.of<WindAnswers>();
   const auto errors = wind_errors(answers, *truth.glide);
   const Answering of{longest_wait_us(seen, messages::WindUpdate::info.name), truth.glide->end_us()};
-  const auto fill = [&](Track track, auto told) {
+  const auto fill = [&](Track track, auto point_of) {
     AnswerTo answer(answers);
     for (const WindError& e : errors) {
-      track.told.push_back(told(answer(e.t_us), e));
-      track.told.back().t_us = e.t_us;
+      track.points.push_back(point_of(answer(e.t_us), e));
+      track.points.back().t_us = e.t_us;
     }
     give(std::move(track));
   };
@@ -84,20 +84,20 @@ void tracks_of(const checks::Observations& seen, const Truth& truth, const Track
               track.estimate_unit = mps;
               fill(std::move(track), [=](const WindAnswer& answer, const WindError& e) {
                 const double estimate = answer.wind_n(axis);
-                return Told{.value = e.error_n(axis),
-                            .sigma = answer.sigma(axis),
-                            .estimate = estimate,
-                            .truth = estimate - e.error_n(axis)};
+                return TrackPoint{.value = e.error_n(axis),
+                                  .sigma = answer.sigma(axis),
+                                  .estimate = estimate,
+                                  .truth = estimate - e.error_n(axis)};
               });
             });
   fill(judged(of.track(wind_along, "wind error along track")), [](const auto& answer, const WindError& e) {
-    return Told{.value = e.along_track, .sigma = answer.along_track_sigma};
+    return TrackPoint{.value = e.along_track, .sigma = answer.along_track_sigma};
   });
   fill(judged(of.track(wind_cross, "wind error cross track")), [](const auto& answer, const WindError& e) {
-    return Told{.value = e.cross_track, .sigma = answer.cross_track_sigma};
+    return TrackPoint{.value = e.cross_track, .sigma = answer.cross_track_sigma};
   });
   fill(judged(of.track(wind_norm, "wind error norm")),
-       [](const auto&, const WindError& e) { return Told{.value = e.error_n.norm()}; });
+       [](const auto&, const WindError& e) { return TrackPoint{.value = e.error_n.norm()}; });
   give(of.statistic(wind_nis, "normalised innovation squared", nis_of(answers)));
   give(judged(of.statistic(wind_nees, "normalised error squared", nees_of(answers, *truth.glide))));
 }
@@ -138,17 +138,17 @@ std::vector<ResultLine> results_of(const checks::Observations& seen, const Truth
   add("along_track", "along track", [](const WindError& error) { return error.along_track; });
   add("cross_track", "across", [](const WindError& error) { return error.cross_track; });
   add("down", "down", [](const WindError& error) { return error.error_n.z(); });
-  ResultLine told{.name = "told", .what = "told at the end"};
+  ResultLine at_end{.name = "told", .what = "reported at the end"};
   if (!seen.of<WindAnswers>().empty()) {
     const double sigma = seen.of<WindAnswers>().back().along_track_sigma;
-    told.add("along_track_sigma", sigma, fmt::format("sigma along track {:.3f} m/s", sigma));
+    at_end.add("along_track_sigma", sigma, fmt::format("sigma along track {:.3f} m/s", sigma));
   }
-  return {std::move(mean), std::move(told)};
+  return {std::move(mean), std::move(at_end)};
 }
 
 constexpr std::array closing{messages::WindUpdate::info.name};
 
-// The filter may answer less often than it is told of the navigation.
+// The filter may answer less often than it receives navigation groups.
 Freshness freshness_of(const scenario::Scenario& scenario) {
   const scenario::NodeSettings* navigation = scenario.node("glider_nav");
   if (navigation == nullptr) return {};
@@ -180,7 +180,7 @@ constinit const Estimator wind{.name = "wind",
                                .facts = {.parameters = parameters,
                                          .nodes = nodes,
                                          .truth = scenario::TruthOf::glide,
-                                         .start = scenario::Start::own_truth,
+                                         .start = scenario::Start::per_run_truth,
                                          .start_errors = "[glide.initial_error]"},
                                .layout = layout,
                                .of_runs = of_runs,

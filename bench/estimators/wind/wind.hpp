@@ -1,4 +1,4 @@
-// Wind velocity of a glider: a sample is an answer of a filter that runs.
+// Wind velocity of a glider: a sample is an answer of a running filter.
 #pragma once
 
 #include "bench/checks/estimator.hpp"

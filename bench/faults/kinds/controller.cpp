@@ -10,14 +10,15 @@ namespace {
 
 constexpr int passive_from = 128;  // ISO 11898-1, fault confinement
 
-// A driver writes error frames itself: only where there is none may somebody else.
+// A controller's driver writes error frames itself; only vcan accepts them from others.
 std::string needs_vcan(const Place& place) {
   switch (place.interface) {
     case Place::Interface::virtual_can:
       return {};
     case Place::Interface::controller:
-      return fmt::format("is for a controller's driver to tell, which '{}' has, expected a vcan interface",
-                         place.bus);
+      return fmt::format(
+          "can only be reported by a controller's driver, which '{}' has, expected a vcan interface",
+          place.bus);
     case Place::Interface::none:
       break;
   }
@@ -27,24 +28,24 @@ std::string needs_vcan(const Place& place) {
 class ReportedErrors final : public Repeated {
  public:
   ReportedErrors(const ErrorFrames& kind, const InRun& run)
-      : Repeated(kind.when, kind.period_us, run), hands_(run.hands) {}
+      : Repeated(kind.when, kind.period_us, run), rig_(run.hands) {}
 
  private:
   void strike(std::vector<Frame>& /*out*/) override {
-    hands_->report_error(error_frame({.seen = SeenError::stuff}));
+    rig_->report_error(error_frame({.seen = SeenError::stuff}));
   }
-  Hands* hands_;
+  RigControl* rig_;
 };
 
-// A state of the controller, and what it comes back to.
+// A state of the controller, and the state to which it returns.
 class ReportedState final : public Switched {
  public:
   ReportedState(const When& when, const InRun& run, const ControllerNews& begin, const ControllerNews& end)
       : Switched(when, run), begin_(error_frame(begin)), end_(error_frame(end)) {}
 
  private:
-  void on(std::int64_t /*for_us*/) override { hands_->report_error(begin_); }
-  void off() override { hands_->report_error(end_); }
+  void on(std::int64_t /*for_us*/) override { rig_->report_error(begin_); }
+  void off() override { rig_->report_error(end_); }
   Frame begin_, end_;
 };
 
@@ -53,15 +54,16 @@ class Downs final : public Switched {
   using Switched::Switched;
 
  private:
-  void on(std::int64_t for_us) override { hands_->interface_down(for_us); }
-  void off() override { hands_->interface_up(); }
+  void on(std::int64_t for_us) override { rig_->interface_down(for_us); }
+  void off() override { rig_->interface_up(); }
 };
 
 }  // namespace
 
 ErrorFrames ErrorFrames::read(scenario::Section& section, const scenario::FaultContext& context) {
   return {.when = read_when(section, context, Repeats::stretch),
-          .period_us = section.time_us("period_ms", scenario::Limits::above(0))};
+          .period_us =
+              section.time_us({"period_ms", "Time from an error to the next."}, scenario::Limits::above(0))};
 }
 std::string ErrorFrames::cannot(const Place& place) const { return needs_vcan(place); }
 std::unique_ptr<Injector> ErrorFrames::injector(const InRun& run) const {

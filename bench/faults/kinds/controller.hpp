@@ -1,13 +1,14 @@
-// What the driver of a CAN controller reports, and the interface itself.
+// Faults that the driver of a CAN controller reports, and outages of the interface itself.
 #pragma once
 
 #include "bench/faults/rule.hpp"
 
 namespace canhil::faults {
 
-/// An error frame of the bus every so often: a protocol error that the controller saw.
+/// Periodic error frames: protocol errors that the controller detected.
 struct ErrorFrames {
   static constexpr std::string_view kind = "error_frame";
+  static constexpr std::string_view meaning = "The driver reports errors on the bus.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::int64_t period_us = 0;
@@ -16,9 +17,11 @@ struct ErrorFrames {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The controller is error passive, then error active again.
+/// The controller becomes error passive, then error active again.
 struct ErrorPassive {
   static constexpr std::string_view kind = "error_passive";
+  static constexpr std::string_view meaning =
+      "The driver reports that the controller is error passive, then active. Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static ErrorPassive read(scenario::Section& section, const scenario::FaultContext& context);
@@ -26,9 +29,11 @@ struct ErrorPassive {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The controller is off the bus, then restarted.
+/// The controller goes bus-off, then is restarted.
 struct BusOff {
   static constexpr std::string_view kind = "bus_off";
+  static constexpr std::string_view meaning =
+      "The driver reports that the controller is off the bus, then restarted. Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static BusOff read(scenario::Section& section, const scenario::FaultContext& context);
@@ -36,9 +41,10 @@ struct BusOff {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// The interface is set down, then up.
+/// The interface is set down, then up again.
 struct InterfaceDown {
   static constexpr std::string_view kind = "interface_down";
+  static constexpr std::string_view meaning = "The interface is set down, then up. Needs `for_s`.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   static InterfaceDown read(scenario::Section& section, const scenario::FaultContext& context);

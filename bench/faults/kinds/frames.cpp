@@ -27,7 +27,7 @@ class DamagedFrames final : public OfFrames {
  private:
   void put(Own& own, const Frame& frame, std::int64_t /*t_us*/, std::vector<Frame>& left) override {
     Frame& damaged = left.emplace_back(frame);
-    damaged.unrounded = false;  // or the value beside the bytes would be the old one
+    damaged.unrounded = false;  // otherwise the unrounded value beside the bytes would remain
     if (!bits_) {
       damaged.data[std::min<std::size_t>(3, frame.size - 1)] ^= 0x10U;
       return;
@@ -35,7 +35,7 @@ class DamagedFrames final : public OfFrames {
     for (std::int64_t flipped = 0; flipped < std::min<std::int64_t>(*bits_, 8 * frame.size);) {
       const auto at = static_cast<std::size_t>(stream_.uniform() * 8 * frame.size);
       const auto bit = static_cast<std::uint8_t>(1U << (at % 8));
-      if (((damaged.data[at / 8] ^ frame.data[at / 8]) & bit) != 0) continue;  // each once
+      if (((damaged.data[at / 8] ^ frame.data[at / 8]) & bit) != 0) continue;  // flip each bit only once
       damaged.data[at / 8] ^= bit;
       ++flipped;
     }
@@ -82,7 +82,7 @@ Damaged Damaged::read(scenario::Section& section, const scenario::FaultContext& 
   Damaged kind;
   kind.of = read_messages(section, context);
   kind.when = read_when(section, context, Repeats::each);
-  kind.bits = section.optional_integer("bits", 1);
+  kind.bits = section.optional_integer({"bits", "So many random bits change. By default one."}, 1);
   return kind;
 }
 

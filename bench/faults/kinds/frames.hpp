@@ -1,4 +1,4 @@
-// Frames on their way to the bus that get lost, doubled, or another form.
+// Frames that are lost, repeated, or changed in form on their way to the bus.
 #pragma once
 
 #include "bench/faults/of_frames.hpp"
@@ -6,15 +6,15 @@
 
 namespace canhil::faults {
 
-/// What all kinds of frames have in common.
+/// Shared by all kinds of frame faults.
 struct Frames {
   static constexpr Stage stage = Stage::bus;
   OfMessages of{};
   When when{};
-  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::string subject() const { return of.text; }
 };
 
-/// A kind that changes each frame by itself: `Kind::change`.
+/// A kind that changes each frame independently: `Kind::change`.
 template <class Kind>
 struct EachFrame : Frames {
   static Kind read(scenario::Section& section, const scenario::FaultContext& context) {
@@ -28,41 +28,47 @@ struct EachFrame : Frames {
   }
 };
 
-/// Not sent.
+/// The frame is not sent.
 struct Lost : EachFrame<Lost> {
   static constexpr std::string_view kind = "lost";
+  static constexpr std::string_view meaning = "The frame is not sent.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
-/// Sent twice.
+/// The frame is sent twice.
 struct Repetition : EachFrame<Repetition> {
   static constexpr std::string_view kind = "repeated";
+  static constexpr std::string_view meaning = "The frame is sent twice.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
-/// Without its last byte.
+/// The frame lacks its last byte.
 struct TooShort : EachFrame<TooShort> {
   static constexpr std::string_view kind = "too_short";
+  static constexpr std::string_view meaning = "The frame lacks its last byte.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
-/// With more bytes than the message has, zeros.
+/// The frame has additional bytes, all zero.
 struct TooLong : EachFrame<TooLong> {
   static constexpr std::string_view kind = "too_long";
+  static constexpr std::string_view meaning = "The frame has more bytes than the message.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
   [[nodiscard]] std::string cannot(const Place& place) const;
 };
 
-/// As an extended frame, with 29 bits of id.
+/// The frame is extended, with a 29-bit id.
 struct ForeignFormat : EachFrame<ForeignFormat> {
   static constexpr std::string_view kind = "foreign";
+  static constexpr std::string_view meaning = "The frame comes as an extended frame, with 29 bits of id.";
   static void change(const MessageInfo& message, const Frame& frame, std::vector<Frame>& left);
 };
 
-/// Bits of the payload are others, the CRC is as it was.
+/// Bits of the payload are flipped, the CRC is unchanged.
 struct Damaged : Frames {
   static constexpr std::string_view kind = "damaged";
-  std::optional<std::int64_t> bits{};  ///< so many at random; none: one of the first signal of a measurement
+  static constexpr std::string_view meaning = "A bit of the payload changes, and the CRC stays.";
+  std::optional<std::int64_t> bits{};  ///< how many random bits; none: one bit of the first measured signal
   static Damaged read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };

@@ -20,7 +20,7 @@ using scenario::FaultContext;
 using scenario::NodeSettings;
 using scenario::Section;
 
-// A mapping plays the samples at times of its own.
+// A mapping plays samples at its own times.
 std::string needs_contract(const Place& place) {
   return place.mapped ? "has no effect on a mapping, which plays samples by its own times, expected a target "
                         "that speaks canhil's contract"
@@ -51,7 +51,7 @@ class SilentNode final : public BefallenNode {
       if (gone > 0 && !restarts_) ++tally().count;
       return;
     }
-    // However short it was away: there may be no sample in that time.
+    // Also if it was away so briefly that no sample was due.
     if (restarts_ && t_us > when_.to_us) {
       restarts_ = false;
       recount_.begin_at_zero();
@@ -62,7 +62,7 @@ class SilentNode final : public BefallenNode {
     }
   }
   When when_;
-  bool restarts_;  // and has not yet
+  bool restarts_;  // a restart is still to come
   Recount recount_;
 };
 
@@ -91,7 +91,8 @@ class LateNode final : public BefallenNode {
   }
   std::int64_t by_us_;
   Occasions occasions_;
-  std::deque<std::pair<std::int64_t, std::vector<Frame>>> waiting_;  // by their times: all wait as long
+  std::deque<std::pair<std::int64_t, std::vector<Frame>>>
+      waiting_;  // in order of time: the delay is the same for all
 };
 
 class SlowNode final : public BefallenNode {
@@ -100,7 +101,7 @@ class SlowNode final : public BefallenNode {
       : BefallenNode(std::move(node), settings, run), when_(kind.when), longer_(kind.longer) {}
 
  private:
-  // Sample k of the fault's time would be sent at k periods; it is where the slower clock comes to its next.
+  // Sample k of the fault's time is due at k periods of the slower clock.
   void befall(std::vector<Frame>& frames, std::int64_t t_us) override {
     if (frames.empty() || !is_own(frames.front())) return;
     if (!when_.holds(t_us)) {
@@ -135,14 +136,14 @@ class SlowNode final : public BefallenNode {
   }
   When when_;
   double longer_;
-  double ticks_us_ = 0;                      // when it sends next; 0: as always
-  std::map<std::string_view, double> kept_;  // of samples that were not sent, by signal
+  double ticks_us_ = 0;                      // when it sends next; 0: unaffected
+  std::map<std::string_view, double> kept_;  // increments of samples that were not sent, by signal
   Recount recount_;
 };
 
 class WrongClock final : public BefallenNode {
  public:
-  /// Tells t + by + rate (t - from).
+  /// The reported time is t + by + rate (t - from).
   WrongClock(std::unique_ptr<Node> node, const NodeSettings& settings, const InRun& run, const When& when,
              std::int64_t by_us, double rate)
       : BefallenNode(std::move(node), settings, run), when_(when), by_us_(by_us), rate_(rate) {}
@@ -161,8 +162,8 @@ class WrongClock final : public BefallenNode {
           interval(frame, value);
         } else if (signal.name.starts_with("time_of_validity")) {
           const double turn = std::ldexp(signal.scale, static_cast<int>(signal.length));
-          const double told = value.value + off_us;
-          set(frame, signal.name, told - turn * std::floor(told / turn));
+          const double sent = value.value + off_us;
+          set(frame, signal.name, sent - turn * std::floor(sent / turn));
           ++tally().count;
           ++tally().changed;
           ++tally().changed_times;
@@ -174,9 +175,9 @@ class WrongClock final : public BefallenNode {
     if (rate_ == 0) return;
     const double wanted = value.value * (1 + rate_) + remainder_us_;
     const double step = wire::lsb(*value.signal);
-    const double told = std::nearbyint(wanted / step) * step;
-    remainder_us_ = wanted - told;
-    set(frame, value.signal->name, told);
+    const double sent = std::nearbyint(wanted / step) * step;
+    remainder_us_ = wanted - sent;
+    set(frame, value.signal->name, sent);
   }
   When when_;
   std::int64_t by_us_;
@@ -197,8 +198,10 @@ std::unique_ptr<Node> Silent::wrap(std::unique_ptr<Node> node, const NodeSetting
 NodeRestart NodeRestart::read(Section& section, const FaultContext& context) {
   NodeRestart kind;
   kind.table = read_node(section, context);
-  kind.when.from_us = section.time_us("from_s", scenario::Limits::at_least(0));
-  kind.when.to_us = kind.when.from_us + section.time_us("silent_s", scenario::Limits::at_least(0));
+  kind.when.from_us = section.time_us({"from_s", "Begin of the fault, by time of transmission."},
+                                      scenario::Limits::at_least(0));
+  kind.when.to_us = kind.when.from_us + section.time_us({"silent_s", "Time in which the node is silent."},
+                                                        scenario::Limits::at_least(0));
   return kind;
 }
 std::unique_ptr<Node> NodeRestart::wrap(std::unique_ptr<Node> node, const NodeSettings& settings,
@@ -208,7 +211,8 @@ std::unique_ptr<Node> NodeRestart::wrap(std::unique_ptr<Node> node, const NodeSe
 
 Late Late::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<Late>(section, context, Repeats::each);
-  kind.by_us = section.time_us("by_ms", scenario::Limits::above(0));
+  kind.by_us = section.time_us({"by_ms", "Size of the delay, or of the step of the clock."},
+                               scenario::Limits::above(0));
   return kind;
 }
 std::string Late::cannot(const Place& place) const { return needs_contract(place); }
@@ -219,7 +223,8 @@ std::unique_ptr<Node> Late::wrap(std::unique_ptr<Node> node, const NodeSettings&
 
 Slow Slow::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<Slow>(section, context);
-  kind.longer = 1 + section.number("longer_percent", scenario::Limits::above(0, 100));
+  kind.longer = 1 + section.number({"longer_percent", "So much longer is the period."},
+                                   scenario::Limits::above(0, 100));
   return kind;
 }
 std::string Slow::cannot(const Place& place) const { return needs_contract(place); }
@@ -230,7 +235,7 @@ std::unique_ptr<Node> Slow::wrap(std::unique_ptr<Node> node, const NodeSettings&
 
 ClockStep ClockStep::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockStep>(section, context);
-  kind.by_us = section.time_us("by_ms", {});
+  kind.by_us = section.time_us({"by_ms", "Size of the delay, or of the step of the clock."}, {});
   return kind;
 }
 std::string ClockStep::cannot(const Place& place) const { return needs_contract(place); }
@@ -241,7 +246,8 @@ std::unique_ptr<Node> ClockStep::wrap(std::unique_ptr<Node> node, const NodeSett
 
 ClockDrift ClockDrift::read(Section& section, const FaultContext& context) {
   auto kind = read_of_node<ClockDrift>(section, context);
-  kind.rate = section.number("by_ppm", scenario::Limits::between(-1e5, 1e5));
+  kind.rate =
+      section.number({"by_ppm", "So much faster is the clock."}, scenario::Limits::between(-1e5, 1e5));
   return kind;
 }
 std::string ClockDrift::cannot(const Place& place) const { return needs_contract(place); }

@@ -1,5 +1,5 @@
-// A node that does not work as it should: its numbers are right, but when it sends, what it counts or which
-// time it tells is not.
+// Malfunctions of a node as a whole: its values are right, but its transmission times, its counters or its
+// reported times are wrong.
 #pragma once
 
 #include "bench/faults/read.hpp"
@@ -7,7 +7,7 @@
 
 namespace canhil::faults {
 
-/// What all kinds of nodes have in common: `Kind::wrap` makes of the node the befallen one.
+/// Shared by all kinds of node faults: `Kind::wrap` wraps the node in the fault.
 template <class Kind>
 struct OfNode {
   static constexpr Stage stage = Stage::node;
@@ -22,27 +22,31 @@ struct OfNode {
   }
 };
 
-/// Sends nothing, and counts nothing.
+/// The node sends nothing, and its counters stand still.
 struct Silent : OfNode<Silent> {
   static constexpr std::string_view kind = "silent";
+  static constexpr std::string_view meaning =
+      "The node sends nothing, and goes on where it stopped. Increments of that time are gone.";
   static Silent read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
                                                   const scenario::NodeSettings& settings,
                                                   const InRun& run) const;
 };
 
-/// Silent for a time; then its counters begin at 0, and what it measured meanwhile is gone.
+/// Silent for a time; then its counters restart at 0, and its measurements of that time are lost.
 struct NodeRestart : OfNode<NodeRestart> {
   static constexpr std::string_view kind = "restart";
+  static constexpr std::string_view meaning = "The node is silent for a time; then its counters begin at 0.";
   static NodeRestart read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
                                                   const scenario::NodeSettings& settings,
                                                   const InRun& run) const;
 };
 
-/// Its samples leave later; their time of validity is right.
+/// Its samples are sent late; their time of validity is right.
 struct Late : OfNode<Late> {
   static constexpr std::string_view kind = "late";
+  static constexpr std::string_view meaning = "The sample leaves later; its time of validity is right.";
   static constexpr Stage stage = Stage::sensor;
   std::int64_t by_us = 0;
   static Late read(scenario::Section& section, const scenario::FaultContext& context);
@@ -52,10 +56,12 @@ struct Late : OfNode<Late> {
                                                   const InRun& run) const;
 };
 
-/// It sends less often than it should: each time the newest sample, with the increments of those between.
+/// It sends less often: each time the newest sample, with the sum of the increments since the last one.
 struct Slow : OfNode<Slow> {
   static constexpr std::string_view kind = "slow";
-  double longer = 0;  ///< its period, as a share of the right one
+  static constexpr std::string_view meaning =
+      "The node's period is longer: it sends its newest sample, with the increments of those between.";
+  double longer = 0;  ///< the additional period, as a fraction of the right one
   static Slow read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
   [[nodiscard]] std::unique_ptr<nodes::Node> wrap(std::unique_ptr<nodes::Node> node,
@@ -63,9 +69,10 @@ struct Slow : OfNode<Slow> {
                                                   const InRun& run) const;
 };
 
-/// The time that it tells is off.
+/// Its reported times have an offset.
 struct ClockStep : OfNode<ClockStep> {
   static constexpr std::string_view kind = "clock_step";
+  static constexpr std::string_view meaning = "The times of validity of the node are off.";
   std::int64_t by_us = 0;
   static ClockStep read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
@@ -74,9 +81,11 @@ struct ClockStep : OfNode<ClockStep> {
                                                   const InRun& run) const;
 };
 
-/// Its clock goes too fast, and so do the intervals that it tells.
+/// Its clock runs too fast, which also affects its reported intervals.
 struct ClockDrift : OfNode<ClockDrift> {
   static constexpr std::string_view kind = "clock_drift";
+  static constexpr std::string_view meaning =
+      "The clock of the node is too fast, and so are the intervals that it sends.";
   double rate = 0;
   static ClockDrift read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;

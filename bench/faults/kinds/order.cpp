@@ -25,7 +25,7 @@ class DelayedFrames final : public OfFrames {
     ++tally().overtaken;
   }
   std::int64_t by_us_;
-  std::deque<std::pair<std::int64_t, Frame>> waiting_;  // by their times: all wait as long
+  std::deque<std::pair<std::int64_t, Frame>> waiting_;  // in order of time: the delay is the same for all
 };
 
 class ReorderedFrames final : public OfFrames {
@@ -33,7 +33,7 @@ class ReorderedFrames final : public OfFrames {
   using OfFrames::OfFrames;
 
  private:
-  // Two that follow each other change places; the second of them is not held back too.
+  // Swaps two successive frames; the second one is not held back too.
   void put(Own& own, const Frame& frame, std::int64_t /*t_us*/, std::vector<Frame>& left) override {
     if (own.held) return pass(own, frame, left);
     own.held = frame;
@@ -52,7 +52,7 @@ Delayed Delayed::read(scenario::Section& section, const scenario::FaultContext& 
   Delayed kind;
   kind.of = read_messages(section, context);
   kind.when = read_when(section, context, Repeats::each);
-  kind.by_us = section.time_us("by_ms", scenario::Limits::above(0));
+  kind.by_us = section.time_us({"by_ms", "Size of the delay."}, scenario::Limits::above(0));
   return kind;
 }
 

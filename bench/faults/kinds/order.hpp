@@ -1,21 +1,23 @@
-// Frames that come to the bus at another time than they were sent.
+// Frames that reach the bus later than they were sent.
 #pragma once
 
 #include "bench/faults/kinds/frames.hpp"
 
 namespace canhil::faults {
 
-/// Later by a time; frames that are not befallen overtake it.
+/// Delayed by a time; unaffected frames overtake it.
 struct Delayed : Frames {
   static constexpr std::string_view kind = "delayed";
+  static constexpr std::string_view meaning = "The frame comes to the bus later.";
   std::int64_t by_us = 0;
   static Delayed read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// After the next frame of its message.
+/// Sent after the next frame of its message.
 struct Reordered : Frames {
   static constexpr std::string_view kind = "reordered";
+  static constexpr std::string_view meaning = "The frame comes after the next one of its message.";
   static Reordered read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };

@@ -1,4 +1,4 @@
-// Frames that no node of the scenario sends.
+// Frames that are not from any node of the scenario.
 #pragma once
 
 #include <optional>
@@ -7,9 +7,10 @@
 
 namespace canhil::faults {
 
-/// Of an id that nobody has on this bus, with a random payload.
+/// A frame with an unused id and a random payload.
 struct Stranger {
   static constexpr std::string_view kind = "stranger";
+  static constexpr std::string_view meaning = "Frames of an id that nobody has, with random bytes.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::int64_t period_us = 0;
@@ -18,13 +19,14 @@ struct Stranger {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// Of the highest priority: they go before all others.
+/// Frames of the highest priority: they precede all others.
 struct Flood {
   static constexpr std::string_view kind = "flood";
+  static constexpr std::string_view meaning = "Frames of the highest priority.";
   static constexpr Stage stage = Stage::bus;
   When when{};
   std::optional<std::int64_t> period_us{};
-  double load = 0;  ///< where there is no period: of the bus's bit rate
+  double load = 0;  ///< if there is no period: a fraction of the bus's bit rate
   static Flood read(scenario::Section& section, const scenario::FaultContext& context);
   [[nodiscard]] std::string cannot(const Place& place) const;
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;

@@ -67,7 +67,7 @@ std::vector<Measured> flags_of(const MessageInfo& message) {
   return flags;
 }
 
-// By the message of a quantity, or by what else there is in its sample.
+// In the message of the quantity, or else in another message of its sample.
 std::vector<Measured> flags_for(const MessageInfo& message) {
   std::vector<Measured> flags = flags_of(message);
   if (!flags.empty()) return flags;
@@ -90,7 +90,7 @@ Swapped Swapped::read(scenario::Section& section, const scenario::FaultContext& 
   if (one == other || one->si != other->si || one->node != other->node || one->over != other->over)
     section.reject("with", fmt::format("'{}' is not like '{}'", other->name, one->name),
                    "another quantity of the same node and unit");
-  kind.one = {.all = {measured(*one)}, .words = one->name + " " + other->name};
+  kind.one = {.all = {measured(*one)}, .text = one->name + " " + other->name};
   kind.other = measured(*other);
   return kind;
 }
@@ -110,7 +110,7 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
     section.refuse("quantity", "is given beside node", "one of the two");
     const scenario::NodeTable* node = read_node(section, context);
     if (node != nullptr) {
-      kind.words = node->key;
+      kind.text = node->key;
       for (const MessageInfo& message : messages::all_messages) {
         if (!sends(*node, message)) continue;
         const auto more = flags_of(message);
@@ -120,12 +120,11 @@ Invalid Invalid::read(scenario::Section& section, const scenario::FaultContext& 
   } else {
     section.optional("node");
     if (const mapping::Stimulus* stimulus = read_quantity(section, context, key); stimulus != nullptr) {
-      kind.words = stimulus->name;
+      kind.text = stimulus->name;
       kind.flags = flags_for(*stimulus->message);
     }
   }
-  if (kind.flags.empty())
-    section.reject(key, "has no flag by which its sensor vouches for a sample", "one that has");
+  if (kind.flags.empty()) section.reject(key, "has no validity flag", "one that has");
   kind.when = read_when(section, context, Repeats::each);
   return kind;
 }

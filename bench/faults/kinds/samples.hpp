@@ -1,4 +1,4 @@
-// Samples of a sensor that say something else than it measures, though each number for itself is right.
+// Samples with wrong content, although each number alone is plausible.
 #pragma once
 
 #include "bench/faults/read.hpp"
@@ -6,29 +6,32 @@
 
 namespace canhil::faults {
 
-/// Two numbers of a sample have each other's value.
+/// Two values of a sample are swapped.
 struct Swapped {
   static constexpr std::string_view kind = "swapped";
+  static constexpr std::string_view meaning = "Two quantities of a node have each other's value.";
   static constexpr Stage stage = Stage::sensor;
   OfValues one{};
   Measured other{};
   When when{};
   static Swapped read(scenario::Section& section, const scenario::FaultContext& context);
-  [[nodiscard]] std::string subject() const { return one.words; }
+  [[nodiscard]] std::string subject() const { return one.text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const;
 };
 
-/// The sensor does not vouch for it.
+/// The sample is flagged invalid.
 struct Invalid {
   static constexpr std::string_view kind = "invalid";
+  static constexpr std::string_view meaning =
+      "The flags by which the sensor vouches for the sample say invalid.";
   static constexpr Stage stage = Stage::sensor;
   std::vector<Measured> flags{};
-  std::string words{};
+  std::string text{};
   When when{};
   static Invalid read(scenario::Section& section, const scenario::FaultContext& context);
-  [[nodiscard]] std::string subject() const { return words; }
+  [[nodiscard]] std::string subject() const { return text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const;

@@ -1,13 +1,15 @@
-// What is done to the process of a target that the bench has started.
+// Actions on the process of a target that the bench has started.
 #pragma once
 
 #include "bench/faults/rule.hpp"
 
 namespace canhil::faults {
 
-/// It stands still, by SIGSTOP, and goes on.
+/// The process is stopped by SIGSTOP and continued later.
 struct Paused {
   static constexpr std::string_view kind = "paused";
+  static constexpr std::string_view meaning =
+      "The target's process stands still (SIGSTOP), then goes on. Needs `for_s`.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Paused read(scenario::Section& section, const scenario::FaultContext& context);
@@ -15,9 +17,11 @@ struct Paused {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// It has a share of the time: in each period it stands still for the rest.
+/// The process gets only a fraction of the time: in each period it is stopped for the rest.
 struct Slowed {
   static constexpr std::string_view kind = "slowed";
+  static constexpr std::string_view meaning =
+      "The target's process stands still for the rest of each period.";
   static constexpr Stage stage = Stage::target;
   When when{};
   double share = 1;
@@ -27,9 +31,12 @@ struct Slowed {
   [[nodiscard]] std::unique_ptr<Injector> injector(const InRun& run) const;
 };
 
-/// It is killed, started again, and told the state of that time. Meanwhile the bench sends nothing else.
+/// The process is killed, started again and initialised with the state at that time. Meanwhile the bench
+/// sends nothing else.
 struct Restarted {
   static constexpr std::string_view kind = "restarted";
+  static constexpr std::string_view meaning =
+      "The target's process is killed and started again, with the state of that time.";
   static constexpr Stage stage = Stage::target;
   When when{};
   static Restarted read(scenario::Section& section, const scenario::FaultContext& context);

@@ -1,5 +1,5 @@
-// Values that a sensor measures wrongly: the sample goes out in time, with its counter and CRC right. A
-// number is that of a quantity, in SI, or of a signal, in its unit.
+// Wrong measurements of a sensor: the sample is sent in time, with a valid counter and CRC. A value belongs
+// to a quantity, in SI, or to a signal, in its unit.
 #pragma once
 
 #include <functional>
@@ -10,22 +10,22 @@
 
 namespace canhil::faults {
 
-/// A number of a sample in a run.
+/// A value of a sample in a run.
 struct Sampled {
   std::int64_t since_us = 0;    ///< from the start of the fault
-  std::optional<double>& held;  ///< for kinds that remember one: none at the start of each stretch
+  std::optional<double>& held;  ///< for kinds that remember a value: reset at the start of each stretch
   world::Stream& noise;
 };
 using Becomes = std::function<double(double value, const Sampled& sample)>;
 
 /// The node with these values changed; the node itself if it has none of them. `exactly`: without the
-/// remainders of increments.
+/// rounding remainders of increments.
 std::unique_ptr<nodes::Node> with_values(std::unique_ptr<nodes::Node> node,
                                          const scenario::NodeSettings& settings, const InRun& run,
                                          const OfValues& of, const When& when, Becomes becomes,
                                          bool exactly = false);
 
-/// What all these kinds have in common: `Kind::becomes` says what a number is.
+/// Shared by all these kinds: `Kind::becomes` computes the wrong value.
 template <class Kind>
 struct EachValue {
   static constexpr Stage stage = Stage::sensor;
@@ -41,7 +41,7 @@ struct EachValue {
     if constexpr (requires { kind.check(section); }) kind.check(section);
     return kind;
   }
-  [[nodiscard]] std::string subject() const { return of.words; }
+  [[nodiscard]] std::string subject() const { return of.text; }
   [[nodiscard]] std::unique_ptr<nodes::Node> befallen(std::unique_ptr<nodes::Node> node,
                                                       const scenario::NodeSettings& settings,
                                                       const InRun& run) const {
@@ -52,64 +52,74 @@ struct EachValue {
   }
 };
 
-/// It is this.
+/// The value is replaced.
 struct Changed : EachValue<Changed> {
   static constexpr std::string_view kind = "changed", stem = "value";
+  static constexpr std::string_view meaning = "A sensor's value is this; a flag is 0 or 1.";
   static constexpr scenario::Limits limits{};
   static constexpr bool exactly = true;
   void check(scenario::Section& section) const;
   static double becomes(double /*value*/, double size, const Sampled& /*sample*/) { return size; }
 };
 
-/// A step.
+/// A constant offset.
 struct Bias : EachValue<Bias> {
   static constexpr std::string_view kind = "bias", stem = "by";
+  static constexpr std::string_view meaning = "A sensor's value is so much more.";
   static constexpr scenario::Limits limits{};
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
 };
 
-/// So much more each second.
+/// An offset that grows at a constant rate.
 struct Drift : EachValue<Drift> {
   static constexpr std::string_view kind = "drift", stem = "by";
+  static constexpr std::string_view meaning =
+      "A sensor's value is so much more with each second since `from_s`.";
   static constexpr scenario::Limits limits{};
   static double becomes(double value, double size, const Sampled& sample) {
     return value + size * 1e-6 * static_cast<double>(sample.since_us);
   }
 };
 
-/// Single samples that are off.
+/// Single samples have an offset.
 struct Spike : EachValue<Spike> {
   static constexpr std::string_view kind = "spike", stem = "by";
+  static constexpr std::string_view meaning =
+      "As `bias`, of single samples: needs `every` above 1 or `percent` below 100.";
   static constexpr scenario::Limits limits{};
   void check(scenario::Section& section) const;
   static double becomes(double value, double size, const Sampled& /*sample*/) { return value + size; }
 };
 
-/// It stays at what it was at the start.
+/// The value stays at what it was at the start of the fault.
 struct Stuck : EachValue<Stuck> {
   static constexpr std::string_view kind = "stuck";
+  static constexpr std::string_view meaning = "A sensor's value stays what it was at the start.";
   static double becomes(double value, double size, const Sampled& sample);
 };
 
-/// No larger than this, to either side.
+/// The value is limited to this magnitude.
 struct Saturated : EachValue<Saturated> {
   static constexpr std::string_view kind = "saturated", stem = "at";
+  static constexpr std::string_view meaning = "A sensor's value is no larger than this, to either side.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample);
 };
 
-/// White noise beside its own, 1-sigma a sample.
+/// Additional white noise, 1-sigma per sample.
 struct Noise : EachValue<Noise> {
   static constexpr std::string_view kind = "noise", stem = "sigma";
+  static constexpr std::string_view meaning = "White noise is added to the sensor's own, 1-sigma a sample.";
   static constexpr scenario::Limits limits = {.least = 0};
   static double becomes(double value, double size, const Sampled& sample) {
     return value + size * sample.noise.normal();
   }
 };
 
-/// It has the wrong sign.
+/// The sign is wrong.
 struct Reversed : EachValue<Reversed> {
   static constexpr std::string_view kind = "reversed";
+  static constexpr std::string_view meaning = "A sensor's value has the wrong sign.";
   static double becomes(double value, double /*size*/, const Sampled& /*sample*/) { return -value; }
 };
 

@@ -1,5 +1,5 @@
-// When the heading's RMS over runs enters 3, 2 and 1 mrad for good: what the transfer-alignment paper tells
-// of a filter.
+// The times from which the heading's RMS over runs stays within 3, 2 and 1 mrad: the results that the
+// transfer-alignment paper gives for a filter.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ using campaign::CurvePoint;
 inline constexpr double never = std::numeric_limits<double>::infinity();
 struct Times {
   double within_3_mrad = never, within_2_mrad = never, within_1_mrad = never;
-  double end_mrad = 0;  ///< RMS at the last update; NaN: no run came there
+  double end_mrad = 0;  ///< RMS at the last update; NaN: no run reached it
 };
 Times times_of(std::span<const CurvePoint> curve);
-/// Of "14.7 / 16.2 / never", blanks or not, or "diverges". Throws std::logic_error.
+/// Parses "14.7 / 16.2 / never", with or without blanks, or "diverges". Throws std::logic_error.
 Times times_in(std::string text);
-/// "14.7 / 16.2 / never"; "diverges (71 mrad at the end)" where the heading is beyond 20 mrad then.
+/// "14.7 / 16.2 / never"; "diverges (71 mrad at the end)" if the heading is then beyond 20 mrad.
 std::string words_of(const Times& times);
 bool diverged(const Times& times);
 
@@ -35,8 +35,8 @@ std::string time_words(double t_s);
 /// Whether a curve over `runs` runs has the times of the reference, a simulation of 150 runs.
 bool agrees(std::span<const CurvePoint> curve, const Times& reference, std::uint64_t runs);
 
-/// What the sampling of runs does to the times of each variant: the smallest and largest of ten batches of a
-/// tenth of the runs, in words. No variant is there where there are fewer than ten runs.
+/// The sampling spread of the times of each variant, as text: the smallest and largest of ten batches, each
+/// with a tenth of the runs. With fewer than ten runs the map is empty.
 Result<std::map<std::string, std::string, std::less<>>> spreads_of(const campaign::Campaign& campaign,
                                                                    const campaign::Store& store);
 

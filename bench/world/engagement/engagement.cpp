@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int64_t longest_step_us = 1000;
 
-// Places in the state.
+// Offsets in the state vector.
 constexpr int relative = 0, missile = 3, target = 6, achieved = 9, attitude = 12, turned = 16,
               accelerated = 19;
 
@@ -25,7 +25,7 @@ Planes<double> error_angles(const Vector3& los_a) {
   return {.pitch = std::atan2(-los_a.z(), los_a.x()), .yaw = std::atan2(los_a.y(), los_a.x())};
 }
 
-// Rate of the line of sight across it: omega = r x v / r^2.
+// Rate of the line of sight, perpendicular to it: omega = r x v / r^2.
 Vector3 los_rate(const Vector3& r, const Vector3& v) { return r.cross(v) / r.squaredNorm(); }
 
 double side(Stream& stream) { return stream.uniform() < 0.5 ? -1.0 : 1.0; }
@@ -38,7 +38,7 @@ const EngagementTruth* EngagementRecord::at(std::int64_t t_us) const {
 }
 
 Engagement::Engagement(const EngagementPlan& plan, Stream stream) : plan_(plan) {
-  // Ten numbers, whatever the plan is.
+  // Always ten numbers, whatever the plan is.
   const Planes<double> heading{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> pointing{.pitch = stream.normal(), .yaw = stream.normal()};
   const Planes<double> sides{.pitch = side(stream), .yaw = side(stream)};
@@ -60,7 +60,7 @@ Engagement::Engagement(const EngagementPlan& plan, Stream stream) : plan_(plan) 
                                   .pitch = plan.pointing_error_sigma * pointing.pitch,
                                   .heading = plan.pointing_error_sigma * pointing.yaw});
   state_.segment<4>(attitude) = Quaternion(C_na).coeffs();
-  // omega x v, v along -x: a turn about y accelerates along z, one about z along y.
+  // omega x v with v along -x: a turn about y accelerates along z, one about z along y.
   if (plan.target_speed > 0)
     turn_ = plan.manoeuvre.acceleration / plan.target_speed *
             Vector3(0, in_pitch * sides.pitch, in_yaw * sides.yaw);
@@ -77,7 +77,7 @@ Vector3 Engagement::target_acceleration(double t, const State& state) const {
   return turn_.cwiseProduct(share).cross(v);
 }
 
-// Proportional navigation across the missile's velocity: a = N vc omega x v/|v|, limited.
+// Proportional navigation perpendicular to the missile's velocity: a = N vc omega x v/|v|, limited.
 Vector3 Engagement::navigation_law(const Vector3& omega_los_n, double closing_speed,
                                    const Vector3& v_missile) const {
   const Vector3 a = plan_.navigation_constant * closing_speed * omega_los_n.cross(v_missile.normalized());
@@ -97,7 +97,7 @@ Engagement::State Engagement::derivative(double t, const State& state) const {
   const Quaternion q_na = quaternion_of(state);
   const Vector3 v_missile = state.segment<3>(missile);
   const Vector3 demand = demanded(state);
-  // The achieved acceleration stays across the velocity, so that the speed is constant.
+  // The achieved acceleration stays perpendicular to the velocity, so the speed is constant.
   const Vector3 ahead = v_missile.normalized();
   const Vector3 a_missile = state.segment<3>(achieved) - ahead * ahead.dot(state.segment<3>(achieved));
   const Planes<double> error = error_angles(q_na.conjugate() * state.segment<3>(relative));
@@ -149,8 +149,8 @@ void Engagement::fly_to(std::int64_t t_us) {
     const double closing = -r.dot(v);
     std::int64_t end_us = std::min(t_us, t_us_ + longest_step_us);
     if (!commands_.empty()) end_us = std::min(end_us, commands_.front().from_us);
-    // The last step goes straight on to the closest approach: within it both fly straight but for
-    // a dt^2 / 2 = 0.2 mm at 35 g, and angles turn too fast for any step.
+    // The last step extrapolates straight to the closest approach: within it the deviation from straight
+    // flight is a dt^2 / 2 = 0.2 mm at 35 g, while angles turn too fast for any step size.
     const double to_approach = closing / v.squaredNorm();
     if (to_approach <= 1e-6 * static_cast<double>(end_us - t_us_)) {
       miss_n_ = r + v * std::max(to_approach, 0.0);

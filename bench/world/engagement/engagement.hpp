@@ -1,4 +1,4 @@
-// One flight of an engagement, stepped on demand: in closed loop it depends on what the target answers.
+// One flight of an engagement, computed on demand: in closed loop it depends on the target's answers.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,40 +10,40 @@
 
 namespace canhil::world {
 
-/// The truth of one instant; angles and rates in the antenna's axes.
+/// The truth at one instant; angles and rates in the antenna's axes.
 struct EngagementTruth {
   std::int64_t t_us = 0;
   double range = 0;                       ///< [m]
   double closing_speed = 0;               ///< -d(range)/dt [m/s]
-  Planes<double> error{};                 ///< LOS off the antenna's axis [rad]
+  Planes<double> error{};                 ///< LOS relative to the antenna's axis [rad]
   Planes<double> los_rate{};              ///< inertial, about y and z [rad/s]
   Planes<double> target{};                ///< its acceleration along z (pitch) and y (yaw) [m/s^2]
   Planes<double> missile{};               ///< the same [m/s^2]
   Vector3 relative_n = Vector3::Zero();   ///< target from missile [m]
   Vector3 velocity_n = Vector3::Zero();   ///< of the target w.r.t. the missile [m/s]
-  Vector3 omega_los_n = Vector3::Zero();  ///< rate of the line of sight, across it [rad/s]
-  Matrix3 C_na = Matrix3::Identity();     ///< takes antenna to n
+  Vector3 omega_los_n = Vector3::Zero();  ///< rate of the line of sight, perpendicular to it [rad/s]
+  Matrix3 C_na = Matrix3::Identity();     ///< transforms from antenna axes to n
 
-  /// To the closest approach if neither accelerates any more; as good as range over closing speed, but for
-  /// the last metres [s].
+  /// Time to the closest approach without further acceleration [s]; equals range over closing speed except in
+  /// the last metres.
   [[nodiscard]] double time_to_go() const { return range * closing_speed / velocity_n.squaredNorm(); }
 };
 
-/// What the antenna's gyros and the missile's accelerometers sum up over an interval, in the antenna's axes.
+/// Integrals of the antenna's gyros and the missile's accelerometers over an interval, in the antenna's axes.
 struct SeekerIncrement {
   std::int64_t interval_us = 0;
   Vector3 delta_theta = Vector3::Zero();        ///< inertial rotation of the antenna: roll, pitch, yaw [rad]
   Vector3 mean_acceleration = Vector3::Zero();  ///< of the missile [m/s^2]
 };
 
-/// What an engagement leaves behind for checks and reports.
+/// The record of an engagement for checks and reports.
 struct EngagementRecord {
   Spool<EngagementTruth> epochs;  ///< at the times of the seeker's samples, ascending
   std::optional<Vector3> miss_n;  ///< target from missile at the closest approach [m]; none: not reached
   std::int64_t passage_us = 0;    ///< time of the closest approach
-  std::size_t late_commands = 0;  ///< that were heard after they should have taken effect
+  std::size_t late_commands = 0;  ///< commands that came after they should have taken effect
 
-  /// The epoch at a time; null: there is none.
+  /// The epoch at a time, or null.
   [[nodiscard]] const EngagementTruth* at(std::int64_t t_us) const;
 };
 
@@ -51,17 +51,16 @@ class Engagement {
  public:
   Engagement(const EngagementPlan& plan, Stream stream);
 
-  /// Flies to a time [us], or to the closest approach. In steps of 1 ms at the most, Runge-Kutta of fourth
-  /// order.
+  /// Flies to a time [us] or to the closest approach. Fourth-order Runge-Kutta in steps of at most 1 ms.
   void fly_to(std::int64_t t_us);
 
-  /// An LOS rate in n [rad/s] and a closing speed [m/s] that guidance acts upon from a time [us] on, until
-  /// the next one: a = N vc omega x v/|v|, held. In order of time. False: that time had been flown before,
-  /// and the command takes effect now.
+  /// An LOS rate in n [rad/s] and a closing speed [m/s] for the guidance, effective from a time [us] until
+  /// the next command: a = N vc omega x v/|v|, held. Commands come in order of time. False: the flight had
+  /// already passed that time, and the command takes effect now.
   bool command(std::int64_t from_us, const Vector3& omega_los_n, double closing_speed);
 
   [[nodiscard]] EngagementTruth truth() const;
-  /// What was summed up since the last call.
+  /// The integrals since the last call.
   SeekerIncrement take_increment();
 
   [[nodiscard]] bool over() const { return miss_n_.has_value(); }
@@ -90,11 +89,11 @@ class Engagement {
   EngagementPlan plan_;
   State state_ = State::Zero();
   std::int64_t t_us_ = 0;
-  std::int64_t taken_us_ = 0;  // of the last increment
+  std::int64_t taken_us_ = 0;  // end of the last increment
   bool manoeuvring_ = false;
   Vector3 turn_ = Vector3::Zero();  // rate of the target's velocity at full manoeuvre [rad/s]
   Planes<double> phase_{};          // of its weave [rad]
-  std::deque<Command> commands_;    // that have not taken effect yet
+  std::deque<Command> commands_;    // not yet effective
   Vector3 held_ = Vector3::Zero();  // commanded acceleration, n [m/s^2]
   std::optional<Vector3> miss_n_;
 };

@@ -1,8 +1,8 @@
-// What an engagement is: a missile that flies by proportional navigation at a target that may manoeuvre, and
-// a seeker whose antenna follows the line of sight. Defaults: head-on at 900 m/s from 5 km.
+// The plan of an engagement: a missile flies by proportional navigation at a target that may manoeuvre, and
+// the antenna of its seeker follows the line of sight. Defaults: head-on at 900 m/s from 5 km.
 //
-// Axes n do not turn: x along the line of sight at the start, y right, z down. Gravity is left out: missile
-// and target feel the same. The antenna's axes a: x forward, y right, z down.
+// Axes n do not rotate: x along the line of sight at the start, y right, z down. Gravity is left out: it acts
+// on missile and target alike. The antenna's axes a: x forward, y right, z down.
 #pragma once
 
 #include <cstdint>
@@ -20,27 +20,27 @@ struct Planes {
   bool operator==(const Planes&) const = default;
 };
 
-/// How the target accelerates, across its velocity, in each plane to a side drawn for the run.
+/// The target's acceleration, perpendicular to its velocity; in each plane the side is drawn for the run.
 struct Manoeuvre {
   enum class Kind : std::uint8_t { none, step, weave };
   Kind kind = Kind::step;
   double acceleration = 4 * units::standard_gravity;  ///< amplitude of a weave [m/s^2]
-  double period = 2;                                  ///< of a weave, its phase is drawn [s]
-  double from_s = 0;                                  ///< begins at this time ...
-  std::optional<double> at_time_to_go = 1;            ///< ... or at this range over closing speed [s]
+  double period = 2;                                  ///< of a weave; its phase is drawn [s]
+  double from_s = 0;                                  ///< it begins at this time ...
+  std::optional<double> at_time_to_go = 1;  ///< ... or when range over closing speed falls to this value [s]
 };
 
-/// Where the guidance gets the LOS rate from.
+/// The source of the LOS rate for the guidance.
 enum class Guidance : std::uint8_t { truth, target };
 /// The planes in which heading error and manoeuvre act; noise acts in both.
 enum class ActivePlanes : std::uint8_t { both, pitch, yaw };
 
 struct EngagementPlan {
-  double range = 5000;                          ///< at the start [m]
-  double missile_speed = 600;                   ///< constant [m/s]
-  double target_speed = 300;                    ///< constant, towards the missile [m/s]
-  double heading_error = 0;                     ///< of the missile off the line of sight, in each plane [rad]
-  double heading_error_sigma = 3 * units::deg;  ///< drawn in each plane [rad]
+  double range = 5000;         ///< at the start [m]
+  double missile_speed = 600;  ///< constant [m/s]
+  double target_speed = 300;   ///< constant, towards the missile [m/s]
+  double heading_error = 0;  ///< of the missile's velocity relative to the line of sight, in each plane [rad]
+  double heading_error_sigma = 3 * units::deg;    ///< drawn in each plane [rad]
   double pointing_error_sigma = 5 * units::mrad;  ///< of the antenna at the start, drawn in each plane [rad]
   ActivePlanes planes = ActivePlanes::both;
   Manoeuvre manoeuvre{};
@@ -48,12 +48,12 @@ struct EngagementPlan {
   double navigation_constant = 4;
   double autopilot_lag = 0.15;                               ///< first order [s]
   double acceleration_limit = 35 * units::standard_gravity;  ///< of the command [m/s^2]
-  double servo_gain = 12;                                    ///< antenna rate over error angle [1/s]
+  double servo_gain = 12;                                    ///< antenna rate per error angle [1/s]
   double roll_rate = 0;                                      ///< of the antenna about its axis [rad/s]
   Guidance guidance = Guidance::truth;
   std::int64_t guidance_delay_us =
       10'000;                      ///< from a sample's transmission to the command made of its answer
-  bool guidance_predicts = false;  ///< from the sample's time to the command's
+  bool guidance_predicts = false;  ///< extrapolates from the time of the sample to that of the command
 };
 
 }  // namespace canhil::world

@@ -1,33 +1,33 @@
-// What a seeker measures of an engagement. Defaults: an active radar that thermal noise rules beyond 1710 m
-// and glint within.
+// The measurements of a seeker. Defaults: an active radar whose error is dominated by thermal noise beyond
+// 1710 m and by glint within.
 #pragma once
 
 #include "bench/world/engagement/engagement.hpp"
 
 namespace canhil::world {
 
-/// A constant that each run draws anew: value + sigma * N(0, 1).
+/// A constant drawn for each run: value + sigma * N(0, 1).
 struct RandomValue {
   double value = 0;
   double sigma = 0;
 };
 
-/// All noises 1 sigma a sample. White but for the glint, whose correlation is exp(-t/tau).
+/// All noises are 1 sigma per sample. All are white except the glint, whose correlation is exp(-t/tau).
 struct SeekerErrorModel {
-  double thermal = 1e-10;                              ///< of the error angle, over range squared [rad/m^2]
-  double glint = 0.5;                                  ///< of the error angle, times range [m]
-  double glint_correlation = 0;                        ///< tau; 0: white [s]
-  double constant = 0;                                 ///< of the error angle [rad]
-  double gyro_noise = 1e-3;                            ///< of the antenna's rate over a sample [rad/s]
+  double thermal = 1e-10;        ///< of the error angle; multiplied by range squared [rad/m^2]
+  double glint = 0.5;            ///< of the error angle; divided by range [m]
+  double glint_correlation = 0;  ///< tau; 0: white [s]
+  double constant = 0;           ///< of the error angle [rad]
+  double gyro_noise = 1e-3;      ///< of the antenna's rate over a sample [rad/s]
   RandomValue gyro_bias{.value = 0, .sigma = 0.5e-3};  ///< of each axis [rad/s]
   double accel_noise = 0.3;                            ///< [m/s^2]
   RandomValue accel_bias{.value = 0, .sigma = 0.2};    ///< of each axis [m/s^2]
-  double range_noise = 5;                           ///< beyond `full_errors_beyond`, in proportion within [m]
-  RandomValue range_bias{.value = 0, .sigma = 15};  ///< the same [m]
-  double full_errors_beyond = 1000;                 ///< [m]
-  double closing_speed_noise = 3;                   ///< [m/s]
+  double range_noise = 5;  ///< beyond `full_errors_beyond`; proportional to range within [m]
+  RandomValue range_bias{.value = 0, .sigma = 15};         ///< the same [m]
+  double full_errors_beyond = 1000;                        ///< [m]
+  double closing_speed_noise = 3;                          ///< [m/s]
   RandomValue closing_speed_bias{.value = 0, .sigma = 5};  ///< [m/s]
-  double field_of_view = 8 * units::deg;                   ///< largest error angle that is measured [rad]
+  double field_of_view = 8 * units::deg;                   ///< the largest measurable error angle [rad]
 };
 
 /// One sample.
@@ -35,7 +35,7 @@ struct SeekerMeasurement {
   std::int64_t t_us = 0;
   std::int64_t interval_us = 0;
   Planes<double> error{};                 ///< [rad]
-  bool in_view = true;                    ///< else the error angles mean nothing
+  bool in_view = true;                    ///< false: the error angles are invalid
   Vector3 antenna = Vector3::Zero();      ///< increment: roll, pitch, yaw [rad]
   Planes<double> missile_acceleration{};  ///< mean over the interval, along z (pitch) and y (yaw) [m/s^2]
   double range = 0;                       ///< [m]

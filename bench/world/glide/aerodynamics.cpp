@@ -10,7 +10,7 @@ constexpr double area = 0.65;   // [m^2]
 constexpr double span = 2.6;    // [m]
 constexpr double chord = 0.25;  // [m]
 
-// Derivatives of one coefficient [1/rad]; of the reduced rates p b/2V, q c/2V, r b/2V.
+// Derivatives of one coefficient [1/rad]; for rates with respect to p b/2V, q c/2V, r b/2V.
 struct Derivatives {
   double zero, alpha, beta;
   double p, q, r;
@@ -51,20 +51,21 @@ Flow flow(const Vector3& v_a, double speed_of_sound) {
   const double speed = v_a.norm();
   return {.speed = speed,
           .alpha = std::atan2(v_a.z(), v_a.x()),
-          .beta = std::atan2(v_a.y(), std::hypot(v_a.x(), v_a.z())),  // asin(v / V), at no speed too
+          .beta = std::atan2(v_a.y(), std::hypot(v_a.x(), v_a.z())),  // asin(v / V), also valid at zero speed
           .mach = speed / speed_of_sound};
 }
 
 std::array<double, coefficient_count> coefficients(const Flow& flow, const Vector3& omega, const Fins& fins,
                                                    const Factors& factors) {
-  const double compressibility = 1 + 0.30 * flow.mach * flow.mach;  // of all but the rate parts
+  const double compressibility =
+      1 + 0.30 * flow.mach * flow.mach;  // applies to all parts except the rate parts
   const Vector3 reduced = omega.cwiseProduct(Vector3(span, chord, span)) / (2 * std::max(flow.speed, 1.0));
   const auto parts = [&](const Derivatives& d) {
     return Parts{compressibility * (d.zero + d.alpha * flow.alpha + d.beta * flow.beta),
                  Vector3(d.p, d.q, d.r).dot(reduced),
                  compressibility * Vector3(d.elevator, d.aileron, d.rudder).dot(fins)};
   };
-  // The drag polar is a table of the flow: it takes the nominal lift.
+  // The drag polar is a table of the flow: it uses the nominal lift.
   const Parts lift = parts(lift_table);
   const double nominal_lift = sum(lift, nominal[0]);
   const double wave = 0.03 * (1 + std::tanh((flow.mach - 0.92) / 0.04));

@@ -1,9 +1,9 @@
-// The glider: a 500-lb body with a planar wing kit. Not a real weapon's data: the body's size is of the
-// Mk-82 class, all coefficients are textbook estimates.
+// The glider: a 500-lb body with a planar wing kit. Not the data of a real weapon: the body has the size of
+// the Mk-82 class, and all coefficients are textbook estimates.
 //
-// Force from lift and drag in stability axes and a side force along body y, moments about the centre of
-// gravity: Park and Park (2019), eq. (7), (8), corrected: the paper mixes stability and wind axes and gives
-// gravity a moment.
+// Lift and drag act in stability axes, the side force along body y, moments about the centre of gravity: Park
+// and Park (2019), eq. (7), (8), corrected: the paper mixes stability and wind axes and assigns a moment to
+// gravity. gravity a moment.
 #pragma once
 
 #include <array>
@@ -24,15 +24,15 @@ using Fins = Vector3;
 
 enum class Coefficient : std::uint8_t { lift, drag, side, roll, pitch, yaw };
 inline constexpr std::size_t coefficient_count = 6;
-/// What a coefficient is the sum of.
+/// The summands of a coefficient.
 enum class Part : std::uint8_t { steady, rate, control };
 inline constexpr std::size_t part_count = 3;
 
-/// True over nominal, of each part of each coefficient.
+/// The ratio of true to nominal value, for each part of each coefficient.
 using Factors = std::array<std::array<double, part_count>, coefficient_count>;
 inline constexpr Factors nominal{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}};
 
-/// Where the air comes from, and how fast.
+/// Direction and speed of the air flow.
 struct Flow {
   double speed = 0;  ///< V = |v_a| [m/s]
   double alpha = 0;  ///< atan2(w, u) [rad]
@@ -41,11 +41,11 @@ struct Flow {
 };
 Flow flow(const Vector3& v_a, double speed_of_sound);
 
-/// Lift, drag, side force, rolling, pitching and yawing moment; omega in rad/s.
+/// Coefficients of lift, drag, side force, rolling, pitching and yawing moment; omega in rad/s.
 std::array<double, coefficient_count> coefficients(const Flow& flow, const Vector3& omega, const Fins& fins,
                                                    const Factors& factors = nominal);
 
-/// What the air does to the glider, body axes.
+/// Aerodynamic force and moment on the glider, body axes.
 struct Loads {
   Vector3 force = Vector3::Zero();   ///< [N]
   Vector3 moment = Vector3::Zero();  ///< about the centre of gravity [N m]

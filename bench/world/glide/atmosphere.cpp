@@ -7,7 +7,7 @@
 
 namespace canhil::world::glide {
 
-// Hydrostatic: p' = -rho g, with T falling by 6.5 K/km up to 11 km and constant above.
+// Hydrostatic: p' = -rho g, with T decreasing by 6.5 K/km up to 11 km and constant above.
 Air standard_air(double height) {
   constexpr double gas_constant = 287.05287;  // [J/(kg K)]
   constexpr double adiabatic_index = 1.4;

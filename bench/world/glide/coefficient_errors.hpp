@@ -1,4 +1,4 @@
-// How far the true aerodynamic coefficients are from the nominal ones: true = nominal (1 + level n), n
+// Deviation of the true aerodynamic coefficients from the nominal ones: true = nominal (1 + level n), n
 // standard normal.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace canhil::world::glide {
 
-/// How n goes on in time.
+/// The course of n over time.
 enum class ErrorKind : std::uint8_t {
   white,    ///< new at every step of the truth
   held,     ///< new every `time`
@@ -23,18 +23,18 @@ inline constexpr std::array<std::string_view, 4> error_kind_names{"white", "held
 struct CoefficientErrorModel {
   double level = 0;  ///< standard deviation of the factor
   ErrorKind kind = ErrorKind::held;
-  std::int64_t time_us = 50'000;  ///< of held and markov
-  bool per_part = true;           ///< the parts of a coefficient have factors of their own
-  bool moments = true;            ///< false: of the forces only
+  std::int64_t time_us = 50'000;  ///< for held and markov
+  bool per_part = true;           ///< each part of a coefficient has its own factor
+  bool moments = true;            ///< false: forces only
 };
 
 class CoefficientErrors {
  public:
   CoefficientErrors(const CoefficientErrorModel& model, Stream stream);
 
-  /// The factors now.
+  /// The current factors.
   [[nodiscard]] const Factors& now() const { return factors_; }
-  /// Goes on to t_us, dt_us later than before.
+  /// Advances to t_us, dt_us after the previous time.
   void advance(std::int64_t t_us, std::int64_t dt_us);
 
  private:

@@ -31,8 +31,8 @@ Eigen::Quaterniond attitude(const State& x) {
 
 constexpr double fin_lag = 0.05;  // of the actuators [s]
 
-// Attitude hold: deflections that hold pitch and roll at zero and damp the yaw, within 20 degrees. A positive
-// elevator pitches down, a positive rudder yaws to the left, a positive aileron rolls to the right.
+// Attitude hold: deflections that keep pitch and roll at zero and damp the yaw, limited to 20 degrees. A
+// positive elevator pitches down, a positive rudder yaws to the left, a positive aileron rolls to the right.
 // `pitch_integral`: of the pitch over time [rad s].
 Fins commanded(const Euler& angles, const Vector3& omega, double pitch_integral) {
   constexpr double limit = 20 * units::deg;
@@ -41,7 +41,7 @@ Fins commanded(const Euler& angles, const Vector3& omega, double pitch_integral)
   return wanted.cwiseMax(-limit).cwiseMin(limit);
 }
 
-// What holds over one step.
+// Constant during one step.
 struct Step {
   const GlidePlan& plan;
   const Factors& factors;
@@ -109,7 +109,7 @@ GlideTruth truth(const State& x, std::int64_t t_us, const GlidePlan& plan, const
   return now;
 }
 
-// In the air, and slower than anything that the tables know.
+// Airborne, and not faster than the tables cover.
 bool flies(const State& x, const GlidePlan& plan) {
   constexpr double fastest = 1000;  // [m/s]
   return x.allFinite() && three(x, velocity_at).norm() < fastest && height_of(x, plan) > 0;

@@ -1,9 +1,10 @@
-// The truth of an unpowered glider in the wind: six degrees of freedom over a flat Earth at rest, as the
-// published estimator knows no other.
+// The truth of an unpowered glider in the wind: six degrees of freedom over a flat, non-rotating Earth, the
+// model of the published estimator.
 //
-// States: position and ground velocity (NED), attitude quaternion, rates, fins, and the autopilot's integral;
-// so the air velocity is no state, and the equations are not those of any wind filter. The wind moves the
-// glider only through its air: v_a = C_nb (v_eb_n - wind(height) - gust). Runge-Kutta of fourth order.
+// States: position and ground velocity (NED), attitude quaternion, rates, fins, and the autopilot's integral.
+// The air velocity is not a state, so the equations differ from those of any wind filter. The wind acts on
+// the glider only through its air velocity: v_a = C_nb (v_eb_n - wind(height) - gust). Fourth-order
+// Runge-Kutta.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@
 
 namespace canhil::world {
 
-/// What a glide depends on. It starts level on its heading, at `speed` through the air, with fins at zero.
+/// The parameters of a glide. It starts level on its heading, at `speed` through the air, with fins at zero.
 struct GlidePlan {
   double heading = 0;      ///< [rad]
   double speed = 250;      ///< [m/s]
@@ -24,7 +25,7 @@ struct GlidePlan {
   glide::WindProfile wind{glide::Season::march};
   glide::GustModel gusts;
   glide::CoefficientErrorModel coefficients;
-  double density_error = 0;  ///< true density over the standard one, less 1
+  double density_error = 0;  ///< true density over the standard density, minus 1
 };
 
 /// The true state at one instant.
@@ -40,13 +41,13 @@ struct GlideTruth {
   Vector3 v_a = Vector3::Zero();     ///< velocity through the air, body [m/s]
 };
 
-/// One glide, flown whole.
+/// A complete glide.
 class GlideRecord {
  public:
   static constexpr std::int64_t step_us = 10'000;
 
-  /// Flies from 0 to the last step at or before duration_us, or until the ground is reached or the flow
-  /// leaves all bounds. The streams are for coefficients and gusts.
+  /// Flies from 0 to the last step at or before duration_us, or until it reaches the ground or the flow
+  /// leaves the valid range. The streams are for coefficients and gusts.
   GlideRecord(const GlidePlan& plan, std::int64_t duration_us, Stream coefficients, Stream gusts);
 
   /// Truth every 10 ms from 0 on.

@@ -1,4 +1,4 @@
-// The wind over the height: profiles of four seasons, and gusts on top of them.
+// The wind as a function of height: profiles of four seasons, plus gusts.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace canhil::world::glide {
 enum class Season : std::uint8_t { march, june, september, december };
 inline constexpr std::array<std::string_view, 4> season_names{"march", "june", "september", "december"};
 
-/// Mean wind at whole kilometres of height, 0 to 15: the components are joined by lines; above 15 km and
-/// below 0 that of the end.
+/// Mean wind at whole kilometres of height, 0 to 15, interpolated linearly by component; above 15 km and
+/// below 0 the value at the end.
 class WindProfile {
  public:
   static constexpr std::size_t levels = 16;
@@ -24,26 +24,26 @@ class WindProfile {
   /// The same wind at all heights, NED [m/s].
   explicit WindProfile(const Vector3& wind_n);
 
-  /// NED [m/s], where the air goes to; `height` [m].
+  /// NED [m/s], the velocity of the air; `height` [m].
   [[nodiscard]] Vector3 at(double height) const;
 
  private:
   std::array<Vector3, levels> wind_n_;
 };
 
-/// Gusts: each component of NED a first-order Gauss-Markov process, the spectrum that Dryden gives to the
-/// gusts along the path (MIL-F-8785C).
+/// Gusts: each component in NED is a first-order Gauss-Markov process, which has the Dryden spectrum of gusts
+/// along the path (MIL-F-8785C).
 struct GustModel {
   double sigma = 0;  ///< [m/s]
-  double time = 3;   ///< of correlation: turbulence scale over air speed [s]
+  double time = 3;   ///< correlation time: turbulence scale over air speed [s]
 };
 
 class Gusts {
  public:
   Gusts(const GustModel& model, Stream stream);
-  /// The gust now, NED [m/s].
+  /// The current gust, NED [m/s].
   [[nodiscard]] const Vector3& now() const { return now_; }
-  /// Goes on by dt [s]. Takes three numbers of the stream.
+  /// Advances by dt [s]. Takes three numbers of the stream.
   void advance(double dt);
 
  private:

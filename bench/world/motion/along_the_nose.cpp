@@ -35,8 +35,8 @@ struct Dive {
   double rate = 0;   ///< [rad/s]
 };
 
-/// The pitch at which a vehicle of a speed along its nose follows the profile: sin(pitch) = -depth'(t) /
-/// speed. `speed` must exceed steepest(profile).
+/// The pitch at which a vehicle with a given speed along its nose follows the profile: sin(pitch) =
+/// -depth'(t) / speed. `speed` must exceed steepest(profile).
 Dive dive(const DepthProfile& profile, double speed, double t) {
   if (profile.depth == 0) return {};
   const double w = 2.0 * std::numbers::pi / profile.period;
@@ -69,7 +69,7 @@ Kinematics kinematics(const SPath& motion, double t) {
 Kinematics kinematics(const Racetrack& motion, double t) {
   constexpr double pi = std::numbers::pi;
   const double half = motion.leg + motion.turn;
-  const double turns = std::floor(t / half);  // whole ones before
+  const double turns = std::floor(t / half);  // completed turns
   const double tau = t - turns * half - motion.leg;
   const double w = 2.0 * pi / motion.turn;
   const Dive diving = dive(motion.depth, motion.speed, t);

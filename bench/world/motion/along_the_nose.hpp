@@ -1,12 +1,12 @@
-// Motions of a vehicle that moves along its nose: velocity follows from speed and attitude. It may dive and
-// surface, again and again.
+// Motions of a vehicle along its nose: velocity follows from speed and attitude. It may dive and surface
+// repeatedly.
 #pragma once
 
 #include "bench/world/kinematics.hpp"
 
 namespace canhil::world {
 
-/// Below the start by depth (1 - cos(2 pi t / period)) / 2.
+/// Depth below the start: depth (1 - cos(2 pi t / period)) / 2.
 struct DepthProfile {
   double depth = 0;   ///< of the deepest point below the start [m]
   double period = 1;  ///< from surface to surface [s]
@@ -15,8 +15,8 @@ struct DepthProfile {
 /// The largest vertical speed of a profile [m/s]: pi depth / period.
 double steepest(const DepthProfile& profile);
 
-/// S-turns about a mean heading: the path of an underwater vehicle in Kang, Kim, Park (2006). Straight with
-/// an amplitude of 0.
+/// S-turns about a mean heading: the path of an underwater vehicle in Kang, Kim, Park (2006). Straight if the
+/// amplitude is 0.
 ///
 /// heading + heading_amplitude sin(w_h t), pitch_amplitude sin(w_p t), roll_amplitude cos(w_r t): with
 /// roll_period = heading_period it rolls with its heading rate.
@@ -25,7 +25,7 @@ struct SPath {
   double heading = 0;            ///< mean [rad]
   double heading_amplitude = 0;  ///< [rad]
   double heading_period = 1;     ///< [s]
-  double pitch_amplitude = 0;    ///< about that of the depth profile [rad]
+  double pitch_amplitude = 0;    ///< relative to the depth profile [rad]
   double pitch_period = 1;       ///< [s]
   double roll_amplitude = 0;     ///< [rad]
   double roll_period = 1;        ///< [s]
@@ -34,8 +34,9 @@ struct SPath {
 
 Kinematics kinematics(const SPath& motion, double t);
 
-/// Straight legs joined by half turns to the right: a leg, a half turn, a leg, ... The rate of a turn swells
-/// and ebbs, pi / turn (1 - cos(2 pi tau / turn)), and so does the roll: acceleration and rate have no jumps.
+/// Straight legs joined by half turns to the right: a leg, a half turn, a leg, ... The rate of a turn rises
+/// and falls smoothly, pi / turn (1 - cos(2 pi tau / turn)), and so does the roll: acceleration and rate have
+/// no jumps.
 struct Racetrack {
   double speed = 0;    ///< constant, along the nose [m/s]
   double heading = 0;  ///< of the first leg [rad]
@@ -58,13 +59,14 @@ struct Spiral {
 
 Kinematics kinematics(const Spiral& motion, double t);
 
-/// At rest for a while, then to a constant speed along the nose. The acceleration swells and ebbs,
-/// speed / start (1 - cos(2 pi tau / start)): it has no jumps. The dive begins with it.
+/// At rest for a while, then accelerating to a constant speed along the nose. The acceleration rises and
+/// falls smoothly, speed / start (1 - cos(2 pi tau / start)): it has no jumps. The dive begins with the
+/// acceleration.
 struct RestThenGo {
-  double speed = 0;    ///< in the end [m/s]
+  double speed = 0;    ///< final [m/s]
   double heading = 0;  ///< [rad]
   double rest = 0;     ///< time at rest [s]
-  double start = 1;    ///< time to the speed [s]
+  double start = 1;    ///< duration of the acceleration [s]
   DepthProfile depth;
 };
 

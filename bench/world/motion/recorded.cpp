@@ -25,7 +25,7 @@ CubicSpline<3> velocity_of(std::span<const RecordedState> states) {
   return {times_of(states), std::move(values)};
 }
 
-// A rotation has two quaternions: of each the one on the side of that before.
+// q and -q are the same rotation: each quaternion gets the sign that continues the previous one.
 CubicSpline<4> quaternion_of(std::span<const RecordedState> states) {
   std::vector<Vector4> values;
   values.reserve(states.size());
@@ -46,7 +46,7 @@ RecordedPath::RecordedPath(std::span<const RecordedState> states, const Position
   const bool has_positions = states.front().position.has_value();
   integrate(has_positions ? *states.front().position : start);
   if (!has_positions) return;
-  // Once more for what the first correction leaves, as NED axes turn along the way.
+  // A second pass for the residual of the first: NED axes rotate along the way.
   for (int pass = 0; pass < 2; ++pass) correct(states);
   find_contradiction(states);
 }
@@ -89,7 +89,7 @@ void RecordedPath::integrate(const Position& start) {
     positions_.push_back(advanced_from(positions_.back(), times[i - 1], times[i]));
 }
 
-// Means of what is left, over equal stretches, at their middles.
+// Means of the residual over equal stretches, at their middles.
 void RecordedPath::correct(std::span<const RecordedState> states) {
   const auto& times = velocity_.times();
   const double length = times.back() - times.front();
@@ -98,13 +98,13 @@ void RecordedPath::correct(std::span<const RecordedState> states) {
   std::vector<Vector3> sums(count, Vector3::Zero());
   std::vector<double> weights(count, 0), middles;
   for (std::size_t i = 0; i < states.size(); ++i) {
-    const auto place = std::min(count - 1, static_cast<std::size_t>((times[i] - times.front()) / stretch));
-    sums[place] += displacement_n(positions_[i], *states[i].position);
-    ++weights[place];
+    const auto index = std::min(count - 1, static_cast<std::size_t>((times[i] - times.front()) / stretch));
+    sums[index] += displacement_n(positions_[i], *states[i].position);
+    ++weights[index];
   }
-  for (std::size_t place = 0; place < count; ++place) {
-    middles.push_back(times.front() + (static_cast<double>(place) + 0.5) * stretch);
-    sums[place] = sums[place] / weights[place] + correction_.at(middles.back()).value;
+  for (std::size_t index = 0; index < count; ++index) {
+    middles.push_back(times.front() + (static_cast<double>(index) + 0.5) * stretch);
+    sums[index] = sums[index] / weights[index] + correction_.at(middles.back()).value;
   }
   const Vector3 before = correction_.at(times.front()).value;
   correction_ = CubicSpline<3>(std::move(middles), std::move(sums));

@@ -1,16 +1,16 @@
-// A flight that was flown, from samples of its velocity and attitude, and of its position if they are there.
+// A recorded flight, from samples of velocity and attitude, and of position if available.
 //
-// Velocity and the quaternion of attitude follow natural cubic splines through the samples, so acceleration
-// and angular rate are continuous, follow from the same curve, and integrate back to it: at every sample to
-// the recorded velocity and attitude. Not a curve through the positions: a centimetre of their rounding
-// would, at 50 Hz, be 25 m/s^2 of acceleration, where a millimetre per second of the velocity's is
-// 0.05 m/s^2. So position is the integral of velocity; and lest it drift away from the recorded positions
-// over a long flight, velocity is corrected by what the two differ in over times of `averaged_s`: little,
-// and so slowly that it is no acceleration to speak of.
+// Velocity and the attitude quaternion are natural cubic splines through the samples. So acceleration and
+// angular rate are continuous, follow from the same curve, and integrate back to the recorded velocity and
+// attitude at every sample. A spline through the positions would be worse: at 50 Hz a centimetre of their
+// rounding is 25 m/s^2 of acceleration, while a millimetre per second of velocity rounding is 0.05 m/s^2. So
+// position is the integral of velocity. To keep it from drifting away from the recorded positions over a long
+// flight, velocity is corrected by the difference of the two, averaged over `averaged_s`: small and slow
+// enough that the additional acceleration is negligible.
 //
-// The quaternion's components are splined, and the result normalised: of a turn by an angle between two
-// samples the error is that of a cubic, in the fourth power of the angle; no Euler angle has a singularity
-// or a wrap in it.
+// The quaternion's components are splined and the result normalised. For a rotation by an angle between two
+// samples the error is that of a cubic, of fourth order in the angle. Unlike Euler angles, the quaternion has
+// no singularity and no wrap.
 #pragma once
 
 #include <cstdint>
@@ -25,10 +25,10 @@
 
 namespace canhil::world {
 
-/// What was recorded of one instant.
+/// The recorded state at one instant.
 struct RecordedState {
   std::int64_t t_us = 0;
-  std::optional<Position> position{};  ///< of all samples or of none
+  std::optional<Position> position{};  ///< given for all samples or for none
   Vector3 v_eb_n = Vector3::Zero();    ///< [m/s]
   Matrix3 C_bn = Matrix3::Identity();
 };
@@ -37,21 +37,22 @@ class RecordedPath {
  public:
   static constexpr double averaged_s = 10;
 
-  /// At least two states, in ascending order of time. Without positions `start` is that of the first.
+  /// At least two states, in ascending order of time. Without positions, `start` is the position of the first
+  /// state.
   RecordedPath(std::span<const RecordedState> states, const Position& start);
 
   [[nodiscard]] Movement movement(double t) const;
   [[nodiscard]] Vector3 velocity(double t) const;
-  /// Position at a time [s] within the recording: integrated from the sample before.
+  /// Position at a time [s] within the recording: integrated from the previous sample.
   [[nodiscard]] Position position(double t) const;
   /// Times of samples between two times, ends excluded [us].
   [[nodiscard]] std::vector<std::int64_t> samples_between(std::int64_t from_us, std::int64_t to_us) const;
   [[nodiscard]] std::span<const std::int64_t> sample_times_us() const { return t_us_; }
 
-  /// Where positions and velocities contradict each other most.
+  /// The largest contradictions between recorded positions and velocities.
   struct Contradiction {
-    double position = 0;          ///< from where velocity leads, corrected, to the recorded position [m]
-    std::size_t position_at = 0;  ///< the sample
+    double position = 0;  ///< between the integral of the corrected velocity and the recorded position [m]
+    std::size_t position_at = 0;  ///< the sample where it occurs
     double velocity = 0;          ///< correction of the velocity [m/s]
     std::size_t velocity_at = 0;
   };
@@ -66,7 +67,7 @@ class RecordedPath {
   std::vector<std::int64_t> t_us_;
   CubicSpline<3> velocity_;
   CubicSpline<4> quaternion_;        // x, y, z, w
-  CubicSpline<3> correction_;        // of the position, NED [m]; its rate is that of the velocity
+  CubicSpline<3> correction_;        // of the position, NED [m]; its rate corrects the velocity
   std::vector<Position> positions_;  // at the samples
   Contradiction contradiction_;
 };

@@ -1,4 +1,4 @@
-// Standing still on the rotating Earth.
+// At rest on the rotating Earth.
 #pragma once
 
 #include "bench/world/kinematics.hpp"

@@ -1,5 +1,5 @@
-// A flight of which nothing is known but its start. What follows is straight on and stands for nothing: no
-// error may be judged by it.
+// A flight of which only the start is known. The motion continues straight as a placeholder; it must not be
+// used to compute errors.
 #pragma once
 
 #include "bench/world/kinematics.hpp"

@@ -1,5 +1,5 @@
-// A weave: coordinated S-turns with a slow pitching motion, and a coning vibration on top if wanted.
-// It starts with wings level on its heading.
+// A weave: coordinated S-turns with a slow pitching motion, optionally with a coning vibration. It starts
+// with wings level on its heading.
 #pragma once
 
 #include "bench/world/kinematics.hpp"

@@ -21,7 +21,7 @@ int64_t can_bus_clock_ns(clockid_t clock) {
   return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-/* ---- the embedded bus: docs/own-target.md has its format ---- */
+/* ---- the embedded bus; docs/own-target.md describes its format ---- */
 
 typedef struct {
   uint32_t magic;
@@ -79,14 +79,14 @@ static int open_can(const char* name) {
   return bind(s, (const struct sockaddr*)&address, sizeof address) != 0 ? -1 : s;
 }
 
-/* ---- either ---- */
+/* ---- both ---- */
 
 bool can_bus_open(can_bus* b, const char* name) {
   b->local = strncmp(name, "local:", 6) == 0;
   b->stamp_clock = b->local ? CLOCK_MONOTONIC : CLOCK_REALTIME;
   if (b->local) {
     char plain[65];
-    const size_t length = strcspn(name + 6, "?"); /* what follows is the host's */
+    const size_t length = strcspn(name + 6, "?"); /* settings after '?' are for the host of the bus */
     if (length == 0 || length >= sizeof plain) {
       errno = EINVAL;
       return false;
@@ -118,7 +118,7 @@ void can_bus_send(void* context, const canhil_frame* frame) {
     if (sent >= 0 || (errno != EAGAIN && errno != ENOBUFS && errno != EINTR)) return;
     room.fd = b->socket;
     poll(&room, 1, 1);
-    if (errno == ENOBUFS) usleep(1000); /* SocketCAN's queue is full: poll() does not wait for it */
+    if (errno == ENOBUFS) usleep(1000); /* the interface's queue is full; poll() does not wait for it */
   }
 }
 

@@ -5,8 +5,8 @@
 #include <string.h>
 
 enum { NO_COUNTER = 0xFF, COUNTERS = 15 };
-static const int64_t lead_limit_us = 100000;  /* a sample that is valid further ahead of the time base makes no sense */
-static const int64_t silence_limit_us = 500000; /* a sensor that stays away for longer is reported */
+static const int64_t lead_limit_us = 100000;  /* a sample further ahead of the time base is rejected */
+static const int64_t silence_limit_us = 500000; /* a longer silence of the sensor is reported */
 static const uint32_t bench_silent_ms = 2 * CANHIL_HEARTBEAT_MS, bench_gone_ms = 2000;
 
 /* ---- frames ---- */
@@ -14,7 +14,7 @@ static const uint32_t bench_silent_ms = 2 * CANHIL_HEARTBEAT_MS, bench_gone_ms =
 uint8_t canhil_crc(const uint8_t* data, unsigned size, uint16_t data_id) {
   uint8_t crc = 0;
   unsigned i, bit;
-  for (i = 0; i <= size; ++i) { /* the two bytes of the data id, then data[1..] */
+  for (i = 0; i <= size; ++i) { /* first the two bytes of the data id, then data[1..] */
     crc ^= i == 0 ? (uint8_t)(data_id & 0xFFU) : i == 1 ? (uint8_t)(data_id >> 8U) : data[i - 1];
     for (bit = 0; bit < 8; ++bit) crc = (uint8_t)((crc & 0x80U) != 0 ? ((unsigned)crc << 1U) ^ 0x1DU : (unsigned)crc << 1U);
   }
@@ -42,7 +42,7 @@ static double value_of(const uint8_t* data, const canhil_signal* signal) {
   return raw * signal->scale + signal->offset;
 }
 
-/* Rounds half to even, holds in the signal's range; NaN becomes the lowest value. */
+/* Rounds half to even and clamps to the signal's range; NaN becomes the lowest value. */
 static void put_value(uint8_t* data, const canhil_signal* signal, double value) {
   double raw = (value - signal->offset) / signal->scale;
   uint64_t word;
@@ -71,7 +71,7 @@ static void values_of(const canhil_target* target, unsigned group, double* value
   }
 }
 
-/* All messages of a group, in the order of their ids: its time comes last. */
+/* Sends all messages of a group in the order of their ids; the last one carries the time. */
 static void send_group(canhil_target* target, unsigned group, const double* values) {
   unsigned m, s;
   for (m = 0; m < canhil_groups[group].messages; ++m) {
@@ -89,7 +89,7 @@ static void send_group(canhil_target* target, unsigned group, const double* valu
   }
 }
 
-/* ---- what the target says of itself ---- */
+/* ---- status messages of the target ---- */
 
 static void send_heartbeat(canhil_target* target) {
   double v[CANHIL_TARGET_HEARTBEAT_VALUES] = {0};
@@ -112,7 +112,7 @@ static void send_counters(canhil_target* target) {
   v[CANHIL_TARGET_COUNTERS_BAD_CRC] = target->bad_crc;
   v[CANHIL_TARGET_COUNTERS_BAD_GROUP] = target->bad_group;
   v[CANHIL_TARGET_COUNTERS_LATE] = target->late;
-  send_group(target, CANHIL_GROUP_TARGET_COUNTERS, v); /* a count beyond its signal stays at its end */
+  send_group(target, CANHIL_GROUP_TARGET_COUNTERS, v); /* a count beyond the signal's range stays at its end */
 }
 
 static void enter(canhil_target* target, uint8_t state) {
@@ -122,7 +122,7 @@ static void enter(canhil_target* target, uint8_t state) {
 
 /* ---- commands ---- */
 
-/* As after a start of the program, but for the clock of canhil_target_poll(). */
+/* Restores the state after program start, except the clock of canhil_target_poll(). */
 static void forget(canhil_target* target) {
   const canhil_target fresh = {0};
   canhil_target old = *target;
@@ -156,7 +156,7 @@ static void reset(canhil_target* target, uint8_t estimator, uint8_t algorithm) {
 static void start(canhil_target* target) {
   const bool again = target->state == CANHIL_TARGET_STATE_RUNNING && target->untouched;
   if (target->state == CANHIL_TARGET_STATE_READY || again) {
-    memset(target->next, 0, sizeof target->next); /* not to depend on how often a command was repeated */
+    memset(target->next, 0, sizeof target->next); /* so that a repeated command changes nothing */
     memset(target->answered, 0, sizeof target->answered);
     memset(target->seen, 0, sizeof target->seen);
     target->untouched = true;
@@ -249,7 +249,7 @@ static void on_sync(canhil_target* target, const double* v) {
   }
 }
 
-/* A time that travels modulo 2^length steps: the one that is nearest to now. */
+/* Unwraps a time that was sent modulo 2^length steps: takes the one nearest to now. */
 static int64_t unwrapped_us(const canhil_target* target, unsigned group, double value) {
   const canhil_group* g = &canhil_groups[group];
   const canhil_message* last = &canhil_messages[g->first_message + g->messages - 1];
@@ -295,7 +295,7 @@ static bool on_sample(canhil_target* target, unsigned which, const double* value
 
 /* ---- frames to groups ---- */
 
-/* Stores a message; true: its group is whole. A group that another counter interrupts is gone. */
+/* Stores a message. Returns true if its group is complete. A message with another counter discards the incomplete group before it. */
 static bool completes(canhil_target* target, unsigned index, const uint8_t* data) {
   const unsigned group = canhil_messages[index].group;
   const unsigned place = index - canhil_groups[group].first_message;
@@ -357,7 +357,7 @@ bool canhil_target_receive(canhil_target* target, const canhil_frame* frame) {
     target->bench_heard = true;
   before = target->received[index];
   target->received[index] = counter;
-  /* A bench that starts anew may come to the counter of the last one's command: commands are always heard. */
+  /* A restarted bench can send the same counter again, so commands are always obeyed. */
   if (before == counter && canhil_messages[index].group != CANHIL_GROUP_TARGET_COMMAND) {
     ++target->late;
     return false;
@@ -404,8 +404,8 @@ static void send_timing(canhil_target* target) {
   target->queue_sum_us = target->compute_sum_us = 0;
 }
 
-/* In a run the target adds no heartbeat of its own, so that its frames are those of a replay; it speaks up again when the bench has
- * left it behind. */
+/* In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. It starts again when the bench is
+ * gone. */
 void canhil_target_poll(canhil_target* target, uint32_t now_ms) {
   if (!target->polled) {
     target->polled = true;

@@ -1,5 +1,5 @@
-"""A target of the canhil bench, all but its estimator: the state machine, the protection of frames, sample groups, parameters,
-heartbeat and counters of losses, and the buses local:NAME and SocketCAN. Python's standard library alone; docs/own-target.md tells
+"""A target for the canhil bench without the estimator: state machine, protection of frames, sample groups, parameters, heartbeat and
+counts of lost frames, with the buses local:NAME and SocketCAN. It needs only Python's standard library. docs/own-target.md describes
 the protocol.
 
     class MyFilter: ...                      # see Estimator
@@ -18,15 +18,15 @@ from typing import NamedTuple
 
 from canhil_messages import ANSWERS, CYCLE_MS, DBC_HASH24, FROM_TARGET, GROUPS, VALUE_TABLES
 
-COUNTERS = 15  # of E2E profile 11: 0 to 14
+COUNTERS = 15  # E2E profile 11 counts from 0 to 14
 HEARTBEAT_US = round(CYCLE_MS["TargetHeartbeat"] * 1000)
-LEAD_LIMIT_US = 100_000  # a sample that is valid further ahead of the time base makes no sense
-SILENCE_LIMIT_US = 500_000  # a sensor that stays away for longer is reported
+LEAD_LIMIT_US = 100_000  # a sample further ahead of the time base is rejected
+SILENCE_LIMIT_US = 500_000  # a longer silence of the sensor is reported
 BENCH_SILENT_S, BENCH_GONE_S = 2e-6 * HEARTBEAT_US, 2.0
 
 
 class Parameter(NamedTuple):
-    """In the unit of its name."""
+    """A parameter, in the unit of its name."""
     initial: float
     minimum: float
     maximum: float
@@ -35,18 +35,20 @@ class Parameter(NamedTuple):
 
 
 class Estimator:
-    """What the user writes. Values of a group are a dictionary by signal; what has a value table in the DBC goes by name."""
-    estimator = "none"  # of the value table Estimator
-    algorithms = ()  # of the value table Algorithm
-    answers = {}  # input group: the group that answers it, or None
+    """The user derives from this. The values of a group are a dictionary by signal name. A signal with a value table in the DBC has a name
+    as its value."""
+    estimator = "none"  # a name from the value table Estimator
+    algorithms = ()  # names from the value table Algorithm
+    answers = {}  # input group: the group of the answer, or None
     parameters = {}  # name: Parameter
 
     def start(self, algorithm, parameters, initial):
-        """Begins anew. parameters: {name: value}, which may change later; initial: of group TargetInit."""
+        """Starts from the beginning. parameters: {name: value}, which may change later; initial: the values of group TargetInit."""
 
     def sample(self, group, values, t_us):
-        """One whole sample, newer than the one before, valid at t_us in the bench's time base, unwrapped. Returns the values of the
-        answer (0 where left out) but cause_time_us and cause_counter; raises ArithmeticError if the filter cannot go on."""
+        """Processes one complete sample, newer than the one before. t_us: its time of validity in the bench's time base, unwrapped. Returns the
+        values of the answer; missing values are 0, and the kit adds cause_time_us and cause_counter. Raises ArithmeticError if the filter cannot
+        continue."""
         raise NotImplementedError
 
 
@@ -76,7 +78,7 @@ def decode(data, signals):
 
 
 def encode(size, signals, values):
-    """Rounds half to even, holds in the signal's range; NaN becomes the lowest value, and so 0 what is left out."""
+    """Rounds half to even and clamps to the signal's range. NaN becomes the lowest value; a missing value is 0."""
     word = 0
     for name, start, length, kind, scale, offset, lowest, highest, table in signals:
         value = values.get(name, 0)
@@ -94,14 +96,14 @@ HEARTBEAT_ID = GROUPS["TargetHeartbeat"][0][1]
 
 
 class Target:
-    """Frames in, frames out: `send(id, data)` is called for each frame that answers. Has no clock and no bus."""
+    """Takes frames and calls `send(id, data)` for each frame that it sends. Has no clock and no bus."""
 
     def __init__(self, estimator, send):
         self.estimator, self.send = estimator, send
         self.forget()
 
     def forget(self):
-        """As after a start of the program."""
+        """Restores the state after program start."""
         self.state, self.selected, self.algorithm = "idle", "none", 0
         self.errors = dict.fromkeys(("dbc_mismatch", "not_initialised", "input_lost", "input_silent", "numeric", "command"), False)
         self.losses = dict.fromkeys(("frames_lost", "bad_crc", "bad_group", "late"), 0)
@@ -113,10 +115,10 @@ class Target:
         self.now_us = self.heartbeat_due_us = self.heard_us = 0
         self.answered_us = {}
 
-    # -- what it says --
+    # -- status messages --
 
     def send_group(self, group, values):
-        """All messages of a group, in the order of their ids: its time comes last."""
+        """Sends all messages of a group in the order of their ids; the last one carries the time."""
         for _, identifier, data_id, size, signals in GROUPS[group]:
             data = encode(size, signals, values)
             counter = self.next.get(identifier, 0)
@@ -140,7 +142,7 @@ class Target:
     # -- frames to groups --
 
     def receive(self, identifier, data):
-        """Takes a frame from the bus. Returns 'sample' if it was answered as one, 'bench' if it can come from a bench alone, else ''."""
+        """Processes a frame. Returns 'sample' if it completed a sample that was answered, 'bench' if only a bench sends it, otherwise ''."""
         if identifier not in MESSAGES or MESSAGES[identifier][0] in FROM_TARGET:
             return ""
         group, place, (_, _, data_id, size, signals) = MESSAGES[identifier]
@@ -151,7 +153,7 @@ class Target:
             return ""
         before = self.received.get(identifier)
         self.received[identifier] = counter
-        if before == counter and group != "TargetCommand":  # a bench that starts anew may come to the counter of the last one's
+        if before == counter and group != "TargetCommand":  # a restarted bench can send the same counter again
             self.losses["late"] += 1
             return ""
         lost = 0 if before in (None, counter) else (counter - before - 1) % COUNTERS
@@ -182,7 +184,7 @@ class Target:
         return False
 
     def completed(self, group, place, counter, values):
-        """The values of the group once it is whole. A group that another counter interrupts is gone."""
+        """Returns the values of a complete group, otherwise None. A message with another counter discards the incomplete group before it."""
         before, parts = self.pending.pop(group, (counter, {}))
         if before != counter:
             self.losses["bad_group"] += 1
@@ -220,7 +222,7 @@ class Target:
         self.enter("idle")
 
     def start(self):
-        if self.state == "ready" or (self.state == "running" and self.untouched):  # a repeated command leaves no trace
+        if self.state == "ready" or (self.state == "running" and self.untouched):  # a repeated command changes nothing
             self.next, self.pending, self.answered_us = {}, {}, {}
             self.untouched, self.heard_us = True, self.now_us
             self.estimator.start(self.algorithm, self.parameters, self.initial)
@@ -259,12 +261,12 @@ class Target:
         if self.now_us >= self.heartbeat_due_us:
             self.heartbeat_due_us = (self.now_us // HEARTBEAT_US + 1) * HEARTBEAT_US
             self.send_heartbeat()
-            self.send_group("TargetCounters", self.losses)  # a count beyond its signal stays at its end
+            self.send_group("TargetCounters", self.losses)  # a count beyond the signal's range stays at its end
         if self.lockstep:
             self.send_group("StepDone", {"step": sync["step"]})
 
     def unwrapped_us(self, group, value):
-        """A time that travels modulo 2^length steps: the one that is nearest to now."""
+        """Unwraps a time that was sent modulo 2^length steps: takes the one nearest to now."""
         _, _, length, _, scale, *_ = next(s for m in GROUPS[group] for s in m[4] if s[0] == "time_of_validity_us")
         period = round(2**length * scale)
         return self.now_us + (round(value) - self.now_us + period // 2) % period - period // 2
@@ -299,7 +301,7 @@ class LocalBus:
     stamp_clock = time.CLOCK_MONOTONIC
 
     def __init__(self, name):
-        name = name.split("?")[0]  # what follows is the host's
+        name = name.split("?")[0]  # settings after '?' are for the host of the bus
         runtime = os.environ.get("XDG_RUNTIME_DIR", "")
         try:
             entry = os.lstat(runtime)
@@ -309,11 +311,11 @@ class LocalBus:
         folder = f"{runtime}/canhil" if private else f"/tmp/canhil-uid-{os.geteuid()}"
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.connect(f"{folder}/{name}.classic")
-        # magic "CHH1", own echo, only some ids, a bit for each of them, the name of the node
+        # magic "CHH1", echo of own frames, only some ids, a bit for each of them, the name of the node
         self.socket.send(struct.pack("<IBB256s66s", 0x31484843, 0, 0, b"", b"kit"))
 
     def receive(self):
-        """(id, data, stamp [ns]); id None: not a classic frame with an 11-bit id. None: the bus is gone."""
+        """Returns (id, data, stamp [ns]), or None at the end of the bus. id is None for all but classic frames with an 11-bit id."""
         try:
             datagram = self.socket.recv(80)
         except ConnectionResetError:
@@ -347,7 +349,7 @@ class SocketCan:
             if kind == self.SO_TIMESTAMPNS:
                 seconds, nanoseconds = struct.unpack("qq", data)
                 stamp = seconds * 1_000_000_000 + nanoseconds
-        return (identifier if identifier < 0x800 else None), frame[8:8 + size], stamp  # flags are above the 11 bits
+        return (identifier if identifier < 0x800 else None), frame[8:8 + size], stamp  # the flags are above the 11 bits of the id
 
     def send(self, identifier, data):
         self.socket.send(struct.pack("=IB3x8s", identifier, len(data), data))
@@ -360,7 +362,7 @@ def open_bus(name):
 # ---- the process ----
 
 class Process:
-    """A target on a bus, with the messages that speak of the host."""
+    """Runs a target on a bus and sends the messages about the host (TargetTiming)."""
 
     def __init__(self, estimator, bus, make_target=Target):
         self.bus = bus
@@ -371,16 +373,16 @@ class Process:
         self.timing = []
 
     def send(self, identifier, data):
-        """A frame for which there is no room in 20 ms is lost; the bench sees that by the counters."""
+        """A frame is lost if the bus has no room for 20 ms; the bench detects this by the counters."""
         try:
             self.bus.send(identifier, data)
         except (TimeoutError, OSError):
             pass
 
     def take(self, received):
-        """False: another target answers on this bus."""
+        """Returns False if another target is on this bus."""
         identifier, data, stamp_ns = received
-        if not self.established:  # before its first word it listens for a heartbeat and a quarter
+        if not self.established:  # before its first frame it listens for 1.25 heartbeat periods
             return identifier != HEARTBEAT_ID
         if identifier is None:
             return True
@@ -393,8 +395,8 @@ class Process:
         return True
 
     def look_at_clock(self):
-        """In a run the target adds no heartbeat of its own, so that its frames are those of a replay; it speaks up again when the
-        bench has left it behind."""
+        """In a run the target sends no heartbeat by its own clock, so that a replay produces the same frames. It starts again when the bench
+        is gone."""
         now = time.monotonic()
         self.established = self.established or now - self.begun >= 1.25e-6 * HEARTBEAT_US
         if not self.established or now - self.report < 1e-6 * HEARTBEAT_US:
@@ -412,7 +414,7 @@ class Process:
 
 
 def serve(estimator, bus_name, make_target=Target):
-    """Serves an estimator until a signal or the end of the bus. Returns the exit code: 0, or 2 after one line on standard error."""
+    """Runs the target until a signal or the end of the bus. Returns the exit code: 0, or 2 after one line on standard error."""
     try:
         bus = open_bus(bus_name)
     except OSError as error:

@@ -4,8 +4,8 @@
 
 #include "canhil_target.h"
 
-/* Serves an estimator until a signal or the end of the bus. The command line is what hil-bench appends: --bus BUS. Returns the exit code:
- * 0, or 2 after one line on standard error. */
+/* Runs the target until a signal or the end of the bus. The command line is the one that hil-bench appends: --bus BUS. Returns the exit
+ * code: 0, or 2 after one line on standard error. */
 int canhil_serve(const canhil_estimator* estimator, int argc, char** argv);
 
 #endif

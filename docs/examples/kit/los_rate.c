@@ -1,14 +1,14 @@
-/* The line-of-sight rate of a seeker by an alpha-beta-gamma filter, as an example of the kit:
+/* An example of the kit, the line-of-sight rate of a seeker by an alpha-beta-gamma filter:
  *   cc -std=c99 -O2 -ffp-contract=off -o los_rate los_rate.c canhil_target.c linux_bus.c can_bus.c -lm
  *   hil-bench run bench/flights/los_quick.toml --target ./los_rate
- * los_rate.py is the same filter in Python: its answers have the same bits. */
+ * los_rate.py is the same filter in Python; its answers are bit for bit the same. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "linux_bus.h"
 
-/* Those that los_quick.toml sets. */
+/* The parameters that los_quick.toml sets. */
 enum { THERMAL_PITCH, THERMAL_YAW, GLINT_PITCH, GLINT_YAW, SAMPLE_PERIOD, RANGE_SIGMA, JERK, PARAMETERS };
 static const canhil_parameter parameters[PARAMETERS] = {
     {CANHIL_PARAMETER_THERMAL_NOISE_PITCH_RADPM2, 1e-10, 1e-14, 1e-6, false, false},
@@ -21,28 +21,28 @@ static const canhil_parameter parameters[PARAMETERS] = {
 };
 static const uint8_t algorithms[] = {CANHIL_ALGORITHM_COMBINED, CANHIL_ALGORITHM_LOW_PASS};
 static const canhil_answer answers[] = {{CANHIL_GROUP_SEEKER, CANHIL_GROUP_LOS_RATE}};
-static const double least_range_m = 50; /* below it the geometry makes no sense */
+static const double least_range_m = 50; /* shorter ranges make no sense geometrically */
 
 /* One plane of the seeker. */
 typedef struct {
-  double error, rate, target; /* line of sight off the antenna [rad], its inertial rate [rad/s], the target's acceleration [m/s2] */
+  double error, rate, target; /* angle of the LOS to the antenna [rad], inertial LOS rate [rad/s], target acceleration [m/s2] */
   double sigma, nis;
 } plane;
 
 typedef struct {
   const double* parameters;
-  double gain; /* more follows the target sooner, less smooths more */
+  double gain; /* a larger gain follows the target faster, a smaller gain smooths more */
   plane pitch, yaw;
   unsigned updates;
   int64_t t_us;
   bool timed;
 } filter;
 
-/* The n-th sample: measured error angle, turn of the antenna, acceleration of the missile; noise [rad], agility [m/s2].
+/* Processes the n-th sample: measured error angle, rotation of the antenna, acceleration of the missile; noise [rad], agility [m/s2].
  * rate' = (2 closing rate + target - missile) / range. */
 static void step(plane* p, double measured, double turned, double missile, double dt, double reach, double closing, double noise,
                  double agility, double n) {
-  /* Gains by Kalata's tracking index, how far the target may leave the prediction beside the noise (IEEE AES-20 (1984), 174). */
+  /* Gains from Kalata's tracking index: the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174). */
   const double index = agility / reach * dt * dt / noise;
   const double root = (4 + index - sqrt(8 * index + index * index)) / 4;
   double alpha = 1 - root * root, beta = 2 * (2 - alpha) - 4 * root;
@@ -50,7 +50,7 @@ static void step(plane* p, double measured, double turned, double missile, doubl
   double innovation;
   p->error += p->rate * dt - turned;
   p->rate += (2 * closing * p->rate + p->target - missile) / reach * dt;
-  if (n > 1) { /* at the beginning the straight line through the samples so far, as long as its gains are the larger */
+  if (n > 1) { /* at the beginning: a straight line through the samples so far, while its gains are larger */
     alpha = fmax(alpha, fmin(2 * (2 * n - 1) / (n * (n + 1)), 0.99));
     beta = fmax(beta, 6 / (n * (n + 1)));
   } else {
@@ -61,7 +61,7 @@ static void step(plane* p, double measured, double turned, double missile, doubl
   p->error += alpha * innovation;
   p->rate += beta / dt * innovation;
   p->target += reach * gamma / (dt * dt) * innovation;
-  p->nis = innovation * innovation * (1 - alpha) / (noise * noise); /* as alpha = P / (P + noise^2) */
+  p->nis = innovation * innovation * (1 - alpha) / (noise * noise); /* because alpha = P / (P + noise^2) */
   p->sigma = noise / dt * sqrt(fmax(beta * (alpha - beta / 2) / (1 - alpha), 0));
 }
 
@@ -89,7 +89,7 @@ static bool sample(void* state, uint8_t group, const double* v, int64_t t_us, do
                      v[CANHIL_SEEKER_ACCELERATION_VALIDITY] != 0 && v[CANHIL_SEEKER_CLOSING_SPEED_VALIDITY] != 0 &&
                      v[CANHIL_SEEKER_RANGE_VALIDITY] != 0;
   double outcome = f->updates > 0 ? CANHIL_LOS_RATE_OUTCOME_COASTING : CANHIL_LOS_RATE_OUTCOME_WAITING;
-  (void)group; /* it listens to one alone */
+  (void)group; /* there is only one input group */
   f->t_us = t_us;
   f->timed = true;
   if (valid) {
@@ -120,7 +120,7 @@ int main(int argc, char** argv) {
   static const canhil_estimator estimator = {CANHIL_ESTIMATOR_LOS_RATE, algorithms, sizeof algorithms, answers, 1, parameters,
                                              PARAMETERS, start, sample, &state};
   state.gain = 4;
-  if (argc > 2 && strcmp(argv[1], "--gain") == 0) { /* as an option of one's own */
+  if (argc > 2 && strcmp(argv[1], "--gain") == 0) { /* an option of this example */
     state.gain = strtod(argv[2], NULL);
     argv[2] = argv[0];
     argv += 2;

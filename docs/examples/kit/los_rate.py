@@ -1,8 +1,8 @@
-"""The line-of-sight rate of a seeker by an alpha-beta-gamma filter, as an example of the kit:
+"""An example of the kit, the line-of-sight rate of a seeker by an alpha-beta-gamma filter:
 
     hil-bench run bench/flights/los_quick.toml --target 'python3 docs/examples/kit/los_rate.py'
 
-los_rate.c is the same filter in C: its answers have the same bits."""
+los_rate.c is the same filter in C; its answers are bit for bit the same."""
 
 import argparse
 import math
@@ -11,27 +11,27 @@ import sys
 import canhil_target
 from canhil_target import Parameter
 
-LEAST_RANGE_M = 50.0  # below it the geometry makes no sense
+LEAST_RANGE_M = 50.0  # shorter ranges make no sense geometrically
 
 
 class Plane:
-    """One plane of the seeker: line of sight off the antenna [rad], its inertial rate [rad/s], the target's acceleration [m/s2]."""
+    """One plane of the seeker: angle of the LOS to the antenna [rad], inertial LOS rate [rad/s], target acceleration [m/s2]."""
 
     def __init__(self):
         self.error = self.rate = self.target = self.sigma = self.nis = 0.0
 
     def step(self, measured, turned, missile, dt, reach, closing, noise, agility, n):
-        """The n-th sample: measured error angle, turn of the antenna, acceleration of the missile; noise [rad], agility [m/s2].
+        """Processes the n-th sample: measured error angle, rotation of the antenna, acceleration of the missile; noise [rad], agility [m/s2].
         rate' = (2 closing rate + target - missile) / range."""
         self.error += self.rate * dt - turned
         self.rate += (2 * closing * self.rate + self.target - missile) / reach * dt
-        # Gains by Kalata's tracking index, how far the target may leave the prediction beside the noise (IEEE AES-20 (1984), 174).
+        # Gains from Kalata's tracking index: the ratio of target manoeuvre to measurement noise (IEEE AES-20 (1984), 174).
         index = agility / reach * dt * dt / noise
         root = (4 + index - math.sqrt(8 * index + index * index)) / 4
         alpha = 1 - root * root
         beta = 2 * (2 - alpha) - 4 * root
         gamma = beta * beta / alpha
-        if n > 1:  # at the beginning the straight line through the samples so far, as long as its gains are the larger
+        if n > 1:  # at the beginning: a straight line through the samples so far, while its gains are larger
             alpha, beta = max(alpha, min(2 * (2 * n - 1) / (n * (n + 1)), 0.99)), max(beta, 6 / (n * (n + 1)))
         else:
             alpha, beta = 0.99, 0.0
@@ -39,7 +39,7 @@ class Plane:
         self.error += alpha * innovation
         self.rate += beta / dt * innovation
         self.target += reach * gamma / (dt * dt) * innovation
-        self.nis = innovation * innovation * (1 - alpha) / (noise * noise)  # as alpha = P / (P + noise^2)
+        self.nis = innovation * innovation * (1 - alpha) / (noise * noise)  # because alpha = P / (P + noise^2)
         self.sigma = noise / dt * math.sqrt(max(beta * (alpha - beta / 2) / (1 - alpha), 0.0))
 
 
@@ -47,7 +47,7 @@ class LosRate(canhil_target.Estimator):
     estimator = "los_rate"
     algorithms = ("combined", "low_pass")
     answers = {"Seeker": "LosRate"}
-    parameters = {  # those that los_quick.toml sets
+    parameters = {  # the parameters that los_quick.toml sets
         "thermal_noise_pitch_radpm2": Parameter(1e-10, 1e-14, 1e-6),
         "thermal_noise_yaw_radpm2": Parameter(1e-10, 1e-14, 1e-6),
         "glint_noise_pitch_m": Parameter(0.5, 1e-3, 100),

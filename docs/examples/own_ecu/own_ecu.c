@@ -1,11 +1,11 @@
-/* An attitude ECU with a DBC of its own, own_ecu.dbc: it knows nothing of hil-bench. own_ecu.py is the same. */
+/* An attitude ECU with a DBC of its own, own_ecu.dbc. It is independent of hil-bench. own_ecu.py is the same ECU in Python. */
 #define _DEFAULT_SOURCE
 #include <math.h>
 #include <poll.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "can_bus.h" /* SocketCAN, or the bench's embedded bus */
+#include "can_bus.h" /* SocketCAN or the bench's embedded bus */
 
 enum { IMU = 0x174, IMU_STEP = 4, ATTITUDE = 0x200, STATUS = 0x201, STATUS_NS = 100000000 };
 static const double PI = 3.14159265358979323846, DT = 0.01, LEVELLING_S = 60;
@@ -30,7 +30,7 @@ static double word(int part, int at, double scale, double offset) {
   return (ecu.parts[part][at] | ecu.parts[part][at + 1] << 8) * scale + offset;
 }
 
-/* Rates [rad/s] integrated, levelled slowly by the specific force [g]. */
+/* Integrates the rates [rad/s] and levels slowly by the specific force [g]. */
 static void sample(double p, double q, double r, double forward, double left, double up) {
   const double roll = atan2(left, up), pitch = atan2(-forward, hypot(left, up)), share = DT / LEVELLING_S;
   const double at = ecu.started ? ecu.roll : roll, up_at = ecu.started ? ecu.pitch : pitch;
@@ -39,7 +39,7 @@ static void sample(double p, double q, double r, double forward, double left, do
   ecu.started = true;
 }
 
-/* True: the frame was the last of a sample, and `out` is the answer to it. */
+/* Returns true if the frame completed a sample; `out` is then the answer. */
 static bool receive(const canhil_frame* in, canhil_frame* out) {
   const int part = (in->id - IMU) / IMU_STEP, c = in->data[6] & 0xF;
   const double rate = 0.005 * PI / 180, rate_0 = -163.84 * PI / 180, force = 0.000127465, force_0 = -4.1768;
@@ -47,7 +47,7 @@ static bool receive(const canhil_frame* in, canhil_frame* out) {
   if (in->id < IMU || in->id > IMU + 2 * IMU_STEP || (in->id - IMU) % IMU_STEP || in->size != 8 || crc(in->data, 7) != in->data[7])
     return false;
   memcpy(ecu.parts[part], in->data, 8);
-  if (part != 2 || (ecu.parts[0][6] & 0xF) != c || (ecu.parts[1][6] & 0xF) != c) return false; /* of another sample */
+  if (part != 2 || (ecu.parts[0][6] & 0xF) != c || (ecu.parts[1][6] & 0xF) != c) return false; /* not the same sample */
   sample(word(1, 0, rate, rate_0), word(2, 0, rate, rate_0), word(0, 0, rate, rate_0), word(1, 2, force, force_0),
          word(0, 2, force, force_0), word(2, 2, force, force_0));
   roll = (int)lround(ecu.roll * 18000 / PI), pitch = (int)lround(ecu.pitch * 18000 / PI);

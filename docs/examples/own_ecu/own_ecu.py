@@ -1,4 +1,4 @@
-"""An attitude ECU with a DBC of its own, own_ecu.dbc: it knows nothing of hil-bench.
+"""An attitude ECU with a DBC of its own, own_ecu.dbc. It is independent of hil-bench.
 
     hil-bench run docs/examples/own_ecu/own_ecu.toml --target 'python3 docs/examples/own_ecu/own_ecu.py'
 """
@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "kit"))
-from canhil_target import open_bus  # SocketCAN, or the bench's embedded bus
+from canhil_target import open_bus  # SocketCAN or the bench's embedded bus
 
 IMU, ATTITUDE, STATUS = (0x174, 0x178, 0x17C), 0x200, 0x201
 DT, LEVELLING_S, STATUS_S = 0.01, 60.0, 0.1
@@ -27,7 +27,7 @@ def crc(data):
 
 
 class Ecu:
-    """Rates integrated, levelled slowly by the specific force; axes forward, left, up."""
+    """Integrates the rates and levels slowly by the specific force. Axes: forward, left, up."""
 
     def __init__(self):
         self.parts, self.counter, self.angles = {}, 0, None
@@ -42,12 +42,12 @@ class Ecu:
                        pitch + (q * math.cos(roll) - r * math.sin(roll)) * DT + share * (pitch_by_force - pitch))
 
     def receive(self, identifier, data):
-        """A frame of the IMU; the answer to the last of three, else nothing."""
+        """Takes a frame of the IMU. Returns the answer after the last of three frames, otherwise None."""
         if identifier not in IMU or len(data) != 8 or crc(data[:7]) != data[7]:
             return None
         self.parts[identifier] = data
         if identifier != IMU[2] or len({self.parts.get(one, b"")[6:7] for one in IMU}) != 1:
-            return None  # one of the three is of another sample
+            return None  # the three frames are not of the same sample
         words = [[int.from_bytes(self.parts[one][at:at + 2], "little") for one in IMU] for at in (0, 2)]
         yaw, roll, pitch = (word * RATE[0] + RATE[1] for word in words[0])
         left, forward, up = (word * FORCE[0] + FORCE[1] for word in words[1])

@@ -1,5 +1,5 @@
 #pragma once
-// Covariance prediction when Phi = I + G and most of G is known at compile time to be zero.
+// Covariance prediction for Phi = I + G, where most of G is zero by construction.
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
@@ -9,12 +9,13 @@
 
 namespace canhil::filtering {
 
+/// The place of a 3 x 3 block in a matrix.
 struct Block {
   int row = 0, column = 0;  // in blocks of 3
 };
 
-/// (I + G) P (I + G)' for symmetric P [N x N]; of G only the 3x3 blocks in `pattern` (std::array of Block)
-/// are read. Costs 27 N multiplications a block in place of 2 N^3.
+/// (I + G) P (I + G)' for symmetric P [N x N]; reads only the 3x3 blocks of G in `pattern` (std::array of
+/// Block). Costs 27 N multiplications per block instead of 2 N^3.
 template <auto pattern, int N>
 Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, N>& G) {
   static_assert(N % 3 == 0);
@@ -43,8 +44,9 @@ Matrix<N, N> propagate_covariance_blocks(const Matrix<N, N>& P, const Matrix<N, 
   return next;
 }
 
-/// (I + G) P (I + G)' for symmetric P [N x N] when only the first K states move, i.e. G has K rows and then
-/// zeros: times_Gt(M) gives M G' [rows x K] of any M [rows x N], and may know more about G.
+/// (I + G) P (I + G)' for symmetric P [N x N] when only the first K states change, i.e. all rows of G after
+/// the K-th are zero. times_Gt(M) returns M G' [rows x K] for any M [rows x N] and may exploit more zeros of
+/// G.
 template <int K, int N, class TimesGt>
 Matrix<N, N> propagate_covariance_moving(const Matrix<N, N>& P, const TimesGt& times_Gt) {
   const auto rows = padded(P);

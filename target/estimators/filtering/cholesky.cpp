@@ -13,8 +13,8 @@ struct Factor {
   int stride;  // even_rows(N), of L
 };
 
-// Column c of P less what the first `done` columns of L account for; `rows` rows, from c (or one above it)
-// down. P has no padding where N is odd.
+// Column c of P minus the contribution of the first `done` columns of L; `rows` rows, from c (or one above
+// it) down. P is not padded if N is odd.
 template <int rows>
 Vector<rows> column_left(const Factor& of, const double* L, int c, int done) {
   const int first = of.stride - rows;
@@ -47,7 +47,7 @@ void store_rest(const Factor& of, const double* L, int columns, int c, double* r
   std::copy_n(left.data() + (c - first), of.N - c, rest + (c - columns) * (of.N - columns + 1));
 }
 
-// apply.operator()<rows>() of the rows from c (or one above it) down.
+// Calls apply.operator()<rows>() for the rows from c (or one above it) down.
 template <class Apply>
 auto with_rows(const Factor& of, int c, const Apply& apply) {
   switch (of.stride - (c - c % 2)) {

@@ -1,6 +1,7 @@
 #pragma once
-// Lower Cholesky factors of up to 20 rows, left-looking: a column is finished in registers before it is
-// stored. Compiled once for all sizes: cholesky.cpp knows the number of rows that are left, not N.
+// Lower Cholesky factors of up to 20 rows, left-looking: each column is finished in registers before it is
+// stored. Compiled once for all sizes: the template parameter in cholesky.cpp is the number of remaining
+// rows, not N.
 #include "target/estimators/filtering/kalman.hpp"
 
 namespace canhil::filtering {
@@ -15,15 +16,15 @@ void cholesky_rest(const double* P, int N, const double* L, int columns, double*
 
 }  // namespace detail
 
-/// The first K columns of the lower Cholesky factor of P [N x N] (lower triangle read), with one row of
-/// padding where N is odd; false: P's leading K x K block is not positive definite, or not finite.
+/// The first K columns of the lower Cholesky factor of P [N x N] (reads the lower triangle), with one row of
+/// padding if N is odd; false: P's leading K x K block is not positive definite, or not finite.
 template <int K, int N>
 bool cholesky_columns(const Matrix<N, N>& P, Matrix<even_rows(N), K>& L) {
   static_assert(K <= N && N <= detail::most_cholesky_rows);
   return detail::cholesky_columns(P.data(), N, L.data(), K);
 }
 
-/// What K columns of the factor leave of P: the lower right block less their product, symmetric.
+/// The Schur complement: P's lower right block minus the product of the factor's first K columns; symmetric.
 template <int K, int N>
 Matrix<N - K, N - K> cholesky_rest(const Matrix<N, N>& P, const Matrix<even_rows(N), K>& L) {
   static_assert(K < N && N <= detail::most_cholesky_rows);
@@ -33,8 +34,8 @@ Matrix<N - K, N - K> cholesky_rest(const Matrix<N, N>& P, const Matrix<even_rows
   return rest;
 }
 
-/// True when a symmetric matrix (lower triangle read) is finite and positive definite: a NaN or infinity
-/// anywhere reaches a pivot.
+/// True if a symmetric matrix (reads the lower triangle) is finite and positive definite: every NaN or
+/// infinity reaches a pivot.
 template <int N>
 bool is_positive_definite(const Matrix<N, N>& P) {
   Matrix<even_rows(N), N> L;

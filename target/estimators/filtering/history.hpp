@@ -1,7 +1,7 @@
 #pragma once
-// Aiding that arrives late: the last increments with the part of the state that an increment changes before
-// each, so that a measurement valid at an earlier epoch is applied at that epoch, and the increments since
-// are run again. The result is that of a measurement in time, bit for bit.
+// Applies late measurements. Keeps the last increments, each with the part of the state that it changes as it
+// was before. A measurement valid at an earlier epoch is applied at that epoch, and the increments since are
+// repeated. The result equals that of a measurement in time, bit for bit.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace canhil::filtering {
 
-/// Keeps the increments of the last `longest_us`, `Capacity` of them at the most. Epochs are the ends of
-/// increments, in integer microseconds of the measurements' time base. Every step and update of a State goes
-/// through its History. The Model says how:
-///   types State (with a member `ins`: what an increment changes), Increment, Measurement, Settings,
+/// Keeps the increments of the last `longest_us`, at most `Capacity`. Epochs are the ends of increments, in
+/// integer microseconds of the measurements' time base. Every step and update of a State must go through its
+/// History. The Model defines:
+///   types State (with a member `ins`: the part that an increment changes), Increment, Measurement, Settings,
 ///     UpdateResult with a member `outcome` of enum Outcome (ok, not_reached, out_of_order,
 ///     older_than_history, ...)
 ///   step(state, increment, settings)
-///   update(state, earlier, share, measurement, settings): of a measurement valid at the state's epoch less
+///   update(state, earlier, share, measurement, settings): for a measurement valid at the state's epoch minus
 ///     `share` of the increment that began with the ins `earlier` (null: at the epoch)
-///   keep_refusal(state, tried): what an update that was refused leaves behind
-///   applied_at(t_us, now_us, settings): the epoch at which one valid at t_us is to be applied
-/// A filter that predicts by itself between measurements (Predictions > 0: how many of them the increments
-/// kept may span) adds
+///   keep_refusal(state, tried): copies what a refused update changes from the tried state
+///   applied_at(t_us, now_us, settings): the epoch at which to apply a measurement valid at t_us
+/// A filter that also predicts between measurements (Predictions > 0: the largest number of predictions
+/// within the history) adds
 ///   prediction_is_due(state, settings), predict(state, settings)
 template <class Model, std::size_t Capacity, std::size_t Predictions = 0>
 class History {
@@ -33,19 +33,20 @@ class History {
   using UpdateResult = typename Model::UpdateResult;
   using Outcome = typename Model::Outcome;
 
+  /// Starts at start_us; forgets epochs older than longest_us, or beyond Capacity.
   explicit History(std::int64_t start_us, std::int64_t longest_us = std::numeric_limits<std::int64_t>::max())
       : longest_us_(longest_us) {
     restart(start_us);
   }
 
-  /// Empty, with the state's epoch at start_us.
+  /// Clears the history; the state's epoch is start_us.
   void restart(std::int64_t start_us) {
     first_ = count_ = prediction_count_ = 0;
     now_us_ = last_update_us_ = start_us;
     forgotten_us_ = std::numeric_limits<std::int64_t>::min();
   }
 
-  /// A step over an increment that ends at t_us, remembered.
+  /// Steps over an increment that ends at t_us, and stores it.
   void propagate(State& state, const Increment& increment, std::int64_t t_us, const Settings& settings) {
     while (count_ == Capacity || (count_ > 0 && now_us_ - at(0).before_us > longest_us_)) {
       first_ = (first_ + 1) % Capacity;
@@ -56,8 +57,8 @@ class History {
     step(state, increment, t_us, settings);
   }
 
-  /// The update of a measurement valid at valid_us: at that epoch, or, between two epochs, at the later one
-  /// with what is compared interpolated linearly. Refused, with the state untouched: not_reached,
+  /// Applies a measurement valid at valid_us: at that epoch or, between two epochs, at the later one with a
+  /// linear interpolation of the compared quantity. Refused without a change of the state: not_reached,
   /// out_of_order (before the last update), older_than_history.
   UpdateResult update(State& state, const Measurement& measurement, std::int64_t valid_us,
                       const Settings& settings) {
@@ -81,7 +82,7 @@ class History {
       return result;
     }
     last_update_us_ = epoch_us(epoch);
-    prediction_count_ = 0;  // those before the update are out of reach, those after are made anew
+    prediction_count_ = 0;  // earlier ones are unreachable after this update, later ones are repeated
     for (std::size_t i = epoch; i < count_; ++i) {
       at(i).before = then.ins;
       step(then, at(i).increment, epoch_us(i + 1), settings);
@@ -90,6 +91,7 @@ class History {
     return result;
   }
 
+  /// The newest epoch.
   [[nodiscard]] std::int64_t now_us() const { return now_us_; }
 
  private:
@@ -120,7 +122,8 @@ class History {
     }
   }
 
-  // The state before the filter predicts at t_us; the oldest is forgotten, and with it the epochs before it.
+  // Stores the state before the filter predicts at t_us. If full, drops the oldest, and with it earlier
+  // epochs.
   void remember_prediction(const State& state, std::int64_t t_us) {
     if (prediction_count_ == Predictions) {
       forgotten_us_ = predictions_.front().t_us;
@@ -130,7 +133,7 @@ class History {
     predictions_[prediction_count_++] = {state, t_us};
   }
 
-  // The state with the ins of an epoch, and for the rest as it was before the first prediction after it.
+  // The state at an epoch: its ins, and the rest as it was before the first prediction after the epoch.
   State state_at(const State& now, std::size_t epoch) {
     const State* then = &now;
     for (std::size_t i = prediction_count_; i > 0 && predictions_[i - 1].t_us > epoch_us(epoch); --i)
@@ -146,7 +149,7 @@ class History {
   std::int64_t longest_us_;
   std::size_t first_ = 0, count_ = 0, prediction_count_ = 0;
   std::int64_t now_us_ = 0, last_update_us_ = 0;
-  std::int64_t forgotten_us_ = 0;  // before this epoch the filter's state is not known any more
+  std::int64_t forgotten_us_ = 0;  // the filter's state before this epoch has been dropped
 };
 
 }  // namespace canhil::filtering

@@ -1,5 +1,5 @@
 #pragma once
-// Kalman recursions of fixed size, without a domain: N states, M measurements. No allocation, no exception.
+// Generic Kalman recursions of fixed size: N states, M measurements. No allocation, no exception.
 #include <Eigen/Core>
 #include <cmath>
 
@@ -10,11 +10,10 @@ using Matrix = Eigen::Matrix<double, Rows, Cols>;
 template <int Rows>
 using Vector = Eigen::Matrix<double, Rows, 1>;
 
-/// The next even number of rows: a matrix of them is worked on by whole SIMD packets, which an odd one is
-/// not.
+/// The next even number of rows: Eigen uses whole SIMD packets only for an even number of rows.
 constexpr int even_rows(int rows) { return rows + rows % 2; }
 
-/// M with a row of zeros more where its number of rows is odd.
+/// M with an additional row of zeros if its number of rows is odd.
 template <class Derived>
 auto padded(const Eigen::MatrixBase<Derived>& M) {
   constexpr int rows = Derived::RowsAtCompileTime;
@@ -24,14 +23,14 @@ auto padded(const Eigen::MatrixBase<Derived>& M) {
   return out;
 }
 
-/// Copies the lower triangle into the upper: exact symmetry after computing one half only.
+/// Copies the lower triangle into the upper, for exact symmetry after computing only one half.
 template <int N>
 void mirror_lower(Matrix<N, N>& P) {
   for (int column = 1; column < N; ++column)
     for (int row = 0; row < column; ++row) P(row, column) = P(column, row);
 }
 
-/// Each pair of mirrored elements becomes its mean.
+/// Replaces each pair of mirrored elements by its mean.
 template <int N>
 void average_with_transpose(Matrix<N, N>& P) {
   for (int column = 0; column < N; ++column)
@@ -49,9 +48,9 @@ Matrix<N, N> propagate_covariance(const Matrix<N, N>& P, const Matrix<N, N>& Phi
   return next;
 }
 
-/// The inverse of symmetric S through its Cholesky factor L (lower triangle read): S = L L', then L Y = I, L'
-/// X = Y. False when S is not positive definite or not finite. By hand, for Eigen's solver of triangular
-/// systems brings its product of large matrices along, which costs every user more than a second to compile.
+/// The inverse of symmetric S by its Cholesky factor L (reads the lower triangle): S = L L', then L Y = I,
+/// L' X = Y. False if S is not positive definite or not finite. Written by hand: Eigen's triangular solver
+/// includes its product for large matrices, which adds more than a second to every compilation.
 template <int M>
 bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
   Matrix<M, M> L = S;
@@ -87,13 +86,13 @@ bool invert_positive_definite(const Matrix<M, M>& S, Matrix<M, M>& inverse) {
 /// (NIS).
 template <int N, int M>
 struct Correction {
-  bool positive_definite = false;  // of S; when false nothing else is set
+  bool positive_definite = false;  // S is; if false, nothing else is set
   Vector<N> dx;
   Matrix<N, N> P;
   Matrix<N, M> K;
   Matrix<M, M> S;  // innovation covariance H P H' + R
   double nis =
-      0;  // innovation' S^-1 innovation: chi-square of M degrees of freedom if the filter is consistent
+      0;  // innovation' S^-1 innovation: chi-squared with M degrees of freedom if the filter is consistent
 };
 
 namespace detail {
@@ -101,9 +100,9 @@ namespace detail {
 template <int N, int M>
 using Padded = Matrix<even_rows(N), M>;
 
-// Joseph form (I - K H) P (I - K H)' + K R K' with the products by H left to the caller: PHt = P H', and
-// times_Ht(W) = W H' of a W padded to even rows. W = (I - K H) P; P+ = W + (K R - W H') K', whose bracket
-// vanishes for the optimal K.
+// Joseph form (I - K H) P (I - K H)' + K R K'. The caller provides the products with H: PHt = P H', and
+// times_Ht(W) = W H' for a W padded to even rows. W = (I - K H) P; P+ = W + (K R - W H') K', where the
+// bracket vanishes for the optimal K.
 template <int N, int M, class TimesHt>
 Correction<N, M> joseph(const Matrix<N, N>& P, const Matrix<N, M>& PHt, const Matrix<M, M>& HPHt,
                         const Matrix<M, M>& R, const Vector<M>& innovation, TimesHt times_Ht) {
@@ -138,8 +137,7 @@ Correction<N, M> update(const Matrix<N, N>& P, const Matrix<M, N>& H, const Matr
   });
 }
 
-/// The same when the measurement is the states First .. First + M - 1 themselves, which spares the products
-/// by H.
+/// update() for a measurement of the states First .. First + M - 1 themselves, without products with H.
 template <int First, int N, int M>
 Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, const Vector<M>& innovation) {
   return detail::joseph<N, M>(
@@ -147,7 +145,7 @@ Correction<N, M> update_states(const Matrix<N, N>& P, const Matrix<M, M>& R, con
       [](const auto& W) -> detail::Padded<N, M> { return W.template middleCols<M>(First); });
 }
 
-/// The same when the measurement is the states First .. less the states Less .., M of each.
+/// update() for a measurement of the M states from First minus the M states from Less.
 template <int First, int Less, int N, int M>
 Correction<N, M> update_state_difference(const Matrix<N, N>& P, const Matrix<M, M>& R,
                                          const Vector<M>& innovation) {

@@ -1,13 +1,13 @@
 #pragma once
-// What to do with a covariance that has lost its positive definiteness.
+// Repairs a covariance that has lost its positive definiteness.
 #include "target/estimators/filtering/cholesky.hpp"
 #include "target/estimators/filtering/symmetric_eigen.hpp"
 
 namespace canhil::filtering {
 
-/// The covariance P scaled to a correlation matrix, its eigenvalues raised to at least `floor`, and scaled
-/// back. Variances below 1e-30 are taken as 1e-30 and negative ones by their size, so that the result is
-/// positive definite for every finite P.
+/// Scales the covariance P to a correlation matrix, raises its eigenvalues to at least `floor`, and scales
+/// back. Uses the magnitude of each variance, and at least 1e-30, so that the result is positive definite for
+/// every finite P.
 template <int N>
 Matrix<N, N> with_eigenvalue_floor(const Matrix<N, N>& P, double floor = 1e-9) {
   const Vector<N> sigma = P.diagonal().cwiseAbs().cwiseMax(1e-30).cwiseSqrt();
@@ -19,7 +19,7 @@ Matrix<N, N> with_eigenvalue_floor(const Matrix<N, N>& P, double floor = 1e-9) {
   return scaled.lazyProduct(scaled.transpose());
 }
 
-/// P made positive definite where it is not; true: it was not.
+/// Makes P positive definite if it is not; true: P was changed.
 template <int N>
 bool repair(Matrix<N, N>& P) {
   if (is_positive_definite<N>(P)) return false;

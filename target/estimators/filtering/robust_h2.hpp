@@ -1,7 +1,7 @@
 #pragma once
-// Robust H2 filtering against an uncertain A + L Delta N, |Delta| <= 1 (Yang, Shim, Park 2001, after eq.
-// (16)). With Phi = I + (A + P N'N/beta) dt the Riccati equation gains 2 P N'N P/beta + beta L L', which for
-// any beta > 0 bounds what the uncertainty adds.
+// Robust H2 filtering for an uncertain A + L Delta N, |Delta| <= 1 (Yang, Shim, Park 2001, after eq. (16)).
+// With Phi = I + (A + P N'N/beta) dt the Riccati equation gains 2 P N'N P/beta + beta L L', an upper bound of
+// the uncertainty's effect for any beta > 0.
 #include <Eigen/Core>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace canhil::filtering {
 
 /// beta = sqrt(2 lmax(P N'N P) / lmax(L L')), which minimises 2 lmax(P N'N P)/beta + beta lmax(L L');
-/// 0 when either vanishes (or overflows): then both terms are to be dropped, for 1/beta is 0/0.
+/// 0 if either eigenvalue vanishes (or overflows): then both terms must be omitted, as 1/beta is 0/0.
 inline double h2_beta(double lambda_PNNP, double lambda_LL) {
   const double beta = std::sqrt(2 * lambda_PNNP / lambda_LL);
   const bool usable = lambda_PNNP > 0 && lambda_LL > 0 && std::isnormal(beta) && std::isnormal(1 / beta);

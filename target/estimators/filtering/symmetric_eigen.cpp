@@ -8,7 +8,7 @@ namespace {
 // A / scale = Q T Q' of a symmetric A, with its elements within +-1: no overflow, no underflow.
 struct Tridiagonal {
   double scale;
-  SquareMatrix packed;  // T's diagonals, and below them the reflections whose product is Q
+  SquareMatrix packed;  // T's diagonals; below them the reflections whose product is Q
   ColumnVector storage;
 
   explicit Tridiagonal(const SquareMatrix& symmetric)
@@ -17,8 +17,9 @@ struct Tridiagonal {
     Eigen::internal::tridiagonalization_inplace(packed, h);
   }
 
-  // Of the reflections. Eigen's product sums up in an order that depends on whether its result begins at a
-  // multiple of 16 bytes: this is where SelfAdjointEigenSolver of a fixed size has them, for the same bits.
+  // The coefficients of the reflections. Eigen's order of summation depends on whether the result begins at a
+  // multiple of 16 bytes. This address has the alignment that a fixed-size SelfAdjointEigenSolver uses, so
+  // the bits are the same.
   Eigen::VectorBlock<ColumnVector> coefficients() {
     const Eigen::Index n = packed.rows();
     return storage.segment((n + 1) % 2, n - 1);
@@ -44,8 +45,8 @@ struct Tridiagonal {
 
 }  // namespace
 
-// Eigen::SelfAdjointEigenSolver in its own steps, to the same bits: it would bring along the block-wise
-// reflections of matrices beyond 48 rows, which take far longer to compile than all the rest.
+// The steps of Eigen::SelfAdjointEigenSolver, with the same bits. The solver itself also instantiates block
+// reflections for more than 48 rows, which take far longer to compile than all the rest.
 SymmetricEigen symmetric_eigen(const SquareMatrix& symmetric) {
   using Solver = Eigen::SelfAdjointEigenSolver<SquareMatrix>;
   Tridiagonal T(symmetric);

@@ -1,8 +1,8 @@
 #pragma once
-// The unscented transform (Julier, Uhlmann 2004) of a map of which only the first K of N states move and the
-// others keep their value. Sigma points x, x +- sqrt(spread) columns of a root of P, weights 1/(2 spread)
-// each and the rest on the centre. In differences to the centre's image the centre drops out, and a pair of
-// points enters by its even and odd part.
+// The unscented transform (Julier, Uhlmann 2004) of a map that changes only the first K of N states. Sigma
+// points: x, and x +- sqrt(spread) times the columns of a root of P; weights: 1/(2 spread) each, the rest for
+// the centre. In differences to the centre's image the centre cancels, and each pair of points contributes by
+// its even and odd part.
 #include <cmath>
 
 #include "target/estimators/filtering/kalman.hpp"
@@ -19,23 +19,23 @@ Matrix<N, N> symmetric_root(const Matrix<N, N>& P) {
   return scaled.lazyProduct(vectors.transpose());
 }
 
-/// Half the sum and half the difference of a map's images of x + d and x - d, less the centre's image in the
-/// sum; of the K states that move.
+/// Half the sum (minus the centre's image) and half the difference of a map's images of x + d and x - d, for
+/// the K states that change.
 template <int K>
 struct Parts {
   Vector<K> even, odd;
 };
 
-/// Moments of the moved states: mean less the centre's image; second moment about the centre's image, with
-/// the states that stay below (all N rows, padded where N is odd).
+/// Moments of the K changed states: mean minus the centre's image; second moment about the centre's image.
+/// The unchanged states follow below (all N rows, padded if N is odd).
 template <int N, int K>
 struct Moments {
   Vector<K> shift;
   Matrix<even_rows(N), K> about_central;
 };
 
-/// The transform over the given columns of a root (padded where N is odd); parts(d) gives the Parts of the
-/// map for an offset d.
+/// The transform over the given columns of a root (padded if N is odd); parts(d) returns the Parts of the map
+/// for an offset d.
 template <int K, int N, int Columns, class PartsOf>
 Moments<N, K> unscented_moments(const Matrix<even_rows(N), Columns>& root, double spread,
                                 const PartsOf& parts) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the filters of the in-flight alignment have in common: errors of the INS (INS - true), NED in the
+// The common error model of the in-flight alignment filters: errors of the INS (INS - true), NED in the
 // computer frame c, over an interval T between fixes.
 //   dR+ = dR + (dV + dV+) T/2 - w_en x dR T
 //   dV+ = dV + (force term) - (2 w_ie + w_en) x dV T + dg T      (Kang, Kim, Park 2006, eq. (9), corrected:
@@ -18,7 +18,7 @@ using filtering::Matrix;
 using filtering::Vector;
 using strapdown::Interval;
 
-/// Where the states are in a filter of N.
+/// Positions of the states in a filter with N states.
 template <int N>
 struct Layout {
   static_assert(N == 15 || N == 16 || N == 18 || N == 19);
@@ -29,6 +29,7 @@ struct Layout {
   static constexpr int accel_bias = moving, gyro_bias = moving + 3, fix_bias = moving + 6;
 };
 
+/// Estimated errors x [N] and their covariance P [N x N], in the order of Layout.
 template <int N>
 struct Errors {
   Vector<N> x = Vector<N>::Zero();
@@ -36,13 +37,13 @@ struct Errors {
   SinCosForm form = SinCosForm::levelled;  // of sin_cos
 };
 
-/// dg = this o dR [m/s^2]: free fall of an INS that is off by dR.
+/// dg = this o dR [m/s^2] (element-wise): gravity error of an INS with position error dR.
 inline Eigen::Vector3d gravity_error_per_m() {
   constexpr double rate = standard_gravity / 6378137;
   return {-rate, -rate, 2 * rate};
 }
 
-/// G = dx+/dx - I of the moving states, by the blocks that are not zero; its position rows follow from the
+/// The non-zero blocks of G = dx+/dx - I for the moving states. The position rows of G follow from its
 /// velocity rows.
 template <int A>
 struct Transition {
@@ -62,7 +63,8 @@ Transition<A> kinematic_transition(const Interval& interval);
 template <int N, int A>
 Matrix<N, N> propagated(const Matrix<N, N>& P, const Transition<A>& G);
 
-/// x after the interval from what the specific force adds to dV [m/s] and what is added to the attitude.
+/// x after the interval, given the specific force's contribution to dV [m/s] and the increment of the
+/// attitude.
 template <int N>
 Vector<N> moved(const Vector<N>& x, const Interval& interval, const Eigen::Vector3d& force_increment,
                 const Vector<Layout<N>::attitude_count>& attitude_increment);

@@ -19,7 +19,8 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t orthonormalisation_period = 50;  // steps
 
-// Of the tilts after levelling by the first sample, which takes the vehicle's acceleration for gravity [rad].
+// The tilts' sigma after levelling by the first sample, which mistakes the vehicle's acceleration for gravity
+// [rad].
 double levelling_sigma(const Settings& settings) {
   return settings.start_acceleration_sigma / standard_gravity;
 }
@@ -29,7 +30,7 @@ bool is_levelled_first(const Settings& settings) {
          settings.tilt_sigma_0 > levelling_sigma(settings);
 }
 
-// The attitude turned by the smallest angle that lets a specific force point upwards.
+// Turns the attitude by the smallest angle that makes the specific force point upwards.
 void level(strapdown::NavState& nav, const Vector3d& delta_v) {
   const Vector3d force = (nav.C_bn * delta_v).normalized(), up(0, 0, -1);
   const Vector3d axis = force.cross(up);
@@ -44,7 +45,7 @@ Errors<N> initial_errors(const Settings& settings) {
   Vector<N> sigma = Vector<N>::Zero();
   sigma.template segment<3>(At::position) = settings.position_sigma_0;
   sigma.template segment<3>(At::velocity) = settings.velocity_sigma_0;
-  // Levelling by delta leaves phi x delta / 2 of a tilt phi as an error of the heading.
+  // Levelling by delta turns a tilt phi into a heading error phi x delta / 2.
   double tilt = settings.tilt_sigma_0, heading = settings.heading_sigma_0;
   if (is_levelled_first(settings)) {
     heading = std::hypot(heading, tilt * levelling_sigma(settings) / std::numbers::sqrt2);
@@ -63,7 +64,7 @@ Errors<N> initial_errors(const Settings& settings) {
   return errors;
 }
 
-// Returns how often P had to be repaired.
+// Returns the number of repairs of P.
 template <int N>
 int predict_errors(Errors<N>& errors, const Interval& interval, const Settings& settings) {
   if (!(interval.duration > 0)) return 0;
@@ -85,8 +86,8 @@ Vector3d position_difference(const GeodeticPosition& ins, const GeodeticPosition
 
 enum class SensorBiases : std::uint8_t { stay, fed_back };
 
-// Position, velocity, fix bias and, as told, sensor biases into the INS, their states zero; C_pc is the
-// attitude that was taken out of the states.
+// Corrects the INS by position, velocity, fix bias and, if `biases` says so, sensor biases, and zeroes their
+// states. C_pc: the attitude already removed from the states.
 template <int N>
 void feed_back(State& state, Errors<N>& errors, const Matrix3d& C_pc, SensorBiases biases) {
   using At = Layout<N>;
@@ -118,14 +119,14 @@ void close_loop(State& state, Errors<N>& errors, const Settings& settings) {
   } else {
     const Vector3d psi = errors.x.template segment<3>(6);
     const bool platform = settings.attitude_error_frame == AttitudeErrorFrame::platform;
-    // Tilts in navigation axes come after the heading: C_pc = exp([tilt x]) Rz(psi_z), as in sin_cos.
+    // Tilts in navigation axes are applied after the heading: C_pc = exp([tilt x]) Rz(psi_z), as in sin_cos.
     const Matrix3d C_pc = platform ? platform_to_computer(psi)
                                    : Matrix3d(strapdown::exp_rotation({psi.x(), psi.y(), 0}) *
                                               strapdown::exp_rotation({0, 0, psi.z()}));
     feed_back<N>(state, errors, C_pc, SensorBiases::fed_back);
     errors.x.template segment<3>(6).setZero();
     if (!platform) return;
-    // The errors that remain are angles of the new platform: small rotations about the axes of the old ones.
+    // The remaining errors are angles of the new platform: small rotations about the axes of the old angles.
     const Matrix3d axes = rotation_axes(psi);
     errors.P.template middleRows<3>(6) = (axes * errors.P.template middleRows<3>(6)).eval();
     errors.P.template middleCols<3>(6) = (errors.P.template middleCols<3>(6) * axes.transpose()).eval();
@@ -161,7 +162,7 @@ UpdateResult update_errors(State& state, const Errors<N>& before, const Geodetic
   errors.x += c.dx;
   errors.P = c.P;
   result.outcome = Outcome::non_finite;
-  // One that is not finite makes the sum so.
+  // The sum is finite only if every element is.
   if (!std::isfinite(errors.x.sum()) || !std::isfinite(errors.P.sum())) return result;
   result.outcome = Outcome::not_positive_definite;
   if (!(errors.P.diagonal().minCoeff() >= 0)) return result;

@@ -1,7 +1,7 @@
 #pragma once
-// In-flight alignment of an INS by position fixes from an SSBL or GPS, whatever the heading error (Kang, Kim,
-// Park 2006, and a filter that is linear in it). initial() once, propagate() at IMU rate, update() at each
-// fix.
+// In-flight alignment of an INS by position fixes from an SSBL or GPS, with a heading error of any size
+// (Kang, Kim, Park 2006, and a filter that is linear in that error). Call initial() once, propagate() at IMU
+// rate, update() at each fix.
 #include <Eigen/Core>
 #include <cstdint>
 #include <variant>
@@ -12,31 +12,34 @@
 
 namespace canhil::inflight_alignment {
 
-/// All that an IMU sample changes between two predictions of the filter.
+/// The part of the state that an IMU sample changes between two predictions of the filter.
 struct Ins {
   strapdown::NavState nav;
   Interval interval;        // since the last prediction
   std::uint32_t steps = 0;  // since the start
 };
 
+/// A position on WGS-84.
 struct GeodeticPosition {
   double latitude = 0, longitude = 0;  // [rad]
   double height = 0;                   // above the ellipsoid [m]
 };
 
+/// All that the filter keeps between two samples.
 struct State {
   Ins ins;
-  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();                 // estimates, taken from IMU [m/s^2],
-  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();                  // [rad/s]
-  Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();                   // and fixes, NED [m]
-  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of what the INS says; the filter
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimates, subtracted from IMU [m/s^2],
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();   // [rad/s]
+  Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();    // and fixes, NED [m]
+  std::variant<Errors<15>, Errors<16>, Errors<18>, Errors<19>> errors;  // of the INS; the filter
   std::uint32_t updated_at = 0;                                         // step of the last update
   std::uint32_t rejected = 0;                                           // fixes gated in a row
   std::uint32_t repairs = 0;    // how often P lost its positive definiteness
-  bool to_be_levelled = false;  // sin_cos: by the first IMU sample
+  bool to_be_levelled = false;  // sin_cos: the first IMU sample levels the INS
   bool handed_over = false;     // sin_cos: tilt and heading were fed back at the last fix
 };
 
+/// What became of a fix.
 enum class Outcome : std::uint8_t {
   ok,
   gated,                  // NIS above the gate
@@ -45,55 +48,58 @@ enum class Outcome : std::uint8_t {
   not_positive_definite,  // of the innovation covariance or of P's diagonal
   not_reached,            // History: valid after the newest IMU epoch
   out_of_order,           // History: valid before the last update
-  older_than_history,     // History: valid before the oldest epoch kept
+  older_than_history,     // History: valid before the oldest stored epoch
 };
 
-/// An update's answer. Unless outcome is ok the state is as before the call, but for the count of fixes
-/// gated.
+/// The result of an update. Unless outcome is ok, the update changed only the count of gated fixes.
 struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
-  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();             // INS - fix less its estimate, NED [m]
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // INS - fix, minus its prediction, NED [m]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [m^2]
-  double nis = 0;                                                   // chi-square of 3 if consistent
+  double nis = 0;                                                   // chi-squared of 3 if consistent
   GeodeticPosition position;  // best estimate at the fix's time of validity
-  bool gate_opened = false;   // ok in spite of its NIS
+  bool gate_opened = false;   // accepted despite a NIS above the gate
   int repairs = 0;            // of P, in this call
 };
 
-/// The state at the start of an alignment from the INS's own navigation state; P0 from the settings.
+/// The state at the start of an alignment: the INS's own navigation state, with P0 from the settings.
 State initial(const strapdown::NavState& nav, const Settings& settings);
 
-/// One IMU increment (dt > 0): mechanisation with the estimated biases removed, and the filter's prediction
-/// once the interval without a fix has grown to the settings' longest.
+/// Processes one IMU increment (dt > 0): mechanisation with the estimated biases removed, and a prediction of
+/// the filter when the interval without a fix reaches Settings::longest_interval.
 void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
 
-/// The parts of propagate(): mechanisation alone; whether the filter is to predict now; its prediction.
+/// The parts of propagate(): mechanisation only; whether the filter must predict now; its prediction.
 void mechanise(State& state, const strapdown::ImuIncrement& imu);
+/// True if the interval without a fix has reached Settings::longest_interval.
 bool prediction_is_due(const State& state, const Settings& settings);
+/// Predicts the filter over the interval since its last prediction.
 void predict(State& state, const Settings& settings);
 
-/// A fix valid at the last IMU epoch: prediction over the interval, measurement update, and in a closed loop
-/// the correction of the INS.
+/// Processes a fix valid at the last IMU epoch: prediction over the interval, measurement update, and in a
+/// closed loop the correction of the INS.
 UpdateResult update(State& state, const GeodeticPosition& fix, const Settings& settings);
 
-/// The same with the INS's position at the fix's time of validity, for a caller who has interpolated it.
+/// update() with `ins`, the INS's position at the fix's time of validity, which the caller has interpolated.
 UpdateResult update(State& state, const GeodeticPosition& ins, const GeodeticPosition& fix,
                     const Settings& settings);
 
-/// What is known best now: the INS less its estimated errors, predicted to the last IMU epoch.
+/// The best current estimate: the INS minus its estimated errors, predicted to the last IMU epoch.
 struct Estimate {
   strapdown::NavState nav;
   Eigen::Vector3d accel_bias, gyro_bias, fix_bias;  // [m/s^2], [rad/s], NED [m]
 };
+/// The estimate after the last sample.
 Estimate estimate(const State& state);
 
-/// How well, as of the last update.
+/// The uncertainty after the last update.
 struct Uncertainty {
   Eigen::Vector3d position, velocity;                  // sigmas, NED [m], [m/s]
   Eigen::Matrix3d attitude;                            // covariance, small rotations about NED [rad^2]
   Eigen::Vector3d accel_bias, gyro_bias;               // sigmas, body [m/s^2], [rad/s]
   Eigen::Vector3d fix_bias = Eigen::Vector3d::Zero();  // sigmas, NED [m]
 };
+/// The sigmas after the last update.
 Uncertainty uncertainty(const State& state);
 
 }  // namespace canhil::inflight_alignment

@@ -1,9 +1,10 @@
 #pragma once
-// What a fix does to the errors, and the errors to the INS.
+// Updates the errors by a fix, and corrects the INS by the errors.
 #include "target/estimators/inflight_alignment/filter.hpp"
 
 namespace canhil::inflight_alignment {
 
+/// True for a filter with sine and cosine of the heading error as states.
 template <int N>
 constexpr bool is_sin_cos = Layout<N>::attitude_count == 4;
 
@@ -12,12 +13,13 @@ template <int N>
 filtering::Correction<N, 3> correction(const Errors<N>& prior, const Eigen::Vector3d& innovation,
                                        const Settings& settings);
 
+/// The position of a navigation state.
 GeodeticPosition position_of(const strapdown::NavState& nav);
 
-/// The position less its errors [m].
+/// The position minus its errors [m].
 GeodeticPosition corrected(const GeodeticPosition& ins, const Eigen::Vector3d& dR);
 
-/// The INS less position [m] and velocity errors, and its attitude turned to the computer frame by C_pc.
+/// The INS minus position [m] and velocity errors, with its attitude turned to the computer frame by C_pc.
 strapdown::NavState corrected(const strapdown::NavState& nav, const Eigen::Vector3d& dR,
                               const Eigen::Vector3d& dV, const Eigen::Matrix3d& C_pc);
 

@@ -1,10 +1,11 @@
 #pragma once
-// Fixes that arrive late, applied against the INS as it was at their time of validity.
+// Applies late fixes to the INS state at their time of validity.
 #include "target/estimators/filtering/history.hpp"
 #include "target/estimators/inflight_alignment/filter.hpp"
 
 namespace canhil::inflight_alignment {
 
+/// What filtering::History needs of this filter.
 struct HistoryModel {
   using State = inflight_alignment::State;
   using Settings = inflight_alignment::Settings;
@@ -13,14 +14,18 @@ struct HistoryModel {
   using UpdateResult = inflight_alignment::UpdateResult;
   using Outcome = inflight_alignment::Outcome;
 
+  /// Steps over an IMU increment.
   static void step(State& state, const Increment& imu, const Settings&) { mechanise(state, imu); }
+  /// See inflight_alignment::prediction_is_due().
   static bool prediction_is_due(const State& state, const Settings& settings) {
     return inflight_alignment::prediction_is_due(state, settings);
   }
+  /// See inflight_alignment::predict().
   static void predict(State& state, const Settings& settings) {
     inflight_alignment::predict(state, settings);
   }
 
+  /// Applies a measurement; `earlier` and `share` interpolate between two epochs.
   static UpdateResult update(State& state, const Ins* earlier, double share, const Measurement& fix,
                              const Settings& settings) {
     const strapdown::NavState& nav = state.ins.nav;
@@ -33,14 +38,16 @@ struct HistoryModel {
     return inflight_alignment::update(state, ins, fix, settings);
   }
 
+  /// The time at which a measurement is applied.
   static std::int64_t applied_at(std::int64_t valid_us, std::int64_t now_us, const Settings& settings) {
     return settings.late_fixes == LateFixes::at_validity ? valid_us : now_us;
   }
+  /// Keeps the count of refused measurements of an update that was tried.
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 
-/// filtering::History of the in-flight alignment, about 0.4 kB an increment, and of the filter's own
-/// predictions within them.
+/// filtering::History of the in-flight alignment, with the filter's own predictions; about 0.4 kB per
+/// increment.
 template <std::size_t Capacity, std::size_t Predictions = 16>
 using History = filtering::History<HistoryModel, Capacity, Predictions>;
 

@@ -1,15 +1,18 @@
 #pragma once
-// The map of psi_angle.hpp about a state x: x's own image, the even and odd parts of x +- d, and its Jacobian
-// with respect to the biases. It reads the first 15 states, so that it is the same for 15 and 18.
+// The map of psi_angle.hpp about a state x: the image of x, the even and odd parts for x +- d, and the
+// Jacobian with respect to the biases. It reads only the first 15 states, so it serves 15 and 18 states.
 #include "target/estimators/filtering/unscented.hpp"
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
 namespace canhil::inflight_alignment {
 
+/// Sines and cosines of the psi angles.
 struct Trig {
   Eigen::Vector3d sin, cos;  // of psi_x, psi_y, psi_z
 
+  /// Of psi [rad].
   explicit Trig(const Eigen::Vector3d& psi);
+  /// From sines and cosines that are known.
   Trig(const Eigen::Vector3d& sine, const Eigen::Vector3d& cosine) : sin(sine), cos(cosine) {}
 };
 
@@ -22,20 +25,25 @@ struct Terms {
   Eigen::Vector3d rates;  // E [(w - C_pc' w) T - A e]
 };
 
+/// The map about a state, over one interval.
 class PsiMap {
  public:
+  /// About x; `interval` must outlive the map.
   PsiMap(const Vector<15>& x, const Interval& interval);
 
-  /// The image of x: what moved() takes.
+  /// The image of x, as arguments of moved().
   [[nodiscard]] Eigen::Vector3d force_increment() const { return interval_.delta_v_n - terms_.force; }
+  /// The increment of psi over the interval [rad].
   [[nodiscard]] const Eigen::Vector3d& attitude_increment() const { return terms_.rates; }
 
-  /// Of x +- d; sin and cos of both points come from one set of them.
+  /// The even and odd parts for x +- d; both points share one evaluation of sin and cos.
   [[nodiscard]] filtering::Parts<9> parts(const Vector<15>& d) const;
 
   /// C_pc A and -E A: d(velocity+)/d(accelerometer bias) and d(attitude+)/d(gyro bias).
   [[nodiscard]] Eigen::Matrix3d velocity_accel() const;
+  /// See velocity_accel().
   [[nodiscard]] Eigen::Matrix3d attitude_gyro() const;
+  /// The length of the interval [s].
   [[nodiscard]] double duration() const { return interval_.duration; }
 
  private:

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double spread = 3;  // N + kappa
 
-// The lower root's columns beyond psi move biases alone, and for a given psi the map is linear in them: what
-// those points would add is G_c rest, and G_c rest G_c'.
+// The lower root's columns beyond psi change only biases, and for a given psi the map is linear in the
+// biases: these points contribute G_c rest and G_c rest G_c'.
 template <int N>
 void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moments,
                           const Matrix<N - 9, N - 9>& rest) {
@@ -27,8 +27,8 @@ void add_points_of_biases(const PsiMap& centre, filtering::Moments<N, 9>& moment
       attitude_gyro.lazyProduct(added.template middleRows<3>(3));
 }
 
-// Moments over the whole root's sigma points, the lower one's columns beyond psi in closed form; counts the
-// repairs that P needed.
+// Moments over the sigma points of the whole root; for a lower root the columns beyond psi in closed form.
+// Counts the repairs of P.
 template <int N>
 filtering::Moments<N, 9> moments_about(const PsiMap& centre, Matrix<N, N>& P, UkfRoot kind, int& repairs) {
   const auto parts = [&centre](const auto& d) { return centre.parts(d.template head<15>()); };
@@ -64,8 +64,8 @@ int predict_ukf(Errors<N>& errors, const Interval& interval, const Settings& set
   errors.x = moved<N>(errors.x, interval, centre.force_increment(), centre.attitude_increment());
   errors.x.template head<9>() += moments.shift;
   errors.P.template leftCols<9>() = moments.about_central.template topRows<N>();
-  // The second moment about the mean is that about the centre's image less the shift's square, whatever the
-  // centre's weight.
+  // The second moment about the mean is the one about the centre's image minus the square of the shift, for
+  // any weight of the centre.
   if (settings.ukf_covariance == UkfCovariance::about_mean)
     errors.P.template topLeftCorner<9, 9>().noalias() -= moments.shift.lazyProduct(moments.shift.transpose());
   filtering::mirror_lower<N>(errors.P);

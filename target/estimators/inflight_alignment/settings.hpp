@@ -1,42 +1,47 @@
 #pragma once
-// What a user may choose of the in-flight alignment. Defaults: the recommended filter with the sensors of
-// Kang, Kim, Park 2006 and an SSBL (target/estimators/inflight_alignment/NOTES.md).
+// Settings of the in-flight alignment. Defaults: the recommended filter with the sensors of Kang, Kim, Park
+// 2006 and an SSBL (target/estimators/inflight_alignment/NOTES.md).
 #include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
 
 namespace canhil::inflight_alignment {
 
+/// One g [m/s^2].
 inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+/// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
-/// sin_cos: the heading error as sine and cosine, linear in it, so any start heading will do. ekf, ukf: the
-/// paper's, on the psi angles.
+/// sin_cos: the states are sine and cosine of the heading error; the model is linear in them, so any start
+/// heading works. ekf, ukf: the paper's filters, with psi angles as states.
 enum class Algorithm : std::uint8_t { ekf, ukf, sin_cos };
 
-/// ssbl: a fix has a constant bias, three states more.
+/// ssbl: fixes have a constant bias, which adds three states.
 enum class Aiding : std::uint8_t { ssbl, gps };
 
-/// In which axes the tilts of ekf and ukf live when a closed loop feeds them back: platform rotates their
-/// rows of P by the heading correction, navigation does not. An open loop is the paper's, in platform axes.
+/// The axes of the tilts of ekf and ukf when a closed loop feeds them back: `platform` rotates their rows of
+/// P by the heading correction, `navigation` does not. An open loop uses platform axes, like the paper.
 enum class AttitudeErrorFrame : std::uint8_t { platform, navigation };
 
+/// The square root of P whose columns are the sample points' offsets.
 enum class UkfRoot : std::uint8_t { lower_cholesky, symmetric };
 
-/// about_central: about the transformed central point; positive semi-definite whatever the weights.
+/// about_central: about the transformed central point; positive semi-definite for any weights.
 enum class UkfCovariance : std::uint8_t { about_mean, about_central };
 
-/// How sin_cos treats tilts and biases (sin_cos.hpp). published: of first order in the tilts, which stay in
-/// the states until the heading is fed back; biases in body axes. levelled: tilts are fed back at each fix,
-/// the vertical force is of second order in them, and biases are turned with the heading error.
+/// How sin_cos treats tilts and biases (sin_cos.hpp). published: first order in the tilts, which stay in the
+/// states until the heading is fed back; biases in body axes. levelled: tilts are fed back at each fix, the
+/// vertical force is second order in the tilts, and biases are turned with the heading error.
 enum class SinCosForm : std::uint8_t { published, levelled };
 
+/// When a late fix is applied.
 enum class LateFixes : std::uint8_t { at_arrival, at_validity };
 
+/// The settings of the filter.
 struct Settings {
   Algorithm algorithm = Algorithm::sin_cos;
   Aiding aiding = Aiding::ssbl;
-  bool closed_loop = false;  // of ekf and ukf; sin_cos always feeds back
+  bool closed_loop = false;  // for ekf and ukf; sin_cos always feeds back
   AttitudeErrorFrame attitude_error_frame = AttitudeErrorFrame::platform;
   UkfRoot ukf_root = UkfRoot::lower_cholesky;
   UkfCovariance ukf_covariance = UkfCovariance::about_mean;
@@ -49,15 +54,15 @@ struct Settings {
   double fix_noise_vertical = 2;                          // [m]
   double fix_bias_noise_density = 0;                      // random walk of the bias [m/sqrt(s)]
   double handover_sigma = 2 * rad_per_deg;  // sin_cos: heading sigma below which attitude is fed back
-  double longest_interval = 1.5;            // without a fix: the filter then predicts by itself [s]
-  double gate_nis = 0;                      // a fix with a larger NIS is refused; 0: none is
-  std::uint32_t gate_recovery = 5;          // ... but not more than this many in a row
+  double longest_interval = 1.5;            // after this time without a fix the filter predicts [s]
+  double gate_nis = 0;                      // fixes with a larger NIS are refused; 0: no gate
+  std::uint32_t gate_recovery = 5;          // ... but at most this many in a row
 
   Eigen::Vector3d position_sigma_0 = Eigen::Vector3d::Constant(5);    // NED [m]
   Eigen::Vector3d velocity_sigma_0 = Eigen::Vector3d::Constant(0.1);  // NED [m/s]
   double tilt_sigma_0 = rad_per_deg;                                  // each of two [rad]
   double heading_sigma_0 = 90 * rad_per_deg;                          // [rad]
-  double start_acceleration_sigma = 1;  // levelled: of the vehicle's first sample, each axis [m/s^2]
+  double start_acceleration_sigma = 1;  // levelled: vehicle's acceleration at the start, each axis [m/s^2]
   double accel_bias_sigma_0 = 1000e-6 * standard_gravity;  // each axis [m/s^2]
   double gyro_bias_sigma_0 = 1 * rad_per_deg / 3600;       // each axis [rad/s]
   double fix_bias_sigma_0 = 3.1622776601683795;            // sqrt(1 + 3^2): SSBL, ship [m]

@@ -13,10 +13,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int sine = 8, cosine = 9;       // states s and k
-constexpr double smallest_radius = 0.01;  // of (s, 1 - k), which a heading without any information may have
-constexpr double circle_tolerance = 0.4;  // a resolved heading has |(s, 1 - k)| near 1
+constexpr double smallest_radius = 0.01;  // limit for |(s, 1 - k)|, which is near 0 for an unknown heading
+constexpr double circle_tolerance = 0.4;  // for a resolved heading |(s, 1 - k)| is near 1
 
-// sin and cos of the heading, and the interval seen from p turned by it.
+// sin and cos of the heading error, and the interval's quantities turned by it.
 struct Turned {
   double s, c;
   Vector3d force;  // Rz S
@@ -35,8 +35,8 @@ struct Turned {
   }
 };
 
-// The vertical force is (phi x Rz S)_z - phi^2 S_z / 2 beside S_z, of second order in a = (phi_x, phi_y, s,
-// k): S_y phi_x - S_x phi_y + a' H a / 2. The horizontal one, Rz S + phi x S_z, is linear in a.
+// The vertical force differs from S_z by (phi x Rz S)_z - phi^2 S_z / 2, which is second order in a = (phi_x,
+// phi_y, s, k): S_y phi_x - S_x phi_y + a' H a / 2. The horizontal force, Rz S + phi x S_z, is linear in a.
 Matrix<4, 4> curvature(const Vector3d& S) {
   Matrix<4, 4> H;
   H << -S.z(), 0, S.x(), -S.y(),  //
@@ -51,7 +51,7 @@ Matrix<4, 4> attitude_covariance(const Errors<N>& errors) {
   return errors.P.template block<4, 4>(6, 6);
 }
 
-// P for attitude states J times the old ones.
+// Maps P to new attitude states: J times the old ones.
 template <int N>
 void map_attitude(Errors<N>& errors, const Matrix<4, 4>& J) {
   Matrix<N, N>& P = errors.P;

@@ -1,13 +1,13 @@
 #pragma once
 // The heading error as two states, s = sin psi_z and k = 1 - cos psi_z, and the tilts phi = (phi_x, phi_y, 0)
-// in the computer frame: C_pc = exp([phi x]) Rz(psi_z). The specific force then enters the velocity error
-// linearly, so that a heading error of any size is as good as a small one. Attitude states: phi_x phi_y s k.
+// in the computer frame: C_pc = exp([phi x]) Rz(psi_z). The velocity error is then linear in the attitude
+// states phi_x phi_y s k, for a heading error of any size.
 //
-// SinCosForm::levelled keeps it so where tilts are not small, without an estimate of the heading in it:
+// SinCosForm::levelled keeps the model valid for large tilts, without using an estimate of the heading:
 //   horizontal force    Rz S + phi x S_z e_z                        linear in (phi, s, k)
-//   vertical force      S_z + (phi x Rz S)_z - phi^2 S_z / 2        of second order: mean and variance
-//   biases              b' = Rz b: Rz A b = Rz A Rz' b', which is A b' where A turns about the vertical
-//   tilt                taken out of the INS at each fix (take_out_tilt), so that phi stays small
+//   vertical force      S_z + (phi x Rz S)_z - phi^2 S_z / 2        second order: adds mean and variance
+//   biases              b' = Rz b: Rz A b = Rz A Rz' b', which is A b' if A turns about the vertical
+//   tilt                removed from the INS at each fix (take_out_tilt), so that phi stays small
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
 namespace canhil::inflight_alignment {
@@ -20,11 +20,12 @@ double heading_error(const Vector<N>& x);
 template <int N>
 Eigen::Matrix3d tilt_and_heading(const Vector<N>& x);
 
-/// d(phi_x, phi_y, psi_z)/d(phi_x, phi_y, s, k) at the estimate, |(s, 1 - k)| taken as at least 0.01.
+/// d(phi_x, phi_y, psi_z)/d(phi_x, phi_y, s, k) at the estimate, with |(s, 1 - k)| limited to at least 0.01.
 template <int N>
 Matrix<3, 4> angles_of_states(const Vector<N>& x);
 
-/// Mean and covariance of (s, k) for psi_z ~ N(0, sigma^2) [rad]; a large sigma: any heading alike.
+/// Sets mean and covariance of (s, k) for psi_z ~ N(0, sigma^2) [rad]; a large sigma: all headings are
+/// equally likely.
 template <int N>
 void set_heading_prior(Errors<N>& errors, double sigma);
 
@@ -32,7 +33,7 @@ void set_heading_prior(Errors<N>& errors, double sigma);
 template <int N>
 Vector<N> predicted_sin_cos(const Errors<N>& errors, const Interval& interval);
 
-/// The Jacobian at the estimate, less I; without that of the product of heading error and biases.
+/// The Jacobian at the estimate, minus I; omits the derivative of the product of heading error and biases.
 template <int N>
 Transition<4> transition_sin_cos(const Errors<N>& errors, const Interval& interval);
 
@@ -40,8 +41,8 @@ Transition<4> transition_sin_cos(const Errors<N>& errors, const Interval& interv
 template <int N>
 void predict_sin_cos(Errors<N>& errors, const Interval& interval, const Settings& settings);
 
-/// True once the heading is known well enough to be fed back as an angle: sigma below the settings' and (s, 1
-/// - k) near the unit circle.
+/// True when the heading can be fed back as an angle: its sigma is below the settings' handover_sigma, and
+/// (s, 1 - k) is near the unit circle.
 template <int N>
 bool heading_is_resolved(const Errors<N>& errors, const Settings& settings);
 
@@ -49,23 +50,22 @@ bool heading_is_resolved(const Errors<N>& errors, const Settings& settings);
 template <int N>
 Eigen::Matrix3d axes_of_biases(const Errors<N>& errors);
 
-/// Biases b' and their covariance become those in body axes, b = Rz' b', db = Rz' (db' - dpsi e_z x b') with
-/// dpsi = c ds + s dk; in the published form they are.
+/// Converts the biases b' and their covariance to body axes: b = Rz' b', db = Rz' (db' - dpsi e_z x b') with
+/// dpsi = c ds + s dk. Does nothing in the published form.
 template <int N>
 void turn_biases_back(Errors<N>& errors);
 
-/// The tilt as far as it is known in platform axes, phi_p = E[Rz' phi] / E[s^2 + (1 - k)^2] [rad], taken out
-/// of x whatever the heading error; returns exp([phi_p x]) for the INS. What remains of exp([phi x]) Rz
-/// exp([-phi_p x]) is phi' = phi - Rz phi_p = phi - phi_p + k phi_p - s e_z x phi_p, linear in (s, k), and so
-/// P follows.
+/// Removes the tilt that is known in platform axes, phi_p = E[Rz' phi] / E[s^2 + (1 - k)^2] [rad], from x,
+/// for any heading error; returns exp([phi_p x]) for the INS. The rest of exp([phi x]) Rz exp([-phi_p x]) is
+/// phi' = phi - Rz phi_p = phi - phi_p + k phi_p - s e_z x phi_p, which is linear in (s, k); P is mapped
+/// accordingly.
 template <int N>
 Eigen::Matrix3d take_out_tilt(Errors<N>& errors);
 
-/// Tilts and heading taken out of x, C_pc for the INS, and their covariance mapped: s <- c s + s k, k <- 0,
-/// for k is not independent of s any more; biases as turn_biases_back(). What remains after the estimates are
-/// out,
+/// Removes tilts and heading from x, returns C_pc for the INS, and maps their covariance: s <- c s + s k,
+/// k <- 0, as k now depends on s; biases as in turn_biases_back(). After removing the estimates the rest is
 ///   exp([phi x]) Rz(dpsi) exp([-phi_hat x]) = exp([phi' x]) Rz(dpsi),   phi' = phi - Rz(dpsi) phi_hat,
-/// so that dphi' = dphi - dpsi e_z x phi_hat: of first order, for phi_hat is. Left out in the published form.
+/// so dphi' = dphi - dpsi e_z x phi_hat, a first-order term. The published form omits it.
 template <int N>
 Eigen::Matrix3d take_out_attitude(Errors<N>& errors);
 

@@ -1,11 +1,11 @@
 #pragma once
-// The product by the transition's blocks, apart from error_model.hpp as it takes long to compile.
+// The product with the transition's blocks; separate from error_model.hpp because it is slow to compile.
 #include "target/estimators/inflight_alignment/error_model.hpp"
 
 namespace canhil::inflight_alignment {
 
-/// The columns that G reads of a matrix with a column for each state: all but the fix bias, which nothing
-/// moves by.
+/// The columns of a matrix [.. x N] that the product with G' reads: all except the fix bias, on which no
+/// other state depends.
 template <int Rows, int A>
 using FirstStates = Eigen::Map<const Matrix<Rows, 12 + A>, Eigen::Aligned16>;
 

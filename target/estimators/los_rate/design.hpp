@@ -1,6 +1,6 @@
 #pragma once
-// Settings and what is made of them at start-up: the tables of the closed gains, so that a step solves no
-// equation. One set where the planes' noises are equal, two where they are not.
+// The design, computed from the settings at start-up: tables of the closed gains, so that a step solves no
+// equation. One set of tables if both planes have equal noise, otherwise two.
 #include <array>
 #include <cmath>
 
@@ -9,22 +9,23 @@
 
 namespace canhil::los_rate {
 
-/// Of one plane, after an update.
+/// 1-sigma uncertainty of one plane after an update.
 struct Sigma {
   double error = 0;         // [rad]
   double rate = 0;          // [rad/s]
   double acceleration = 0;  // of the target [m/s^2]
 };
 
+/// The square roots of the diagonal.
 inline Sigma sigma_of(const Covariance& P) { return {std::sqrt(P.ee), std::sqrt(P.ww), std::sqrt(P.aa)}; }
 
-/// A closed gain (discrete, for x) and the 1-sigmas that belong to it.
+/// A closed gain (discrete, for x) and its 1-sigmas.
 struct ClosedGain {
   Gain K;
   Sigma sigma;
 };
 
-/// P-bar of thermal noise over closing speed, P-bar of glint (eqs. (6)-(8)).
+/// P-bar for thermal noise over closing speed, and P-bar for glint (eqs. (6)-(8)).
 struct PBarTable {
   static constexpr int nodes = 33;
   std::array<Covariance, nodes> thermal;  // at closing_speed_max * i / (nodes - 1)
@@ -32,62 +33,65 @@ struct PBarTable {
   double thermal_psd = 0;  // thermal^2 Ts
   double crossing_range = 0;
   Covariance glint;
-  Gain glint_gain;  // pole-matched, of y
+  Gain glint_gain;  // pole-matched, for y
 };
 
-/// Pole-matched gain and steady sigmas of the sum of the noises over range (equal steps of its logarithm) and
-/// closing speed, as what is proportional to the bandwidth or varies less, for linear interpolation.
+/// Pole-matched gain and steady sigmas for the sum of the noises, over range (equal logarithmic steps) and
+/// closing speed. The entries are chosen so that they vary little or in proportion to the bandwidth, for
+/// linear interpolation.
 struct CombinedTable {
   static constexpr int ranges = 128, speeds = 9;
+  /// One entry of the table.
   struct Node {
-    double alpha, root_beta, root_gamma;  // gain of y = [alpha, root_beta^2, root_gamma^3]
+    double alpha, root_beta, root_gamma;  // gain for y = [alpha, root_beta^2, root_gamma^3]
     Sigma sigma;                          // error and rate times range
   };
   std::array<std::array<Node, speeds>, ranges> node;
   double log2_range_min = 0, nodes_per_octave = 0, nodes_per_speed = 0;
 };
 
-/// Fixed gain of the classical filter, and the covariance that measurement noise of PSD 1 gives it.
+/// Fixed gain of the classical filter, and its covariance for measurement noise of PSD 1.
 struct LowPass {
   Gain gain;
   Covariance noise;  // [1, 1/s, ... per rad^2 s]
 };
 
+/// The settings and what follows from them; made once, at start-up.
 struct Design {
   Settings settings;
-  bool equal_noise = true;  // then only the pitch member of each pair of tables is made
+  bool equal_noise = true;  // then only the pitch member of each pair of tables is computed
   Planes<PBarTable> p_bar;
   Planes<CombinedTable> combined;
   LowPass low_pass;
 };
 
-/// Makes the tables of settings.algorithm (start-up: thousands of cubic equations for the combined one).
-/// Noise, jerk density, sample period, bandwidth and the ends of the tables must be positive.
+/// Computes the tables of settings.algorithm (thousands of cubic equations for `combined`: call it at
+/// start-up). Noise, jerk density, sample period, bandwidth and the ends of the tables must be positive.
 Design make_design(const Settings& settings);
 
-/// The range [m] below which guidance is to hold, and at which range is clamped in transition and gain.
+/// The range [m] below which guidance must hold its command; transition and gain clamp the range to it.
 double least_range(const Settings& settings, double closing_speed);
 
-/// Steady covariance of x, continuous, of the algorithm's own model: where a coast begins. Solves the
-/// equations anew.
+/// Steady continuous-time covariance of x in the algorithm's own model: the initial value of a coast. Solves
+/// the equations anew.
 Covariance steady_covariance(const Settings& settings, const Noise& noise, Geometry at);
 
 /// P-bar at a closing speed [m/s], by cubic interpolation, clamped to the table.
 Covariance thermal_p_bar(const PBarTable& table, double closing_speed);
-/// P of x of thermal noise: Na and Lee, the powers of r that go with eqs. (6)-(8).
+/// P of x for thermal noise: Na and Lee, the powers of r for eqs. (6)-(8).
 Covariance thermal_covariance(const Covariance& p_bar, double range);
-/// K of thermal noise, eq. (9) corrected: K3 = P3bar/(s2 r^2), not P3bar/(s2 r^3).
+/// K for thermal noise, eq. (9) corrected: K3 = P3bar/(s2 r^2), not P3bar/(s2 r^3).
 Gain thermal_gain(const Covariance& p_bar, double psd, double range);
-/// P of x of glint, eq. (10) corrected: P4 = vc^2 P1bar/r^4 + 2 vc P2bar/r^3 + P4bar/r^2.
+/// P of x for glint, eq. (10) corrected: P4 = vc^2 P1bar/r^4 + 2 vc P2bar/r^3 + P4bar/r^2.
 Covariance glint_covariance(const Covariance& p_bar, Geometry at);
-/// K of glint, eq. (11) corrected: K3 = r P3bar/s2, not P3bar/(r s2).
+/// K for glint, eq. (11) corrected: K3 = r P3bar/s2, not P3bar/(r s2).
 Gain glint_gain(const Covariance& p_bar, double psd, Geometry at);
 
 /// The gain of the switched tables for one sample: thermal above the crossing range, glint below.
 ClosedGain closed_gain(const PBarTable& table, const Settings& settings, Geometry at);
 /// The gain of the combined table for one sample, bilinear.
 ClosedGain closed_gain(const CombinedTable& table, Geometry at);
-/// The fixed gain; sigmas of measurement noise alone, R = sample_variance().
+/// The fixed gain; its sigmas include only measurement noise, R = sample_variance().
 ClosedGain closed_gain(const LowPass& filter, double R, double Ts);
 
 }  // namespace canhil::los_rate

@@ -18,7 +18,8 @@ bool finite(const State& state) {
          (!state.covariance || (finite(state.P.pitch) && finite(state.P.yaw)));
 }
 
-// function(plane) of pitch, and of yaw only where its noise differs; `plane` picks a member of a pair.
+// Evaluates function(plane) for pitch, and for yaw only if its noise differs; `plane` selects a member of a
+// pair.
 template <class Function>
 auto of_planes(const Design& design, Function function) {
   auto pitch = function([](auto& pair) -> auto& { return pair.pitch; });
@@ -26,19 +27,19 @@ auto of_planes(const Design& design, Function function) {
       pitch, design.equal_noise ? pitch : function([](auto& pair) -> auto& { return pair.yaw; })};
 }
 
-// What a sample lacks, and its inputs in the complex plane.
+// A sample's inputs in the complex plane, and which of them are missing.
 struct Sample {
-  double gap, interval;  // of lost samples, to be bridged, and its own [s]
+  double gap, interval;  // duration of the lost samples before it, and its own interval [s]
   Plane error, antenna_increment;
   double roll_increment;
-  Motion motion;  // over its interval; what was not measured is what was measured last
-  bool error_ok, antenna_ok, acceleration_ok;  // antenna: of the whole step
-  bool motion_known;                           // of its interval
-  Fault fault;                                 // the first
+  Motion motion;  // over its interval; missing values keep their last measurement
+  bool error_ok, antenna_ok, acceleration_ok;  // antenna: over the whole step
+  bool motion_known;                           // over its interval
+  Fault fault;                                 // the first fault
 };
 
-// A gap lies between two samples that tell the motion, or it cannot be bridged: then the motion of the whole
-// step is unknown. The classical filter has no use for the missile's acceleration.
+// A gap can be bridged only between two samples with known motion; otherwise the motion of the whole step is
+// unknown. The classical filter does not use the missile's acceleration.
 Sample judged(const State& state, const Measurement& m, const Settings& settings) {
   const bool lost = m.interval > 0 && m.interval < m.dt;
   const Plane missile_acceleration = acceleration(m.missile_acceleration);
@@ -99,8 +100,8 @@ void start(State& state, Plane error, const Design& design, UpdateResult& result
   result.outcome = Outcome::started;
 }
 
-// P of a leg; what was not measured widens it: an angle `turn` [rad] of the antenna, `pull` [m/s] of the
-// missile.
+// Predicts P over a leg, increased by the sigmas of unmeasured motion: `turn` [rad] of the antenna, `pull`
+// [m/s] of the missile.
 void predict_covariance(State& state, Geometry end, double dt, double turn, double pull,
                         const Design& design) {
   const double w = pull / end.range;
@@ -164,7 +165,8 @@ void update(State& state, Plane measured, double dt, bool kalman, const Design& 
   }
 }
 
-// A closed gain cannot serve an estimate that is much worse than its steady one: the Kalman filter starts up.
+// A closed gain does not suit an estimate that is much worse than its steady state: the Kalman filter starts
+// up.
 void coast(State& state, double dt, const Sample& sample, const Settings& settings, UpdateResult& result) {
   result.outcome = Outcome::coasting;
   state.coasted_s += dt;
@@ -182,7 +184,7 @@ void predict_low_pass(State& state, double dt, Plane antenna_increment, double r
   state.rate *= whole;
 }
 
-// The interval of the sample itself; without the antenna's increment as if it were tracking.
+// The leg of the sample's own interval; without the antenna's increment it assumes that the antenna tracks.
 Leg own_leg(const State& state, const Sample& sample, const Settings& settings) {
   const double dt = sample.interval;
   return {.dt = dt,
@@ -205,10 +207,10 @@ void predict(State& state, Geometry end, const Leg& leg, bool covariance, const 
 void advance(State& state, const Measurement& m, const Sample& sample, bool range_ok, const Design& design,
              UpdateResult& result) {
   const Settings& settings = design.settings;
-  const bool low_pass = settings.algorithm == Algorithm::low_pass;  // has no use for range and acceleration
+  const bool low_pass = settings.algorithm == Algorithm::low_pass;  // uses neither range nor acceleration
   const bool measured =
       sample.error_ok && sample.antenna_ok && (low_pass || (sample.acceleration_ok && range_ok));
-  // A closed gain is that of one nominal step from its own steady state. After a gap or a coast P is larger.
+  // A closed gain is valid for one nominal step from its steady state. After a gap or a coast P is larger.
   const bool uneven = !low_pass && (sample.gap > 0 || state.coasted_s > 0);
   const bool kalman = settings.algorithm == Algorithm::kalman || state.start_up_s > 0 || uneven;
   if (!state.covariance && (!measured || kalman)) {
@@ -217,7 +219,7 @@ void advance(State& state, const Measurement& m, const Sample& sample, bool rang
         design, [&](auto plane) { return steady_covariance(settings, plane(settings.noise), begin); });
     state.covariance = true;
   }
-  // Reckoned on and on at the clamped range, 2 vc/r would grow without bound.
+  // Extrapolated for long at the clamped range, the rate would grow without bound by 2 vc/r.
   const Geometry end{result.used.range, result.blind && !measured ? 0 : result.used.closing_speed};
   const bool covariance = !measured || kalman;
   if (sample.gap > 0) {
@@ -239,7 +241,8 @@ State initial() { return {}; }
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment) {
   const Transition phi = transition(end, dt);
-  // c' = j p c: the states turn by the whole roll; in the axes before it, inputs are turned back by half.
+  // c' = j p c: the states turn by the whole roll; inputs, measured in mid-turn, are turned back by half of
+  // it.
   const Plane half = std::polar(1.0, roll_increment / 2), whole = half * half;
   antenna_increment *= std::conj(half);
   missile_acceleration *= std::conj(half);
@@ -291,7 +294,7 @@ UpdateResult step(State& state, const Measurement& m, const Design& design) {
   return result;
 }
 
-Planes<Sigma> told_sigma(const UpdateResult& result, const Design& design) {
+Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design) {
   Planes<Sigma> sigma = result.sigma;
   const Settings& s = design.settings;
   const bool tracks = result.outcome != Outcome::waiting && result.outcome != Outcome::started;

@@ -1,6 +1,6 @@
 #pragma once
-// LOS rate of a seeker by range-only gains (Na and Lee), in two planes with roll coupling. make_design() at
-// start-up, initial(), then step() at each sample; NOTES.md for equations, signs and corrections.
+// LOS rate of a seeker by range-only gains (Na and Lee), in two planes with roll coupling. Call make_design()
+// at start-up, initial(), then step() at each sample. NOTES.md has equations, signs and corrections.
 #include <cstdint>
 
 #include "target/estimators/los_rate/design.hpp"
@@ -9,10 +9,10 @@
 
 namespace canhil::los_rate {
 
-/// One sample of the seeker; increments over the `interval` that ends at it.
+/// One sample of the seeker, with increments over the `interval` that ends at it.
 struct Measurement {
   double dt = 0;                       // since the last step [s]
-  double interval = 0;                 // shorter than dt: samples were lost before this one; 0: dt [s]
+  double interval = 0;                 // shorter than dt: samples were lost before; 0: equal to dt [s]
   Planes<double> error{};              // LOS off the antenna's axis [rad]
   Planes<double> antenna_increment{};  // antenna's inertial rotation about y, z [rad]
   double roll_increment = 0;           // about x [rad]
@@ -22,37 +22,40 @@ struct Measurement {
   bool error_valid = false, antenna_valid = false, acceleration_valid = false;
 };
 
+/// All that the filter keeps between two samples.
 struct State {
   Plane error, rate, acceleration;  // of the LOS and the target
-  Motion motion;                    // the last measured of each
-  bool motion_known = false;        // by the last sample
-  Planes<Covariance> P;             // while `covariance` is set; in pitch alone where the noises are equal
+  Motion motion;                    // the last measurement of each component
+  bool motion_known = false;        // the last sample contained it
+  Planes<Covariance> P;             // while `covariance` is set; only pitch if the noises are equal
   RangeTrack track;
-  double start_up_s = 0;  // of Kalman filter still to come
+  double start_up_s = 0;  // remaining time of the Kalman filter
   double coasted_s = 0;   // since the last update
   bool started = false;
-  bool covariance = false;  // P is carried on: Kalman filter or coasting
+  bool covariance = false;  // P is propagated: Kalman filter or coasting
 };
 
+/// What a step did.
 enum class Outcome : std::uint8_t {
   waiting,     // no usable range and error angle yet
-  started,     // the first sample: error angle taken over
+  started,     // the first sample: its error angle starts the estimate
   updated,     // by the algorithm's own gain; after a gap or a coast by a Kalman gain
   start_up,    // by the Kalman filter before the closed gain
   coasting,    // predicted only; `fault` says why
-  bad_step,    // dt not positive, not finite or too long: nothing done
-  non_finite,  // the result would not be finite: nothing done
+  bad_step,    // dt not positive, not finite or too long: ignored
+  non_finite,  // the result would not be finite: ignored
 };
 
+/// The result of a step.
 struct UpdateResult {
   Outcome outcome = Outcome::bad_step;
-  Fault fault = Fault::none;  // the first that was found, whether or not it made the estimate coast
-  bool blind = false;         // below the least range: range is clamped, guidance is to hold its command
+  Fault fault = Fault::none;  // the first fault found, whether or not the estimate coasts
+  bool blind = false;         // below the least range: range is clamped, guidance must hold its command
   Planes<double> innovation;  // [rad]
   Planes<double> innovation_variance{1, 1};  // [rad^2]
-  double nis = 0;       // of both planes: chi-square of 2 if consistent; 0 without an update
+  double nis = 0;       // of both planes: chi-squared of 2 if consistent; 0 without an update
   Planes<Sigma> sigma;  // after the step
-  Geometry used;        // range (clamped) and closing speed that gain and transition saw
+  Geometry used;        // range (clamped) and closing speed in gain and transition
 };
 
 /// LOS error angle [rad], LOS rate [rad/s] about y and z, target acceleration [m/s^2] along z and y.
@@ -63,20 +66,21 @@ struct Estimate {
 /// The state before the first sample.
 State initial();
 
-/// One sample: prediction, and an update if the sample has what the algorithm needs. No allocation, no
-/// exception; never leaves a NaN in the state.
+/// Processes one sample: prediction, and an update if the sample has all inputs of the algorithm. No
+/// allocation, no exception; never leaves a NaN in the state.
 UpdateResult step(State& state, const Measurement& measurement, const Design& design);
 
-/// Sigmas to be told of a step. `combined` allows for what no white jerk does, a turn of the target all at
-/// once: the rate lags by up to 0.885 a/(Om r) (third-order Butterworth poles of bandwidth Om, a step of the
-/// acceleration), and with a = acceleration_sigma_0 that counts as an event of 3 sigma.
-Planes<Sigma> told_sigma(const UpdateResult& result, const Design& design);
+/// The sigmas to report for a step. `combined` allows for a sudden turn of the target, which white jerk does
+/// not model: the rate lags by up to 0.885 a/(Om r) (third-order Butterworth poles of bandwidth Om, a step of
+/// the acceleration); the lag for a = acceleration_sigma_0 counts as 3 sigma.
+Planes<Sigma> reported_sigma(const UpdateResult& result, const Design& design);
 
-/// The state in the planes' own signs.
+/// The state with the signs of the two planes.
 Estimate estimate(const State& state);
 
-/// Prediction of the three states over dt that ends at `end` (transition()): input a - a_m through the third
-/// column, less the antenna increment, then turned by the roll; inputs measured in mid-turn by half of it.
+/// Predicts the three states over dt until `end` (transition()): input a - a_m through the third column,
+/// minus the antenna increment, then turned by the roll. Inputs, measured in mid-turn, are turned by half of
+/// it.
 void predict(State& state, Geometry end, double dt, Plane antenna_increment, Plane missile_acceleration,
              double roll_increment);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What antenna and missile do between samples, and what is believed of it where samples were lost.
+// The motion of antenna and missile between samples, and its interpolation where samples were lost.
 #include <complex>
 
 namespace canhil::los_rate {
@@ -15,7 +15,7 @@ struct Motion {
   Plane missile_acceleration;  // gravity included [m/s^2]
 };
 
-/// A part of a step, and 1 sigma in each plane of what is not known of it.
+/// A part of a step, with the 1-sigma uncertainty of its motion in each plane.
 struct Leg {
   double dt = 0;               // [s]
   Plane antenna_increment;     // [rad]
@@ -25,9 +25,9 @@ struct Leg {
   double pull = 0;             // of the missile's velocity [m/s]
 };
 
-/// Lost samples of `gap` [s] between two that were measured: the mean of both. Where a rate steps from one to
-/// the other at a time that may be any, its integral is wrong by a uniform +-|change| gap/2, whose sigma is
-/// |change| gap/sqrt(12); of the change of both planes, each has half of the square.
+/// Bridges lost samples over `gap` [s] by the mean of the motions before and after. If the rate steps between
+/// these two at a random time, the error of its integral is uniform in +-|change| gap/2, with sigma
+/// |change| gap/sqrt(12). Each plane gets half of the squared change of both planes.
 Leg bridge(const Motion& before, const Motion& after, double gap);
 
 }  // namespace canhil::los_rate

@@ -1,5 +1,5 @@
 #pragma once
-// Judges range and closing speed sample by sample and reckons on where they cannot be believed.
+// Checks range and closing speed sample by sample, and extrapolates them while they are implausible.
 #include <cstdint>
 
 #include "target/estimators/los_rate/covariance.hpp"
@@ -16,27 +16,28 @@ enum class Fault : std::uint8_t {
   acceleration,          // missile acceleration missing
   range_invalid,         // flagged, not finite, zero or negative
   range_stale,           // unchanged for too long
-  range_jump,            // off what the last range and closing speed lead to
+  range_jump,            // far from the extrapolation of the last range and closing speed
   closing_speed_invalid  // flagged, not finite, zero or negative
 };
 
-/// Range [m] and closing speed [m/s] as a sensor gave them.
+/// Range [m] and closing speed [m/s] from a sensor.
 struct RangeSample {
   double range = 0, closing_speed = 0;
   bool range_valid = false, closing_speed_valid = false;
 };
 
+/// Range and closing speed as they are believed, and the checks of the samples.
 struct RangeTrack {
-  Geometry now;            // believed
+  Geometry now;            // the current estimate
   Geometry raw;            // the last sample that was finite and positive
-  double unchanged_s = 0;  // for how long the raw range has been the same
+  double unchanged_s = 0;  // time since the raw range changed
   int agreeing = 0;        // raw samples in a row that agree with one another
   bool known = false;
 };
 
-/// One sample, dt [s] after the last: believed, or the track reckons on with range -= vc dt and the fault is
-/// named. Samples that contradict the track but agree with one another are believed in the end
-/// (relock_samples).
+/// Processes one sample, dt [s] after the last. Accepts a plausible sample; otherwise extrapolates by
+/// range -= vc dt and returns the fault. Accepts samples that contradict the track once enough of them agree
+/// with one another (relock_samples).
 Fault follow(RangeTrack& track, const RangeSample& sample, double dt, const Settings& settings);
 
 }  // namespace canhil::los_rate

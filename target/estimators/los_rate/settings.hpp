@@ -1,9 +1,10 @@
 #pragma once
-// What a user may choose of the LOS-rate estimator. Defaults: the engagement of NOTES.md at 200 Hz.
+// Settings of the LOS-rate estimator. Defaults: the engagement of NOTES.md at 200 Hz.
 #include <cstdint>
 
 namespace canhil::los_rate {
 
+/// Where the gain comes from.
 enum class Algorithm : std::uint8_t {
   switched_table,  // the paper's: P-bar tables for thermal and glint noise, switched where the two cross
   combined,        // one gain for the sum of all noises, tabulated in range and closing speed
@@ -26,26 +27,27 @@ struct Noise {
   bool operator==(const Noise&) const = default;
 };
 
+/// The settings of the estimator.
 struct Settings {
   Algorithm algorithm = Algorithm::combined;
   Planes<Noise> noise;
   double jerk_density = 300;     // q: PSD of the target's jerk [m^2/s^5]
-  double sample_period = 0.005;  // of the noise figures and of the gains; a step may be longer [s]
+  double sample_period = 0.005;  // for which noise and gains are specified; a step may be longer [s]
 
   double rate_sigma_0 = 0.05;        // of the LOS rate at the start [rad/s]
   double acceleration_sigma_0 = 40;  // of the target at the start [m/s^2]
-  double start_up = 2.5;             // a closed gain follows this long a Kalman filter [s]
+  double start_up = 2.5;             // time of the Kalman filter before a closed gain takes over [s]
   double gap_limit = 0.05;           // after a longer coast the Kalman filter starts up again [s]
-  double longest_step = 0.5;         // a step beyond this is refused [s]
+  double longest_step = 0.5;         // longer steps are refused [s]
 
   double low_pass_bandwidth = 8;  // [rad/s]
   double low_pass_damping = 0.70710678118654752;
 
   double range_max = 10'000;           // end of the combined table [m]
   double closing_speed_max = 2000;     // end of both tables [m/s]
-  double blind_range = 50;             // below max(this, 3 range_sigma, 10 vc Ts) guidance is to hold [m]
+  double blind_range = 50;             // below max(this, 3 range_sigma, 10 vc Ts) guidance must hold [m]
   double range_sigma = 15;             // of the range, bias included, near the blind range [m]
-  double range_gate = 100;             // a jump beyond this is refused ... [m]
+  double range_gate = 100;             // larger jumps are refused ... [m]
   double closing_speed_gate = 100;     // [m/s]
   int relock_samples = 10;             // ... until so many samples in a row agree with one another
   double range_unchanged_limit = 0.1;  // a range that does not change for longer is stale [s]

@@ -9,7 +9,7 @@ Eigen::Matrix3d exp_rotation(const Eigen::Vector3d& phi) {
   const double x = phi.squaredNorm();
   double a;        // sin |phi| / |phi|
   double b;        // (1 - cos |phi|) / |phi|^2
-  if (x < 0.01) {  // the first term left out is below 3e-18
+  if (x < 0.01) {  // the first omitted term is below 3e-18
     a = 1 - x / 6 * (1 - x / 20 * (1 - x / 42 * (1 - x / 72)));
     b = 0.5 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56 * (1 - x / 90))));
   } else {

@@ -20,17 +20,18 @@ Eigen::Vector3d log_rotation(const Eigen::Matrix3d& C);
 /// The attitude error phi [rad], n axes, of C_computed = exp(-[phi x]) C_true.
 Eigen::Vector3d misalignment(const Eigen::Matrix3d& C_computed, const Eigen::Matrix3d& C_true);
 
+/// Euler angles, yaw-pitch-roll sequence [rad].
 struct Euler {
   double roll = 0, pitch = 0, heading = 0;  // [rad]
 };
 
-/// C_bn of roll, pitch, heading [rad] (Groves 2013, eq. 2.22 transposed).
+/// C_bn from roll, pitch, heading [rad] (Groves 2013, eq. 2.22 transposed).
 Eigen::Matrix3d dcm_from_euler(const Euler& e);
 
-/// Roll, pitch, heading [rad] of C_bn; pitch in +-pi/2, where (only) roll and heading are not unique.
+/// Roll, pitch, heading [rad] of C_bn; pitch in [-pi/2, pi/2]. Roll and heading are not unique at +-pi/2.
 Euler euler_from_dcm(const Eigen::Matrix3d& C);
 
-/// One Newton step C (3 I - C'C)/2 to the nearest orthonormal matrix: an error e becomes of order e^2.
+/// One Newton step C (3 I - C'C)/2 to the nearest orthonormal matrix: reduces an error e to the order of e^2.
 Eigen::Matrix3d reorthonormalised(const Eigen::Matrix3d& C);
 
 }  // namespace canhil::strapdown

@@ -1,12 +1,13 @@
 #pragma once
-// The strapdown solution over a filter's interval, as integrals, so that a step of the specific force need
-// not fall on an update.
+// The strapdown solution over a filter's interval, as integrals: a step of the specific force may then fall
+// between updates.
 #include <Eigen/Core>
 
 #include "target/estimators/strapdown/mechanization.hpp"
 
 namespace canhil::strapdown {
 
+/// Integrals since the last update of a filter.
 struct Interval {
   double duration = 0;                                      // [s]
   Eigen::Vector3d delta_v_n = Eigen::Vector3d::Zero();      // integral of C_bn f_ib_b [m/s]
@@ -15,7 +16,7 @@ struct Interval {
   Eigen::Vector3d omega_en_n = Eigen::Vector3d::Zero();
 };
 
-/// The interval and one more mechanisation step of dt [s].
+/// Extends the interval by a mechanisation step of dt [s].
 inline void extend(Interval& interval, const MechanizationStep& step, double dt) {
   interval.duration += dt;
   interval.delta_v_n += step.delta_v_n;

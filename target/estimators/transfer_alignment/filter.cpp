@@ -17,15 +17,15 @@ struct Prediction {
   bool degraded = false;
 };
 
-// Without a manoeuvre the attitude error stays what it was at the start, but for the gyros: a covariance that
-// has grown beyond it is no bound, and what it adds to itself grows with it.
+// Without a manoeuvre the attitude error keeps its initial size, except for gyro drift. An H2 covariance that
+// has grown beyond its start is not a useful bound, and its H2 terms grow with it.
 bool beyond_the_start(const Covariance& P, const Settings& settings) {
   return !(P.diagonal().segment<3>(attitude_state).sum() <=
            initial_variance(settings).segment<3>(attitude_state).sum());
 }
 
-// P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt: one step an update
-// interval, since the step is part of the H2 filter's definition.
+// P <- Phi P Phi' + Q_k, Phi = I + (A + P N'N/beta) dt, Q_k = (beta L L' + Q) dt: one step per update
+// interval, as the step is part of the H2 filter's definition.
 Prediction predict(const State& state, const Settings& settings) {
   const Interval& interval = state.ins.interval;
   Prediction next;
@@ -105,7 +105,7 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
   result.degraded = prior.degraded;
   result.innovation = difference - prior.x.segment<3>(velocity_state);
   // The master's noise is a density: its variance over an interval is R/dt, so the result does not depend on
-  // the rate.
+  // the update rate.
   const Eigen::Matrix3d R = Eigen::Matrix3d::Identity() * (settings.velocity_noise_density / duration);
   const auto correction =
       filtering::update_states<velocity_state, state_count, 3>(prior.P, R, result.innovation);
@@ -127,7 +127,7 @@ UpdateResult update_with_difference(State& state, const Eigen::Vector3d& differe
     result.outcome = Outcome::non_finite;
     return result;
   }
-  // Zero is that of a bias which was known exactly.
+  // A variance of zero is valid: a bias that is known exactly.
   if (!(correction.P.diagonal().minCoeff() >= 0)) return result;
 
   result.outcome = Outcome::ok;

@@ -1,7 +1,7 @@
 #pragma once
-// Velocity-matching transfer alignment (Yang, Shim, Park 2001): a slave INS aligned to a master's velocity by
-// a Kalman or a robust H2 filter. initial() once, propagate() at IMU rate, update() at each velocity of the
-// master.
+// Velocity-matching transfer alignment (Yang, Shim, Park 2001): aligns a slave INS to a master's velocity by
+// a Kalman or a robust H2 filter. Call initial() once, propagate() at IMU rate, update() at each velocity of
+// the master.
 #include <Eigen/Core>
 #include <cstdint>
 
@@ -11,7 +11,8 @@
 
 namespace canhil::transfer_alignment {
 
-/// The slave INS: all that an IMU sample changes. Copy it to snapshot, assign it to restore.
+/// The slave INS: the part of the state that an IMU sample changes. Copy it for a snapshot, assign to
+/// restore.
 struct Ins {
   strapdown::NavState nav;
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();  // estimate, subtracted from the IMU [m/s^2]
@@ -20,6 +21,7 @@ struct Ins {
   Interval interval;                                     // since the last update
 };
 
+/// All that the filter keeps between two samples.
 struct State {
   Ins ins;
   Covariance P;                // posterior of the last update
@@ -27,6 +29,7 @@ struct State {
   std::uint32_t rejected = 0;  // velocities gated in a row
 };
 
+/// What became of a velocity of the master.
 enum class Outcome : std::uint8_t {
   ok,
   gated,                  // NIS above the gate
@@ -35,36 +38,37 @@ enum class Outcome : std::uint8_t {
   not_positive_definite,  // of the innovation covariance or of P's diagonal
   not_reached,            // History: valid after the newest IMU epoch
   out_of_order,           // History: valid before the last update
-  older_than_history,     // History: valid before the oldest epoch kept
+  older_than_history,     // History: valid before the oldest stored epoch
 };
 
-/// An update's answer. Unless outcome is ok the state is as before the call, but for the count of gated ones.
+/// The result of an update. Unless outcome is ok, the update changed only the count of gated velocities.
 struct UpdateResult {
   Outcome outcome = Outcome::no_interval;
-  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // V_slave - V_master, less x in an open loop [m/s]
+  Eigen::Vector3d innovation = Eigen::Vector3d::Zero();  // V_slave - V_master, minus x in an open loop [m/s]
   Eigen::Matrix3d innovation_covariance = Eigen::Matrix3d::Zero();  // [(m/s)^2]
-  double nis = 0;                                                   // chi-square of 3 if consistent
+  double nis = 0;                                                   // chi-squared of 3 if consistent
   StateVector dx = StateVector::Zero();                             // K innovation: the correction
   double alpha = 0;                                                 // H2 [m/s^2]
-  double beta = 0;                                                  // H2; 0: terms dropped, the Kalman step
-  bool degraded = false;  // H2, Loop::invariant: its P was beyond the start's, this was the Kalman step
+  double beta = 0;                                                  // H2; 0: a Kalman step without H2 terms
+  bool degraded = false;  // H2, Loop::invariant: its P exceeded the start's, so this was a Kalman step
 };
 
-/// The state at the start of an alignment from the slave's own navigation state; P0 from the settings.
+/// The state at the start of an alignment: the slave's own navigation state, with P0 from the settings.
 State initial(const strapdown::NavState& nav, const Settings& settings);
 
-/// One IMU increment (dt > 0): mechanisation with the estimated biases removed, and the interval's means.
+/// Processes one IMU increment (dt > 0): mechanisation with the estimated biases removed, and the interval's
+/// means.
 void propagate(State& state, const strapdown::ImuIncrement& imu, const Settings& settings);
 
-/// The master's velocity [m/s, NED] valid at the last IMU epoch: P over the interval since the last update in
-/// one step, measurement update, and in a closed loop the correction of the INS.
+/// Processes the master's velocity [m/s, NED] valid at the last IMU epoch: propagates P over the interval
+/// since the last update in one step, updates it by the measurement, and in a closed loop corrects the INS.
 UpdateResult update(State& state, const Eigen::Vector3d& master_velocity, const Settings& settings);
 
-/// The same from the velocity difference V_slave - V_master [m/s], for a caller who has interpolated V_slave.
+/// update() with the difference V_slave - V_master [m/s], for a caller that has interpolated V_slave.
 UpdateResult update_with_difference(State& state, const Eigen::Vector3d& difference,
                                     const Settings& settings);
 
-/// The best estimate: the INS itself in a closed loop, the INS less x (as of the last update) in an open one.
+/// The best estimate: the INS itself in a closed loop, the INS minus x (of the last update) in an open loop.
 Ins estimate(const State& state);
 
 }  // namespace canhil::transfer_alignment

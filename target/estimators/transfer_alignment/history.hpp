@@ -1,10 +1,11 @@
 #pragma once
-// Velocities of the master that arrive late, applied to the INS as it was at their time of validity.
+// Applies late velocities of the master to the INS state at their time of validity.
 #include "target/estimators/filtering/history.hpp"
 #include "target/estimators/transfer_alignment/filter.hpp"
 
 namespace canhil::transfer_alignment {
 
+/// What filtering::History needs of this filter.
 struct HistoryModel {
   using State = transfer_alignment::State;
   using Settings = transfer_alignment::Settings;
@@ -13,20 +14,24 @@ struct HistoryModel {
   using UpdateResult = transfer_alignment::UpdateResult;
   using Outcome = transfer_alignment::Outcome;
 
+  /// Steps over an IMU increment.
   static void step(State& state, const Increment& imu, const Settings& settings) {
     propagate(state, imu, settings);
   }
+  /// Applies a measurement; `earlier` and `share` interpolate between two epochs.
   static UpdateResult update(State& state, const Ins* earlier, double share,
                              const Measurement& master_velocity, const Settings& settings) {
     Eigen::Vector3d velocity = state.ins.nav.v_eb_n;
     if (earlier != nullptr) velocity -= share * (velocity - earlier->nav.v_eb_n);
     return update_with_difference(state, velocity - master_velocity, settings);
   }
+  /// The time at which a measurement is applied.
   static std::int64_t applied_at(std::int64_t valid_us, std::int64_t, const Settings&) { return valid_us; }
+  /// Keeps the count of refused measurements of an update that was tried.
   static void keep_refusal(State& state, const State& tried) { state.rejected = tried.rejected; }
 };
 
-/// filtering::History of the transfer alignment, about 0.4 kB an increment.
+/// filtering::History of the transfer alignment, about 0.4 kB per increment.
 template <std::size_t Capacity>
 using History = filtering::History<HistoryModel, Capacity>;
 

@@ -14,7 +14,7 @@ Vector3d times_left_jacobian(const Vector3d& phi, const Vector3d& v) {
   const double x = phi.squaredNorm();
   double first = 0.5 * (1 - x / 12 * (1 - x / 30));
   double second = (1 - x / 20 * (1 - x / 42)) / 6;
-  if (x > 1e-3) {  // below, the first term left out is below 1e-13
+  if (x > 1e-3) {  // for smaller x the first omitted term is below 1e-13
     const double angle = std::sqrt(x);
     first = (1 - std::cos(angle)) / x;
     second = (1 - std::sin(angle) / angle) / x;
@@ -30,7 +30,7 @@ StateVector invariant_correction(const Eigen::Matrix<double, state_count, 3>& K,
   StateVector x = K.lazyProduct(y);
   const Vector3d phi = x.segment<3>(attitude_state);
   const Vector3d zeta = x.segment<3>(velocity_state);
-  // What the correction leaves of y, in the body's axes before it.
+  // The innovation that remains after the correction, in the axes before it.
   const Vector3d left = strapdown::exp_rotation(-phi) * (y - times_left_jacobian(phi, zeta));
   x.noalias() = K.lazyProduct(left + zeta);
   x.segment<3>(velocity_state) =
@@ -51,6 +51,8 @@ void turn_with_correction(Covariance& P, const Vector3d& phi) {
   filtering::mirror_lower<state_count>(P);
 }
 
-Eigen::Vector2d initial_tilt_variance(const Vector3d& told) { return told.head<2>() * (1 + 40 * told.z()); }
+Eigen::Vector2d initial_tilt_variance(const Vector3d& stated) {
+  return stated.head<2>() * (1 + 40 * stated.z());
+}
 
 }  // namespace canhil::transfer_alignment

@@ -1,7 +1,7 @@
 #pragma once
-// What a user may choose of the transfer-alignment filter. Defaults: the reproduction of Yang, Shim, Park
-// 2001 (recommended: kalman with Loop::invariant), where P0 of the attitude is deliberately 1 deg for true
-// errors of 5 deg (target/estimators/transfer_alignment/NOTES.md).
+// Settings of the transfer-alignment filter. Defaults: the reproduction of Yang, Shim, Park 2001, where P0 of
+// the attitude is deliberately 1 deg for true errors of 5 deg
+// (target/estimators/transfer_alignment/NOTES.md). Recommended: kalman with Loop::invariant.
 #include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
@@ -10,24 +10,28 @@
 
 namespace canhil::transfer_alignment {
 
+/// One g [m/s^2].
 inline constexpr double standard_gravity = 9.80665;  // of "g" and "ug" in sensor figures [m/s^2]
+/// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
+/// The recursion of the covariance.
 enum class Algorithm : std::uint8_t { kalman, robust_h2 };
 
 /// Structure of the uncertain block A_v,phi = L Delta N, S = [(1 1 1) x]: (alpha I, I), (alpha S, I), (I,
-/// alpha S), (I, alpha I). one and four are the same filter: alpha cancels in beta.
+/// alpha S), (I, alpha I). Cases one and four are the same filter: alpha cancels in beta.
 enum class H2Case : std::uint8_t { one = 1, two, three, four };
 
-/// cov_df: alpha = sqrt(tr([f x] P_phi [f x]')), capped, anew at each step (the paper's ||dC f|| needs the
-/// unknown dC).
+/// cov_df: alpha = sqrt(tr([f x] P_phi [f x]')), capped, computed at each step (the paper's ||dC f|| needs
+/// the unknown dC).
 enum class AlphaRule : std::uint8_t { cov_df, constant };
 
-/// What an update does with its correction. open: it is kept beside the INS. published: the INS takes it, and
-/// P stays as it is. invariant: the INS takes that of an invariant error (invariant.hpp), H2 is guarded, and
-/// a velocity beyond the gate is refused.
+/// How an update uses its correction. open: stored separately from the INS. published: applied to the INS; P
+/// is not turned. invariant: the correction of an invariant error (invariant.hpp) is applied to the INS, H2
+/// is guarded, and velocities beyond the gate are refused.
 enum class Loop : std::uint8_t { open, published, invariant };
 
+/// The settings of the filter.
 struct Settings {
   Algorithm algorithm = Algorithm::robust_h2;
   H2Case h2_case = H2Case::two;
@@ -38,11 +42,11 @@ struct Settings {
   Loop loop = Loop::published;
   strapdown::Mechanization mechanization = strapdown::Mechanization::two_sample;
 
-  // Loop::invariant: a velocity with a larger NIS is refused; 0: none is. What a heading error of three of
-  // its sigmas of 30 deg shows in a turn, far beyond first order, must pass: at 250 one run of 200 lost its
-  // NEES.
+  // Loop::invariant: velocities with a larger NIS are refused; 0: no gate. The NIS in a turn with a heading
+  // error of three sigmas of 30 deg, far beyond first order, must pass: with 250 one run of 200 became
+  // inconsistent (NEES).
   double gate_nis = 2000;
-  std::uint32_t gate_recovery = 5;  // ... but not more than this many in a row
+  std::uint32_t gate_recovery = 5;  // ... but at most this many in a row
 
   double velocity_noise_density = 0.01;                   // of the master, R_k = this/dt [(m/s)^2 s]
   double accel_noise_density = 50e-6 * standard_gravity;  // [m/s^2/sqrt(Hz)]

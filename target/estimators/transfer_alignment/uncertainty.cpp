@@ -11,8 +11,8 @@ namespace canhil::transfer_alignment {
 
 double uncertainty_size(const Settings& settings, const Covariance& P, const Eigen::Vector3d& f_n) {
   if (settings.alpha_rule == AlphaRule::constant) return settings.alpha_constant;
-  // Not as tr(P) |f|^2 - f' P f, which cancels for a heading error in level flight, the very case to tell
-  // apart.
+  // Not computed as tr(P) |f|^2 - f' P f, which loses all digits for a heading error in level flight, the
+  // most important case.
   const Eigen::Matrix3d F = strapdown::skew(f_n);
   const double variance = (F * P.block<3, 3>(attitude_state, attitude_state)).cwiseProduct(F).sum();
   const double largest_angle = std::min(3 * settings.attitude_sigma_0.norm(), std::numbers::pi);
@@ -38,7 +38,8 @@ Uncertainty uncertainty(H2Case h2_case, double alpha) {
 
 double add_h2_terms(const Uncertainty& uncertain, const Covariance& P, double duration, Covariance& G,
                     Eigen::Matrix3d& Q_velocity) {
-  // P N'N P has the eigenvalues of N P P N': 3 x 3, but from all 12 rows of P's attitude columns.
+  // P N'N P has the eigenvalues of the 3 x 3 matrix N P P N', which needs all 12 rows of P's attitude
+  // columns.
   const Eigen::Matrix<double, state_count, 3> PNt =
       P.middleCols<3>(attitude_state).lazyProduct(uncertain.N.transpose());
   const Eigen::Matrix3d NPPNt = PNt.transpose().lazyProduct(PNt);

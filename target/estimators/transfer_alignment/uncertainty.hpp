@@ -1,6 +1,6 @@
 #pragma once
-// The uncertain block of the H2 filter: dA_v,phi = L Delta N bounds what an unknown attitude error does to (C
-// f) x.
+// The uncertain block of the H2 filter: dA_v,phi = L Delta N bounds the effect of an unknown attitude error
+// on (C f) x.
 #include <Eigen/Core>
 
 #include "target/estimators/transfer_alignment/error_model.hpp"
@@ -8,23 +8,24 @@
 
 namespace canhil::transfer_alignment {
 
+/// The factors of the uncertain block L Delta N, |Delta| <= 1.
 struct Uncertainty {
   Eigen::Matrix3d L;  // on the velocity rows
   Eigen::Matrix3d N;  // of the attitude columns
   double lambda_LL;   // lmax(L L')
 };
 
-/// alpha [m/s^2]: the settings' constant, or sqrt(tr([f x] P_phi [f x]')) of the mean specific force f_n
-/// [m/s^2] and the posterior P, at most 2 sin(min(3 |sigma_0|, pi)/2) |f|, the largest |dC f| of a 3-sigma
+/// alpha [m/s^2]: the settings' constant, or sqrt(tr([f x] P_phi [f x]')) for the mean specific force f_n
+/// [m/s^2] and the posterior P; at most 2 sin(min(3 |sigma_0|, pi)/2) |f|, the largest |dC f| of a 3-sigma
 /// start error.
 double uncertainty_size(const Settings& settings, const Covariance& P, const Eigen::Vector3d& f_n);
 
-/// L and N of an H2 case; lmax(S S') = 3.
+/// L and N for an H2 case; lmax(S S') = 3.
 Uncertainty uncertainty(H2Case h2_case, double alpha);
 
-/// Adds the two H2 terms of a step of `duration` [s] to G = A dt and to the velocity block of Q dt; returns
-/// beta. beta = 0: the terms vanish and nothing was added. P is the posterior of the last update; SI units
-/// and radians are part of the definition, for beta mixes units.
+/// Adds the two H2 terms for a step of `duration` [s] to G = A dt and to the velocity block of Q dt; returns
+/// beta. beta = 0: the terms vanish and nothing was added. P is the posterior of the last update. SI units
+/// and radians are part of the definition, as beta mixes units.
 double add_h2_terms(const Uncertainty& uncertain, const Covariance& P, double duration, Covariance& G,
                     Eigen::Matrix3d& Q_velocity);
 

@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-// `value` held within the range; `outside` says whether it had to be.
+// `value` clamped to the range; `outside`: it lay outside.
 double held(double value, const Range& range, bool& outside) {
   outside = !(value >= range.least && value <= range.most);
   return std::clamp(value, range.least, range.most);
@@ -23,7 +23,7 @@ double drag_of(const Deflection& fins, const Drag& drag) {
          (fins.elevator * fins.elevator + fins.aileron * fins.aileron + fins.rudder * fins.rudder);
 }
 
-// A coefficient's derivatives by V, alpha and beta, and by the three reduced rates.
+// A coefficient's derivatives with respect to V, alpha and beta, and to the three reduced rates.
 struct Slope {
   Vector3d flow = Vector3d::Zero(), rates = Vector3d::Zero();
 };
@@ -50,7 +50,7 @@ Flow flow(const Vector3d& v_a, const Vector3d& omega, const Air& air, const Airf
     f.speed = f.mach * air.speed_of_sound;
   }
   f.alpha = held(std::atan2(v_a.z(), v_a.x()), airframe.alpha, f.outside.alpha);
-  // asin(v/V), and never of more than 1
+  // Equals asin(v/V), without arguments beyond 1.
   f.beta = held(std::atan2(v_a.y(), std::hypot(v_a.x(), v_a.z())), airframe.beta, f.outside.beta);
   f.sin_alpha = std::sin(f.alpha);
   f.cos_alpha = std::cos(f.alpha);
@@ -90,7 +90,7 @@ Loads loads(const Flow& f, const Coefficients& c, const Air& air, const Airframe
 
 LoadsByPart loads_by_part(const Flow& f, const Deflection& fins, const Coefficients& c, const Air& air,
                           const Airframe& airframe) {
-  // The parts of a coefficient are what it loses without the rates, and then without the fins.
+  // The rate part of a coefficient is its change when the rates are set to zero; likewise the fin part.
   Flow steady = f;
   steady.rates.setZero();
   const Coefficients with_fins = coefficients(steady, fins, airframe);
@@ -117,7 +117,7 @@ LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3
                              const Airframe& airframe) {
   const double V = f.speed, k = f.compressibility;
   const double k_V = 2 * airframe.mach_squared * f.mach / air.speed_of_sound;  // dk/dV
-  // With V: the static and control part by k_V/k, the rate part by -1/V.
+  // Relative derivatives with respect to V: k_V/k for the static and control part, -1/V for the rate part.
   const auto longitudinal = [&](const Longitudinal& t, double value) {
     const double rate_part = t.pitch_rate * f.rates.y();
     return Slope{{(value - rate_part) * k_V / k - rate_part / V, k * t.alpha, 0}, {0, t.pitch_rate, 0}};
@@ -137,12 +137,13 @@ LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3
   drag.flow.x() += t.wave * (1 - wave * wave) / (t.wave_width * air.speed_of_sound);
   drag.flow.z() += 2 * t.sideslip_squared * f.beta;
 
-  // By V, alpha, beta (columns) of force coefficients along body x, y, z and of b Cl, c Cm, b Cn.
+  // Derivatives with respect to V, alpha, beta (columns) of force coefficients along body x, y, z and of b
+  // Cl, c Cm, b Cn.
   const double sa = f.sin_alpha, ca = f.cos_alpha, b = airframe.span;
   Matrix3d force_flow, force_rates, moment_flow, moment_rates;
   force_flow << sa * lift.flow.transpose() - ca * drag.flow.transpose(), side.flow.transpose(),
       -ca * lift.flow.transpose() - sa * drag.flow.transpose();
-  force_flow(0, 1) += c.lift * ca + c.drag * sa;  // the axes turn with alpha
+  force_flow(0, 1) += c.lift * ca + c.drag * sa;  // stability axes turn with alpha
   force_flow(2, 1) += c.lift * sa - c.drag * ca;
   force_rates << sa * lift.rates.transpose() - ca * drag.rates.transpose(), side.rates.transpose(),
       -ca * lift.rates.transpose() - sa * drag.rates.transpose();
@@ -153,7 +154,8 @@ LoadsJacobian loads_jacobian(const Flow& f, const Coefficients& c, const Vector3
   force_flow.col(0) += (2 / V) * Vector3d(c.lift * sa - c.drag * ca, c.side, -c.lift * ca - c.drag * sa);
   moment_flow.col(0) += (2 / V) * Vector3d(b * c.roll, airframe.chord * c.pitch, b * c.yaw);
 
-  // V, alpha, beta by u, v, w; none where held. The floor of 0.1 m/s keeps them finite far below the range.
+  // Derivatives of V, alpha, beta with respect to u, v, w; zero where clamped. The floor of 0.1 m/s keeps
+  // them finite far below the range.
   const double s = std::max(std::hypot(v_a.x(), v_a.z()), 0.1), V_true = std::max(v_a.norm(), 0.1);
   Matrix3d flow_v_a = Matrix3d::Zero();
   if (!f.outside.speed && !f.outside.mach) flow_v_a.row(0) = v_a.transpose() / V_true;

@@ -8,15 +8,16 @@
 
 namespace canhil::wind {
 
-/// What lies outside the model's range.
+/// The quantities outside the model's range.
 struct RangeFlags {
   bool alpha = false, beta = false, speed = false, mach = false, altitude = false, pitch = false;
+  /// True if any quantity is outside.
   bool any() const { return alpha || beta || speed || mach || altitude || pitch; }
   RangeFlags& operator|=(const RangeFlags& other);
   bool operator==(const RangeFlags&) const = default;
 };
 
-/// The flow the table is entered with, held at the ends of its range.
+/// The flow, which selects the coefficients in the table; clamped to the table's range.
 struct Flow {
   double speed = 0, alpha = 0, beta = 0, mach = 0;  // V = |v_a|, atan2(w, u), asin(v/V), V/a
   double sin_alpha = 0, cos_alpha = 1;
@@ -25,6 +26,7 @@ struct Flow {
   RangeFlags outside;
 };
 
+/// Lift, drag and side force; rolling, pitching and yawing moment.
 struct Coefficients {
   double lift = 0, drag = 0, side = 0, roll = 0, pitch = 0, yaw = 0;
 };
@@ -34,32 +36,37 @@ struct Loads {
   Eigen::Vector3d specific_force, moment;
 };
 
-/// Each coefficient (lift, drag, side; roll, pitch, yaw) has three parts: of the flow, of the fins, of the
-/// rates.
-inline constexpr int force_part_count = 9, part_count = 18;
+/// Each coefficient (lift, drag, side; roll, pitch, yaw) is the sum of three parts: flow, fins, rates.
+inline constexpr int force_part_count = 9;  ///< the parts of lift, drag and side force
+inline constexpr int part_count = 18;       ///< all parts
 
-/// What each part brings to the specific force [m/s^2] and to the moment [N m], body axes, lift's first;
-/// their sums are loads(). The drag polar is a table of the flow: its induced part goes with the whole lift.
+/// The contribution of each part to the specific force [m/s^2] and to the moment [N m], body axes, lift
+/// first; their sums are loads(). The induced drag, which depends on the whole lift, belongs to the flow
+/// part.
 struct LoadsByPart {
   Eigen::Matrix<double, 3, force_part_count> specific_force;
   Eigen::Matrix<double, 3, part_count - force_part_count> moment;
 };
 
-/// Derivatives by air velocity [m/s] and rates [rad/s]; zero along what is held at the end of its range.
+/// Derivatives with respect to air velocity [m/s] and rates [rad/s]; zero for clamped quantities.
 struct LoadsJacobian {
   Eigen::Matrix3d force_v_a, force_omega, moment_v_a, moment_omega;
 };
 
+/// The flow at air velocity v_a [m/s] and rates omega [rad/s], body axes.
 Flow flow(const Eigen::Vector3d& v_a, const Eigen::Vector3d& omega, const Air& air, const Airframe& airframe);
 
+/// The coefficients of a flow and fin deflections.
 Coefficients coefficients(const Flow& flow, const Deflection& fins, const Airframe& airframe);
 
+/// Force and moment of a flow and its coefficients.
 Loads loads(const Flow& flow, const Coefficients& c, const Air& air, const Airframe& airframe);
 
+/// The same, part by part.
 LoadsByPart loads_by_part(const Flow& flow, const Deflection& fins, const Coefficients& c, const Air& air,
                           const Airframe& airframe);
 
-/// v_a is the velocity `flow` was made of.
+/// v_a is the velocity from which `flow` was computed.
 LoadsJacobian loads_jacobian(const Flow& flow, const Coefficients& c, const Eigen::Vector3d& v_a,
                              const Air& air, const Airframe& airframe);
 

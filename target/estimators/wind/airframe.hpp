@@ -1,15 +1,16 @@
 #pragma once
-// The aerodynamic model's form; the figures are in airframe_table.hpp. Coefficients per rad; rates p b/2V, q
-// c/2V, r b/2V; body x forward, y right, z down; moments about the centre of gravity.
+// The form of the aerodynamic model; airframe_table.hpp has its values. Coefficients per rad; rates p b/2V,
+// q c/2V, r b/2V; body x forward, y right, z down; moments about the centre of gravity.
 
 namespace canhil::wind {
 
-/// Fin deflections [rad], of the signs of the control terms in the table.
+/// Fin deflections [rad], with the signs of the control terms in the table.
 struct Deflection {
   double elevator = 0, aileron = 0, rudder = 0;
   bool operator==(const Deflection&) const = default;
 };
 
+/// A closed interval.
 struct Range {
   double least = 0, most = 0;
 };
@@ -18,6 +19,7 @@ struct Range {
 struct Longitudinal {
   double constant = 0, alpha = 0, pitch_rate = 0, elevator = 0;
 };
+/// Coefficients of side force, rolling and yawing moment.
 struct Lateral {
   double sideslip = 0, roll_rate = 0, yaw_rate = 0, aileron = 0, rudder = 0;
 };
@@ -28,6 +30,7 @@ struct Drag {
   double wave = 0, wave_mach = 1, wave_width = 1;
 };
 
+/// All that the model needs of an airframe.
 struct Airframe {
   double mass = 1;                            // [kg]
   double Ixx = 1, Iyy = 1, Izz = 1, Ixz = 0;  // [kg m^2]
@@ -36,8 +39,8 @@ struct Airframe {
   Lateral side, roll, yaw;                    // CY, Cl, Cn
   Drag drag;                                  // CD
   double mach_squared = 0;                    // compressibility
-  Range alpha, beta;                          // [rad] beyond these and the next ones the model is held
-  Range speed;                                // at its end and the estimate flagged [m/s]
+  Range alpha, beta;                          // [rad]; beyond these ranges the model is clamped and
+  Range speed;                                // the estimate flagged [m/s]
   double mach_most = 0;
   Range altitude;              // [m], within the atmosphere's -2 to 20 km
   double pitch_most = 0;       // |pitch|, of the Euler angles [rad]

@@ -1,11 +1,12 @@
 #pragma once
-// The airframe that is compiled in, and the one place to put another: a 500-lb body with a planar wing kit.
-// Not a real weapon's data: the body's size is of the Mk-82 class, all coefficients are textbook estimates.
+// The airframe that is compiled in: a 500-lb body with a planar wing kit. Replace it here to use another one.
+// Not a real weapon's data: the size is that of the Mk-82 class, all coefficients are textbook estimates.
 #include "target/estimators/wind/airframe.hpp"
 
 namespace canhil::wind {
 
 // clang-format off
+/// The airframe of the filter, and of the truth as far as a scenario does not change it.
 inline constexpr Airframe airframe_table{
     .mass = 300,
     .Ixx = 8, .Iyy = 120, .Izz = 125, .Ixz = 0.5,

@@ -7,7 +7,7 @@
 namespace canhil::wind {
 namespace {
 
-// Of filters that have not started none counts, unless none has.
+// Filters that have not started get the weight 0, unless no filter has started.
 void weigh(Bank& bank, const BankDesign& design) {
   bank.weight = {};
   std::array<double, bank_most> exponent;
@@ -30,7 +30,7 @@ std::size_t likeliest(const Bank& bank) {
                                   bank.weight.begin());
 }
 
-// x less y, roll and heading within +-pi.
+// x - y, with roll and heading in [-pi, pi].
 StateVector difference(const StateVector& x, const StateVector& y) {
   StateVector d = x - y;
   for (const int i : {attitude_at, attitude_at + 2}) d(i) = wrapped(d(i));
@@ -42,7 +42,7 @@ void mix(Bank& bank, const BankDesign& design) {
   bank.started = most.started;
   bank.x = most.x;
   if (design.count == 1) {
-    bank.P = told_covariance(most, design.of[0].settings);
+    bank.P = reported_covariance(most, design.of[0].settings);
     return;
   }
   StateVector mean = StateVector::Zero();
@@ -51,7 +51,8 @@ void mix(Bank& bank, const BankDesign& design) {
   bank.P.setZero();
   for (std::size_t i = 0; i < design.count; ++i) {
     const StateVector d = difference(bank.states[i].x, most.x) - mean;
-    bank.P += bank.weight[i] * (told_covariance(bank.states[i], design.of[i].settings) + d * d.transpose());
+    bank.P +=
+        bank.weight[i] * (reported_covariance(bank.states[i], design.of[i].settings) + d * d.transpose());
   }
   bank.x += mean;
   for (const int i : {attitude_at, attitude_at + 2}) bank.x(i) = wrapped(bank.x(i));
@@ -90,7 +91,7 @@ Bank initial(const Start& start, const BankDesign& design) {
 
 UpdateResult step(Bank& bank, const Navigation& navigation, const FinHistory& fins,
                   const BankDesign& design) {
-  for (; bank.count < design.count; ++bank.count) {  // asked for since the last sample
+  for (; bank.count < design.count; ++bank.count) {  // filters enabled since the last sample
     bank.states[bank.count] = bank.states[0];
     bank.surprise[bank.count] = bank.surprise[0];
   }

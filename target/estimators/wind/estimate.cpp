@@ -17,7 +17,7 @@ Estimate estimate(const StateVector& x) {
   e.wind_speed = std::hypot(e.wind.x(), e.wind.y());
   e.wind_from = e.wind_speed > 0 ? std::atan2(-e.wind.y(), -e.wind.x()) : 0;
   if (e.wind_from < 0) e.wind_from += 2 * std::numbers::pi;
-  if (e.wind_from >= 2 * std::numbers::pi) e.wind_from = 0;  // of a negative angle below the last digit
+  if (e.wind_from >= 2 * std::numbers::pi) e.wind_from = 0;  // a tiny negative angle plus 2 pi rounds to 2 pi
   e.air_speed = e.air_velocity.norm();
   e.alpha = std::atan2(e.air_velocity.z(), e.air_velocity.x());
   e.beta = std::atan2(e.air_velocity.y(), std::hypot(e.air_velocity.x(), e.air_velocity.z()));

@@ -1,9 +1,10 @@
 #pragma once
-// What is reported: the states, the wind as speed and direction, and how well.
+// The reported values: states, wind as speed and direction, and uncertainties.
 #include "target/estimators/wind/model.hpp"
 
 namespace canhil::wind {
 
+/// The estimates in the units of the report.
 struct Estimate {
   Eigen::Vector3d air_velocity;    // body [m/s]
   Eigen::Vector3d rate, attitude;  // [rad/s]; roll, pitch, heading [rad]
@@ -14,16 +15,18 @@ struct Estimate {
   double alpha = 0, beta = 0;      // [rad]
 };
 
-/// 1 sigma each. Along and cross track: the horizontal wind along the horizontal air velocity, where nearly
-/// all of the error lies, and to the right of it.
+/// 1-sigma values. Along track: the horizontal wind along the horizontal air velocity, which has nearly all
+/// of the error; cross track: to the right of it.
 struct Uncertainty {
   StateVector state;
-  double wind_speed = 0, wind_from = 0;     // [m/s], [rad]; a direction not known at all: pi/sqrt(3)
+  double wind_speed = 0, wind_from = 0;     // [m/s], [rad]; an unknown direction has pi/sqrt(3)
   double along_track = 0, cross_track = 0;  // [m/s]
 };
 
+/// The estimates of a state.
 Estimate estimate(const StateVector& x);
 
+/// The sigmas of a state with covariance P.
 Uncertainty uncertainty(const StateVector& x, const Covariance& P);
 
 }  // namespace canhil::wind

@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double us = 1e-6;
-constexpr double theta_interval_most = 0.1;  // a longer gap counts as this [s]
+constexpr double theta_interval_most = 0.1;  // upper limit of the interval for theta [s]
 
 Observation observation(const Navigation& n) {
   Observation y;
@@ -31,19 +31,19 @@ Fault judged(const Navigation& n, const Observation& y, const Design& design) {
   return Fault::none;
 }
 
-// Navigation that repeats itself to the last bit: its source has stopped.
+// True if navigation repeats itself bit for bit for too long: its source has stopped.
 bool is_stale(State& state, const Observation& y, double gap, const Settings& settings) {
   state.unchanged_s = y == state.last ? state.unchanged_s + gap : 0;
   state.last = y;
   return state.unchanged_s > settings.stale_limit;
 }
 
-// None: nothing is considered.
+// Null: coefficient errors are not considered.
 Sensitivity* sensitivity_of(State& state, const Settings& settings) {
   return considers_coefficients(settings) ? &state.sensitivity : nullptr;
 }
 
-// The filter starts again: of the past only the wind is kept.
+// Restarts the filter; keeps only the wind.
 void forget(State& state) {
   state.started = false;
   state.coasted_s = 0;
@@ -51,7 +51,8 @@ void forget(State& state) {
   state.noise_factor = 1;
 }
 
-// Navigation taken over, the wind known: v_a = C_nb (v_eb_n - v_w), its error C_nb (dv - dv_w - D dPhi).
+// Starts from navigation and the known wind: v_a = C_nb (v_eb_n - v_w), with the error C_nb (dv - dv_w - D
+// dPhi).
 void start(State& state, const Navigation& n, const Settings& settings) {
   const Matrix3d P_wind = state.P.block<3, 3>(wind_at, wind_at);
   const Matrix3d C_nb = C_bn(n.attitude).transpose();
@@ -71,7 +72,7 @@ void start(State& state, const Navigation& n, const Settings& settings) {
   filtering::mirror_lower<12>(P);
   state.sensitivity.topRows<9>().setZero();
   state.sensitivity.middleRows<3>(air_velocity_at) =
-      -C_nb.lazyProduct(state.sensitivity.bottomRows<3>());  // as P: the ground velocity owes them nothing
+      -C_nb.lazyProduct(state.sensitivity.bottomRows<3>());  // coefficients do not affect the ground velocity
   state.started = true;
   state.sample_used = true;
   state.coasted_s = 0;
@@ -84,15 +85,14 @@ void note_fins(const ActingFins& acting, const Settings& settings, Flags& flags)
   flags.fins_not_physical |= acting.not_physical;
 }
 
-// Altitude after dt, for the parts of a gap and for coasting: height falls with the velocity down of C_bn
-// v_a.
+// The altitude after dt, for the parts of a gap and for coasting: it falls with the downward velocity.
 double reckoned_altitude(const State& state, double dt) {
   const double down = C_bn(state.x.segment<3>(attitude_at)).row(2).dot(state.x.segment<3>(air_velocity_at)) +
                       state.x(wind_at + 2);
   return state.altitude - down * dt;
 }
 
-// One part of a step, with the deflections that acted over it.
+// Advances by one part of a step, with the mean deflections over it.
 void advance(State& state, double dt, const ActingFins& acting, const Design& design, Flags& flags) {
   const Range& range = design.airframe.altitude;
   RangeFlags outside;
@@ -106,7 +106,7 @@ void advance(State& state, double dt, const ActingFins& acting, const Design& de
   flags.outside |= outside;
 }
 
-// From state.t_us to t_us in parts; `reckon`: no altitude comes at its end.
+// Advances from state.t_us to t_us in parts; `reckon`: extrapolates the altitude, as the sample has none.
 void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fins, const Design& design,
              Flags& flags) {
   const std::int64_t begin = *state.t_us, gap_us = t_us - begin;
@@ -127,15 +127,15 @@ void advance(State& state, std::int64_t t_us, bool reckon, const FinHistory& fin
   state.sample_used = false;
 }
 
-// Grows or shrinks the noise that follows until the innovation statistic is what it should be: within a few
-// samples where it is grossly off, as at release, slowly where it only scatters.
+// Adapts the process noise until the innovation statistic has its expected value: within a few samples if it
+// is far too large, as at release; slowly if it only scatters.
 void adapt(State& state, double nis, double gap, const Settings& settings) {
   const double excess = std::clamp(nis / 9 - 1, -1.0, 50.0);
   state.noise_factor = std::clamp(state.noise_factor * std::exp(excess * gap / settings.adaptation_time), 1.0,
                                   settings.adaptation_limit);
 }
 
-bool is_sound(const State& state) {  // the sum of what is not finite is not finite
+bool is_sound(const State& state) {  // a sum is finite only if all of its terms are
   return std::isfinite(state.x.sum() + state.P.sum() + state.sensitivity.sum()) &&
          state.P.diagonal().minCoeff() > 0;
 }
@@ -145,7 +145,7 @@ bool jumped(const Observation& innovation, const Settings& settings) {
          innovation.tail<3>().cwiseAbs().maxCoeff() > settings.attitude_gate;
 }
 
-// An update with a usable sample, or its refusal as a jump.
+// Updates by a usable sample, or refuses it as a jump.
 void use(State& state, const Navigation& n, const Observation& y, double gap, const Settings& settings,
          const Design& design, UpdateResult& result) {
   const GroundVelocity at = ground_velocity(state.x);
@@ -158,7 +158,7 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
       return;
     }
     forget(state);
-    state.x.tail<3>().setZero();  // whichever was wrong: nothing is known
+    state.x.tail<3>().setZero();  // navigation or the wind estimate was wrong: the wind is unknown now
     state.sensitivity.bottomRows<3>().setZero();
     state.P.block<3, 3>(wind_at, wind_at) = squared(settings.wind_sigma_0) * Matrix3d::Identity();
     start(state, n, settings);
@@ -166,8 +166,8 @@ void use(State& state, const Navigation& n, const Observation& y, double gap, co
     return;
   }
   state.jumps = 0;
-  const double interval =
-      gap > 0 ? std::min(gap, theta_interval_most) : settings.sample_period;  // the first sample: at release
+  const double interval = gap > 0 ? std::min(gap, theta_interval_most)
+                                  : settings.sample_period;  // gap 0: first sample, at release
   const Answer answer =
       update(state.x, state.P, result.innovation, at, interval, design, sensitivity_of(state, settings));
   result.normalised = answer.normalised;
@@ -242,7 +242,7 @@ State initial(const Start& s, const Design& design) {
   return state;
 }
 
-Covariance told_covariance(const State& state, const Settings& settings) {
+Covariance reported_covariance(const State& state, const Settings& settings) {
   if (!considers_coefficients(settings)) return state.P;
   const Sensitivity by_sigma = settings.coefficient_sigma * state.sensitivity;
   Covariance P = state.P + by_sigma.lazyProduct(by_sigma.transpose());
@@ -263,7 +263,7 @@ UpdateResult step(State& state, const Navigation& navigation, const FinHistory& 
     state = next;
     return result;
   }
-  // What was known of the wind is kept if it is any good.
+  // Keeps the previous state, with its wind, if that is finite.
   result.outcome = Outcome::non_finite;
   if (!is_sound(state)) state = initial(design);
   forget(state);

@@ -1,6 +1,6 @@
 #pragma once
-// The last deflections of the fins with their own times of validity, so that a step of the filter uses what
-// acted over it.
+// The last deflections of the fins with their own times of validity, so that a step of the filter uses the
+// deflection during that step.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,28 +10,31 @@
 
 namespace canhil::wind {
 
+/// What became of a sample of the fins.
 enum class FinOutcome : std::uint8_t {
   kept,
-  out_of_order,  // valid before the newest, or with it
+  out_of_order,  // not valid after the newest
   not_physical,  // not finite, or beyond the airframe's limit
 };
 
 /// The mean deflection over an interval.
 struct ActingFins {
   Deflection mean;
-  std::int64_t gap_us = 0;    // longest time without a sample that the interval reaches into
-  bool known = false;         // false: no sample at all, mean is zero
+  std::int64_t gap_us = 0;    // longest time without a sample that overlaps the interval
+  bool known = false;         // false: no sample at all; mean is zero
   bool not_physical = false;  // the last frame was refused
 };
 
+/// The last 64 samples of the fins.
 class FinHistory {
  public:
-  /// Deflections [rad] valid at t_us; each at most `limit`. In the order of their times: one that is not is
-  /// out of order, but two in a row, one after the other and 0.1 s before the newest, say that its time was
-  /// wrong: the history begins anew with the two.
+  /// Adds deflections [rad] valid at t_us, each at most `limit`. Times must ascend; an earlier sample is
+  /// refused as out of order. Two such samples in a row with ascending times, more than 0.1 s before the
+  /// newest, show that the newest had a wrong time: the history then restarts with these two.
   FinOutcome push(std::int64_t t_us, const Deflection& deflection, double limit);
 
-  /// The mean over [from, to] of the samples joined by lines, the newest held after it, the oldest before it.
+  /// The mean over [from, to] of the linearly interpolated samples; constant after the newest and before the
+  /// oldest.
   ActingFins over(std::int64_t from_us, std::int64_t to_us) const;
 
  private:
@@ -43,7 +46,7 @@ class FinHistory {
 
   std::array<Sample, 64> samples_{};  // 1.3 s at 50 Hz
   std::size_t count_ = 0;
-  std::optional<Sample> out_of_order_{};  // the last one, if it was
+  std::optional<Sample> out_of_order_{};  // the last sample, if it was out of order
   bool last_refused_ = false;
 };
 

@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using strapdown::skew;
 
-// Sines and cosines of roll and pitch; the kinematics' own pitch is held short of the pole.
+// Sines and cosines of roll and pitch; the pitch of the kinematics is clamped short of the pole.
 struct Tilt {
   double sin_roll, cos_roll, sin_pitch, cos_pitch;
   double tan_pitch, sec_pitch;

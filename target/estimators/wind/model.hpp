@@ -1,5 +1,5 @@
 #pragma once
-// The 12 states and their equations (Park and Park 2019, eqs. (3)-(16), corrected as NOTES.md says):
+// The 12 states and their equations (Park and Park 2019, eqs. (3)-(16), with the corrections in NOTES.md):
 //   v_a'   = -omega x v_a + F/m + C_nb g - C_nb v_w'       air velocity, body [m/s]
 //   omega' = I^-1 (M - omega x I omega)                    rates, body [rad/s]
 //   Phi'   = E(Phi) omega                                  Euler angles roll, pitch, heading [rad]
@@ -18,48 +18,53 @@ using StateVector = filtering::Vector<12>;
 using Covariance = filtering::Matrix<12, 12>;
 using Observation = filtering::Vector<9>;
 
-inline constexpr int air_velocity_at = 0, rate_at = 3, attitude_at = 6, wind_at = 9;
+inline constexpr int air_velocity_at = 0;  ///< the first of its three states
+inline constexpr int rate_at = 3;          ///< likewise
+inline constexpr int attitude_at = 6;      ///< likewise
+inline constexpr int wind_at = 9;          ///< likewise
 
-/// What acts over a step.
+/// Inputs that act during a step.
 struct Inputs {
   Deflection fins;
   Air air;
 };
 
-/// x' without noise; `outside` gains what lies outside the model's range.
+/// x' without noise; sets flags in `outside` for quantities outside the model's range.
 StateVector derivative(const StateVector& x, const Inputs& inputs, const Design& design, RangeFlags& outside);
 
-/// d(derivative)/dx by blocks of 3; those not named are zero.
+/// d(derivative)/dx in 3 x 3 blocks; all other blocks are zero.
 struct Jacobian {
-  Eigen::Matrix3d aa, ao, ap;  // of v_a' by v_a, omega, Phi
+  Eigen::Matrix3d aa, ao, ap;  // of v_a' with respect to v_a, omega, Phi
   Eigen::Matrix3d oa, oo;      // of omega'
   Eigen::Matrix3d po, pp;      // of Phi'
 };
 
+/// x' and its derivatives at one state.
 struct Linearisation {
   StateVector f;
   Jacobian A;
-  std::optional<LoadsByPart> loads;  // where the process noise follows them
+  std::optional<LoadsByPart> loads;  // if the process noise depends on them
 };
 
 /// x' and its analytic Jacobian at x.
 Linearisation linearise(const StateVector& x, const Inputs& inputs, const Design& design,
                         RangeFlags& outside);
 
-/// x after dt by one Runge-Kutta step of fourth order, `f` being x' at its start.
+/// x after dt by one Runge-Kutta step of fourth order; `f` is x' at its start.
 StateVector predicted(const StateVector& x, const StateVector& f, double dt, const Inputs& inputs,
                       const Design& design, RangeFlags& outside);
 
-/// G = A dt + (A dt)^2/2 of the states that move: Phi = I + G. Nothing depends on heading and wind, and the
-/// wind does not move: 9 x 8.
+/// G = A dt + (A dt)^2/2, where Phi = I + G. Only 9 x 8: no state depends on heading and wind, and the wind
+/// is constant.
 using Growth = filtering::Matrix<9, 8>;
+/// G for a step of dt [s].
 Growth growth(const Jacobian& A, double dt);
 
-/// Phi P Phi'; Q is the caller's.
+/// Phi P Phi'; the caller adds Q.
 Covariance predicted(const Covariance& P, const Growth& G);
 
-/// What errors of the states owe to coefficients that are wrong for good: dx over the share by which each
-/// part of each coefficient is wrong (LoadsByPart).
+/// Sensitivity of the states' errors to constant coefficient errors: dx divided by the relative error of each
+/// part of each coefficient (LoadsByPart).
 using Sensitivity = filtering::Matrix<12, part_count>;
 
 /// S+ = Phi S + (I + Phi)/2 (dx'/dshare) dt.
@@ -70,12 +75,13 @@ struct GroundVelocity {
   Eigen::Vector3d C_v_a;
   Eigen::Matrix3d C_bn, by_attitude;
 };
+/// The ground velocity without wind, and its derivative.
 GroundVelocity ground_velocity(const StateVector& x);
 
-/// C_bn of Euler angles roll, pitch, heading [rad].
+/// C_bn from the Euler angles roll, pitch, heading [rad].
 Eigen::Matrix3d C_bn(const Eigen::Vector3d& attitude);
 
-/// The angle within +-pi.
+/// The angle in [-pi, pi].
 double wrapped(double angle);
 
 }  // namespace canhil::wind

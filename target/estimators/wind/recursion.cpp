@@ -20,7 +20,7 @@ Observation noise_variance(const Settings& s) {
   return R;
 }
 
-// What coefficients that are wrong by shares of variance q do to the air velocity and to the rates.
+// Adds the effect of coefficients with relative errors of variance q on the air velocity and the rates.
 void add_noise_of_coefficients(Covariance& P, double q, const LoadsByPart& loads, const Design& design) {
   const Eigen::Matrix<double, 3, part_count - force_part_count> turn =
       design.inertia_inverse.lazyProduct(loads.moment);

@@ -1,26 +1,30 @@
 #pragma once
-// What a user may choose of the wind estimator. Defaults: the recommended filter (NOTES.md), at 50 Hz.
+// Settings of the wind estimator. Defaults: the recommended filter (NOTES.md), at 50 Hz.
 #include <Eigen/Core>
 #include <cstdint>
 #include <numbers>
 
 namespace canhil::wind {
 
+/// One degree [rad].
 inline constexpr double rad_per_deg = std::numbers::pi / 180;
 
+/// The recursion.
 enum class Algorithm : std::uint8_t {
   ekf,
   h_infinity,  // the paper's
-  adaptive_q,  // EKF whose noise of the rates, or of the coefficients, follows the innovation statistic
+  adaptive_q,  // EKF that adapts the noise of rates or coefficients to the innovation statistic
 };
 
+/// How the process noise enters the states.
 enum class ProcessNoise : std::uint8_t {
-  block_diagonal,  // the paper's, presumably: the wind's noise does not reach the air velocity
-  correlated,      // v_a' = ... - C v_w': it does
-  aerodynamic,     // correlated, and the noise that wrong coefficients make of the loads of the moment
-  likeliest,       // several filters, each with another noise, weighted by what was measured (bank.hpp)
+  block_diagonal,  // presumably the paper's: the wind's noise does not enter the air velocity
+  correlated,      // the wind's noise enters the air velocity: v_a' = ... - C v_w'
+  aerodynamic,     // correlated, plus noise from coefficient errors in proportion to the current loads
+  likeliest,       // several filters with different noise, weighted by their likelihood (bank.hpp)
 };
 
+/// True if the noise depends on the aerodynamic loads.
 constexpr bool follows_loads(ProcessNoise noise) {
   return noise == ProcessNoise::aerodynamic || noise == ProcessNoise::likeliest;
 }
@@ -31,53 +35,53 @@ struct Densities {
   double rate = 0.2 * rad_per_deg;       // [rad/s]
   double attitude = 0.01 * rad_per_deg;  // [rad]
   double wind = 0.3;                     // covers shear times sink rate [m/s]
-  double coefficient = 0.0022;  // of each part of each coefficient, as a share of it: 1 % held for 50 ms
+  double coefficient = 0.0022;           // relative, of each part of each coefficient: 1 % held for 50 ms
 };
 
+/// The settings of the estimator.
 struct Settings {
   Algorithm algorithm = Algorithm::adaptive_q;
   ProcessNoise process_noise = ProcessNoise::likeliest;
   Densities density;
 
-  double coefficient_sigma = 0.05;  // by which share each part of each coefficient may be wrong for good
+  double coefficient_sigma = 0.05;  // constant relative error of each part of each coefficient
 
-  double velocity_sigma = 0.25;                // of a navigation sample: ground velocity, NED [m/s]
+  double velocity_sigma = 0.25;                // of a navigation sample's ground velocity, NED [m/s]
   double rate_sigma = 0.125 * rad_per_deg;     // [rad/s]
   double attitude_sigma = 0.25 * rad_per_deg;  // [rad]
   double sample_period = 0.02;                 // of navigation [s]
 
-  double theta_per_s = 1.5;    // H-infinity: theta of a sample over its interval [1/(m/s)^2/s]
-  double theta_cap_per_s = 2;  // bound of theta lambda_max over the same interval [1/s]
-  double rate_weight = 1;      // of the rates in S, beside 1 of the air velocity [(m/s)^2/(rad/s)^2]
+  double theta_per_s = 1.5;    // H-infinity: theta of a sample, divided by its interval [1/(m/s)^2/s]
+  double theta_cap_per_s = 2;  // bound of theta lambda_max, divided by the same interval [1/s]
+  double rate_weight = 1;      // of the rates in S; the air velocity has 1 [(m/s)^2/(rad/s)^2]
 
-  double adaptation_time = 0.3;   // of the noise that follows, the statistic being 1 too large [s]
-  double adaptation_limit = 1e4;  // of the factor on the variance of that noise
+  double adaptation_time = 0.3;   // time constant of the adapted noise if NIS/9 is 2 [s]
+  double adaptation_limit = 1e4;  // of the factor on the variance of the adapted noise
 
-  double gust_noise = 4;  // of the wind, for the filter of the bank that believes in gusts [m/s/sqrt(s)]
-  double memory = 1;      // of the likelihoods of the bank [s]
-  double odds_of_gusts = 1e-3;  // against the other filter, before anything is measured
+  double gust_noise = 4;        // of the wind, for the bank's gust filter [m/s/sqrt(s)]
+  double memory = 1;            // of the bank's likelihoods [s]
+  double odds_of_gusts = 1e-3;  // prior weight of the gust filter relative to the other
 
   double air_velocity_sigma_0 = 1;              // known at the start [m/s]
   double velocity_sigma_0 = 0.1;                // ground velocity at the start [m/s]
   double rate_sigma_0 = 0.01 * rad_per_deg;     // [rad/s]
   double attitude_sigma_0 = 0.1 * rad_per_deg;  // [rad]
-  double wind_sigma_0 = 20;                     // of each component, when nothing is known [m/s]
+  double wind_sigma_0 = 20;                     // of each component, for an unknown wind [m/s]
 
-  Densities degraded{1, 10 * rad_per_deg, 0.01 * rad_per_deg, 0.3, 0};  // at the least, where the model is
-                                                                        // not to be trusted
-  double longest_prediction = 0.025;                                    // a longer step is taken in parts [s]
-  double coast_limit = 2;           // without navigation; then the filter starts again [s]
+  Densities degraded{1, 10 * rad_per_deg, 0.01 * rad_per_deg, 0.3, 0};  // minimum if the model is unreliable
+  double longest_prediction = 0.025;                                    // longer steps are divided [s]
+  double coast_limit = 2;           // longer times without navigation restart the filter [s]
   double stale_limit = 0.1;         // navigation that does not change for longer is stale [s]
-  double fins_late = 0.03;          // an older deflection is flagged [s],
-  double fins_missing = 0.1;        // and beyond this the model is not to be trusted [s]
-  double velocity_gate = 50;        // a larger innovation is a jump and refused ... [m/s]
+  double fins_late = 0.03;          // older deflections are flagged [s],
+  double fins_missing = 0.1;        // and beyond this age the model is unreliable [s]
+  double velocity_gate = 50;        // larger innovations are refused as jumps ... [m/s]
   double attitude_gate = 0.5;       // [rad]
-  int jumps_limit = 25;             // ... until so many came in a row: then the filter starts again
+  int jumps_limit = 25;             // ... until this many in a row: then the filter restarts
   double ground_speed_most = 1000;  // beyond these a navigation sample is not physical [m/s]
   double rate_most = 10;            // [rad/s]
 };
 
-/// The sigmas allow for coefficients that are wrong for good; the H-infinity filter has its own way.
+/// True if the sigmas allow for constant coefficient errors. The H-infinity filter has its own method.
 constexpr bool considers_coefficients(const Settings& settings) {
   return settings.coefficient_sigma > 0 && follows_loads(settings.process_noise) &&
          settings.algorithm != Algorithm::h_infinity;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR GPL-2.0
-// What an emulated SJA1000 has not: a wire that can fail. QEMU's controllers send in no time, at any bit rate, to anybody
-// or nobody, without errors. This kernel module stands between the controllers and their driver (kvaser_pci, sja1000), at
-// the two functions by which the driver reads and writes registers, and shows it the registers of a controller in trouble.
-// The driver, the kernel's CAN and all above are the real ones.
+// Adds a wire that can fail to the emulated SJA1000 controllers. QEMU's controllers send without delay, at any bit rate, even without a receiver, and
+// without errors. This kernel module sits between the controllers and their driver (kvaser_pci, sja1000), at the two functions by which the driver
+// reads and writes registers, and shows the driver the registers of a controller with errors. The driver, the kernel's CAN and everything above are
+// the real ones.
 //
-// Two controllers whose bit timings differ break the wire for each other, and one whose other is down or bus-off is alone.
-// The rest is told by /sys/module/canhil_wire/parameters/wire:
-// (Load it while they are down: it learns their bit timings as they are set up.)
-//   echo can1 sound              as QEMU does it
-//   echo can1 held               nothing is sent until it is sound again (others hold the bus)
-//   echo can1 slow US            a frame takes so long
-//   echo can1 broken             a frame ends in errors until the controller is bus-off
-//   echo can1 alone              nobody acknowledges: error-passive, trying for ever
+// Two controllers with different bit timings disturb each other. A controller whose partner is down or bus-off is alone.
+// Other states are set by /sys/module/canhil_wire/parameters/wire. (Load the module while the controllers are down: it reads their bit timings when
+// they are set up.)
+//   echo can1 sound              QEMU's behaviour
+//   echo can1 held               nothing is sent until it is sound again (other nodes occupy the bus)
+//   echo can1 slow US            each frame takes this time
+//   echo can1 broken             each frame ends with an error until the controller is bus-off
+//   echo can1 alone              no acknowledgement: error passive, endless retransmission
 //   echo can1 raise IR SR ECC ALC TXERR RXERR    one interrupt with these register values (hex)
 #include <linux/can/dev.h>
 #include <linux/hrtimer.h>
@@ -41,7 +41,7 @@ struct controller {
 	enum wire wire;
 	u32 frame_us;
 	u8 written[REGS]; // the last value the driver wrote
-	u8 seen[REGS];    // what it is shown in place of the chip's, where not 0; SR, IR: besides
+	u8 seen[REGS];    // if not 0, replaces the value of the chip; SR and IR are or-ed
 	u8 request;       // CMR bits of a transmission that waits
 	struct hrtimer timer;
 };
@@ -111,7 +111,7 @@ static void write_chip(struct controller *c, int reg, u8 value)
 	passing = false;
 }
 
-// Who hears a frame of another bit rate counts errors too, but no receiver goes bus-off.
+// A receiver of a frame with another bit rate counts errors too, but no receiver goes bus-off.
 static void disturb(struct controller *c, u8 ir, u8 rxerr)
 {
 	if (netif_running(c->dev) && !c->seen[TXERR] && c->seen[RXERR] < rxerr)
@@ -151,7 +151,7 @@ static enum hrtimer_restart next_stage(struct hrtimer *timer)
 			disturb(&controllers[c == &controllers[0]], IR_PASSIVE, 128);
 	} else if (wire == BROKEN) {
 		c->request = 0;
-		write_chip(c, MOD, MOD_RESET); // as the chip does by itself
+		write_chip(c, MOD, MOD_RESET); // like the chip
 		raise(c, IR_WARNING | IR_BUS_ERROR, SR_WARNING | SR_BUS_OFF, ecc, 0, 255, 0);
 		return HRTIMER_NORESTART;
 	}

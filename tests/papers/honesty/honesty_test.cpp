@@ -1,5 +1,6 @@
-// What is recommended beyond the papers says how well it knows: the campaigns of bench/monte_carlo/honesty,
-// which are judged with 200 runs, with as many as CTest has time for.
+// The sigmas of the filters that we recommend beyond the papers match their errors: runs the campaigns of
+// bench/monte_carlo/honesty. They are judged with 200 runs there, and with as many as CTest has time for
+// here.
 #include "tests/papers/bars.hpp"
 
 namespace canhil::papers {

@@ -1,4 +1,5 @@
-// Bars B and C of the paper on in-flight alignment over the bus, 40 runs. bars.toml says how the bars follow.
+// Acceptance limits ('bars') B and C of the paper on in-flight alignment over the bus, 40 runs. bars.toml
+// derives the limits.
 #include "tests/papers/bars.hpp"
 
 #include <algorithm>
@@ -19,8 +20,8 @@ TEST(InflightAlignmentPaperOverTheBus, MeetsTheBarsWith40Runs) {
     EXPECT_EQ(found->figures.front().first, "rms_deg");
     return found->figures.front().second.value_or(0);
   };
-  // Bar C asks for 20 % with 400 runs. The runs are paired, so their number hardly matters to the ratio; a
-  // tenth is added.
+  // Bar C requires 20 % with 400 runs. The runs are paired, so the ratio hardly depends on their number; the
+  // limit is a tenth wider here.
   EXPECT_NEAR(rms_deg("gps_sincos_180") / rms_deg("gps_sincos_30"), 1, 0.3);
   EXPECT_NEAR(rms_deg("ssbl_sincos_180") / rms_deg("ssbl_sincos_30"), 1, 0.3);
 }

@@ -1,4 +1,4 @@
-// The text of a page is read as a page, and what is wrong in it is named.
+// Reading the text of a page; errors in it are reported.
 #include "bench/papers/document.hpp"
 
 #include <gmock/gmock.h>

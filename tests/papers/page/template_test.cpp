@@ -1,4 +1,4 @@
-// A template that is wrong says where, and prints nothing silently.
+// An error in a template is reported with its place; nothing wrong is printed silently.
 #include "bench/papers/template.hpp"
 
 #include <gmock/gmock.h>

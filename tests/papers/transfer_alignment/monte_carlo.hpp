@@ -1,6 +1,6 @@
 #pragma once
-// A Monte Carlo of the paper's flight on the filter itself: 20 s, IMU 100 Hz, master velocity 10 Hz. Every
-// filter of a run sees the same errors and noise.
+// A Monte Carlo of the paper's flight on the filter itself: 20 s, IMU 100 Hz, master velocity 10 Hz. All
+// filters of a run have the same errors and noise.
 #include <Eigen/Core>
 #include <array>
 #include <cmath>

@@ -1,7 +1,8 @@
-// What is claimed of the robust H2 filter against the Kalman filter (Yang, Shim, Park 2001), at the settings
+// The claims about the robust H2 filter against the Kalman filter (Yang, Shim, Park 2001), with the settings
 // that reproduce the paper's Table 2: P0 of the attitude 1 deg for true errors of 5 deg, R far above the
-// master's noise. 300 runs a test, a fixed seed; the bars are wider than five seeds x 300 runs and than ten
-// batches of 30 of the reference simulation, and were met by seeds 1, 1000, 2000, 5000 here.
+// master's noise. 300 runs per test, a fixed seed. The limits are wider than the scatter of five seeds x 300
+// runs and of ten batches of 30 runs of the reference simulation. Seeds 1, 1000, 2000 and 5000 passed them
+// here.
 #include <gtest/gtest.h>
 
 #include "tests/papers/transfer_alignment/monte_carlo.hpp"
@@ -42,7 +43,7 @@ TEST(TransferAlignmentPaper, H2IsFasterThanThatKalmanFilter) {
   EXPECT_GE(share_ahead(h2, kalman, 12), 0.90);
 }
 
-// Keeps the H2 result from being sold as better than a correctly initialised Kalman filter.
+// A correctly initialised Kalman filter is better than H2.
 TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
   const auto results = monte_carlo({kalman_5, h2_filter}, {}, run_count, first_seed);
   const auto &kalman = results[0], &h2 = results[1];
@@ -52,8 +53,8 @@ TEST(TransferAlignmentPaper, KalmanFilterToldTheTruthIsFasterThanH2) {
   EXPECT_GE(share_ahead(kalman, h2, 12), 0.88);
 }
 
-// P0 1 deg with fading memory is as good as H2; reference 12.0 / 12.4 / 13.6 for P scaled by exp(2 a dt), a =
-// 0.1 /s. Scaled by exp(a dt) it gives 13.1 / 13.9 / 16.5.
+// P0 1 deg with fading memory equals H2. Reference 12.0 / 12.4 / 13.6 for P scaled by exp(2 a dt), a = 0.1
+// /s. Scaled by exp(a dt) it gives 13.1 / 13.9 / 16.5.
 TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   Settings fading = kalman_1;
   fading.fading_per_s = 0.1;
@@ -63,7 +64,7 @@ TEST(TransferAlignmentPaper, FadingMemoryIsAsFastAsH2) {
   EXPECT_NEAR(convergence_time(runs, k1mrad), 13.6, 0.8);
 }
 
-// With master noise; H2 told the truth (P0 5 deg) diverges in some runs and is recorded, not judged.
+// With master noise. H2 with the true P0 (5 deg) diverges in some runs; it is recorded, not judged.
 TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
   Truth truth;
   truth.master_noise_sigma = 0.05;
@@ -75,8 +76,8 @@ TEST(TransferAlignmentPaper, KalmanFilterConvergesWithMasterNoise) {
                  std::to_string(1e3 * heading_rms(results[1], update_count - 1)));
 }
 
-// P0, Q and R all true: the innovations are consistent, NIS 3. 300 runs x 200 updates of chi-square 3:
-// standard error 0.01; 5 deg squared (linearisation) is seen by the first updates only.
+// With true P0, Q and R the innovations are consistent: NIS 3. The standard error for 300 runs x 200 updates
+// of chi-square 3 is 0.01. The square of 5 deg (linearisation) only affects the first updates.
 TEST(TransferAlignmentPaper, HonestKalmanFilterIsConsistent) {
   Truth truth;
   truth.master_noise_sigma = std::sqrt(kalman_5.velocity_noise_density / update_interval);

@@ -1,5 +1,5 @@
-// The paper's bars over the bus: the codec with frames quantised, 40 runs. bars.toml says how the bars
-// follow.
+// The paper's acceptance limits ('bars') over the bus: the codec with quantised frames, 40 runs. bars.toml
+// derives the limits.
 #include "tests/papers/bars.hpp"
 
 namespace canhil::papers {

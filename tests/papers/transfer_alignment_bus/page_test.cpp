@@ -1,4 +1,4 @@
-// The whole reproduction with two runs a variant: every campaign is read and flown, every figure drawn.
+// The complete reproduction with two runs per variant: every campaign is read and run, every figure is drawn.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,13 +23,13 @@ TEST(PaperPage, HasEveryFigureTableAndVerdictInOneFile) {
   for (const char* bar : {"bar 4", "bar 5", "bar 6", "bar 7", "bar 8", "bar 9"})
     EXPECT_THAT(html, HasSubstr(bar));
   EXPECT_THAT(html, HasSubstr(">paper H2<")) << "what is known of the paper's own curve";
-  EXPECT_THAT(html, HasSubstr("2 runs a curve, seed 20010101, frames quantised as on the bus"));
+  EXPECT_THAT(html, HasSubstr("2 runs per curve, seed 20010101, frames quantised as on the bus"));
   EXPECT_THAT(html, HasSubstr("each through the codec with frames quantised as on the bus."));
   EXPECT_THAT(html, Not(HasSubstr("rounding (--unrounded)")));
   EXPECT_THAT(html, Not(HasSubstr("src=")));  // nothing from outside
   EXPECT_THAT(html, Not(HasSubstr("url(")));
   EXPECT_THAT(text, HasSubstr("The bars are for 300 runs: with fewer they may fail by chance."));
-  // Of two runs the first paragraph says no more than the verdicts below it.
+  // With two runs, the first paragraph must state no more than the verdicts below it.
   EXPECT_THAT(html,
               HasSubstr("errors are 5 deg. Table 2, Kalman filter: does not reproduce; its heading enters"));
   EXPECT_THAT(html, HasSubstr("Table 2, H2 case 2 is faster: does not reproduce; its heading enters"));

@@ -1,4 +1,4 @@
-// The page of a reproduction without the rounding of the bus says so.
+// The page of a reproduction without the rounding of the bus states this.
 #include <gmock/gmock.h>
 
 #include "tests/papers/reproduced.hpp"
@@ -19,9 +19,9 @@ TEST(UnroundedPaperPage, ClaimsNoQuantisation) {
   const auto [html, text] = reproduced(unrounded("paper_page_unrounded"));
   EXPECT_THAT(html, Not(HasSubstr("quantised")));
   EXPECT_THAT(html,
-              HasSubstr("2 runs a curve, seed 20010101, frames without the bus's rounding (--unrounded)"));
+              HasSubstr("2 runs per curve, seed 20010101, frames without the bus's rounding (--unrounded)"));
   EXPECT_THAT(html, HasSubstr("flown over the bus without its rounding: 2 runs"));
-  EXPECT_THAT(html, HasSubstr("Nothing on this page has the bus's rounding"));
+  EXPECT_THAT(html, HasSubstr("The results on this page are without the bus's rounding"));
 }
 
 TEST(UnroundedPaperPage, HasNothingToCompareWithItself) {

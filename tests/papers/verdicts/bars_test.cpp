@@ -1,4 +1,5 @@
-// That a paper's bars can be missed: each, by figures just beyond it, fails its answer and the whole page.
+// A paper's acceptance limits ('bars') can be missed: a figure just beyond each limit fails its claim and the
+// whole page.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -11,8 +12,8 @@
 namespace canhil::papers {
 namespace {
 
-// One end of a bar: a figure, or where `figure` is empty the value of the quantity itself, is to be at most
-// or at least this.
+// One end of a limit: `figure`, or the value of the quantity itself if `figure` is empty, must be at most or
+// at least this.
 struct Bar {
   std::string figure;
   double value = 0;  // in the unit of the report
@@ -52,7 +53,7 @@ class BarsOf {
     if (rule.at_most) at_most("", rule.beyond, rule.quantity->unit.factor);
     return bars_;
   }
-  // The other kinds, which these papers have no bars of.
+  // The other kinds of metric; these papers have no limits on them.
   template <class Rule>
   std::vector<Bar> operator()(const Rule&) {
     return {};
@@ -68,13 +69,13 @@ class BarsOf {
   std::vector<Bar> bars_;
 };
 
-// What the quantity of an answer is, which may follow from others, where those that are kept are 1.
+// The value of a quantity, which can be derived from others, when all stored quantities are 1.
 double itself(const campaign::Variant& variant, const campaign::Answer& answer) {
   return run_at(variant, 0, 1).samples.value(0, *answer.quantity) / answer.quantity->unit.factor;
 }
 
-// The answers of the two papers follow from figures that are in proportion to the errors of a variant: just
-// within each bar its answer and the page pass, just beyond neither does.
+// The claims of the two papers depend on figures that are proportional to the errors of a variant. Just
+// within each limit, its claim and the page pass; just beyond it, both fail.
 class FiguresBeyondABar : public testing::TestWithParam<int> {};
 
 TEST_P(FiguresBeyondABar, FailItsAnswerAndThePage) {
@@ -122,7 +123,7 @@ std::string name_of(const testing::TestParamInfo<int>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Papers, FiguresBeyondABar, testing::Values(2, 3), name_of);
 
-// Of all four: no answer with a bar is without a say.
+// For all four papers: every claim with a limit affects the verdict.
 class AMissedBar : public testing::TestWithParam<int> {};
 
 TEST_P(AMissedBar, FailsThePage) {

@@ -1,4 +1,5 @@
-// That what a page says of a paper's claims follows from the figures: to either side of where it changes.
+// The page's statements about a paper's claims follow from the figures: tested on both sides of each
+// threshold.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -53,7 +54,7 @@ TEST_F(LosClaims, NoStartUpIsNeeded) {
   EXPECT_FALSE(made_up_.holds("no_start_up"));
 }
 
-// Than the best of three, before the manoeuvre and at its onset.
+// Better than the best of three, before the manoeuvre and at its onset.
 TEST_F(LosClaims, BetterThanAFixedBandwidthByRms) {
   for (const char* window : {"RMS 3-2", "RMS 1-0.5"}) rms("combined", window, 0.999);
   EXPECT_TRUE(made_up_.holds("better_by_rms"));
@@ -126,7 +127,7 @@ TEST_F(WindClaims, NoneIsLostOnlyIfNoVariantLostARun) {
   }
 }
 
-// Bars that no campaign has, as they compare variants by figures of their own.
+// Limits that belong to no campaign, because they compare variants by figures of their own.
 TEST(InflightClaims, ThatAreBarsFailThePage) {
   MadeUp made_up(papers.at(1));
   const auto heading = [&](const char* campaign, const std::string& variant, const char* figure,
@@ -153,7 +154,7 @@ TEST(InflightClaims, ThatAreBarsFailThePage) {
   }
 }
 
-// A guard: where both filters are told the truth the H2 filter is not the first.
+// With true settings for both filters, the H2 filter is not the better one.
 TEST(TransferClaims, AnH2FilterAheadWhereItMustNotBeFailsThePage) {
   MadeUp made_up(papers.at(0));
   const auto at = [&](const std::string& variant, double mrad) {

@@ -1,4 +1,4 @@
-// What a paper's campaigns would have given, made up: every figure is as a test wants it, nothing is flown.
+// Artificial results of a paper's campaigns: a test sets every figure, and nothing is flown.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@
 #include "bench/campaign/evaluate.hpp"
 #include "bench/campaign/store.hpp"
 #include "bench/estimators/registry.hpp"
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 #include "tests/own_folder.hpp"
 
 namespace canhil::papers {
@@ -23,13 +23,16 @@ namespace canhil::papers {
 struct Paper {
   std::string name;
   const report::EmbeddedFiles &campaigns, &scenarios;
-  Result<Told> (*tell)(const Results& results, const FlyOptions& options, const std::filesystem::path& exact);
+  Result<PageContent> (*page_content)(const Results& results, const FlyOptions& options,
+                                      const std::filesystem::path& exact);
 };
 inline const std::vector<Paper> papers{
-    {"transfer", transfer_alignment::campaigns, transfer_alignment::scenarios, transfer_alignment::tell},
-    {"inflight", inflight_alignment::campaigns, inflight_alignment::scenarios, inflight_alignment::tell},
-    {"los", los_rate::campaigns, los_rate::scenarios, los_rate::tell},
-    {"wind", wind::campaigns, wind::scenarios, wind::tell}};
+    {"transfer", transfer_alignment::campaigns, transfer_alignment::scenarios,
+     transfer_alignment::page_content},
+    {"inflight", inflight_alignment::campaigns, inflight_alignment::scenarios,
+     inflight_alignment::page_content},
+    {"los", los_rate::campaigns, los_rate::scenarios, los_rate::page_content},
+    {"wind", wind::campaigns, wind::scenarios, wind::page_content}};
 
 inline constexpr std::uint64_t runs_of_each = 2;
 
@@ -46,7 +49,7 @@ inline campaign::Campaign read(const Paper& paper, const report::EmbeddedFile& f
   return std::move(*campaign);
 }
 
-/// A run in which every quantity has the same value all the time, in the unit that reports have.
+/// A run in which every quantity is constant, in the unit of the reports.
 inline campaign::RunSeries run_at(const campaign::Variant& variant, std::uint64_t run, double value) {
   const quantities::Layout& layout = estimators::of(variant.scenario).layout;
   campaign::RunSeries series{.run = run, .ending = {}, .samples = quantities::Samples(layout)};
@@ -79,7 +82,7 @@ inline std::vector<campaign::Answer> answers_at(const campaign::Campaign& campai
   return std::move(evaluation->answers);
 }
 
-/// All campaigns of a paper, every figure 1, no run missing and every bar met; tests spoil them.
+/// All campaigns of a paper, with every figure 1, no run missing and every limit met; tests change them.
 class MadeUp {
  public:
   explicit MadeUp(const Paper& paper) : paper_(paper) {
@@ -98,7 +101,7 @@ class MadeUp {
     // Curves of single runs come from the files.
     for (const char* name : {"table2", "ssbl", "gps"})
       if (const Flown* flown = find(name)) store(*flown);
-    // A bar of the in-flight paper that is no campaign's: the UKF's median is the smaller one.
+    // A limit of the in-flight paper that belongs to no campaign: the UKF's median is smaller than the EKF's.
     for (const char* aid : {"ssbl", "gps"})
       if (find(aid) != nullptr) set(aid, "heading at 300 s", "ekf_90", "median_deg", 2);
   }
@@ -123,14 +126,14 @@ class MadeUp {
     }
     throw std::runtime_error(fmt::format("no figure '{}'", figure));
   }
-  [[nodiscard]] Told told() const {
-    auto told = paper_.tell(results, options_, {});
-    if (!told) throw std::runtime_error(told.error().message);
-    return std::move(*told);
+  [[nodiscard]] PageContent content() const {
+    auto content = paper_.page_content(results, options_, {});
+    if (!content) throw std::runtime_error(content.error().message);
+    return std::move(*content);
   }
-  [[nodiscard]] bool bars_met() const { return told().bars_met; }
+  [[nodiscard]] bool bars_met() const { return content().bars_met; }
   [[nodiscard]] bool holds(std::string_view claim) const {
-    const Told all = told();
+    const PageContent all = content();
     Words none("");
     return std::get<bool>(all.names.find(claim)->second(none));
   }

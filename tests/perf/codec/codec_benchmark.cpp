@@ -1,4 +1,4 @@
-// Nanoseconds of the codecs. Compare within one run: the machine is shared.
+// Time of the codecs in nanoseconds. Compare only within one run, because the machine is shared.
 #include <benchmark/benchmark.h>
 
 #include "dbc/parser/codec.hpp"

@@ -1,5 +1,5 @@
-// Calls pack and unpack as often as the argument says, each in a function of its own that callgrind counts
-// in.
+// Calls pack and unpack as often as the argument states, each in a function of its own, in which callgrind
+// counts.
 #include <cstdlib>
 #include <span>
 

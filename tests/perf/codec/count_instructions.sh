@@ -1,6 +1,6 @@
 #!/bin/sh
-# Instructions of one pack and one unpack, counted by callgrind. Exit status 1 where a goal is missed:
-# 30 instructions to unpack, 60 to pack a message of four signals.
+# Counts the instructions of one pack and one unpack by callgrind. Exit status 1 if a goal is missed: 30 instructions to unpack, 60 to pack a
+# message of four signals.
 # usage: count_instructions.sh path/to/codec_instructions
 set -eu
 program=${1:?usage: count_instructions.sh path/to/codec_instructions}

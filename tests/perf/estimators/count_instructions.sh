@@ -1,5 +1,5 @@
 #!/bin/sh
-# Instructions of one step of each estimator: tests/perf/estimators/count_instructions.sh BUILD_DIR
+# Counts the instructions of one step of each estimator: tests/perf/estimators/count_instructions.sh BUILD_DIR
 set -eu
 out=$(mktemp)
 trap 'rm -f "$out"' EXIT

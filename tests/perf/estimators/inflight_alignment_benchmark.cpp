@@ -1,4 +1,4 @@
-// Time of one IMU step, of one fix (prediction over its interval and update), and of one of each.
+// Time of one IMU step, of one fix (prediction over its interval plus update), and of both together.
 #include <benchmark/benchmark.h>
 
 #include "tests/perf/estimators/warm_inflight_filter.hpp"

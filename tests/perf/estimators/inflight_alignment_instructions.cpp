@@ -1,5 +1,5 @@
-// Under callgrind: every measured call goes through a function of its own, called once, whose cost is
-// collected. A fix is the prediction over its interval and the update.
+// For callgrind: every measured call is in a function of its own, which is called once and whose instructions
+// are counted. A fix is the prediction over its interval plus the update.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_inflight_filter.hpp"

@@ -1,4 +1,4 @@
-// Time of one step of each algorithm, both planes, roll included; of the parts that differ; of the start-up.
+// Time of one step of each algorithm (both planes, with roll), of the parts that differ, and of the start-up.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -26,7 +26,7 @@ void copy_seeker_state(benchmark::State& bench) {
   }
 }
 
-// The gain of one plane alone, what a Kalman filter's covariance is to be compared with.
+// The gain of one plane, for comparison with the covariance of a Kalman filter.
 Geometry moving(double& r) {
   r = r > 1800 ? r - 1e-3 : 2000;
   return {r, 900};
@@ -54,7 +54,7 @@ void gain_kalman(benchmark::State& bench) {
     benchmark::DoNotOptimize(P);
   }
 }
-// What the combined gain would cost at each sample without its table.
+// The cost of the combined gain per sample without its table.
 void gain_combined_solved(benchmark::State& bench) {
   const Settings settings;
   double r = 2000;

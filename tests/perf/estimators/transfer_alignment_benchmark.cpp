@@ -1,4 +1,4 @@
-// Time of one IMU step, one velocity update, and one of each; of the covariance prediction alone.
+// Time of one IMU step, of one velocity update, of both together, and of the covariance prediction alone.
 #include <benchmark/benchmark.h>
 
 #include "target/estimators/filtering/block_transition.hpp"

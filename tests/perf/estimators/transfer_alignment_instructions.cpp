@@ -1,5 +1,5 @@
-// Under callgrind: every measured call goes through a function of its own, called once, whose cost is
-// collected.
+// For callgrind: every measured call is in a function of its own, which is called once and whose instructions
+// are counted.
 #include <cstdio>
 
 #include "tests/perf/estimators/warm_filter.hpp"

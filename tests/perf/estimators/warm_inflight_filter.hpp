@@ -1,6 +1,6 @@
 #pragma once
-// An in-flight alignment in its turn, ready for one more IMU sample or one more fix: a made-up motion with
-// the published sensors' settings.
+// An in-flight alignment during its turn, ready for one more IMU sample or one more fix. The motion is
+// artificial; the settings are those of the published sensors.
 #include <cmath>
 
 #include "target/estimators/inflight_alignment/filter.hpp"

@@ -1,5 +1,5 @@
-// Under callgrind: every measured call goes through a function of its own, called once, whose cost is
-// collected.
+// For callgrind: every measured call is in a function of its own, which is called once and whose instructions
+// are counted.
 #include <cstdio>
 #include <memory>
 
@@ -10,7 +10,7 @@ using namespace canhil::wind;
 
 #define MEASURED extern "C" [[gnu::noinline]]
 
-// The recommended filter from where the EKF is after five seconds.
+// The recommended filter, starting from the state of the EKF after five seconds.
 struct WarmBank {
   WarmGlider glider;
   BankDesign design = make_bank({});

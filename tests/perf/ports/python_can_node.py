@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""vcan_node's roles by python-can, as its documentation has them: python_can_node.py ROLE INTERFACE COUNT."""
+"""The roles of vcan_node with python-can, written as in its documentation: python_can_node.py ROLE INTERFACE COUNT."""
 import socket
 import sys
 import time

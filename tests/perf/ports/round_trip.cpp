@@ -1,9 +1,9 @@
-// Round trip between two processes: the embedded bus against a bare SOCK_SEQPACKET socketpair, in one run.
-//   round_trip [ROUNDS [LIMIT]]; prints p50, p99 and maximum of both and their ratio; with LIMIT fails where
-//   that of p50 is more.
+// Round trips between two processes: the embedded bus against a bare SOCK_SEQPACKET socketpair, in one run.
+//   round_trip [ROUNDS [LIMIT]]; prints p50, p99 and maximum of both and their ratio. With LIMIT it fails if
+//   the ratio of p50 is larger.
 //
-// Both wait in the same way: they ask the socket, and poll when it has nothing. Their rounds alternate in
-// blocks, so that whatever else the machine does meets both.
+// Both wait in the same way: they read the socket, and poll if it is empty. Their rounds alternate in blocks,
+// so that other load of the machine affects both equally.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>

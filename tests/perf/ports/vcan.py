@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""The SocketCAN port beside can-utils and python-can, in one run on virtual interfaces.
+"""Compares the SocketCAN port with can-utils and python-can, in one run on virtual interfaces.
 
   tests/vcan/run.sh /usr/bin/python3 tests/perf/ports/vcan.py build/default/tests/perf/ports/vcan_node [ROUNDS]
 
-Round trip: one sends a frame, another answers it. Every pair has an interface of its own, all are there from the beginning, and
-blocks of few round trips take turns, so that whatever else the machine does meets all alike.
-Throughput: a burst through a sender and a receiver whose queue holds all of it. Best of the rounds, less the best of a burst of
-one frame, which is the starting of the programs.
-Prints figures and ratios, judges nothing; fails where something did not run.
+Round trip: one program sends a frame, another answers it. Every pair has an interface of its own. All pairs run from the beginning and take turns
+in short blocks of round trips, so that other load of the machine affects all of them equally.
+Throughput: a burst through a sender and a receiver whose queue can hold the whole burst. The result is the best of the rounds, minus the best time
+of a burst of one frame, which is the start-up time of the programs.
+Prints figures and ratios without a verdict; fails if a program did not run.
 """
 import pathlib
 import subprocess

@@ -1,11 +1,11 @@
-// One end of a measurement on a CAN interface, by the port or by a bare raw socket; vcan.py plays several
-// against can-utils and python-can.
+// One end of a measurement on a CAN interface, by the port or by a bare raw socket. vcan.py pairs such nodes
+// with each other, can-utils and python-can.
 //   vcan_node ROLE port|raw INTERFACE COUNT
-//   ping: for each line on stdin COUNT round trips, one at a time, to somebody who answers each frame; prints
-//   their times in ns on a line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send:
-//   COUNT numbered frames as fast as they go. receive: COUNT frames; prints how many were lost or out of
-//   order.
-// Waits without limit: vcan.py sees to that.
+//   ping: for each line on stdin, COUNT round trips, one at a time, to a node that answers each frame; prints
+//   their times in ns on one line. echo: answers COUNT frames of id 0x77 by 0x78, as canfdtest does. send:
+//   sends COUNT numbered frames as fast as possible. receive: receives COUNT frames; prints how many were
+//   lost or out of order.
+// Waits without a limit; vcan.py limits the time.
 #include <fmt/format.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr std::uint32_t ping_id = 0x77;
 constexpr std::uint32_t echo_id = 0x78;
-constexpr int receive_bytes = 64 << 20;  // so that what is compared is work, not losses
+constexpr int receive_bytes = 64 << 20;  // so that the measurement compares work, not losses
 
 [[noreturn]] void give_up(const std::string& why) {
   fmt::print(stderr, "vcan_node: {}\n", why);
@@ -78,7 +78,7 @@ class PortLine final : public Line {
   std::unique_ptr<Port> port_;
 };
 
-/// The least that a program can do: blocking read() and write(), no stamps, no check of anything.
+/// The minimum that a program can do: blocking read() and write(), without stamps and checks.
 class RawLine final : public Line {
  public:
   explicit RawLine(const std::string& interface) : socket_(::socket(AF_CAN, SOCK_RAW, CAN_RAW)) {

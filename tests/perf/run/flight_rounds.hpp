@@ -1,4 +1,4 @@
-// A flight as questions and answers: what the target will say to every frame, known beforehand.
+// A flight as pairs of frames and answers: the target's answer to every frame, computed in advance.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,13 +13,13 @@
 
 namespace canhil {
 
-/// Frames up to and including one that is answered, and the answers.
+/// Frames up to and including the one that is answered, and the answers.
 struct Round {
   std::vector<Frame> stimulus;
   std::vector<Frame> answers;
 };
 
-/// Hands everything to a device in this process and keeps what it says.
+/// Passes all frames to a device in this process and stores its answers.
 class RecordingPort final : public Port {
  public:
   SendOutcome send(const Frame& frame) override {
@@ -33,7 +33,7 @@ class RecordingPort final : public Port {
     return outcome;
   }
   std::optional<Received> receive() override {
-    if (auto first = device_.receive()) return first;  // the heartbeat of a device that is new
+    if (auto first = device_.receive()) return first;  // the heartbeat of a new device
     if (next_ == heard_.size()) return std::nullopt;
     return heard_[next_++];
   }
@@ -44,7 +44,7 @@ class RecordingPort final : public Port {
   [[nodiscard]] int stamp_clock() const override { return CLOCK_MONOTONIC; }
   [[nodiscard]] const std::string& name() const override { return device_.name(); }
 
-  std::vector<Round> rounds{1};  // the last one is without an answer yet
+  std::vector<Round> rounds{1};  // the last round has no answer yet
 
  private:
   drive::InProcessPort device_{Rounding::as_on_the_bus};
@@ -52,8 +52,8 @@ class RecordingPort final : public Port {
   std::size_t next_ = 0;
 };
 
-/// The rounds of run `run_index` of a scenario with another algorithm, from the reset of the target on.
-/// Error: one line.
+/// The rounds of run `run_index` of a scenario with another algorithm, from the reset of the target on. On
+/// error: one line.
 inline Result<std::vector<Round>> record_flight(const std::string& file, const std::string& algorithm,
                                                 std::uint64_t run_index) {
   auto scenario = scenario::read_file(file, drive::contract());
@@ -66,7 +66,7 @@ inline Result<std::vector<Round>> record_flight(const std::string& file, const s
 
   RecordingPort port;
   drive::Link link(port);
-  drive::Schedule schedule = drive::make_schedule(*scenario, *truth, flight->own_truth, run_index, false);
+  drive::Schedule schedule = drive::make_schedule(*scenario, *truth, flight->per_run_truth, run_index, false);
   const auto gone = []() -> std::optional<std::string> { return std::nullopt; };
   auto ready = drive::configure(link, schedule.outbox(), scenario->targets, flight->initial, gone);
   if (!ready) return tl::unexpected(ready.error());

@@ -1,16 +1,15 @@
 #!/usr/bin/python3
-"""How late hil-bench transmits, beside cyclictest of the same priority on the same CPU, and beside other senders.
+"""Measures how late hil-bench transmits, and compares it with cyclictest of the same priority on the same CPU and with other senders.
 
   jitter.py HIL_BENCH [ROUNDS]                                              over the embedded bus, with cyclictest alone
   tests/vcan/run.sh /usr/bin/python3 jitter.py HIL_BENCH [ROUNDS] vcan0     over a CAN interface, with all of them
 
-Lateness: hil-bench run --realtime of a scenario of 200 Hz, the first frame of every deadline, from the deadline to its being
-handed to the bus; cyclictest: from the end of its sleep to its waking.
-Time between frames: the kernel's stamps of what a CAN interface received, as candump logs them for everybody alike; by how much
-each is off 5 ms. The senders: hil-bench, `cangen -g`, `canplayer` of a log of the same frames at the times when they were
-due, and the kernel's broadcast manager (BCM, TX_SETUP).
-All take turns, one at a time, with the same priority and, but for the target and the log, on the last CPU of this process.
-Prints figures and ratios, judges nothing; fails where something did not run.
+Lateness of hil-bench run --realtime (a scenario of 200 Hz): from each deadline until its first frame is written to the bus. Lateness of cyclictest:
+from the end of its sleep until it wakes up.
+Time between frames: the deviation from 5 ms of the kernel's receive stamps, which candump logs in the same way for all senders. The senders are
+hil-bench, `cangen -g`, `canplayer` with a log of the same frames at their due times, and the kernel's broadcast manager (BCM, TX_SETUP).
+The senders take turns, one at a time, with the same priority, on the last CPU of this process. The target and candump run on other CPUs.
+Prints figures and ratios without a verdict; fails if a program did not run.
 """
 
 import collections

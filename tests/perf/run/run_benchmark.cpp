@@ -1,4 +1,4 @@
-// One run of 20 s at 100 Hz in process, bus path included: the unit of work of a campaign.
+// One run of 20 s at 100 Hz in process, including the bus path: the unit of work of a campaign.
 #include <benchmark/benchmark.h>
 
 #include "bench/drive/contract.hpp"

@@ -11,7 +11,7 @@ namespace {
 
 using namespace canhil;
 
-// What a campaign does for each run, but for storing it.
+// The work of a campaign for each run, except storing it.
 [[gnu::noinline]] std::size_t one_run(const scenario::Scenario& scenario, const world::FlightRecord& truth,
                                       std::uint64_t index) {
   const auto finished = drive::run_in_process(scenario, truth, index);

@@ -1,5 +1,5 @@
-// Runs a second of the campaign engine, store included, with one thread and with two: alternated, so that
-// both meet the same neighbours on the machine.
+// Runs per second of the campaign engine, including the store, with one thread and with two. They alternate,
+// so that other load of the machine affects both equally.
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ constexpr std::uint64_t runs = 150;  // of each variant: about a second
 
 struct Rate {
   double runs_per_s = 0;
-  double processor_ms = 0;  // of a run: what the threads cost each other, whoever else uses the machine
+  // CPU time of a run: shows how much the threads slow each other, independent of other load.
+  double processor_ms = 0;
 };
 
 Rate measured(const campaign::Campaign& campaign, unsigned threads) {

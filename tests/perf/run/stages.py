@@ -1,7 +1,7 @@
-"""Prints where the instructions of a run of 20 s in process go, by stage: stages.py BUILD_FOLDER
+"""Prints the instructions of a run of 20 s in process by stage: stages.py BUILD_FOLDER
 
-Callgrind counts them by source line, inlined code where it was written. A file of the project belongs to one stage. What
-libraries do (Eigen, random numbers, memory, libm) is the stage's of the function that it was inlined into or called by.
+Callgrind counts instructions by source line; inlined code counts at its own source line. Each file of the project belongs to one stage. Instructions
+of libraries (Eigen, random numbers, memory, libm) count for the stage of the function that they were inlined into or called by.
 """
 
 import collections

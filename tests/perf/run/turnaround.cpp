@@ -1,12 +1,12 @@
-// What the target adds to a bus: from the last frame of a stimulus to the last frame of its answer, beside a
-// process that only receives and sends: to the same frames as many, the same, known beforehand.
+// The time from the last frame of a stimulus to the last frame of its answer, for the target and for an echo:
+// a process that computes nothing and sends the recorded answer to each frame.
 //   turnaround [--flights N] [--only NAME] [--bus BUS ECHO_BUS]
-// The embedded bus where none is named, else two CAN interfaces of a kind, so that neither hears the other.
-// Prints for every estimator, by the message that ends the answer: p50, p99 and maximum of both, the answers
-// that did not come, and the ratios.
+// Without --bus it uses the embedded bus, otherwise two CAN interfaces of the same kind, so that neither
+// receives the frames of the other. It prints for every estimator and each last message of an answer: p50,
+// p99 and maximum of both, the missing answers, and the ratios.
 //
-// Blocks of the one and the other take turns, so that whatever else the machine does meets both. Time is not
-// awaited: the device's only time is that of the frames.
+// Target and echo take turns in blocks, so that other load of the machine affects both equally. The flight is
+// sent faster than real time: the device's only time is that of the frames.
 #include <fcntl.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -59,7 +59,7 @@ int complain(const std::string& what) {
   return 2;
 }
 
-/// How the echo reads and writes: by one blocking call each, and nothing else.
+/// The echo reads and writes by one blocking call each, and does nothing else.
 struct Bare {
   std::function<void()> read;
   std::function<void(const Frame&)> write;
@@ -113,12 +113,12 @@ struct Times {
 };
 using TimesByAnswer = std::map<std::uint32_t, Times>;
 
-/// One side of the comparison: who answers on this bus.
+/// One side of the comparison: the program that answers on this bus.
 class Side {
  public:
   explicit Side(Port& port) : port_(port) {}
 
-  /// Takes what is left over.
+  /// Reads and discards the remaining frames.
   void settle() {
     for (int empty = 0; empty < 2;) empty = port_.receive() ? 0 : empty + 1;
   }
@@ -181,7 +181,7 @@ void alternate(const std::vector<Round>& rounds, Side& device, Side& bare) {
 
 Result<void> fly(const std::vector<Round>& rounds, const std::vector<std::string>& buses, Side& device,
                  Side& bare) {
-  // Those who left before: what is left of them must not live on in a new process.
+  // Removes the rest of earlier processes, which must not appear in a new one.
   device.settle();
   bare.settle();
   const pid_t child = ::fork();

@@ -1,4 +1,4 @@
-// hil-bench accept, as a user starts it: a small suite of its own, and those of the project.
+// hil-bench accept as a user starts it, with a small suite of its own and with those of the project.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -71,7 +71,7 @@ class Accept : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_ + "/small");
     std::ofstream(folder_ + "/small/suite.toml") << suite;
-    // Three seconds without bars: what it is judged by here is the suite's.
+    // A flight of three seconds without limits: the suite judges it.
     std::string flight = read(scenario("transfer_alignment_quick"));
     flight.resize(flight.find("[[check]]"));
     std::ofstream(folder_ + "/small/flight.toml")
@@ -114,7 +114,7 @@ TEST_F(Accept, ATargetThatMeetsEveryRequirementPasses) {
 TEST_F(Accept, AnAnswerThatIsNotTheReferencesIsNamed) {
   ASSERT_EQ(accept("--record").code, 0);
   change("flight.toml", "accel_noise_ugprthz = 50",
-         "accel_noise_ugprthz = 80");  // the target is told another noise
+         "accel_noise_ugprthz = 80");  // the target gets a wrong noise parameter
   const Ended ended = accept("--family algorithms");
   EXPECT_EQ(ended.code, 1) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("FAIL          S-2"));
@@ -138,7 +138,7 @@ TEST_F(Accept, AFaultThatDoesNotComeFails) {
   EXPECT_EQ(ended.code, 1);
   EXPECT_THAT(
       ended.out,
-      HasSubstr("flight 'silent' ends: a flight to its end; expected a heartbeat that tells of a fault"));
+      HasSubstr("flight 'silent' ends: a flight to its end; expected a heartbeat that reports a fault"));
 }
 
 TEST_F(Accept, ARangeThatIsNotTheTargetsFails) {
@@ -160,7 +160,7 @@ TEST_F(Accept, StopsAtTheFirstFailureWhenToldTo) {
 TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--target /no/such/program"), "target '/no/such/program': is no program");
   expect_one_line(accept("--estimator winds"), "--estimator 'winds': has no suite in");
-  expect_one_line(accept("--family error"), "--family 'error': is none, expected one of: errors");
+  expect_one_line(accept("--family error"), "--family 'error': is unknown, expected one of: errors");
   expect_one_line(accept("--tolerance 0"), "--tolerance");
   expect_one_line(accept("--html /no/such/folder/a.html"), "/no/such/folder/a.html");
   expect_one_line(hil_bench("accept --suites /no/such/folder"), "/no/such/folder: has no suites");
@@ -169,7 +169,7 @@ TEST_F(Accept, BadInputIsOneLine) {
   expect_one_line(accept("--record"), "small/suite.toml:7: key 'requirement[1].family'");
 }
 
-// Each suite without what takes minutes: that the target passes as it is.
+// Each suite without its long parts: the unchanged target passes.
 TEST(Suites, ProtocolAndStatesOfTheTargetPass) {
   const Ended ended = hil_bench("accept --family protocol --family parameters --estimator los_rate");
   EXPECT_EQ(ended.code, 0) << ended.out;

@@ -1,5 +1,4 @@
-// hil-bench campaign: the same merged bytes whatever threads, shards and kills did; one line for what cannot
-// be.
+// hil-bench campaign: threads, shards and kills do not change the merged bytes; one line per error.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -68,7 +67,7 @@ std::string merged(const std::string& in, const std::string& arguments = "*.sqli
   return read(out);
 }
 
-/// The merged bytes of a campaign that nothing disturbed, on one thread.
+/// The merged bytes of an undisturbed campaign on one thread.
 const std::string& undisturbed() {
   static const std::string bytes = [] {
     const std::string at = folder("undisturbed");
@@ -94,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(ShardsAndThreads, Divided,
                          testing::Values(std::pair{1, 1}, std::pair{1, 2}, std::pair{3, 1}, std::pair{3, 2},
                                          std::pair{7, 1}, std::pair{7, 2}));
 
-/// Starts hil-bench campaign, and kills it after a while unless it has ended. Whether it was killed.
+/// Starts hil-bench campaign and kills it after a while unless it has ended. Returns whether it was killed.
 bool start_and_kill(const std::string& file, const std::string& out, std::chrono::milliseconds after) {
   const pid_t child = fork();
   if (child == 0) {
@@ -116,7 +115,7 @@ TEST(Killed, AndResumedItLosesAndRepeatsNothing) {
   expect_done(hil_bench(fmt::format("campaign {} --out {}", file, calm)));
   const auto whole = std::chrono::steady_clock::now() - start;
 
-  // Moments spread over the whole campaign, starts and commits included.
+  // Times of kills spread over the whole campaign, including starts and commits.
   std::mt19937_64 random(20010101);
   int killed = 0;
   for (int i = 0; i < kills; ++i) {
@@ -168,8 +167,8 @@ TEST(Export, IsATableOfWhatTheRunsTold) {
   expect_done(ended);
   EXPECT_THAT(ended.out,
               testing::StartsWith("variant,run,t_s,quantity,unit,value\nKF master_ins.latency_ms=0,0,"));
-  // 30 runs of four variants with 12 quantities an update: two have 29, and two, whose updates come 150 ms
-  // late, 28.
+  // 30 runs of four variants with 12 quantities per update: two variants have 29 updates, and two, whose
+  // updates are 150 ms late, have 28.
   EXPECT_EQ(std::ranges::count(ended.out, '\n'), 1 + 30 * (2 * 29 + 2 * 28) * 14);
   EXPECT_THAT(ended.out, testing::ContainsRegex(
                              "\nKF master_ins.latency_ms=0,29,[0-9.]+,attitude.heading,rad,-?[0-9.e-]+\n"));
@@ -278,8 +277,8 @@ TEST(Target, ThatCannotBeFlownAgainstIsOneLine) {
   expect_one_line(against("--unrounded --target " HIL_TARGET), "--unrounded");
 }
 
-// In process: against the program it is the same to the last bit, and takes ten times as long. Under a
-// sanitizer two runs are enough to look at memory; the bars are for as many as the file says.
+// In process: the results are bit for bit those of the program, which takes ten times as long. With a
+// sanitizer, two runs are enough to test memory; the limits are for the number of runs in the file.
 TEST(Acceptance, TheTargetIsWithinTheBarsOfEveryCampaign) {
 #ifdef CANHIL_SANITIZED
   constexpr int runs = 2, worst_code = 1;
@@ -316,10 +315,10 @@ TEST(CampaignBadInput, IsOneLine) {
   expect_one_line(campaign("--shard 0/2 --json x.json --out " + at), "a shard has no report");
   expect_one_line(campaign("--json /no/such/x.json --out " + at), "/no/such/x.json");
   expect_one_line(campaign("--out /dev/full"), "/dev/full");
-  expect_one_line(campaign("--out /proc/none"), "/proc/none");  // where nobody may write
+  expect_one_line(campaign("--out /proc/none"), "/proc/none");  // a folder without write permission
   expect_one_line(campaign("--out /proc/none.sqlite"), "/proc/none.sqlite");
-  expect_one_line(hil_bench(fmt::format("campaign merge {}/out.db {}", at, file)), "is no SQLite file");
-  expect_one_line(hil_bench("campaign report " + file), "is no SQLite file");
+  expect_one_line(hil_bench(fmt::format("campaign merge {}/out.db {}", at, file)), "is not an SQLite file");
+  expect_one_line(hil_bench("campaign report " + file), "is not an SQLite file");
 }
 
 TEST(CampaignBadInput, WhatIsReadIsNotWrittenOver) {
@@ -368,7 +367,7 @@ TEST(CampaignBadInput, WhatHasNoEffectOnAPaper) {
 
 TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {
   const std::string at = folder("full");
-  // No file may grow beyond 100 KiB: a write that fails, as when a disk is full.
+  // No file may exceed 100 KiB: a write fails as on a full disk.
   const auto while_full = [&](const std::string& more) {
     return shell(
         fmt::format("ulimit -f 100; {} campaign {} --out {} {}", HIL_BENCH, campaign_file(), at, more));
@@ -381,7 +380,8 @@ TEST(CampaignBadInput, FullDiskLeavesWhatWasCommitted) {
   EXPECT_TRUE(merged(at) == undisturbed());
 }
 
-/// hil-bench as a user who may not write everywhere, as root may; copied to where that user may read it.
+/// Runs hil-bench as a user with limited write permission (root has all). The program is copied to a place
+/// that the user can read.
 std::string hil_bench_of_nobody() {
   if (geteuid() != 0) return HIL_BENCH;
   fs::permissions(scratch(""), fs::perms{0755});
@@ -392,7 +392,7 @@ std::string hil_bench_of_nobody() {
   return "setpriv --reuid=65534 --regid=65534 --clear-groups " + scratch("hil-bench");
 }
 
-// It is a program of its own, which need not be built.
+// It is a separate program, which may not be built.
 TEST(CampaignBadInput, WithoutItsProgramIsOneLineThatSaysHowItIsMade) {
   const std::string alone = folder("alone") + "/hil-bench";
   fs::copy_file(HIL_BENCH, alone);

@@ -1,6 +1,6 @@
-"""The beginning of a recorded run as text, a line a frame, for docs/own-target.md: annotate.py KIT_FOLDER LOG FRAMES.
+"""Prints the first frames of a recorded run as text, one line per frame, for docs/own-target.md: annotate.py KIT_FOLDER LOG FRAMES.
 
-Left out: the stamps, TargetTiming, and what came before the bench's first command, as these differ from run to run."""
+It omits the stamps, TargetTiming and all frames before the bench's first command, because they differ from run to run."""
 
 import re
 import sys
@@ -10,19 +10,19 @@ from canhil_target import MESSAGES, decode  # noqa: E402
 from canhil_messages import FROM_TARGET  # noqa: E402
 
 NOTES = {
-    ("TargetCommand", "reset"): "the bench selects estimator and algorithm, until a heartbeat says so",
-    ("TargetHeartbeat", "idle"): "reset: everything before is forgotten, counters too",
-    "ParamSet": "parameters, one by one",
-    "ParamAck": "the value in force",
-    "TargetInitLatitude": "initial state: one group, whole with its last message",
-    ("TargetHeartbeat", "ready"): "the group was whole",
-    ("TargetCommand", "start"): "all counters of the target begin anew",
-    ("TargetHeartbeat", "running"): "from here on samples are answered",
-    "SeekerAntenna": "a sample: four messages, one counter, its time in the last",
-    "LosRateEstimate": "its answer: names counter and time of the sample",
-    "Sync": "the time base; lockstep: the step is closed ...",
-    "StepDone": "... when the target says so",
-    "TargetCounters": "what was lost, with each heartbeat of the time base",
+    ("TargetCommand", "reset"): "the bench selects estimator and algorithm, and repeats this until a heartbeat confirms it",
+    ("TargetHeartbeat", "idle"): "the reset is confirmed; it cleared all state, including the counters",
+    "ParamSet": "the parameters, one by one",
+    "ParamAck": "the reply carries the value in force",
+    "TargetInitLatitude": "the initial state: one sample group",
+    ("TargetHeartbeat", "ready"): "the group was complete: the target is ready",
+    ("TargetCommand", "start"): "start; the target resets its transmit counters",
+    ("TargetHeartbeat", "running"): "from now on the target answers samples",
+    "SeekerAntenna": "a sample: four messages with one counter; the last one carries the time",
+    "LosRateEstimate": "its answer carries counter and time of the sample",
+    "Sync": "the time base; in lockstep, Sync ends a step ...",
+    "StepDone": "... and the target confirms it",
+    "TargetCounters": "counts of lost frames, with each heartbeat of the time base",
 }
 
 
@@ -48,7 +48,7 @@ def main():
         if "dbc_hash" in values:
             values["dbc_hash"] = f"{values['dbc_hash']:06x}"
         said = ", ".join(f"{signal} {shown(value)}" for signal, value in values.items()
-                         if value or name != "TargetHeartbeat")  # of its errors those that are set
+                         if value or name != "TargetHeartbeat")  # of the error flags, only those that are set
         side = "target" if group in FROM_TARGET else "bench "
         print(f"{side}  {identifier}#{data}  {name}: {said}")
         left -= 1

@@ -1,4 +1,4 @@
-// hil-bench conformance: who passes, and which rule names which defect.
+// hil-bench conformance: which targets pass, and which rule detects which defect.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
     Conformance, Defective,
     testing::Values(Defect{"SlowBeat", {"P-BEAT"}}, Defect{"AnyContract", {"P-CONTRACT"}},
                     Defect{"AnyEstimator", {"P-ESTIMATOR"}}, Defect{"UnknownCommand", {"P-COMMAND"}},
-                    // Both: who needs no state needs no whole one.
+                    // Both rules: a target that needs no initial state needs no complete one either.
                     Defect{"NoStateNeeded", {"P-NO-STATE", "P-WHOLE-STATE"}},
                     Defect{"HalfState", {"P-WHOLE-STATE"}}, Defect{"DeafToRepetition", {"P-REPEAT"}},
                     Defect{"EarlyAnswers", {"P-BEFORE"}}, Defect{"NoStop", {"P-STOP"}},
@@ -102,7 +102,7 @@ TEST(Conformance, BadInputIsOneLine) {
   expect_one_line(hil_bench("conformance --scenario none.toml"), "none.toml: cannot be read");
   expect_one_line(hil_bench("conformance --json /no/such/folder/x.json"), "/no/such/folder");
   expect_one_line(hil_bench(fmt::format("conformance --estimator wind --target {}", KIT_LOS_RATE)),
-                  "takes none of the estimators wind");
+                  "accepts none of the estimators wind");
 }
 
 TEST(Conformance, HasTheReportsOfOtherCommands) {

@@ -1,4 +1,4 @@
-"""The kit's example with one defect of the protocol: defective_target.py KIT_FOLDER DEFECT --bus BUS. DEFECT none: without."""
+"""The kit's example with one defect of the protocol: defective_target.py KIT_FOLDER DEFECT --bus BUS. DEFECT none: no defect."""
 
 import itertools
 import sys

@@ -1,5 +1,4 @@
-// The kit for targets of one's own: both examples fly to a verdict, with the same bits, and its tables are
-// those of the DBC.
+// The kit for own targets: both examples reach a verdict with the same bits, and its tables match the DBC.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -69,7 +68,7 @@ TEST(Kit, CAndPythonAnswerWithTheSameBits) {
   EXPECT_THAT(hil_bench("diverge" + logs).out, HasSubstr("same: "));
 }
 
-// The target's arguments are its own, and a golden flight with others is another.
+// The target has its own arguments; a golden flight with other arguments differs.
 TEST(Kit, ArgumentsReachTheTarget) {
   const std::string folder = scratch("kit_golden");
   shell("rm -rf " + folder);
@@ -85,7 +84,7 @@ TEST(Kit, ArgumentsReachTheTarget) {
 
 const std::string own_target = read(SOURCE_DIR "/docs/own-target.md");
 
-// A host that keeps the bench waiting makes it repeat a command: such a recording is made again.
+// On a stalled host the bench repeats commands; such a recording is made again.
 TEST(Documentation, HandshakeIsThatOfARun) {
   const std::string log = scratch("handshake.log");
   Ended annotated;

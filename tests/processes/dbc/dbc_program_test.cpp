@@ -1,4 +1,4 @@
-// hil-bench dbc as a user meets it.
+// hil-bench dbc as a user starts it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// A file of somebody else, with two warnings and a note.
+/// A DBC of another maker, with two warnings and a note.
 std::string odd_file() {
   const std::string path = scratch("odd file.dbc");
   std::ofstream(path) << "BU_: A\nBO_ 291 Motion: 2 C\n SG_ speed : 0|12@1+ (0.5,0) [0|0] \"km/h\" A\n"
@@ -95,7 +95,7 @@ TEST(DbcLint, WritesSarif) {
   EXPECT_EQ(place["region"]["startColumn"], 6);
   EXPECT_THAT(place["artifactLocation"]["uri"].get<std::string>(), StartsWith("file:///"));
   EXPECT_THAT(place["artifactLocation"]["uri"].get<std::string>(), HasSubstr("odd%20file.dbc"));
-  // To standard output: that alone.
+  // On standard output only.
   const Ended alone = hil_bench(fmt::format("dbc lint --sarif - '{}'", odd_file()));
   EXPECT_EQ(json_of(alone.out), log);
 }

@@ -1,4 +1,4 @@
-// hil-bench doctor as a user meets it.
+// hil-bench doctor as a user starts it.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -22,7 +22,7 @@ nlohmann::json line_of(const nlohmann::json& page, const std::string& subject) {
   return nullptr;
 }
 
-// A machine under load may be bad at timing: the code is to say what the lines say.
+// A machine under load can be bad at timing: the exit code must match the findings.
 void expect_code_of_its_lines(const Ended& ended, const nlohmann::json& page) {
   const bool bad =
       std::ranges::any_of(page["lines"], [](const auto& line) { return line["grade"] == "bad"; });
@@ -43,8 +43,11 @@ TEST(Doctor, ExaminesABusAndItsMachine) {
   EXPECT_GE(page["jitter_s"]["count"], 1);
   EXPECT_LE(page["jitter_s"]["count"], 1000);
   EXPECT_EQ(page["loop"]["sent"], 200);
-  EXPECT_EQ(page["loop"]["lost"], 0);
-  EXPECT_EQ(page["loop"]["round_trip_s"]["count"], 200);
+  // A frame counts as lost if its answer takes more than 0.1 s, which can happen once on a busy host.
+  const int lost = page["loop"]["lost"];
+  EXPECT_LE(lost, 2);
+  EXPECT_EQ(page["loop"]["round_trip_s"]["count"], 200 - lost);
+  EXPECT_EQ(line_of(page, "loop")["grade"] == "bad", lost > 0 || page["loop"]["round_trip_s"]["p99"] > 10e-3);
   for (const auto& line : page["lines"]) {
     EXPECT_THAT(ended.out, HasSubstr(line["found"].get<std::string>()));
     EXPECT_THAT(ended.out, HasSubstr(line["remedy"].get<std::string>()));

@@ -1,5 +1,5 @@
-// hil-bench faults: what the matrix says, the same bytes whatever kills and shards did, and a violation whose
-// least scenario shows it again.
+// hil-bench faults: the matrix, the same bytes after kills and with shards, and a reduced scenario that still
+// shows its violation.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -26,7 +26,8 @@ std::string file(const std::string& name, const std::string& text) {
   return path;
 }
 
-// Of a flight of 6 s with a seeker of 200 Hz: an outage, damage, and a group that nobody answers.
+// Faults of a flight of 6 s with a seeker of 200 Hz: an outage, damaged frames, and a group without an
+// answer.
 std::string small_set() {
   return file("small.toml", R"(
 [[fault]]
@@ -92,7 +93,7 @@ to_s = 2.3
               HasSubstr("| angles away | detected in"));
 }
 
-// The seeded defect: a signal that its sensor did not measure, which the target believes and is sure of.
+// The seeded defect: the target uses a signal that its sensor did not measure, and reports small sigmas.
 TEST(Faults, AViolationIsMadeSmallAndShowsAgain) {
   const std::string storm = file("storm.toml", R"(
 [[fault]]
@@ -136,7 +137,7 @@ every = 20
   const std::string least = out + "/" + cell["replay"].get<std::string>();
   EXPECT_GT(target_frames(out + "/violation-1.log").size(), 1000U);
 
-  // As the line says that the report has of it.
+  // The line states what the report contains.
   const Ended told = hil_bench(fmt::format("faults merge {}/faults.jsonl", out));
   EXPECT_THAT(told.out, HasSubstr(fmt::format("hil-bench run {} --bus in-process", least)));
   const std::string log = scratch("again.log");
@@ -160,7 +161,7 @@ TEST(Faults, ShardsAndAKillGiveTheSameBytes) {
   EXPECT_GT(json_in(whole).size(), 1000U);
   EXPECT_TRUE(json_in(whole) == json_in(shards));
 
-  // Killed when it has some cells, and cut in the middle of a line.
+  // Killed when it has some cells; the file is then truncated in the middle of a line.
   const std::string cells = killed + "/faults.jsonl";
   const pid_t child = fork();
   if (child == 0) {
@@ -223,7 +224,7 @@ std::string recommended() {
                      scenario("los_quick"), scenario("wind_recommended"));
 }
 
-// One that is mended is to be taken out of the file, and out of docs/fault-matrix.md.
+// A fault that is fixed must be removed from the file and from docs/fault-matrix.md.
 TEST(Faults, WhatIsKnownToBeBelievedIsEachOfOneEstimator) {
   const Ended ended =
       hil_bench(fmt::format("faults {} --set {}/bench/fault_matrix/believed.toml --out {} --json -",

@@ -1,4 +1,4 @@
-// Files that cannot be read or written as they are named: one line, and nothing is lost.
+// Files that cannot be read or written: one error line, and no data is lost.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -80,7 +80,7 @@ TEST(BadFiles, ALogThatComesThroughAPipeIsNotReplayed) {
                   "/dev/stdin: is a pipe, expected a log in a file, as it is read twice");
   std::ofstream(scratch("target.log")) << "(1.000000) can0 300#BA8280B671410800 R\n";
   expect_one_line(hil_target("--replay " + scratch("target.log")),
-                  "target.log: holds frames of the target alone, expected the log of a run");
+                  "target.log: holds only frames of the target, expected the log of a run");
 }
 
 TEST(BadFiles, DbcgenWritesWhatItIsToldOrSaysWhyNot) {
@@ -91,20 +91,21 @@ TEST(BadFiles, DbcgenWritesWhatItIsToldOrSaysWhyNot) {
   expect_one_line(dbcgen("-o /dev/full"), "/dev/full: cannot be written");  // has no end to be read to
   expect_one_line(dbcgen(">/dev/full"),
                   "dbcgen: standard output: cannot be written: No space left on device\n");
-  expect_one_line(dbcgen("-n 'a b;'"), "--namespace: 'a b;' is no name of a namespace in C++");
+  expect_one_line(dbcgen("-n 'a b;'"), "--namespace: 'a b;' is not a valid C++ namespace");
   expect_one_line(dbcgen("-n ''"), "--namespace: is empty");
   expect_one_line(dbcgen("--load --json"),
                   "expected one of --quantisation, --load, --json, --fd, --fd-header, --c and --python");
   std::ofstream(scratch("none.dbc")) << "BS_:\nBU_: A\n";
   expect_one_line(shell(fmt::format("{} {}", DBCGEN, scratch("none.dbc"))),
-                  "none.dbc: no messages in the DBC, expected one at least");
+                  "none.dbc: no messages in the DBC, expected at least one");
   expect_one_line(hil_bench(fmt::format("schedulability {} --bitrate 500000 >/dev/full", dbc)),
                   "hil-bench: standard output: cannot be written: No space left on device\n");
 }
 
 TEST(BadFiles, AnOptionIsNoValueOfAnother) {
-  expect_one_line(hil_bench(in_process() + "--json --lockstep"),
-                  "--json: '--lockstep' is no value, expected one (of a file: ./--lockstep)");
+  expect_one_line(
+      hil_bench(in_process() + "--json --lockstep"),
+      "--json: '--lockstep' looks like an option, expected a value (a file of that name: ./--lockstep)");
   EXPECT_FALSE(std::filesystem::exists("--lockstep"));
 }
 
@@ -119,7 +120,7 @@ TEST(BadBuses, AWireWithADataPhaseSlowerThanTheRest) {
     return hil_bench(fmt::format("run {} --bus 'in-process?{}'", quick(), settings));
   };
   expect_one_line(run("bitrate=500000&data-bitrate=100000"),
-                  "data-bitrate=100000 is slower than bitrate=500000, expected that at the least");
+                  "data-bitrate=100000 is slower than bitrate=500000, expected at least that");
   expect_one_line(run("bitrate=500000&"), "'' is not understood, expected bitrate=1000..1000000");
   expect_one_line(
       hil_bench("schedulability " SOURCE_DIR "/dbc/canhil.dbc --bitrate 500000 --data-bitrate 100000"),

@@ -1,4 +1,4 @@
-// Bad input: one line (what, where, what was expected), exit code 2, nothing half written.
+// Bad input: one line (what, where, what was expected), exit code 2, no partial output.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -75,7 +75,7 @@ TEST(BadInput, ParameterThatTheTargetRefusesIsNamedWithItsPlace) {
 }
 
 TEST(BadInput, AMisspeltParameterIsOneOfItsEstimator) {
-  // Of all parameters gyro_bias_sigma_degph of the alignments would be the nearest.
+  // Among all parameters, gyro_bias_sigma_degph of the alignments would be the nearest.
   std::string text = read(scenario("wind_quick"));
   const std::string table = "[target.parameters]\n";
   const auto at = text.find(table);
@@ -118,7 +118,7 @@ TEST(BadInput, AnEngagementThatCannotBeFlown) {
   expect_one_line(with("period_ms = 5\nthermal", "period_ms = 4.005\nthermal"),
                   "seeker interval 4005 us does not fit into SeekerAngles.interval_us");
   expect_one_line(with("[seeker]", "[gps]\n[seeker]"),
-                  "key 'gps': has nothing to go by, expected a table [truth] beside it");
+                  "key 'gps': depends on a truth, expected a table [truth] beside it");
 }
 
 TEST(BadInput, UnknownOption) {
@@ -181,7 +181,7 @@ TEST(BadInput, UnknownSubcommand) {
   expect_one_line(
       hil_bench("zebra"),
       "subcommand 'zebra' is unknown, expected one of: run, report, compare, bus, accept, campaign, faults, "
-      "diverge, golden, doctor, schedulability");
+      "reference, diverge, golden, doctor, schedulability");
   expect_one_line(hil_bench(""), "subcommand is required");
 }
 
@@ -270,7 +270,7 @@ TEST(BadInput, FilesThatWouldReplaceSomethingElse) {
   EXPECT_EQ(read(scratch("self.toml")), read(quick));
 }
 
-// Both are refused without disturbing the run that is under way.
+// Both are rejected without disturbing the current run.
 TEST(BadInput, ASecondBenchOrTargetOnABus) {
   const std::string quick = scenario("transfer_alignment_quick");
   const std::string report = scratch("first.json");
@@ -348,7 +348,7 @@ TEST(BadInput, ARunThatDoesNotBeginLosesNothingAndLeavesNothing) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 4) << "nothing unfinished stays";
 }
 
-// Killed in mid-run it writes no report: then there is none, not that of an earlier run.
+// A run that is killed writes no report; the report of an earlier run must not remain either.
 TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
   const std::string report = scratch("stale.json");
   std::ofstream(report) << "of an earlier run";
@@ -357,7 +357,7 @@ TEST(BadInput, ARunThatBeganLeavesNoReportOfAnEarlierOne) {
   EXPECT_FALSE(std::filesystem::exists(report));
 }
 
-// A target of another DBC: the test hosts the bus and beats with another hash.
+// A target with another DBC: the test hosts the bus and sends heartbeats with another hash.
 TEST(BadInput, TargetBuiltFromAnotherDbc) {
   const std::string bus = "local:other-dbc";
   auto hub = host_local_bus(bus, {});

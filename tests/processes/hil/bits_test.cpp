@@ -1,5 +1,5 @@
-// Property: the target's frames are a function of the bench's frames, on every bus, against every clock, and
-// in a replay.
+// Property: the target's frames depend only on the bench's frames, on every bus, with every clock, and in a
+// replay.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ std::string record(const std::string& name, const std::string& options,
   return log;
 }
 
-// A record in real time that is whole: the property says nothing of another.
+// A complete recording in real time: the property does not apply to an incomplete one.
 std::string record_in_real_time(const std::string& name, const std::string& file = "transfer_alignment_quick",
                                 Ended* how = nullptr) {
   const std::string report = scratch(name + ".json");
@@ -51,7 +51,7 @@ TEST_P(BitsOfScenario, InProcessAndLockstepAgree) {
   EXPECT_TRUE(in_process == lockstep);
 }
 
-// Those of the closed loop only if answers take effect at the same time on every bus.
+// The bits of the closed loop are equal only if answers take effect at the same time on every bus.
 INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
                          testing::Values("inflight_ssbl", "inflight_ssbl_180", "inflight_gps", "los_quick",
                                          "los_closed_loop", "los_closed_loop_500hz", "wind_quick",
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOfScenario,
 
 class BitsOnAWire : public testing::TestWithParam<const char*> {};
 
-// Frames that take time come in the same order; in the closed loop they take effect at the same time.
+// With simulated frame times, frames keep their order; in the closed loop they take effect at the same time.
 TEST_P(BitsOnAWire, AreThoseWithoutOne) {
   const std::string name = GetParam();
   const auto without = target_frames(record(name + ".no_wire.log", "--bus in-process", name));
@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Bits, BitsOnAWire,
                          testing::Values("transfer_alignment_quick", "inflight_quick", "los_closed_loop",
                                          "wind_quick"));
 
-/// Its 30 s are flown once, for the bits and for the verdict.
+/// Its 30 s are flown once, for both the bits and the verdict.
 TEST(Bits, AnAlignmentInFlightPassesInRealTimeAndAgreesWithInProcess) {
   const std::string name = "inflight_quick";
   const auto in_process = target_frames(record("inflight.in_process.log", "--bus in-process", name));

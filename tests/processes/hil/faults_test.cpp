@@ -1,4 +1,4 @@
-// Faults of every stage, as a user flies them: two processes over the embedded bus; what the report says.
+// Faults of every stage in a run of two processes over the embedded bus, and what the report shows.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -31,7 +31,7 @@ std::string faults_file(const std::string& faults) {
   return path;
 }
 
-/// A quick flight, with the counts as one more bar, and these faults from a file of their own.
+/// A quick flight with a check of the counts in addition, and with faults from a separate file.
 Flown fly(const std::string& faults, const std::string& how = "--lockstep") {
   const std::string flight = scratch("flight.toml"), json = scratch("report.json");
   std::ofstream(flight) << read(scenario("transfer_alignment_quick")) << counts_match;
@@ -47,7 +47,7 @@ std::string fault(const std::string& kind, const std::string& keys) {
   return fmt::format("[[fault]]\nkind = \"{}\"\n{}\n", kind, keys);
 }
 
-/// What the target says that it lost, each once: "bad_crc late".
+/// The kinds of loss that the target reports, each once: "bad_crc late".
 std::string causes(const Flown& flown) {
   std::string causes;
   for (const auto& [cause, count] : flown.report["target_counters"].items()) {

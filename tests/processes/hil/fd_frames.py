@@ -1,8 +1,8 @@
-"""Holds the CAN FD frames of a run, as canmatrix reads them, against the classic view of the same run.
+"""Compares the CAN FD frames of a run, as canmatrix decodes them, with the classic frames of the same run.
 
 usage: fd_frames.py WIRE.log CLASSIC.log CANHIL_FD.dbc CANHIL.dbc DECODE_FRAMES
-WIRE.log: what was on the bus; CLASSIC.log: hil-bench run --log, decoded by canhil's own codec.
-For every classic message the sequence of its values must be the same in both; prints how many were compared.
+WIRE.log: the frames on the bus. CLASSIC.log: the log of hil-bench run --log, decoded by canhil's own codec.
+For every classic message both must have the same sequence of values. Prints the number of compared frames.
 """
 
 import collections

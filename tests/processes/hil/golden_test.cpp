@@ -1,4 +1,4 @@
-// hil-bench golden: the first answer that is another.
+// hil-bench golden: the first answer that differs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -27,7 +27,7 @@ class Golden : public testing::Test {
   [[nodiscard]] Ended check(const std::string& more = "") const {
     return hil_bench(fmt::format("golden check {} {}", folder_, more));
   }
-  /// Changes a scenario that is kept: the frames in are others then.
+  /// Changes a stored scenario, so that the input frames differ.
   void change(const std::string& name, const std::string& line, const std::string& instead) const {
     const std::string file = fmt::format("{}/{}.toml", folder_, name);
     std::string text = read(file);
@@ -63,7 +63,7 @@ TEST_F(Golden, NamesTheFirstSignalThatLeftItsToleranceAndKeepsTheFrames) {
   const nlohmann::json results = read_json(report);
   EXPECT_EQ(results[0]["outcome"], "pass");
   EXPECT_EQ(results[1]["outcome"], "fail");
-  // Within a tolerance that is wide enough it is the same again, within a narrow one it is not.
+  // With a wide tolerance the answers count as the same, with a narrow one they do not.
   EXPECT_EQ(check("--tolerance 1").code, 1);
   EXPECT_EQ(check("--tolerance 1000000").code, 0);
 }
@@ -74,7 +74,7 @@ TEST_F(Golden, ATargetThatGivesUpIsAFailure) {
   EXPECT_THAT(ended.out, HasSubstr("FAIL  los_quick"));
 }
 
-// A log has the frames of the contract on either bus: what the target was told shows which one it was.
+// A log contains the frames of the DBC on both buses; the target's command line shows which bus it was.
 TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
   const std::string file = scratch("on_fd.toml"), target = scratch("told.sh"), told = scratch("told.txt");
   std::ofstream(file) << "dbc = \"canhil-fd\"\n" << read(scenario("los_quick"));
@@ -86,7 +86,7 @@ TEST_F(Golden, AScenarioOnCanFdIsFlownOnCanFd) {
   EXPECT_EQ(check().code, 0);
 }
 
-// What is kept and cannot be read says nothing about the target: no scenario failed, and none is flown.
+// Stored files that cannot be read are no failure of the target: no scenario failed, and none is flown.
 TEST_F(Golden, AKeptScenarioThatIsBrokenIsBadInput) {
   change("transfer_alignment_quick", "velocity_noise_m2ps", "velocity_noise");
   expect_one_line(check(), "transfer_alignment_quick.toml:");

@@ -1,4 +1,5 @@
-// A target that is right in everything but one, as its first word says: what a bench must not believe.
+// A target that is correct except for one fault, which its first argument selects: what the bench must
+// detect.
 //   lying_target LIE --bus BUS
 #include <array>
 #include <atomic>
@@ -21,10 +22,10 @@ namespace {
 using namespace canhil;
 using namespace canhil::messages;
 
-// Changes a frame, or says that it is not sent.
+// Changes a frame, or returns that it is not sent.
 using Lie = std::function<bool(Frame&)>;
 
-// The message with other values under the same counter, if the frame is one.
+// The message with other values under the same counter, if the frame carries this message.
 template <class Message, class Change>
 void change(Frame& frame, const Change& values) {
   if (frame.id != Message::info.id) return;
@@ -102,7 +103,7 @@ const std::map<std::string_view, Lie>& lies() {
   return all;
 }
 
-// The bus as the target sees it, with what it sends changed on the way.
+// The bus that the target uses; it changes the frames that the target sends.
 class LyingPort final : public Port {
  public:
   LyingPort(std::unique_ptr<Port> bus, Lie lie) : bus_(std::move(bus)), lie_(std::move(lie)) {}

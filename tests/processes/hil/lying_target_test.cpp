@@ -1,4 +1,4 @@
-// Targets that are right in everything but one: the bench says what is wrong, and a run does not pass.
+// Targets that are correct except for one fault: the bench reports it, and the run does not pass.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A program that tells one lie, to be started as a target.
+/// A program with one fault, started as a target.
 std::string liar(const std::string& lie) {
   std::string path = scratch(lie);
   std::ofstream(path) << fmt::format("#!/bin/sh\nexec {} {} \"$@\"\n", LYING_TARGET, lie);
@@ -33,7 +33,7 @@ std::string with(const std::string& flight, const std::string& more) {
   return path;
 }
 
-/// Samples that get lost, repeated and damaged, and the target's counts of them as the only bar.
+/// Samples that are lost, repeated and damaged. The only check is on the target's counts of them.
 std::string lossy() {
   return with("transfer_alignment_quick", R"(
 [[fault]]
@@ -114,8 +114,7 @@ TEST(Lies, InRealTimeTheCountsMatchTooAndALieIsFound) {
   const std::string report = scratch("real_time.json");
   const std::string run = fmt::format("run {} --bus {} --json {}", lossy(), bus(), report);
   Kinds honest;
-  for (int attempt = 0; attempt < 4;
-       ++attempt) {  // a host that is away for long keeps the target from reading
+  for (int attempt = 0; attempt < 4; ++attempt) {  // a long stall of the host keeps the target from reading
     ASSERT_NE(hil_bench(run).code, 2);
     honest = failed(read_json(report));
     if (std::ranges::find(honest, "counts_match") == honest.end()) break;

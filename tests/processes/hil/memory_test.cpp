@@ -1,4 +1,4 @@
-// The memory of a run does not grow with it.
+// The memory of the bench does not grow with the length of a run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -11,7 +11,7 @@
 namespace canhil::test {
 namespace {
 
-// The most memory [KiB] that a run over so many IMU samples took, or one before it, with all its reports.
+// The peak memory [KiB] of a run over this number of IMU samples or of an earlier run, including all reports.
 long peak_kib(int samples) {
   constexpr double period_s = 0.005;
   const std::regex duration("duration_s = .*"), truth("trajectory = [^]*\\[initial_error\\]"),
@@ -31,9 +31,9 @@ long peak_kib(int samples) {
   return of_children.ru_maxrss;
 }
 
-// Beyond 2 MiB a series is in a file (bench/spool). Those of the navigation answers are by 60 000; those of
-// the filter's, a tenth as many, and those of 8 bytes get there later, a dozen in all. Held in memory, 120
-// 000 samples more took 90 MiB.
+// A series over 2 MiB is in a file (bench/spool). The series of navigation answers are in files from 60 000
+// samples on. A dozen series become so later: those of filter answers, which have a tenth as many, and those
+// of 8 bytes. In memory, 120 000 more samples took 90 MiB.
 TEST(Memory, OfARunDoesNotGrowWithIt) {
   const long before = peak_kib(60'000), after = peak_kib(180'000);
   EXPECT_GT(before, 0);

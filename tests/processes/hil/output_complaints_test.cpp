@@ -1,4 +1,5 @@
-// That the tests of runs cannot pass with outputs that failed: what they take for passed outputs.
+// The tests of runs cannot pass if outputs failed: tests the function that they use to recognise passed
+// outputs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -14,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A run in virtual time, where timing is not measured, and what its report would be in other circumstances.
+// A run in virtual time, where timing is not measured, and its report as it would be in other circumstances.
 class OutputComplaints : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -66,7 +67,7 @@ TEST_F(OutputComplaints, NameAnOutputThatWasNotMeasured) {
   EXPECT_THAT(complaints(), ElementsAre(HasSubstr("error attitude.heading")));
 }
 
-// Half of the bars: 5 ms, 50 % of 10 ms, and 0.5 s.
+// Half of the limits: 5 ms, 50 % of 10 ms, and 0.5 s.
 TEST_F(OutputComplaints, ExcuseATimingThatFailedByALateHostAlone) {
   for (const auto& [kind, half_bar_s] :
        {std::pair{"latency", 2.5e-3}, {"output_period", 2.5e-3}, {"heartbeat", 0.25}}) {
@@ -97,7 +98,7 @@ TEST_F(OutputComplaints, NameAnExitCodeAnEndAndTooFewChecks) {
   EXPECT_THAT(complaints(), ElementsAre("4 checks of outputs, expected at least 5"));
 }
 
-// As it happens: a bar that no estimator meets.
+// For example: a limit that no estimator meets.
 TEST_F(OutputComplaints, OfARunThatFailed) {
   const std::string strict = scratch("strict.toml"), file = scratch("strict.json");
   std::string text = read(scenario("transfer_alignment_quick"));

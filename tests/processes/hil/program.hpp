@@ -1,4 +1,4 @@
-// Running the project's programs as a user does.
+// Starts the project's programs as a user does.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -21,36 +21,35 @@ Ended shell(const std::string& command);
 Ended hil_bench(const std::string& arguments);
 Ended hil_target(const std::string& arguments);
 
-/// The bus that these tests run over: "local:", or what CANHIL_TEST_BUS says.
+/// The bus of these tests: "local:", or the value of CANHIL_TEST_BUS.
 std::string bus();
 std::string scenario(const std::string& name);
-/// A file name in a folder of this test program alone.
+/// A file name in a folder that only this test program uses.
 std::string scratch(const std::string& name);
 std::string read(const std::string& path);
 nlohmann::json read_json(const std::string& path);
 /// The value of a figure in the results of a report.
 double figure(const nlohmann::json& report, const char* estimator, const char* line, const char* name);
-/// Here for all: a parser costs each unit that makes one over a second.
+/// Compiled once for all tests, because a JSON parser costs every source that instantiates it over a second.
 nlohmann::json json_of(const std::string& text);
 
-/// The target's frames in a log, in order, from the first Sync on, without those that speak of the host or of
-/// the step.
+/// The target's frames in a log, in order, from the first Sync on, without the frames that report on the host
+/// or the step.
 std::vector<Frame> target_frames(const std::string& log_path);
 
-/// A run in real time of which counts and bits can be asked: a host that keeps a program waiting for half a
-/// second loses frames of vcan in its receive queue, or the target is silent for too long, or the bench is
-/// away for so long that the target's process speaks up itself. The programs say so; such a run is flown
-/// again.
+/// A run in real time whose counts and bits can be tested. If the host stalls a program for half a second,
+/// vcan's receive queue loses frames, or the target is silent for too long, or the target's process sends
+/// heartbeats of its own. The programs report this, and the run is repeated.
 bool whole(const nlohmann::json& report);
 
-/// How late the bench itself was at the most; 0 in virtual time.
+/// The largest lateness of the bench itself; 0 in virtual time.
 double largest_lateness_s(const nlohmann::json& report);
 
-/// Runs hil-bench until the run whose report it is told to write to `report` is whole, four times at the
-/// most; the last one. A configuration that is refused is not tried again.
+/// Runs hil-bench, at most four times, until the run that writes `report` is complete. Returns the last run.
+/// A rejected configuration is not tried again.
 Ended hil_bench_whole(const std::string& arguments, const std::string& report);
 
-/// Bad input: exit code 2, one line on stderr that says `what`, nothing on stdout.
+/// Bad input: exit code 2, one line on stderr that contains `what`, nothing on stdout.
 void expect_one_line(const Ended& ended, const std::string& what);
 
 /// Why the outputs of a run did not all pass, in words; empty: they did. Outputs are judged on any host; what

@@ -1,4 +1,4 @@
-// The user's own data, as a user flies it: logs of runs flown again, CSV files, a flight without truth.
+// Recorded data as a user flies it: repeated logs of runs, CSV files, a flight without truth.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// The text with other lines in place of those of a table; its header may have a comment.
+/// The text with the lines of a table replaced; the header of the table may have a comment.
 std::string with_table(const std::string& text, const std::string& table, const std::string& lines) {
   const std::size_t at = text.find("\n[" + table + "]") + 1;
   const std::size_t header_end = text.find('\n', at), end = text.find("\n[", header_end);
@@ -24,7 +24,7 @@ std::string with_table(const std::string& text, const std::string& table, const 
   return at == 0 ? text : text.substr(0, header_end + 1) + lines + text.substr(end);
 }
 
-/// The line of a table that begins with a word, with its line end; empty: there is none.
+/// The line of a table that begins with a word, including its line end; empty if there is none.
 std::string line_of(const std::string& text, const std::string& table, const std::string& word) {
   const std::size_t at = text.find("\n[" + table + "]");
   const std::size_t end = text.find("\n[", at + 1), found = text.find("\n" + word, at);
@@ -45,7 +45,7 @@ struct Case {
 
 class LogFlownAgain : public testing::TestWithParam<Case> {};
 
-// In lockstep the target hears the same frames in the same order: it gives the same bits.
+// In lockstep the target receives the same frames in the same order and returns the same bits.
 TEST_P(LogFlownAgain, GivesTheSameAnswers) {
   const std::string name = GetParam().scenario;
   const std::string log = scratch(name + ".log"), again = scratch(name + ".again.log");
@@ -64,7 +64,7 @@ TEST_P(LogFlownAgain, GivesTheSameAnswers) {
   EXPECT_EQ(none.code, 0) << none.out;
   EXPECT_GT(target_frames(log).size(), 500U);
 
-  // Another sample gives other answers: one increment in the middle of the log.
+  // A changed sample changes the answers: one increment in the middle of the log.
   auto reader = LogReader::open(log);
   ASSERT_TRUE(reader);
   std::string changed;
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, LogFlownAgain,
                                                "glider_nav", "fins"}}),
                          [](const auto& one) { return one.param.scenario; });
 
-/// The samples of a log's IMU and of its master, as a user would have them in files.
+/// The IMU and master samples of a log, as a user would have them in files.
 struct Csv {
   std::string imu =
       "t_s,delta_theta_x_rad,delta_theta_y_rad,delta_theta_z_rad,delta_v_x_mps,delta_v_y_mps,"
@@ -139,7 +139,7 @@ Csv csv_of(const std::string& log) {
   return csv;
 }
 
-// A flight's samples as files of numbers: the same numbers, so the same bits, whatever units they are in.
+// The samples of a flight as CSV files: the same numbers give the same bits, in any unit.
 TEST(RecordedData, TheSamplesOfARunAsCsvFilesGiveTheSameAnswers) {
   const std::string log = scratch("csv.log"), again = scratch("csv.again.log");
   ASSERT_NE(hil_bench(fmt::format("run {} --lockstep --bus {} --log {}", scenario("transfer_alignment_quick"),
@@ -206,7 +206,7 @@ heading_deg = 0.0
   EXPECT_THAT(csv, testing::Not(HasSubstr("nan")));
 }
 
-// What is wrong with a file: its line, the scenario's, and what was expected.
+// Errors of a file: its line, the scenario's line, and what was expected.
 TEST(RecordedData, AWrongFileIsOneLine) {
   write("rows.csv", "t_s,rate_x_degps\n0.01,1\n0.02,2\n");
   std::string text = read(scenario("transfer_alignment_quick"));

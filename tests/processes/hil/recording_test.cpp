@@ -1,4 +1,4 @@
-// What a run leaves behind: its log in virtual time, and what survives where not all of it can be written.
+// The log of a run in virtual time, and the part that remains if the log cannot be written completely.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -33,7 +33,7 @@ TEST(Recording, TheLogOfVirtualTimeCarriesVirtualTime) {
   EXPECT_TRUE(start_ns);
 }
 
-// A limit of file sizes stands for a disk that fills up: the log is the only file larger than that.
+// A file size limit simulates a full disk; the log is the only file that exceeds it.
 TEST(Recording, ALogThatCannotBeWrittenToItsEndCostsNothingElse) {
   const std::string log = scratch("cut.log"), report = scratch("cut.xml");
   const Ended ended =

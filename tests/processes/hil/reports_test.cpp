@@ -1,4 +1,4 @@
-// What is done with reports of finished runs.
+// Commands for reports of finished runs.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -65,7 +65,7 @@ TEST(Run, ATargetKilledInMidRunIsNamed) {
                                             scenario("transfer_alignment"), bus(), mortal, report));
   EXPECT_EQ(ended.code, 1) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("fail: target silent since t="));
-  // Not at the end of the 20 s, but when the silence was noticed.
+  // The run ends when the silence is detected, not at the end of the 20 s.
   EXPECT_LT(read_json(report)["wall_s"].get<double>(), 15.0);
   EXPECT_LT(read_json(report)["ending"]["t_s"].get<double>(), 15.0);
 }
@@ -129,7 +129,7 @@ TEST(SimulatedWire, TheReportSaysWhoseTimesTheseAre) {
   EXPECT_EQ(compared.code, 0) << compared.out;
 }
 
-// One scenario on the bus of each contract, with the check of the bounds.
+// One scenario on the bus of each format, with the check of the bounds.
 nlohmann::json with_bounds(const std::string& options) {
   std::ofstream(scratch("bounds.toml"))
       << read(scenario("los_quick")) << "\n[[check]]\nkind = \"wire_response\"\n";
@@ -146,7 +146,8 @@ nlohmann::json with_bounds(const std::string& options) {
   return page;
 }
 
-/// A scenario with a line after that of a table, and a check of the period of a message behind it.
+/// A scenario with an additional line after the header of a table, and a check of the period of a message at
+/// the end.
 std::string with_interval(const std::string& name, const std::string& message, int within_percent) {
   constexpr std::string_view table = "[target.parameters]\n";
   std::string text = read(scenario(name));
@@ -161,7 +162,7 @@ std::string with_interval(const std::string& name, const std::string& message, i
   return path;
 }
 
-// An interval of the scenario is the period of the answers that keep it, whatever the cycle time in the DBC.
+// The interval in the scenario is the expected period of the answers, not the cycle time in the DBC.
 TEST(SimulatedWire, ThePeriodOfAnswersIsTheIntervalThatTheScenarioSets) {
   for (const auto& [name, message] :
        {std::pair("transfer_alignment_quick", "AlignAttitude"), std::pair("inflight_ssbl", "FixVelocityD"),
@@ -201,7 +202,7 @@ TEST(SimulatedWire, OnCanFdEveryContainerKeepsItsBoundAndTheWholeLatencyIsExplai
   EXPECT_THAT(read(scratch("bounds.html")), HasSubstr("Over the bus at 500 and 2000 kbit/s"));
 }
 
-// In real time, with the target's own account; how long a host takes is not judged.
+// In real time, with the target's own report of its times. The duration on the host is not judged.
 TEST(SimulatedWire, OnCanFdARunInRealTimeHasBoundsAndAWholeSplit) {
   const std::string report = scratch("fd.json");
   const Ended ended = hil_bench(
@@ -307,7 +308,7 @@ TEST(Run, JsonToStdoutIsAloneThere) {
   EXPECT_THAT(ended.err, HasSubstr("a target says hello"));
 }
 
-// Every program looks at its standard output when it ends.
+// Every program checks its standard output when it ends.
 TEST(Output, ThatIsLostIsSaid) {
   const std::string log = scratch("lost.log");
   ASSERT_THAT(

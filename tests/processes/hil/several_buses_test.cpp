@@ -1,4 +1,4 @@
-// Nodes on buses of their own.
+// Nodes on separate buses.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -24,7 +24,7 @@ int of(const Counts& counts, const std::string& message) {
   return counts.contains(message) ? counts.at(message) : 0;
 }
 
-// A bus that the test hosts: each frame on it passes here, whoever sent it, and none is lost on the way.
+// A bus that the test hosts: it sees every frame of every sender, and loses none.
 class WatchedBus {
  public:
   explicit WatchedBus(const std::string& which)
@@ -33,7 +33,7 @@ class WatchedBus {
   WatchedBus& operator=(const WatchedBus&) = delete;
   ~WatchedBus() { frames(); }
 
-  /// What was on the bus; nobody hosts it any more.
+  /// The frames on the bus, after its host has ended.
   const Counts& frames() {
     stop_ = true;
     if (host_.joinable()) host_.join();
@@ -68,8 +68,9 @@ struct Flown {
   Counts main, aiding;
 };
 
-// The quick transfer alignment with the master INS on a bus of its own; `command` starts bench and target, of
-// the bench's words, the bus of all others and that of the master. Flown again where the host spoilt it.
+// The quick transfer alignment with the master INS on a separate bus. `command` starts bench and target; its
+// arguments are the words of the bench, the bus of all others and the bus of the master. Repeated if the host
+// disturbed the run.
 template <class Command>
 Flown fly(const Command& command) {
   Flown flown;
@@ -93,8 +94,9 @@ Flown fly(const Command& command) {
   return flown;
 }
 
-// 3 s: the slave IMU has 100 samples a second, the master INS 10, and there is a Sync with each sample and
-// one at the start. Each sample is answered, and each of the master's that the target hears.
+// A flight of 3 s: the slave IMU sends 100 samples per second, the master INS 10. There is a Sync with each
+// sample and one at the start. Each sample is answered, including each master sample that the target
+// receives.
 void expect_from_bench(const Flown& flown) {
   EXPECT_EQ(flown.aiding, (Counts{{"MasterInsVelocityNE", 30},
                                   {"MasterInsAttitude", 30},

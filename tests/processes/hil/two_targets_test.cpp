@@ -1,4 +1,4 @@
-// Two targets that both took the bus for their own.
+// Two targets on one bus, each started as if it were alone.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -54,14 +54,14 @@ class TwoTargets : public testing::Test {
   std::vector<pid_t> targets_;
 };
 
-// A target listens before its first word; here the first one is not to be heard meanwhile.
+// A target listens before its first frame; here it must not receive the first target during that time.
 TEST_F(TwoTargets, EndTheRun) {
   const pid_t first = start_target();
   ::kill(first, SIGSTOP);
   int status = 0;
   ASSERT_EQ(::waitpid(first, &status, WUNTRACED), first);
   ASSERT_TRUE(WIFSTOPPED(status));
-  ::usleep(50'000);  // the hub has passed on what it had sent
+  ::usleep(50'000);  // the hub has forwarded what the target had sent
   start_target();
   ::kill(first, SIGCONT);
   const Ended ended =

@@ -1,4 +1,4 @@
-// The same run on frames that round nothing. The difference is the cost of the bus.
+// The same run with unrounded frames. The difference is the effect of the rounding on the bus.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -30,14 +30,14 @@ TEST(Unrounded, TheRunPassesAndItsErrorsDifferByALittle) {
     const double difference = figure(exact, "transfer_alignment", "final_error", axis) -
                               figure(rounded, "transfer_alignment", "final_error", axis);
     EXPECT_NE(difference, 0.0) << axis;
-    // Attitude travels in steps of 0.003 deg = 52 urad: half a step on the way out, and what rounding of the
-    // measurements does to the estimate. The errors themselves are up to 2.4 mrad here.
+    // Attitude is sent in steps of 0.003 deg = 52 urad. The difference is half a step of the output, plus the
+    // effect of rounded measurements on the estimate. The errors themselves are up to 2.4 mrad here.
     EXPECT_LT(std::abs(difference), 1e-4) << axis;
   }
   EXPECT_EQ(exact["provenance"]["bus"], "in-process?unrounded") << "a report says how its frames travelled";
 }
 
-// Such frames exist in one process only: nothing that leaves it is said to hold them.
+// Such frames exist only within one process; output files do not claim to contain them.
 TEST(Unrounded, NoLogAndNoOtherBusCarriesThem) {
   const std::string run = fmt::format("{} run {} --bus ", HIL_BENCH, scenario("transfer_alignment_quick"));
   const Ended logged = shell(run + "'in-process?unrounded' --log " + scratch("unrounded.log"));

@@ -37,7 +37,7 @@ def fly(rows, columns, key=b""):
         out += part
         if END in out:  # the settings follow it
             after = termios.tcgetattr(terminal)
-        if key and b"running" in out and out.count(b"frames") > 0:
+        if key and b"heading error" in out:  # it flies
             os.write(terminal, key)
             key = b""
     _, status = os.waitpid(child, 0)

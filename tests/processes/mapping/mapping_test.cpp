@@ -27,7 +27,7 @@ Ended run(const std::string& target, const std::string& report, const std::strin
   return hil_bench(fmt::format("run {} --bus {} {} --json {} {}", own_ecu, bus(), target, report, more));
 }
 
-// In real time, again where the host stood still for longer than two samples: what the ECU then tells is
+// In real time. Repeated if the host stalled for longer than two samples, because the ECU's values are then
 // late.
 Ended run_in_time(const std::string& target, const std::string& report, const std::string& more = "") {
   constexpr double two_samples_s = 0.02;
@@ -88,7 +88,7 @@ TEST_P(DefectiveEcu, IsCaughtByTheCheckThatItIsFor) {
   if (!failed.empty() || std::string(GetParam().name) != "slow") {
     EXPECT_EQ(ended.code, 1) << ended.err;
     EXPECT_THAT(failed, testing::Contains(HasSubstr(GetParam().caught_by))) << ended.out;
-  } else {  // on a host that is late itself nobody can tell
+  } else {  // cannot be judged on a host that is late itself
     EXPECT_THAT(checks(seen, "not measured"), testing::Contains(HasSubstr(GetParam().caught_by)))
         << ended.out;
     EXPECT_THAT(ended.out, HasSubstr("this host kept the bench itself")) << ended.out;
@@ -125,7 +125,7 @@ TEST(OwnEcu, IsFlownByACampaign) {
   EXPECT_THAT(in_process.err, HasSubstr("expected a bus and --target")) << in_process.err;
 }
 
-// A drive is recorded from the bus, taken out of the log by the mapping, and driven again.
+// A drive is recorded from the bus, extracted from the log with the mapping, and sent again.
 TEST(OwnEcu, ARecordedDriveIsDrivenAgain) {
   const std::string log = scratch("drive.log"), csv = scratch("imu.csv"), again = scratch("again.toml");
   ASSERT_NE(run_in_time(in_python("none"), scratch("drive.json"), "--log " + log).code, 2);
@@ -160,7 +160,7 @@ TEST(OwnEcu, ARecordedDriveIsDrivenAgain) {
       "has no whole group of IMU_TX3");
 }
 
-// What it repeats is what was played, over 24 bytes of a frame of CAN FD with float signals.
+// The ECU repeats the played values, over 24 bytes of a CAN FD frame with float signals.
 TEST(OwnEcu, MayBeOnCanFd) {
   const std::string dbc = scratch("fd.dbc"), mapping = scratch("fd.mapping.toml"), file = scratch("fd.toml");
   std::ofstream(dbc) << R"(VERSION ""
@@ -212,7 +212,7 @@ counter = {{ signal = "Count" }}
   EXPECT_THAT(ended.out, HasSubstr("CAN FD")) << ended.out;
 }
 
-// A copy of the example with a text in place of another.
+// A copy of the example with one text replaced.
 class Altered : public testing::Test {
  protected:
   Ended run_with(const std::string& file, const std::string& text, const std::string& instead) {
@@ -237,16 +237,17 @@ TEST_F(Altered, AMappingThatIsWrongIsRefusedInOneLine) {
   expect_refused(mapping, "\"IMU_TX3\"]", "\"IMU_TX4\"]", "the DBC has no message 'IMU_TX4'");
   expect_refused(mapping, "TX1_YawRate\"", "TX1_Yaw\"",
                  "IMU_TX1 has no signal 'TX1_Yaw', expected one of: TX1_YawRate, TX1_AccY");
-  expect_refused(mapping, "-imu.rate.z", "-imu.rate.w", "'imu.rate.w' is no quantity that a node measures");
+  expect_refused(mapping, "-imu.rate.z", "-imu.rate.w",
+                 "'imu.rate.w' is not a quantity that a node measures");
   expect_refused(mapping, "-imu.rate.z", "imu.specific_force.z",
                  "is in '°/s', imu.specific_force.z is in m/s^2");
   expect_refused(mapping, "\"attitude.roll\"", "\"attitude.rol\"",
-                 "'attitude.rol' is no quantity that has a truth");
+                 "'attitude.rol' is not a quantity with a truth");
   expect_refused(mapping, "\"IMU_TX3.TX3_Counter\"", "\"ECU_Status.STS_State\"",
-                 "is not of the play that it answers");
+                 "is not part of the play that it answers");
   expect_refused(mapping, "CRC-8/SAE-J1850", "CRC-8/NOBODY", "CRC-8/NOBODY");
   expect_refused(mapping, "counter = { signal = \"TX1_Counter\" }", "countr = 3", "countr");
-  expect_refused("own_ecu.toml", "period_ms = 10", "period_ms = 3", "expected a whole share of it");
+  expect_refused("own_ecu.toml", "period_ms = 10", "period_ms = 3", "expected a whole fraction of it");
   expect_refused("own_ecu.toml", "handshake = \"none\"", "handshake = \"some\"", "handshake");
   expect_refused("own_ecu.toml", "quantity = \"attitude.roll\"", "quantity = \"velocity.north\"",
                  "'velocity.north' is unknown, expected one of: attitude.pitch, attitude.roll");
@@ -266,14 +267,14 @@ TEST_F(Altered, FaultsBefallWhatIsPlayed) {
   expect_refused(
       "own_ecu.toml", "[[check]]",
       "[[fault]]\nkind = \"changed\"\nsignal = \"x\"\nvalue = 1\nmessages = [\"IMU_TX1\"]\n[[check]]",
-      "'changed' is of canhil's own messages");
+      "'changed' is for canhil's own messages");
 }
 
 TEST_F(Altered, WhatAMappingLeavesOutIsListed) {
   const Ended fine = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", folder));
   EXPECT_EQ(fine.code, 0) << fine.err;
-  EXPECT_THAT(fine.out, HasSubstr("note unheard: ECU_Status.STS_State tells the bench nothing"));
-  EXPECT_THAT(fine.out, HasSubstr("3 messages played, 2 heard, 2 quantities told; bus load"));
+  EXPECT_THAT(fine.out, HasSubstr("note unheard: ECU_Status.STS_State is not used by the bench"));
+  EXPECT_THAT(fine.out, HasSubstr("3 messages played, 2 heard, 2 quantities reported; bus load"));
   static_cast<void>(
       run_with("own_ecu.mapping.toml", "\"IMU_TX1.TX1_AccY\" = \"-imu.specific_force.y\"", "#"));
   const Ended ended = hil_bench(fmt::format("dbc check {}/own_ecu.mapping.toml", scratch("altered")));
@@ -293,7 +294,7 @@ TEST_F(Altered, VirtualTimeNeedsAnswersThatSayWhatTheyAnswer) {
 TEST(OwnEcu, ThatIsNotThereIsNamed) {
   const Ended ended = hil_bench(fmt::format("run {} --target none --bus local:{}", own_ecu,
                                             fs::path(scratch("x")).parent_path().filename().string()));
-  expect_one_line(ended, "none of ECU_Status within 5 s; nothing was heard");
+  expect_one_line(ended, "none of ECU_Status within 5 s; nothing was received");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace canhil {
 namespace {
 
-/// A process of the program node; killed with this if it has not ended.
+/// A process of the program node; the destructor kills it if it has not ended.
 class Process {
  public:
   Process(const std::string& role, const std::string& bus, int sender, std::uint64_t count) {
@@ -68,8 +68,8 @@ class Process {
 class LocalBusProcesses : public ::testing::Test {
  protected:
   void SetUp() override {
-    // These tests are about a bus that waits, on a machine of any speed, or one that stands still for
-    // minutes: what never comes is CTest's to end.
+    // These tests are for a bus that waits, on a machine of any speed that may stall for minutes. If a frame
+    // never comes, CTest ends the test.
     auto hub = host_local_bus(bus_, {.fd = true}, {.reading_limit_ns = 600'000'000'000});
     ASSERT_TRUE(hub) << hub.error().message;
     hub_ = std::move(*hub);
@@ -140,7 +140,7 @@ TEST_F(LocalBusProcesses, ThreeNodesAndTheHostSeeOneOrder) {
   }
 }
 
-/// Sends the stream of sender 0 from frame `from` on, waiting for room; how often there was none.
+/// Sends the stream of sender 0 from frame `from` on and waits for room. Returns how often there was none.
 int send_stream(Port& port, std::uint64_t from, std::uint64_t count) {
   int full = 0;
   for (std::uint64_t sent = from; sent < count;) {

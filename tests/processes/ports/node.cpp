@@ -1,5 +1,5 @@
 // A node (or host) of an embedded bus in a process of its own, for local_bus_processes_test.
-//   node ROLE BUS SENDER COUNT; ends with 0 if all went as it should, else says what did not.
+//   node ROLE BUS SENDER COUNT; ends with 0 on success, otherwise prints what failed.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -37,7 +37,7 @@ void wait_for(Port& port, WaitFor what) {
   wait(port, what, no_deadline);
 }
 
-/// Sends its stream while it receives that of sender 0, which begins.
+/// Sends its stream while it receives the stream of sender 0, which starts first.
 void exchange(const Task& task) {
   const auto port = join(task, false);
   wait_for(*port, WaitFor::frame);
@@ -104,7 +104,7 @@ void ignore(const Task& task) {
   while (!port->closed()) ::pause();
 }
 
-/// Hosts the bus until killed; its first frame tells a node that it is known.
+/// Hosts the bus until it is killed; its first frame informs a node that the hub has accepted it.
 void host(const Task& task) {
   auto hub = host_local_bus(task.bus, {.fd = true});
   if (!hub) give_up(hub.error().message);

@@ -1,4 +1,5 @@
-// A reproducible stream of frames of random ids and sizes, and the order in which a process saw frames.
+// A reproducible stream of frames with random ids and sizes, and the order in which a process received
+// frames.
 #pragma once
 
 #include <array>
@@ -33,7 +34,7 @@ inline Frame streamed(std::uint64_t sender, std::uint64_t n) {
   return frame;
 }
 
-/// A number that stands for frames, their stamps and their order.
+/// A digest of frames, their stamps and their order.
 class Order {
  public:
   void add(const Received& received) {

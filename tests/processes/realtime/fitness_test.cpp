@@ -1,4 +1,4 @@
-// What a slow target and an unfit host make of the checks of timing.
+// The effect of a slow target and of an unfit host on timing checks.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <pthread.h>
@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 int some_cpu() { return std::stoi(shell("taskset -cp $$ | sed 's/.*[ ,-]//'").out); }
 bool may_have_priority(int priority) { return shell(fmt::format("chrt -f {} true", priority)).code == 0; }
 
-// The quick run with another quantile of the latency below 3 ms: by the median a few answers may be late, as
-// on a machine that others use too.
+// The quick run with another quantile of the latency limit of 3 ms: with the median, a few answers may be
+// late, as on a shared machine.
 std::string judged_by(const std::string& quantile) {
   const std::string path = scratch(fmt::format("quantile_{}.toml", quantile));
   const Ended edited = shell(fmt::format(
@@ -41,7 +41,7 @@ nlohmann::json check(const nlohmann::json& report, const std::string& kind) {
   return {};
 }
 
-// A shared machine may keep the bench from judging: then the bench says so, and gets another chance.
+// On a shared machine the bench may be unable to judge. It reports this, and the test tries again.
 void expect_too_late(const std::string& slow, const char* where) {
   const std::string report = scratch("slow.json");
   const std::string priority = may_have_priority(40) ? "--realtime --priority 40" : "";
@@ -98,20 +98,20 @@ class Hog {
   std::jthread thread_;
 };
 
-// How a hog shows depends on the scheduler: a process that sleeps most of the time may wait for less than 5 %
-// of the run and still be late each time. A virtual machine may itself be hogged meanwhile: that is said
-// first.
+// The effect of a CPU hog depends on the scheduler: a process that sleeps most of the time can wait for less
+// than 5 % of the run and still be late each time. A virtual machine can itself be delayed by its host; the
+// bench reports this first.
 const std::string no_cpu =
     "(no CPU was free for the bench for|the hypervisor gave) [0-9.]+ % of (the run|this machine's .*)";
 const std::string late = "this host kept the bench itself .* ms late \\(.*\\), more than 50 % of the bar";
 
-// Bars of a few ms stay open, for one of these reasons; what the target said is judged.
+// Limits of a few ms are not measured for one of these reasons; the times that the target reports are judged.
 void expect_not_measured(const Ended& ended, const nlohmann::json& report) {
   EXPECT_EQ(report["verdict"], "not measured");
   EXPECT_EQ(ended.code, 3) << ended.out;
   int open = 0;
   for (const auto& one : report["checks"]) {
-    if (one["kind"] == "heartbeat") continue;  // its bar is half a second
+    if (one["kind"] == "heartbeat") continue;  // its limit is half a second
     const bool timing = one["kind"] == "latency" || one["kind"] == "output_period";
     EXPECT_EQ(one["outcome"], timing ? "not measured" : "pass") << one;
     if (!timing) continue;
@@ -134,8 +134,8 @@ TEST(CpuHog, BesideTheBenchLeavesTimingNotMeasured) {
   expect_not_measured(ended, read_json(report));
 }
 
-// Too seldom to take the CPU away for a share of the run worth speaking of, but for longer than the 10 ms
-// between two stimuli.
+// The interruptions are too rare to take a noticeable share of CPU time, but longer than the 10 ms between
+// two stimuli.
 TEST(CpuHog, OfAHigherPriorityLeavesTheWorstLatencyNotMeasured) {
   if (!may_have_priority(41)) {
     std::cerr << "SCHED_FIFO 41 is not permitted here: only the hog of the bench's own priority is tried\n";

@@ -1,4 +1,4 @@
-// --realtime of both programs: what it sets, and what it says where it is not permitted.
+// --realtime of both programs: its settings, and its error if it is not permitted.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -13,7 +13,7 @@ namespace {
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-// A command with neither the limits nor the capabilities; root loses them by the bounding set.
+// Runs a command with neither the limits nor the capabilities; root loses them by the bounding set.
 Ended without_rights(const std::string& command) {
   const std::string drop = geteuid() == 0 ? "setpriv --bounding-set -sys_nice,-ipc_lock " : "";
   return shell(fmt::format("prlimit --rtprio=0 --memlock=65536 {}{}", drop, command));
@@ -33,14 +33,16 @@ TEST(Realtime, IsRefusedWithTheRemedyByBothPrograms) {
                   fmt::format(fmt::runtime(remedy), user, HIL_BENCH));
 }
 
-// The sanitizers' own mlockall does nothing: they cannot have the terabytes of their shadow locked.
+// The sanitizers replace mlockall by a function that does nothing, because the terabytes of their shadow
+// memory cannot be locked.
 #ifdef CANHIL_SANITIZED
 constexpr bool memory_is_locked = false;
 #else
 constexpr bool memory_is_locked = true;
 #endif
 
-// Whether SCHED_FIFO is permitted is asked of another program. A user without root also needs the memory.
+// Another program tests whether SCHED_FIFO is permitted. A user other than root also needs a sufficient
+// memory limit.
 bool permitted() {
   return shell("chrt -f 40 true").code == 0 && (geteuid() == 0 || shell("ulimit -l").out == "unlimited\n");
 }
@@ -73,7 +75,7 @@ TEST(Realtime, IsNotInForceUnlessAskedFor) {
   EXPECT_EQ(process["locked_kib"], 0);
 }
 
-// What /proc says of the started target halfway through a run, and how many page faults the bench had
+// The state of the started target in /proc in the middle of a run, and the number of page faults of the bench
 // meanwhile.
 std::string started_target(const std::string& options) {
   const Ended seen = shell(fmt::format(

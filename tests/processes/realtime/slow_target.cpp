@@ -1,6 +1,6 @@
-// hil-target, slowed: the objects of the delivered program, in which the linker (--wrap) puts a pause around
-// two of the calls. CANHIL_SLOW_COMPUTE_US: spent more on each frame that is answered. CANHIL_SLOW_QUEUE_US:
-// frames wait for so long before they are looked at.
+// hil-target with delays: the objects of the delivered program, in which the linker (--wrap) adds a pause to
+// two calls. CANHIL_SLOW_COMPUTE_US: additional computing time for each frame that is answered.
+// CANHIL_SLOW_QUEUE_US: time that frames wait before they are processed.
 #include <unistd.h>
 
 #include <cstdint>
@@ -20,7 +20,7 @@ useconds_t microseconds(const char* variable) {
 
 }  // namespace
 
-// The names are those of the Itanium C++ ABI, where a member function's object is its first argument.
+// The names follow the Itanium C++ ABI, in which the object of a member function is its first argument.
 std::span<const Frame> delivered_receive(target::Device& device, const Frame& frame) asm(
     "__real__ZN6canhil6target6Device7receiveERKNS_5FrameE");
 std::span<const Frame> slow_receive(target::Device& device, const Frame& frame) asm(

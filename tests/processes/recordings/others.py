@@ -1,8 +1,8 @@
-"""Logs by python-can, and values by canmatrix: what other programs make of our files, and we of theirs.
+"""Reads and writes logs with python-can and decodes values with canmatrix, to test that canhil and other programs understand each other's files.
 
-others.py frames LOG            a line a frame: time in microseconds, id, flags, data
-others.py copy FROM TO          written again by python-can
-others.py values LOG DBC        a line a frame: id, then each signal and its value
+others.py frames LOG            one line per frame: time in microseconds, id, flags, data
+others.py copy FROM TO          converts the log with python-can
+others.py values LOG DBC        one line per frame: id, then each signal and its value
 """
 import sys
 

@@ -1,5 +1,5 @@
-// What can be done with recorded frames: judged again, in other formats that other programs read and write,
-// as values, sent again.
+// Recorded frames are judged again, converted to formats that other programs read and write, decoded, and
+// sent again.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -47,7 +47,7 @@ std::vector<LogEntry> entries_of(const std::string& log) {
   }
 }
 
-// A recorded run in lockstep, once for all tests of a process.
+// A run recorded in lockstep, once for all tests of a process.
 const std::string& recorded() {
   static const std::string log = [] {
     std::string path = scratch("los.log");
@@ -85,8 +85,8 @@ std::string frames_in_words(const std::string& log) {
   return text;
 }
 
-// Frames of every kind that the formats have in common. The first has whole milliseconds: python-can gives
-// the start of an ASC no more.
+// Frames of every kind that all formats support. The first has a time in whole milliseconds, because
+// python-can writes the start time of an ASC file with that resolution.
 std::string all_kinds() {
   return file("kinds.log",
               "(1790000000.123000) can0 7FF#0011223344556677 T\n(1790000000.123001) can1 101#00 R\n"
@@ -104,7 +104,7 @@ std::map<std::string, std::string> measured(const nlohmann::json& report) {
 
 class Recorded : public testing::TestWithParam<const char*> {};
 
-// Flight by flight, of an open and a closed loop, four estimators at once, recorded in each format.
+// Several flights, with open and closed loop and with four estimators at once, recorded in each format.
 TEST_P(Recorded, IsJudgedAsItWasFlown) {
   const std::string flight = scenario(GetParam());
   for (const char* ending : {"log", "pcap", "asc"}) {
@@ -196,7 +196,7 @@ TEST(PythonCan, WritesWhatWeRead) {
     ASSERT_EQ(ended.code, 0) << ended.err;
     EXPECT_EQ(frames_in_words(theirs), frames_in_words(all_kinds())) << ending;
   }
-  // By way of BLF, which python-can reads and writes for us.
+  // Through BLF, which python-can reads and writes.
   ASSERT_EQ(others(fmt::format("copy {} {}", all_kinds(), scratch("a.blf"))).code, 0);
   ASSERT_EQ(others(fmt::format("copy {} {}", scratch("a.blf"), scratch("of_blf.log"))).code, 0);
   EXPECT_EQ(frames_in_words(scratch("of_blf.log")), frames_in_words(all_kinds()));

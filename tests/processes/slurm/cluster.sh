@@ -1,9 +1,9 @@
-# A Slurm cluster of this machine alone, for as long as the shell that sources this file: no service manager, only loopback,
-# free ports, everything in one temporary folder, run by and for the user who starts it.
-#   cluster_start       sets $cluster (the folder) and SLURM_CONF; from then on sbatch, squeue ... speak to it
-#   cluster_run         COMMAND...: as the command itself, but a signal to the shell does not wait for its end
-#   cluster_stop        ends every process of it and removes the folder; also called when the shell ends, however it does
-#   cluster_processes   the ids of all that belongs to it: daemons, steps, jobs. They carry its SLURM_CONF in their environment.
+# Runs a Slurm cluster on this machine while the shell that sources this file lives. No service manager; loopback only; free ports; everything in
+# one temporary folder; run by and for the current user.
+#   cluster_start       sets $cluster (the folder) and SLURM_CONF; sbatch, squeue, ... then use this cluster
+#   cluster_run         COMMAND...: runs the command; unlike a plain call, a signal to the shell does not wait for the command's end
+#   cluster_stop        ends all its processes and removes the folder; also called whenever the shell ends
+#   cluster_processes   the ids of all its processes: daemons, steps, jobs. They are found by SLURM_CONF in their environment.
 
 cluster_processes() {
   (

@@ -1,4 +1,4 @@
-// What a run collected, changed by a test: a Spool is only added to.
+// Lets a test change the data of a run: a Spool itself can only grow.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace canhil::test {
 
-/// All values as a vector, put back with the end of the expression, or the loop, that changes them.
+/// All values as a vector, which is written back at the end of the expression or loop that changes them.
 template <class T>
 class Edited {
  public:
@@ -18,7 +18,7 @@ class Edited {
   std::vector<T>& operator*() { return all_; }
   auto begin() { return all_.begin(); }
   auto end() { return all_.end(); }
-  /// Without those from one place up to another, that one excluded.
+  /// Removes the values from one index up to another, which is excluded.
   void erase(std::ptrdiff_t from, std::ptrdiff_t to) { all_.erase(all_.begin() + from, all_.begin() + to); }
 
  private:

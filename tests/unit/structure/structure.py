@@ -1,7 +1,7 @@
-"""The rules of the tree, read from its text: who includes whom, sizes, names, and that nothing is written twice.
+"""Checks the rules of the source tree in its text: includes, sizes, names, and duplicated code.
 
-check(root) returns one line for each breach: file:line: what, and what was expected.
-docs/architecture.md gives the reasons for the rules; here is what they forbid.
+check(root) returns one line for each violation: file:line: what, and what was expected.
+docs/architecture.md gives the reasons for the rules.
 """
 
 import re

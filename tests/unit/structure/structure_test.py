@@ -1,4 +1,4 @@
-"""Runs the structure check on this tree, and shows on made trees that it catches each breach."""
+"""Runs the structure check on this tree, and shows on artificial trees that it detects each violation."""
 
 import sys
 import tempfile

@@ -1,4 +1,4 @@
-// How far a target may be from what the reference answered.
+// How far the answers of a target may differ from the reference.
 #include "bench/accept/reference.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr double heading_step_deg = 0.003;
 
-// A flight of so many answers with a heading that is off by so much, and a flag that is set in some.
+// A flight with a number of answers, an error of the heading, and a flag that is set in some answers.
 class Flown {
  public:
   Flown& attitude(double heading_deg, int coasting = 0) {

@@ -1,4 +1,4 @@
-// The verdict of requirements, and what people and programs are told.
+// The verdicts of requirements, and the reports for people and programs.
 #include "bench/accept/report.hpp"
 
 #include <gmock/gmock.h>

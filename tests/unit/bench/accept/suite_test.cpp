@@ -1,4 +1,4 @@
-// Suites: those of the project, and wrong ones.
+// Reading suites: those of the project, and wrong ones.
 #include "bench/accept/suite.hpp"
 
 #include <fmt/format.h>
@@ -52,7 +52,8 @@ TEST_P(Shipped, EveryMetricAsksForARequirement) {
   }
 }
 
-// The suite's own table, so that a target is held to what is published and not to this program.
+// The suite has a table of its own, so that a target is compared with the published values and not with this
+// program.
 class OfOneEstimator : public Shipped {};
 
 TEST_P(OfOneEstimator, RangesAreThoseOfTheTarget) {
@@ -112,19 +113,19 @@ TEST(Suites, AWrongOneIsOneLine) {
   EXPECT_THAT(refused("", "errors", "error"),
               HasSubstr("suite.toml:5: key 'requirement[1].family': 'error'"));
   EXPECT_THAT(refused("", "requirement = \"R\"", "requirement = \"Q\""),
-              HasSubstr("'Q' is no requirement of this suite"));
+              HasSubstr("'Q' is not a requirement of this suite"));
   EXPECT_THAT(refused("", "wind.toml", "none.toml"), HasSubstr("none.toml: cannot be read"));
   EXPECT_THAT(refused("set = { \"seeds\" = 1 }\n"), HasSubstr("seeds"));
   EXPECT_THAT(
       refused(
           "moves = { beside = \"g\", signal = \"WindUpdate.nis\", to = \"more\", requirement = \"R\" }\n"),
-      HasSubstr("'g' is no flight before this one"));
+      HasSubstr("'g' is not the name of an earlier flight"));
   EXPECT_THAT(refused("[[flight]]\nname = \"g\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\nmoves = { "
                       "beside = \"f\", signal = "
                       "\"WindUpdate.niss\", to = \"more\", requirement = \"R\" }\n"),
               HasSubstr("WindUpdate.niss"));
   EXPECT_THAT(refused("[[flight]]\nname = \"f\"\nscenario = \"wind.toml\"\nrequirement = \"R\"\n"),
-              HasSubstr("'f' is there twice"));
+              HasSubstr("'f' is given twice"));
   EXPECT_THAT(refused("rows = 0\n"), HasSubstr("rows"));
   EXPECT_THAT(refused("[[parameter]]\nname = \"none\"\nleast = 0\nmost = 1\n"), HasSubstr("name"));
   EXPECT_THAT(refused("[[more]]\na = 1\n"), HasSubstr("more"));

@@ -1,4 +1,4 @@
-// Reading campaigns: variants, sweeps, and one line for every mistake.
+// Reading campaigns: variants, sweeps, and one error line for every mistake.
 #include "bench/campaign/campaign.hpp"
 
 #include <gmock/gmock.h>
@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "c.toml:1: key 'runs': 0 is out of range"},
         Mistake{"unknown key", "colour = 1\n" + two_variants, "c.toml:1: key 'colour': is unknown"},
         Mistake{"same name", two_variants + "[[variant]]\nname = 'A'\nscenario = 'quick.toml'\n",
-                "'A' is the name of another variant"},
+                "'A' is already the name of another variant"},
         Mistake{"no such scenario", two_variants + "[[variant]]\nname = 'C'\nscenario = 'none.toml'\n",
                 "c.toml:11: variant 'C': none.toml: cannot be read"},
         Mistake{
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"sweep without values", two_variants + "[sweep]\n\"master_ins.period_ms\" = []\n",
                 "key 'sweep.master_ins.period_ms': is empty, expected an array"},
         Mistake{"sweep of one value", two_variants + "[sweep]\n\"master_ins.period_ms\" = 50\n",
-                "is no array"},
+                "is not an array"},
         Mistake{"same value twice", two_variants + "[sweep]\n\"master_ins.period_ms\" = [50, 50]\n",
                 "is there twice"},
         Mistake{"set and swept", two_variants + "[sweep]\n\"target.initial_sigma.heading_deg\" = [1, 2]\n",
@@ -136,9 +136,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"unknown kind", metric("kind = 'pared'\n"),
                 "key 'metric[1].kind': 'pared' is unknown, expected 'paired'"},
         Mistake{"quantity of single runs", metric("kind = 'rms_curve'\nquantity = 'velocity.norm'\n"),
-                "'velocity.norm' is of single runs, which campaigns do not keep, expected one of: "},
+                "'velocity.norm' exists in single runs only, not in campaigns, expected one of: "},
         Mistake{"no degrees of freedom", metric("kind = 'consistency'\nquantity = 'attitude.heading'\n"),
-                "'attitude.heading' is none that this kind asks for, expected one of: "},
+                "'attitude.heading' cannot be used with this kind, expected one of: "},
         Mistake{"unknown quantity", metric("kind = 'rms_curve'\nquantity = 'attitude.heding'\n"),
                 "'attitude.heding' is unknown, expected 'attitude.heading'"},
         Mistake{"unknown variant",
@@ -157,15 +157,16 @@ INSTANTIATE_TEST_SUITE_P(
                 two_variants.substr(0, two_variants.rfind("[[variant]]")) +
                     "[[metric]]\nkind = 'lead'\nquantity = 'attitude.roll'\nwithin_mrad = 1\nother = 'A'\n",
                 "key 'metric[1].other': 'A' would be compared with itself"},
-        Mistake{"of another family", metric("kind = 'rms_curve'\nquantity = 'miss.distance'\n"),
-                "'rms_curve miss.distance' asks for miss.distance, which variant 'A' does not tell, expected "
-                "a quantity of its "
-                "estimator"},
+        Mistake{
+            "of another family", metric("kind = 'rms_curve'\nquantity = 'miss.distance'\n"),
+            "'rms_curve miss.distance' asks for miss.distance, which variant 'A' does not report, expected "
+            "a quantity of its "
+            "estimator"},
         Mistake{"of another estimator", metric("kind = 'rms_curve'\nquantity = 'position.north'\n"),
-                "'rms_curve position.north' asks for position.north, which variant 'A' does not tell"},
+                "'rms_curve position.north' asks for position.north, which variant 'A' does not report"},
         Mistake{"repairs of transfer alignment",
                 metric("kind = 'rms_curve'\nquantity = 'covariance.repairs'\n"),
-                "asks for covariance.repairs, which variant 'A' does not tell"},
+                "asks for covariance.repairs, which variant 'A' does not report"},
         Mistake{"bars that exclude each other",
                 metric("kind = 'value_at'\nquantity = 'attitude.roll'\nat_s = 1\nat_least_mrad = "
                        "2\nat_most_mrad = 1\n"),
@@ -188,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"metric twice",
                 metric("kind = 'rms_curve'\nquantity = 'attitude.roll'\n[[metric]]\nkind = "
                        "'rms_curve'\nquantity = 'attitude.roll'\n"),
-                "'rms_curve attitude.roll' is the name of another metric"}));
+                "'rms_curve attitude.roll' is already the name of another metric"}));
 
 }  // namespace
 }  // namespace canhil::campaign

@@ -1,4 +1,4 @@
-// Bars, and what a missing run does to them.
+// Limits of metrics, and the effect of a missing run.
 #include "bench/campaign/evaluate.hpp"
 
 #include <gmock/gmock.h>
@@ -103,7 +103,7 @@ TEST(Distribution, AFractionNeedsABound) {
   ASSERT_FALSE(evaluation);
   EXPECT_THAT(
       evaluation.error().message,
-      HasSubstr("key 'metric[1].fraction_at_least': is of no use without a bound, expected below_mrad "
+      HasSubstr("key 'metric[1].fraction_at_least': has no effect without a bound, expected below_mrad "
                 "beside it"));
 }
 

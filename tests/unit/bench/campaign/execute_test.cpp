@@ -102,7 +102,7 @@ TEST(Execute, AScenarioOfWhichNoRunCanBeFlownEndsItWithOneLine) {
 }
 
 TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
-  // Some are drawn to fall faster than the 1048 m/s that the bus carries.
+  // Some random flights fall faster than 1048 m/s, the limit of the bus.
   auto campaign = parse(two_variants +
                         "[[metric]]\nkind = 'divergence'\nquantity = 'attitude.heading'\nbeyond_mrad = "
                         "9000\nat_most = 0\n[sweep]\n\"initial_error.velocity_sigma_mps\" = [900.0]\n");
@@ -123,7 +123,7 @@ TEST(Execute, ARunThatCannotBeFlownIsOneFailedRun) {
   EXPECT_EQ(evaluation->outcome(), checks::Outcome::fail);
 }
 
-/// No file of this process grows beyond a limit, as on a disk that is full there; until the end of its scope.
+/// Limits the file size of this process, like a full disk, until the end of its scope.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

@@ -1,4 +1,4 @@
-// The bytes of merged results depend on the results alone.
+// The bytes of merged results depend only on the results.
 #include "bench/campaign/merge.hpp"
 
 #include <gmock/gmock.h>
@@ -84,7 +84,7 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   expect_refused({even, link}, "link.sqlite: is given twice");
   const auto text = scratch("text.sqlite");
   std::ofstream(text) << std::string(5000, 'x');
-  expect_refused({text}, "text.sqlite: is no SQLite file");
+  expect_refused({text}, "text.sqlite: is not an SQLite file");
   const auto empty = scratch("empty.sqlite");
   std::ofstream(empty).close();
   expect_refused({empty}, "empty.sqlite: is another kind of file");

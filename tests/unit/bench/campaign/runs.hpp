@@ -1,4 +1,4 @@
-// Runs made up for a test, and the texts of a short campaign.
+// Artificial runs for tests, and the text of a short campaign.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ namespace canhil::campaign {
 
 using quantities::Samples;
 
-/// Adds a sample that has these numbers, and 0 for whatever else its layout keeps.
+/// Adds a sample with these numbers, and 0 for all other quantities of its layout.
 inline void add(Samples& samples, std::int64_t t_us, const std::map<const Quantity*, double>& given) {
   std::vector<double> values;
   for (const Quantity* quantity : samples.layout().kept)
@@ -35,12 +35,12 @@ inline void add(Samples& samples, std::int64_t t_us, const std::map<const Quanti
   samples.add(t_us, values);
 }
 
-/// The layout of a transfer alignment, or, if that does not tell a quantity, the first that does.
+/// The layout of a transfer alignment or, if it does not contain a quantity, the first layout that does.
 inline const quantities::Layout& layout_with(const Quantity& quantity) {
-  if (quantities::tells(estimators::transfer_alignment.layout, quantity))
+  if (quantities::has(estimators::transfer_alignment.layout, quantity))
     return estimators::transfer_alignment.layout;
   const auto found = std::ranges::find_if(
-      estimators::all(), [&](const auto* one) { return quantities::tells(one->layout, quantity); });
+      estimators::all(), [&](const auto* one) { return quantities::has(one->layout, quantity); });
   return (*found)->layout;
 }
 
@@ -53,7 +53,7 @@ inline RunSeries run_with(std::uint64_t run, const std::vector<double>& values,
   return series;
 }
 
-/// The same, of a run that ended early: with its last value.
+/// The same for a run that ended early, at its last value.
 inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values,
                             const Quantity& quantity = quantities::attitude_heading) {
   RunSeries series = run_with(run, values, quantity);
@@ -63,7 +63,7 @@ inline RunSeries ended_with(std::uint64_t run, const std::vector<double>& values
   return series;
 }
 
-/// Values up to 3 s, the end of the quick flight: after those given the last of them.
+/// Values up to 3 s, the end of the quick flight: the given values, then the last of them repeated.
 inline std::vector<double> held(std::vector<double> values) {
   constexpr std::size_t updates = 30;
   values.resize(updates, values.back());

@@ -83,7 +83,7 @@ TEST(Series, QuantitiesThatFollowFromOthers) {
 TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
   drive::Collected flown{.ending = {}, .seen = {}};
   world::EngagementRecord record;
-  // 100 Hz, 1000 m/s: two answers a sample; errors of 3 and 4 mrad/s in pitch, 1 in yaw.
+  // 100 Hz, 1000 m/s: two answers per sample; errors of 3 and 4 mrad/s in pitch, 1 in yaw.
   for (std::int64_t t_us = 10'000; t_us <= 90'000; t_us += 10'000) {
     world::EngagementTruth epoch;
     epoch.t_us = t_us;
@@ -100,19 +100,19 @@ TEST(Series, ALosRateIsSummedUpBySamplesOfTheTimeToGo) {
     flown.seen.of<estimators::LosAnswers>().push_back(answer);
   }
   flown.seen.of<estimators::LosAnswers>()[0].outcome =
-      messages::LosRateOutcome::coasting;  // told, but no update
+      messages::LosRateOutcome::coasting;  // sent, but not from an update
   flown.seen.of<estimators::LosAnswers>()[1].outcome = messages::LosRateOutcome::waiting;
   flown.seen.of<estimators::LosAnswers>()[8].rate.pitch = 1;
   flown.seen.of<estimators::LosAnswers>()[8].blind = true;
   flown.seen.of<estimators::LosAnswers>()[7].degraded = true;
   record.miss_n = world::Vector3(0, 0.3, -0.4);
-  flown.own_truth.engagement = record;
+  flown.per_run_truth.engagement = record;
   flown.seen.of<estimators::TransferAnswers>().navigation.push_back({});
   const RunSeries series = series_of(
       7, flown, world::FlightRecord({.start = {}, .motion = world::Rest{}}, 0, 10'000), estimators::los_rate);
   ASSERT_EQ(&series.samples.layout(), &estimators::los_rate.layout)
       << "by what was asked for, whatever else was seen";
-  // To go: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 | 10.5 ms.
+  // Times to go: 90.5, 80.5 | 70.5, 60.5 | 50.5, 40.5 | 30.5, 20.5 | 10.5 ms.
   ASSERT_EQ(series.samples.size(), 5U);
   EXPECT_EQ(series.samples.times()[0], -100'000) << "begins at 100 ms to go";
   EXPECT_EQ(series.samples.times()[4], -20'000);
@@ -142,7 +142,7 @@ TEST(Series, HoldsTheFirstAnswerAfterEachUpdate) {
   const RunSeries series = series_of(5, *flown, *truth, estimators::transfer_alignment);
   EXPECT_EQ(series.run, 5U);
   EXPECT_EQ(series.ending.kind, drive::Ending::Kind::completed);
-  // 10 Hz for 3 s; the last update is followed by no answer.
+  // 10 Hz for 3 s; no answer follows the last update.
   ASSERT_EQ(series.samples.size(), 29U);
   const auto errors =
       estimators::navigation_errors(flown->seen.of<estimators::TransferAnswers>().navigation, *truth);

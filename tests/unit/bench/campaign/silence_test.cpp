@@ -1,4 +1,4 @@
-// Whoever falls silent meets no bar: an estimate counts at a time only while it is not stale.
+// A target that falls silent meets no limit: an estimate counts only until it is stale.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr const Quantity& heading = quantities::attitude_heading;
 constexpr std::int64_t s_us = 1'000'000;
 constexpr std::int64_t end_us = 10 * s_us;
 
-/// Value 1 at every half second from 0.5 s on, but for a silence.
+/// The value 1 at every half second from 0.5 s on, except for a silence.
 RunSeries run_silent(std::int64_t from_us, std::int64_t to_us, const Quantity& quantity = heading) {
   RunSeries series{.run = 0,
                    .ending = {},
@@ -78,7 +78,7 @@ TEST(Silence, OfOneRunIsMissingBesideOthers) {
   EXPECT_EQ(run_distribution(runs, heading, end_us, 2, 1).missing, 1U);
 }
 
-/// Two runs with fixes every half second; those of the second at 3 and 3.5 s were lost.
+/// Two runs with fixes every half second; the second run lost those at 3 and 3.5 s.
 std::vector<RunSeries> with_lost_fixes(const Quantity& quantity) {
   return {run_silent(end_us, end_us, quantity), run_silent(5 * s_us / 2, 4 * s_us, quantity)};
 }

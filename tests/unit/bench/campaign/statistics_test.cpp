@@ -1,4 +1,4 @@
-// Against values computed by hand.
+// Statistics against values computed by hand.
 #include "bench/campaign/statistics.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Results that were damaged are refused: what is read is what was written.
+// Damaged results are rejected; the store returns exactly what was written.
 #include "bench/campaign/store.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ beyond_mrad = 5
 at_most = 0
 )";
 
-/// Results of all runs, of which some ended early.
+/// Results of all runs; some of them ended early.
 std::filesystem::path results(const std::string& name) {
   const Campaign campaign = *parse(asked);
   auto file = scratch(name);
@@ -43,7 +43,7 @@ std::filesystem::path results(const std::string& name) {
   return file;
 }
 
-/// What `hil-bench campaign report` says, from the file alone.
+/// The output of `hil-bench campaign report`, from the file alone.
 Result<std::string> report_on(const std::filesystem::path& file) {
   const auto store = Store::open(file);
   if (!store) return tl::unexpected(store.error());
@@ -61,7 +61,7 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 
 class Damaged : public testing::Test {
  protected:
-  /// The error of what was damaged; "": the same report comes of it. Another report is a failure.
+  /// The error of a damaged file; "" if it gives the same report. Another report is a failure.
   std::string complaint_of(const std::string& bytes) {
     write(copy_, bytes);
     const auto report = report_on(copy_);
@@ -73,7 +73,7 @@ class Damaged : public testing::Test {
     EXPECT_EQ(*report, whole_) << "another report from damaged results";
     return "";
   }
-  /// The error after a change that leaves the file a sound database.
+  /// The error after a change that leaves a valid database.
   std::string complaint_after(const std::string& sql) {
     write(copy_, bytes_);
     SQLite::Database(copy_, SQLite::OPEN_READWRITE).exec(sql);
@@ -128,7 +128,7 @@ TEST_F(Damaged, IsRefusedOrGivesTheSameReport) {
   EXPECT_GT(refused, copies / 4) << "the damage hit nothing";
 }
 
-// Whole rows then stand, sound, where others should.
+// Valid rows are then in the place of other rows.
 TEST_F(Damaged, WithAPageInThePlaceOfAnotherIsRefusedOrGivesTheSameReport) {
   constexpr std::size_t page = 4096;
   const std::size_t pages = bytes_.size() / page;
@@ -150,7 +150,7 @@ TEST_F(Damaged, RowsAreRefusedByWhatIsWrong) {
   EXPECT_THAT(complaint_after("update run set ending = 0 where id = 2"),
               HasSubstr("row 2 has another hash than its content"));
   EXPECT_THAT(complaint_after("update run set columns = 'height' where id = 2"),
-              HasSubstr("row 2 has columns that no estimator tells"));
+              HasSubstr("row 2 has columns that no estimator reports"));
   EXPECT_THAT(complaint_after("update run set samples = substr(samples, 9) where id = 2"),
               HasSubstr("row 2 has another hash"));
   EXPECT_THAT(complaint_after("update run set detail = 'fine' where id = 2"), HasSubstr("another hash"));

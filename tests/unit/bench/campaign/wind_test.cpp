@@ -1,4 +1,4 @@
-// Campaigns of the wind: the mean error of a run, and what a run leaves behind.
+// Campaigns of the wind: the mean error of a run, and the stored samples of a run.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -73,7 +73,7 @@ TEST(RunMean, ARatioNeedsAnother) {
   const auto campaign = parse(
       two_variants + "[[metric]]\nkind = 'run_mean'\nquantity = 'attitude.heading'\nratio_at_most = 0.5\n");
   ASSERT_FALSE(campaign);
-  EXPECT_THAT(campaign.error().message, testing::HasSubstr("metric[1].ratio_at_most': is of no use alone"));
+  EXPECT_THAT(campaign.error().message, testing::HasSubstr("metric[1].ratio_at_most': has no effect alone"));
 }
 
 TEST(WindSeries, IsWhatTheChecksSee) {
@@ -84,7 +84,7 @@ TEST(WindSeries, IsWhatTheChecksSee) {
   ASSERT_TRUE(flown) << flown.error().message;
   const RunSeries series = series_of(2, *flown, *truth, estimators::of(scenario));
   const auto errors =
-      estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *flown->own_truth.glide);
+      estimators::wind_errors(flown->seen.of<estimators::WindAnswers>(), *flown->per_run_truth.glide);
   ASSERT_EQ(&series.samples.layout(), &estimators::wind.layout);
   EXPECT_TRUE(series_of(2, *flown, *truth, estimators::los_rate).samples.empty()) << "flew no engagement";
   ASSERT_EQ(series.samples.size(), errors.size());

@@ -1,4 +1,4 @@
-// The load of the bus by the lengths of all frames.
+// The bus load, computed from the lengths of all frames.
 #include "bench/checks/bus_load.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Checks of what the target made of position fixes, and of what it bridged.
+// Checks of how the target used position fixes, and which gaps it bridged.
 
 #include <gmock/gmock.h>
 
@@ -23,7 +23,7 @@ constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 20 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-// 20 s at rest, a fix of the SSBL each second, all of them used; tests spoil it.
+// 20 s at rest with an SSBL fix each second, all of them used; tests change it.
 class Fixed : public testing::Test {
  protected:
   Fixed() {
@@ -40,9 +40,9 @@ class Fixed : public testing::Test {
   CheckResult judge(const Rule& rule) {
     return judged(rule, seen_, {.flight = truth_, .duration_us = duration_us});
   }
-  void unanswered(std::size_t place, std::size_t count) {
-    const auto from = static_cast<std::ptrdiff_t>(place);
-    const auto to = static_cast<std::ptrdiff_t>(place + count);
+  void unanswered(std::size_t index, std::size_t count) {
+    const auto from = static_cast<std::ptrdiff_t>(index);
+    const auto to = static_cast<std::ptrdiff_t>(index + count);
     test::Edited(seen_.of<InflightAnswers>().fixes).erase(from, to);
   }
 
@@ -57,7 +57,7 @@ Error position(double below = 1, const scenario::Window& window = whole) {
   return error_of(estimator, quantities::position_norm, window, below);
 }
 Consistency consistency(const quantities::Quantity& quantity, double low, double high) {
-  return {.of = {.estimator = estimator, .quantity = &quantity},
+  return {.judged = {.estimator = estimator, .quantity = &quantity},
           .window = whole,
           .bound = MeanBetween{low, high}};
 }
@@ -132,8 +132,8 @@ TEST_F(Fixed, HeadingNeesFailsAnOverconfidentFilter) {
 }
 
 TEST_F(Fixed, WhatBecameOfFixesIsCounted) {
-  for (const std::size_t place : {3, 7, 8})
-    seen_.of<InflightAnswers>().fixes[place].outcome = FixOutcome::gated;
+  for (const std::size_t index : {3, 7, 8})
+    seen_.of<InflightAnswers>().fixes[index].outcome = FixOutcome::gated;
   EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).outcome, Outcome::pass);
   EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).measured, "gated 3");
   EXPECT_EQ(judge(counted({.mark = "gated", .at_least = 3, .at_most = 3})).expected,
@@ -149,16 +149,16 @@ TEST_F(Fixed, WhatBecameOfFixesIsCounted) {
 TEST_F(Fixed, ARepairIsCountedWhereItCameAndTheHandoverWhereItFirstWas) {
   const Answers::Count none{.mark = "repaired", .at_most = 0};
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::pass);
-  for (std::size_t place = 15; place < 20; ++place)
-    seen_.of<InflightAnswers>().fixes[place].repairs = 2;  // after the fix of 16 s
+  for (std::size_t index = 15; index < 20; ++index)
+    seen_.of<InflightAnswers>().fixes[index].repairs = 2;  // after the fix of 16 s
   EXPECT_EQ(judge(counted(none)).measured, "repaired 1");
   EXPECT_EQ(judge(counted(none)).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted(none, {.from_us = 0, .to_us = 15 * second_us})).outcome, Outcome::pass);
   const Answers::Count resolved{.mark = "handed_over", .before_us = 6 * second_us};
   EXPECT_EQ(judge(counted(resolved)).measured, "never handed_over");
   EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::fail);
-  for (std::size_t place = 5; place < 20; ++place)
-    seen_.of<InflightAnswers>().fixes[place].handed_over = true;  // from 6 s on
+  for (std::size_t index = 5; index < 20; ++index)
+    seen_.of<InflightAnswers>().fixes[index].handed_over = true;  // from 6 s on
   EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::fail);
   seen_.of<InflightAnswers>().fixes[4].handed_over = true;
   EXPECT_EQ(judge(counted(resolved)).outcome, Outcome::pass);
@@ -174,7 +174,7 @@ TEST_F(Fixed, SilenceNeverPasses) {
 }
 
 TEST_F(Fixed, CoastingAnswersAreCounted) {
-  for (const std::size_t place : {3, 7}) seen_.of<InflightAnswers>().navigation[place].coasting = true;
+  for (const std::size_t index : {3, 7}) seen_.of<InflightAnswers>().navigation[index].coasting = true;
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_least = 2, .at_most = 2})).outcome, Outcome::pass);
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_least = 3})).outcome, Outcome::fail);
   EXPECT_EQ(judge(counted({.mark = "coasting", .at_most = 1})).outcome, Outcome::fail);

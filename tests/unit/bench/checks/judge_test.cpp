@@ -1,4 +1,4 @@
-// Every kind of check: what passes, what fails, what cannot be measured, and that silence never passes.
+// Every kind of check: what passes, what fails, what cannot be measured. Silence never passes.
 #include "bench/checks/judge.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
 
@@ -33,7 +33,7 @@ constexpr std::int64_t second_us = 1'000'000;
 constexpr std::int64_t duration_us = 4 * second_us;
 constexpr scenario::Window whole{.from_us = 0, .to_us = duration_us};
 
-// A frame of the target, and what it answers.
+// A frame of the target, and its cause.
 struct Came {
   std::int64_t t_ns = 0;
   std::int64_t cause_us = -1;
@@ -41,7 +41,7 @@ struct Came {
   std::optional<std::uint8_t> counter{};
 };
 
-// A run of 4 s at rest with perfect answers; tests spoil it.
+// A run of 4 s at rest with perfect answers; tests change it.
 class Judged : public testing::Test {
  protected:
   Judged() {
@@ -71,7 +71,7 @@ class Judged : public testing::Test {
     std::erase_if(came<messages::AlignAttitude>(), [&](const Came& one) { return one.cause_us >= t_us; });
   }
 
-  // What the bench would have seen, with the timing that these checks ask for.
+  // Observations of the bench, with the timing that these checks need.
   [[nodiscard]] Observations timed(const std::vector<scenario::Check>& checks) const {
     Observations seen = seen_;
     seen.timing.windows = timed_windows(checks);
@@ -123,11 +123,12 @@ const Error attitude =
     error(quantities::attitude_pitch, 0.01, {.from_us = 2 * second_us, .to_us = duration_us});
 
 Consistency consistency(const quantities::Quantity& quantity, std::variant<MeanBetween, Probability> bound) {
-  return {.of = {.estimator = "transfer_alignment", .quantity = &quantity}, .window = whole, .bound = bound};
+  return {
+      .judged = {.estimator = "transfer_alignment", .quantity = &quantity}, .window = whole, .bound = bound};
 }
 
 Convergence convergence(double within, std::int64_t before_us) {
-  return {.of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+  return {.judged = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
           .within = within,
           .unit = quantities::mrad,
           .before_us = before_us,
@@ -147,7 +148,7 @@ TEST_F(Judged, VelocityErrorByAxisOrNorm) {
   seen_.of<TransferAnswers>().navigation[300].v_eb_n = {0.3, 0, -0.4};
   Error rule = error(quantities::velocity_norm, 0.45);
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
-  rule.of.quantity = &quantities::velocity_down;
+  rule.judged.quantity = &quantities::velocity_down;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   rule.below = 0.4;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "the bar itself is not below it";
@@ -280,7 +281,7 @@ TEST_F(Judged, CountersByEachBar) {
   rule.frames_lost_at_most = 0;
   rule.late_at_most = 2;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
-  seen_.counters->bad_crc = 5;  // not asked for
+  seen_.counters->bad_crc = 5;  // not checked
   seen_.counters->late = 2;
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
   seen_.counters->late = 3;
@@ -290,7 +291,8 @@ TEST_F(Judged, CountersByEachBar) {
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
-// Stalled for 5 of 400 stimuli: as many late frames pass its p99, and the answers' periods would not.
+// Stalled for 5 of 400 stimuli: the p99 of lateness tolerates this number of late frames, the periods of the
+// answers would not.
 TEST_F(Judged, ThePeriodIsNotMeasuredWithStimuliThatAreOffThemselves) {
   const OutputPeriod period{.message = "AlignAttitude", .window = whole, .within = 0.25, .quantile = 0.99};
   ASSERT_EQ(judge(period).outcome, Outcome::pass);

@@ -1,4 +1,4 @@
-// Rules put to the judge without a file.
+// Judges rules that do not come from a file.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ scenario::Check check_of(Kind rule, std::string name = "it") {
           .rule = std::make_shared<RuleOf<Kind>>(std::move(rule))};
 }
 
-/// What the judge says of one rule.
+/// The verdict on one rule.
 template <class Kind>
 CheckResult judged(const Kind& rule, const Observations& seen, const estimators::Truth& truth) {
   scenario::Scenario scenario;
@@ -33,14 +33,14 @@ CheckResult judged(const Kind& rule, const Observations& seen, const estimators:
 inline Error error_of(std::string estimator, const quantities::Quantity& quantity,
                       const scenario::Window& window, double below,
                       Error::Statistic statistic = Error::Statistic::max) {
-  return {.of = {.estimator = std::move(estimator), .quantity = &quantity},
+  return {.judged = {.estimator = std::move(estimator), .quantity = &quantity},
           .statistic = statistic,
           .stretch = {.window = window},
           .below = below,
           .unit = quantity.unit};
 }
 
-/// What a rule that looks at nothing but what was seen finds.
+/// The finding of a rule that uses only observations.
 template <class Kind>
 Finding found(const Kind& rule, const Observations& seen) {
   static const world::FlightRecord rest{{.start = {}, .motion = world::Rest{}}, 1'000'000, 10'000};

@@ -1,4 +1,4 @@
-// LOS rates, their consistency and the miss against an engagement.
+// LOS rates, their consistency and the miss distance, compared with an engagement.
 
 #include <gmock/gmock.h>
 
@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 constexpr std::int64_t duration_us = 6'000'000;
 
-// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; tests spoil it.
+// A fly-past at 1000 m/s from 5 km, sampled at 100 Hz and answered without error; tests change it.
 class Engaged : public testing::Test {
  protected:
   Engaged() {
@@ -118,7 +118,7 @@ TEST_F(Engaged, Miss) {
 }
 
 TEST_F(Engaged, ConsistencyIsOfTwoDegreesOfFreedomUntilThePassage) {
-  const Consistency rule{.of = {.estimator = "los_rate", .quantity = &quantities::los_nis},
+  const Consistency rule{.judged = {.estimator = "los_rate", .quantity = &quantities::los_nis},
                          .window = {.from_us = 0, .to_us = duration_us},
                          .bound = Probability{.value = 0.99}};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;

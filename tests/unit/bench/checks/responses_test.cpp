@@ -1,5 +1,4 @@
-// Checks of what a target owes when something goes wrong: what passes, what fails, and that silence does not
-// pass.
+// Checks of the required responses to faults: what passes and what fails. Silence does not pass.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -27,7 +26,7 @@ using testing::HasSubstr;
 constexpr std::int64_t second_us = 1'000'000, duration_us = 20 * second_us;
 constexpr scenario::Window faulty{.from_us = 8 * second_us, .to_us = 10 * second_us};
 
-// 20 s at rest with perfect answers, ten a second, and a fault from 8 to 10 s; tests say what comes of it.
+// 20 s at rest with perfect answers, ten per second, and a fault from 8 to 10 s; tests set its consequences.
 class Disturbed : public testing::Test {
  protected:
   Disturbed() {
@@ -57,7 +56,7 @@ class Disturbed : public testing::Test {
 };
 
 TEST_F(Disturbed, DetectedByTheFirstSignThatIsNew) {
-  const DetectedWithin rule{.of = fault_, .within_us = second_us, .by = {}};
+  const DetectedWithin rule{.disturbance = fault_, .within_us = second_us, .by = {}};
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "nobody said anything";
   EXPECT_EQ(judge(rule).measured, "no sign");
   degraded(8.5, 9);
@@ -68,21 +67,24 @@ TEST_F(Disturbed, DetectedByTheFirstSignThatIsNew) {
 
 TEST_F(Disturbed, DetectedTooLateFails) {
   degraded(9.5, 9.8);
-  EXPECT_EQ(judge(DetectedWithin{.of = fault_, .within_us = second_us, .by = {}}).outcome, Outcome::fail);
-  EXPECT_EQ(judge(DetectedWithin{.of = fault_, .within_us = 2 * second_us, .by = {}}).outcome, Outcome::pass);
+  EXPECT_EQ(judge(DetectedWithin{.disturbance = fault_, .within_us = second_us, .by = {}}).outcome,
+            Outcome::fail);
+  EXPECT_EQ(judge(DetectedWithin{.disturbance = fault_, .within_us = 2 * second_us, .by = {}}).outcome,
+            Outcome::pass);
 }
 
 TEST_F(Disturbed, WhatWasSaidJustBeforeIsNoDetection) {
   degraded(7, 12);
-  EXPECT_EQ(judge(DetectedWithin{.of = fault_, .within_us = second_us, .by = {}}).outcome, Outcome::fail);
-  EXPECT_EQ(judge(DetectedWithin{.of = fault_, .within_us = second_us, .by = {"degraded"}}).outcome,
+  EXPECT_EQ(judge(DetectedWithin{.disturbance = fault_, .within_us = second_us, .by = {}}).outcome,
+            Outcome::fail);
+  EXPECT_EQ(judge(DetectedWithin{.disturbance = fault_, .within_us = second_us, .by = {"degraded"}}).outcome,
             Outcome::pass)
       << "who asks for it by name is given it";
 }
 
 TEST_F(Disturbed, DetectedByHeartbeatOrCounterToo) {
-  const DetectedWithin any{.of = fault_, .within_us = second_us, .by = {}};
-  const DetectedWithin counted{.of = fault_, .within_us = second_us, .by = {"bad_crc"}};
+  const DetectedWithin any{.disturbance = fault_, .within_us = second_us, .by = {}};
+  const DetectedWithin counted{.disturbance = fault_, .within_us = second_us, .by = {"bad_crc"}};
   seen_.complaints.hear(messages::TargetCounters{.bad_crc = 3}, 7 * second_us);
   seen_.complaints.hear(messages::TargetCounters{.bad_crc = 3}, 8'200'000);
   EXPECT_EQ(judge(counted).outcome, Outcome::fail) << "it was counted before";
@@ -94,8 +96,10 @@ TEST_F(Disturbed, DetectedByHeartbeatOrCounterToo) {
 }
 
 TEST_F(Disturbed, RecoversWhenTheSignsAreGoneForGood) {
-  const RecoversWithin rule{
-      .of = fault_, .within_us = second_us, .by = {}, .answering = told_always(transfer_alignment)};
+  const RecoversWithin rule{.disturbance = fault_,
+                            .within_us = second_us,
+                            .by = {},
+                            .answering = always_reported(transfer_alignment)};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   degraded(8.5, 10.6);
   EXPECT_EQ(judge(rule).outcome, Outcome::pass);
@@ -105,15 +109,15 @@ TEST_F(Disturbed, RecoversWhenTheSignsAreGoneForGood) {
 }
 
 TEST_F(Disturbed, RecoversWithASmallErrorAndNotBySilence) {
-  RecoversWithin rule{.of = fault_,
+  RecoversWithin rule{.disturbance = fault_,
                       .within_us = second_us,
                       .by = {},
                       .error = Subject{.estimator = "transfer_alignment",
                                        .quantity = &quantities::velocity_north,
-                                       .words = "velocity.north"},
+                                       .text = "velocity.north"},
                       .below = 0.1,
                       .unit = quantities::mps,
-                      .answering = told_always(transfer_alignment)};
+                      .answering = always_reported(transfer_alignment)};
   answers().navigation[place(10.5)].v_eb_n = {0.3, 0, 0};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   EXPECT_THAT(judge(rule).measured, HasSubstr("below from 0.500 s after"));
@@ -126,7 +130,7 @@ TEST_F(Disturbed, RecoversWithASmallErrorAndNotBySilence) {
 }
 
 TEST_F(Disturbed, SigmaGrowsThroughTheFault) {
-  SigmaGrows rule{.of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+  SigmaGrows rule{.judged = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
                   .fault = "it",
                   .window = faulty};
   EXPECT_EQ(judge(rule).outcome, Outcome::fail) << "it stands still";
@@ -142,7 +146,7 @@ TEST_F(Disturbed, SigmaGrowsThroughTheFault) {
   };
   std::erase_if(*test::Edited(answers().filter), in_it);
   std::erase_if(*test::Edited(answers().navigation), in_it);
-  EXPECT_EQ(judge(rule).measured, "no sigma is told in it");
+  EXPECT_EQ(judge(rule).measured, "no sigma is reported in it");
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);
 }
 
@@ -162,7 +166,7 @@ TEST_F(Disturbed, HonestUnlessSureAndWrong) {
 }
 
 TEST_F(Disturbed, AnsweringWithNumbersAndWithoutAGap) {
-  const Answering rule{.of = told_always(transfer_alignment), .excused = {faulty}};
+  const Answering rule{.judged = always_reported(transfer_alignment), .excused = {faulty}};
   EXPECT_EQ(judge(rule).outcome, Outcome::pass) << judge(rule).measured;
   const Observations sound = seen_;
   std::erase_if(*test::Edited(answers().navigation),
@@ -175,7 +179,7 @@ TEST_F(Disturbed, AnsweringWithNumbersAndWithoutAGap) {
   EXPECT_THAT(judge(rule).measured, HasSubstr("no answers"));
   seen_ = sound;
   answers().navigation[place(5)].v_eb_n.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(judge(rule).measured, "velocity.north at 5 s is no number");
+  EXPECT_EQ(judge(rule).measured, "velocity.north at 5 s is not a number");
   seen_ = sound;
   seen_.target_bad_crc = 1;
   EXPECT_EQ(judge(rule).outcome, Outcome::fail);

@@ -1,4 +1,4 @@
-// The check of what a target says of its own errors.
+// The check of the sigmas that a target sends.
 #include "bench/checks/kinds/sigma.hpp"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 namespace canhil::checks {
 namespace {
 
-// 4 s of answers, ten a second, with sigmas from 0.2 to 0.3 mrad; tests spoil them.
+// 4 s of answers, ten per second, with sigmas from 0.2 to 0.3 mrad; tests change them.
 class SigmaCheck : public testing::Test {
  protected:
   static constexpr std::int64_t second_us = 1'000'000;
@@ -22,13 +22,13 @@ class SigmaCheck : public testing::Test {
     track_.longest_wait_us = static_cast<double>(second_us);
     track_.answers_end_us = 4 * second_us;
     for (int k = 1; k <= 40; ++k)
-      track_.told.push_back({.t_us = k * second_us / 10, .value = 1, .sigma = k == 21 ? 0.3e-3 : 0.2e-3});
+      track_.points.push_back({.t_us = k * second_us / 10, .value = 1, .sigma = k == 21 ? 0.3e-3 : 0.2e-3});
   }
   [[nodiscard]] Finding judge(double low_mrad, double high_mrad, std::int64_t from_us = 0) const {
     static const world::FlightRecord rest{{.start = {}, .motion = world::Rest{}}, 4 * second_us, 10'000};
     const Observations seen;
     const Evidence evidence{.seen = seen, .truth = {.flight = rest}, .tracks = {{"one", track_}}};
-    return Sigma{.of = {.estimator = "one", .quantity = &quantities::attitude_heading},
+    return Sigma{.judged = {.estimator = "one", .quantity = &quantities::attitude_heading},
                  .stretch = {.window = {.from_us = from_us, .to_us = 4 * second_us}},
                  .low = low_mrad * 1e-3,
                  .high = high_mrad * 1e-3,
@@ -49,20 +49,20 @@ TEST_F(SigmaCheck, EachSigmaOfTheWindowLiesBetween) {
 
 TEST_F(SigmaCheck, HalfOrTwiceASigmaFails) {
   for (const double factor : {0.5, 2.0}) {
-    for (auto& told : test::Edited(track_.told)) told.sigma = factor * 0.2e-3;
+    for (auto& told : test::Edited(track_.points)) told.sigma = factor * 0.2e-3;
     EXPECT_EQ(judge(0.14, 0.28).outcome, Outcome::fail) << factor;
   }
 }
 
 TEST_F(SigmaCheck, WhatIsNotToldOrNoNumberNeverPasses) {
-  track_.told[30].sigma = std::numeric_limits<double>::quiet_NaN();
+  track_.points[30].sigma = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(judge(0, 9).outcome, Outcome::fail);
-  track_.told[30].sigma.reset();
+  track_.points[30].sigma.reset();
   EXPECT_EQ(judge(0, 9).outcome, Outcome::fail);
   EXPECT_EQ(judge(0, 9).measured, "1 of 40 answers have no sigma");
-  test::Edited(track_.told).erase(20, 35);
+  test::Edited(track_.points).erase(20, 35);
   EXPECT_EQ(judge(0, 9).measured, "no answers from 2 to 3.6 s");
-  track_.told = {};
+  track_.points = {};
   EXPECT_EQ(judge(0, 9).measured, "no answers");
   EXPECT_EQ(judge(0, 9).outcome, Outcome::fail);
 }

@@ -1,4 +1,4 @@
-// Wind answers against a glider's truth.
+// Wind answers compared with the truth of a glider.
 
 #include <gmock/gmock.h>
 
@@ -35,7 +35,7 @@ world::GlidePlan heading_east() {
   return plan;
 }
 
-// 10 s of a glide to the east, perfect answers every 20 ms; tests spoil them.
+// 10 s of a glide to the east with perfect answers every 20 ms; tests change them.
 class Winds : public testing::Test {
  protected:
   Winds() {
@@ -58,7 +58,7 @@ class Winds : public testing::Test {
   CheckResult consistency(const quantities::Quantity& quantity,
                           std::variant<MeanBetween, Probability> bound) {
     return judge(
-        Consistency{.of = {.estimator = "wind", .quantity = &quantity}, .window = whole, .bound = bound});
+        Consistency{.judged = {.estimator = "wind", .quantity = &quantity}, .window = whole, .bound = bound});
   }
 
   world::GlideRecord glide_{heading_east(), duration_us, world::Stream(1, 0, "c"), world::Stream(1, 0, "g")};

@@ -1,4 +1,4 @@
-// What frames took over the bus, beside the bound.
+// Measured times of frames on the bus, beside their bounds.
 #include "bench/checks/wire_bounds.hpp"
 
 #include <gmock/gmock.h>
@@ -50,8 +50,8 @@ class OnTheWire : public testing::Test {
   Observations seen_;
 };
 
-// The bench's frame may find an answer or the heartbeat on the wire, and the other one wins if its id is
-// lower; the target's own may stand behind the heartbeat, or it behind them.
+// The bench's frame can find an answer or the heartbeat on the wire; if their id is lower, they also win the
+// arbitration. The target's own frame can be queued behind the heartbeat, or the heartbeat behind it.
 TEST_F(OnTheWire, TheBoundIsOfTheMessagesThatWereSeen) {
   EXPECT_EQ(wire_bounds(seen_).size(), 2U) << "of the heartbeat nobody saw when it was queued";
   EXPECT_EQ(bound_of("SlaveImuStatus"), 2 * frame_ns);
@@ -62,7 +62,7 @@ TEST_F(OnTheWire, TheBoundIsOfTheMessagesThatWereSeen) {
 
 TEST_F(OnTheWire, TheBoundIsThatOfTheOrderInWhichNodesSend) {
   heartbeats(4);
-  seen_.timing.wire.urgent_first = true;  // of the heartbeats one may be on the wire, none stands in front
+  seen_.timing.wire.urgent_first = true;  // one heartbeat can be on the wire; none is queued in front
   EXPECT_EQ(bound_of("SlaveImuStatus"), 2 * frame_ns);
   EXPECT_EQ(bound_of("AlignAttitude"), 3 * frame_ns);
 }
@@ -94,8 +94,8 @@ TEST_F(OnTheWire, WithoutABoundNothingIsMeasured) {
   EXPECT_TRUE(wire_bounds(seen_).empty());
 }
 
-// Three messages each way in a container of 24 bytes: 20 + 12 bits at the nominal rate, 246 + 33 at that of
-// the data; of the heartbeat's 8 bytes 86 + 28.
+// Three messages each way in a container of 24 bytes: 20 + 12 bits at the nominal bit rate, 246 + 33 at the
+// data bit rate; 86 + 28 for the 8 bytes of the heartbeat.
 TEST_F(OnTheWire, OnCanFdTheBoundIsThatOfTheContainer) {
   constexpr std::int64_t container_ns = 32'000 + 69'750, heartbeat_ns = 32'000 + 28'500;
   seen_.timing.wire = {.rates = {.nominal = 1'000'000, .data = 4'000'000}, .fd = true};

@@ -27,7 +27,7 @@ Message bytes_of(const T& value) {
   return bytes;
 }
 
-// One attribute after what there is, padded to four bytes as the kernel does.
+// Appends an attribute, padded to four bytes like the kernel does.
 Message with(Message message, int type, const Message& payload) {
   const rtattr header{.rta_len = static_cast<unsigned short>(sizeof header + payload.size()),
                       .rta_type = static_cast<unsigned short>(type)};
@@ -103,7 +103,7 @@ TEST(ReadLink, WhatIsNoControllerHasNone) {
   EXPECT_FALSE(read_link(link(ARPHRD_ETHER, IFF_UP, {})).is_can);
 }
 
-// Any cut and any damaged byte: read without leaving the message (the sanitizers watch).
+// Any truncated or damaged message is read without leaving the message (the sanitizers check this).
 TEST(ReadLink, ADamagedMessageGivesWhatCouldBeRead) {
   const Message whole = controller_message();
   for (std::size_t size = 0; size < whole.size(); ++size) {

@@ -1,4 +1,4 @@
-// What the doctor measures, and what it thinks of a machine.
+// What the doctor measures, and how it judges a machine.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>

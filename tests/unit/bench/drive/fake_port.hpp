@@ -1,4 +1,4 @@
-// A bus with a target that a test writes.
+// A bus whose target is written by a test.
 #pragma once
 
 #include <deque>
@@ -11,7 +11,7 @@
 
 namespace canhil::drive {
 
-/// Every frame sent is shown to `on_send`, which may call give(). Stamps are 0; waiting is sleeping.
+/// Passes every sent frame to `on_send`, which may call give(). Stamps are 0; waiting is sleeping.
 class FakePort : public Port {
  public:
   SendOutcome send(const Frame& frame) override {

@@ -1,5 +1,5 @@
-// What can be flown: what an IMU's errors may be before its increments leave their signals' ranges, and who
-// sends first.
+// Which flights are possible: the largest IMU errors whose increments fit into their signals, and the sending
+// order of nodes.
 #include "bench/drive/flight.hpp"
 
 #include <gmock/gmock.h>
@@ -115,12 +115,12 @@ TEST_F(ImuLimits, AScenarioThatSaturatesIsRefusedWithItsTruth) {
   EXPECT_TRUE(make_truth(scenario_));
 }
 
-// Frames and counters of every recorded run hang on this order.
+// The frames and counters of every recorded run depend on this order.
 TEST(Nodes, SendInAnOrderThatNeverChanges) {
   const auto all = scenario::read_file(SOURCE_DIR "/bench/flights/all_four.toml", contract()).value();
   const world::FlightRecord truth = make_truth(all).value();
   Flight flight = make_flight(all, truth, 0).value();
-  OwnTruth& own = flight.own_truth;
+  PerRunTruth& own = flight.per_run_truth;
   const auto sensors = nodes::make(
       {.scenario = all, .index = 0, .flight = truth, .glide = &*own.glide, .engagement = &*own.engagement});
   std::vector<std::string_view> senders;

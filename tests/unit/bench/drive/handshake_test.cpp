@@ -1,4 +1,4 @@
-// The handshake against targets that are slow, deaf, stubborn or of another make.
+// The handshake with targets that are slow, that do not receive, that disobey, or that have another DBC.
 #include "bench/drive/handshake.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ TEST(Contract, KnowsWhichEstimatorSendsEachAnswer) {
   EXPECT_EQ(contract().sent_by.at("WindVector"), "wind");
 }
 
-// A target that does as it is told; a test makes it misbehave.
+// A target that obeys all commands; tests make it misbehave.
 class Handshake : public testing::Test {
  protected:
   Handshake() {
@@ -172,7 +172,7 @@ TEST_F(Handshake, SaysWhereAParameterStandsThatTheTargetRefusesAndWhy) {
             sent + "unknown, expected a parameter of transfer_alignment");
   EXPECT_EQ(refused_with(ParameterStatus::wrong_state),
             sent + "wrong_state, expected to be set before the start; 2 stays in force");
-  EXPECT_EQ(refused_with(static_cast<ParameterStatus>(9)), sent + "status 9, which is none of the DBC's");
+  EXPECT_EQ(refused_with(static_cast<ParameterStatus>(9)), sent + "status 9, which is not in the DBC");
 }
 
 TEST_F(Handshake, NamesAParameterThatReadsBackOtherwise) {

@@ -1,4 +1,4 @@
-// Runs in virtual time over a simulated wire: exact, the same each time, and within what theory bounds.
+// Runs in virtual time over a simulated wire are exact, reproducible, and within the bounds of the analysis.
 #include "bench/drive/in_process_wire.hpp"
 #include "bench/checks/kinds/bus_errors.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
@@ -43,7 +43,7 @@ const checks::CheckResult* find_check(const Flown& run, std::string_view kind) {
   return found == run.verdict.checks.end() ? nullptr : &*found;
 }
 
-/// What the stamps of a run add up to, message by message.
+/// The sums of the stamps of a run, message by message.
 std::vector<std::int64_t> stamps(const Flown& run) {
   std::vector<std::int64_t> t_ns{run.seen.first_ns, run.seen.last_ns};
   for (std::size_t i = 0; i < messages::all_messages.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(InProcessWire, TimingIsJudgedAndTheSameEachTime) {
   expect_same_estimates(run, quick("in-process"));
 }
 
-// Half of the bit rate: every frame takes twice as long, so does every answer.
+// With half of the bit rate every frame takes twice as long, and so does every answer.
 TEST(InProcessWire, LatencyIsTheShareOfTheWire) {
   const std::size_t index = message_index<messages::AlignVelocityD>();
   const auto latency_ns = [&](const std::string& bus) {
@@ -111,7 +111,7 @@ TEST(InProcessWire, LatencyIsTheShareOfTheWire) {
   };
   const std::int64_t at_1m = latency_ns("in-process?bitrate=1000000");
   EXPECT_EQ(latency_ns(std::string(at_500k)), 2 * at_1m);
-  // Three frames at the end of which the last one is stamped, without its own intermission.
+  // Three frames; the last one is stamped at its end, without its intermission.
   const wire::BitRates rates{.nominal = 1'000'000};
   const std::int64_t least_ns = 3 * wire::duration_ns({.nominal = 8 * 8 + 47}, rates) - 3'000;
   const std::int64_t most_ns = 3 * wire::duration_ns(wire::worst_case_length(8, false), rates) - 3'000;
@@ -187,26 +187,28 @@ TEST_P(Containers, KeepTheirBoundsAndTheirTimesAddUp) {
             run.seen.stimuli.at("SlaveImu").count);
   EXPECT_EQ(timing.responses[message_index<messages::SeekerAntenna>()].count,
             run.seen.stimuli.at("Seeker").count);
-  for (const auto& [group, split] : timing.split_by_group) {
-    EXPECT_EQ(split.echoed, split.stimuli) << group;
-    EXPECT_GE(split.to_echo_ns, split.stimulus_wire_ns) << group;
+  for (const auto& [group, breakdown] : timing.breakdown_by_group) {
+    EXPECT_EQ(breakdown.echoed, breakdown.stimuli) << group;
+    EXPECT_GE(breakdown.to_echo_ns, breakdown.stimulus_wire_ns) << group;
     // Rounded up to whole ns by frame.
-    EXPECT_GE(split.latency_ns + static_cast<std::int64_t>(4 * split.stimuli), split.reply_wire_ns) << group;
+    EXPECT_GE(breakdown.latency_ns + static_cast<std::int64_t>(4 * breakdown.stimuli),
+              breakdown.reply_wire_ns)
+        << group;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(InProcessWire, Containers, testing::Values("", "&queue=priority"));
 
-// The seeker's container is the first after Sync has passed, and nothing else is on the bus but Sync and the
-// heartbeat: what its answer takes is its two containers.
+// The seeker's container is the first after Sync. Nothing else is on the bus except Sync and the heartbeat,
+// so the response time of the answer is the duration of its two containers.
 TEST(InProcessWire, OnCanFdTheWholeLatencyIsExplained) {
   const Flown run =
       fly(scenario_of("los_quick"), "in-process?bitrate=500000&data-bitrate=2000000", BusFormat::fd);
-  const checks::LatencySplit& split = run.seen.timing.split;
-  const auto stimuli = static_cast<double>(split.stimuli);
-  EXPECT_GT(split.stimuli, 1000U);
-  EXPECT_NEAR(static_cast<double>(split.to_echo_ns - split.stimulus_wire_ns) / stimuli, 0, 1'000);
-  EXPECT_NEAR(static_cast<double>(split.latency_ns - split.reply_wire_ns) / stimuli, 0, 20'000);
+  const checks::LatencyBreakdown& breakdown = run.seen.timing.breakdown;
+  const auto stimuli = static_cast<double>(breakdown.stimuli);
+  EXPECT_GT(breakdown.stimuli, 1000U);
+  EXPECT_NEAR(static_cast<double>(breakdown.to_echo_ns - breakdown.stimulus_wire_ns) / stimuli, 0, 1'000);
+  EXPECT_NEAR(static_cast<double>(breakdown.latency_ns - breakdown.reply_wire_ns) / stimuli, 0, 20'000);
 }
 
 TEST(InProcessWire, ADisturbedWireLosesNothingAndTakesLonger) {
@@ -252,7 +254,8 @@ TEST(InProcessWire, ABusOffReachesTheReportAndTheCheck) {
   EXPECT_EQ(fly(scenario, noisy).verdict.outcome, checks::Outcome::pass);
 }
 
-// Frames of 128 bits at least, more than 100 a second of the IMU alone: 20 kbit/s carry a part of them.
+// Frames of at least 128 bits, more than 100 per second from the IMU alone: 20 kbit/s can carry only a part
+// of them.
 TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   static const std::atomic<bool> never = false;
   Options options;
@@ -264,8 +267,8 @@ TEST(InProcessWire, ABusThatIsTooSlowMakesTheBenchLate) {
   EXPECT_GT(run->seen.bus.late_in_queue, 0U);
 }
 
-// Every attempt fails at its first bit, at 1 kbit/s: heartbeats that are due while the device is off the bus
-// wait for its return, and are tried then, not when the next one is due.
+// Every attempt fails at its first bit, at 1 kbit/s. Heartbeats that are due while the device is bus-off wait
+// for its return and are sent then, not when the next one is due.
 TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
   const WireSettings noisy{.rates = {.nominal = 1'000}, .bit_error_rate = 1};
   InProcessWire port("noisy", noisy, BusFormat::classic);
@@ -278,8 +281,8 @@ TEST(InProcessWire, ADeviceThatIsOffTheBusWaitsForItsReturn) {
     }
   }
   ASSERT_GT(at_ns.size(), 64U);
-  // From the flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of the next
-  // try.
+  // From the error flag of the 32nd error on: 12 bits of flags, 11, 128 times 11, and the first bit of the
+  // next attempt.
   EXPECT_EQ(at_ns[32] - at_ns[31], (12 + 11 + 128 * 11 + 1) * 1'000'000);
 }
 

@@ -1,5 +1,5 @@
-// In-flight alignment from the scenario's text to the checks, against the device in this process: its nodes,
-// their faults, and what the target makes of them.
+// In-flight alignment from the text of a scenario to its checks, with the device in this process: nodes,
+// faults, and the responses of the target.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -45,7 +45,7 @@ Flown fly(const std::vector<scenario::Setting>& settings = {}) {
   EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
   checks::Verdict verdict =
       checks::judge(*scenario, {.seen = flown->seen,
-                                .truth = truth_of(*truth, flown->own_truth, scenario->duration_us),
+                                .truth = truth_of(*truth, flown->per_run_truth, scenario->duration_us),
                                 .estimators = estimators::all(),
                                 .ended_early = flown->ending.detail,
                                 .timing_unfit = "virtual time"});

@@ -1,4 +1,4 @@
-// A bus that brings more frames than the bench can look at.
+// A bus that delivers more frames than the bench can process.
 #include "bench/drive/link.hpp"
 #include "bench/observe/contract_watch.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 
-// Brings frames of id 0C0, and of each other id in between a few.
+// Delivers frames of id 0C0, and a few of each other id in between.
 class FloodedPort final : public FakePort {
  public:
   std::optional<Received> receive() override {
@@ -61,7 +61,8 @@ TEST(LinkDrain, LooksAtSoManyFramesAndNoMore) {
 TEST(LinkDrain, AWaitEndsAtOnceWhileFramesAreLeft) {
   FloodedPort port;
   port.most = Link::most_at_once + 1;
-  ASSERT_EQ(::pipe(port.ends.data()), 0);  // never readable: nothing tells of the frames that the port holds
+  ASSERT_EQ(::pipe(port.ends.data()),
+            0);  // never readable: poll() does not show the frames that the port holds
   Link link(port);
   link.drain();
   EXPECT_TRUE(link.wait_until(clock_ns(CLOCK_MONOTONIC)));
@@ -78,24 +79,24 @@ TEST(LinkFlood, IsNamedByTheIdThatBringsMostFrames) {
   while (port.monotonic_ns() < ns_per_s / 2) link.drain();
   ASSERT_TRUE(link.flood());
   EXPECT_THAT(
-      words(*link.flood()),
+      to_text(*link.flood()),
       testing::MatchesRegex("the bus was flooded by id 0C0: [0-9]+ of [0-9]+ frames in 0\\.[0-9]+ s"));
 }
 
 TEST(SharesOfFrames, WhereNoIdHasHalfOfThemTheIdsAreCountedToo) {
   observe::Shares shares;
   for (std::uint32_t id = 0; id < 300; ++id) shares.add({.id = id % 3});
-  EXPECT_EQ(shares.words(), "id 000: 100 of 300 frames, the most of 3 ids");
+  EXPECT_EQ(shares.to_text(), "id 000: 100 of 300 frames, the most of 3 ids");
   for (int n = 0; n < 500; ++n) shares.add({.id = 0x12345, .extended = true});
-  EXPECT_EQ(shares.words(), "id 00012345: 500 of 800 frames");
+  EXPECT_EQ(shares.to_text(), "id 00012345: 500 of 800 frames");
   for (int n = 0; n < 900; ++n) shares.add({.id = 4, .error = true});
-  EXPECT_EQ(shares.words(), "error frames: 900 of 1700 frames");
+  EXPECT_EQ(shares.to_text(), "error frames: 900 of 1700 frames");
 }
 
 TEST(SharesOfFrames, OfAllIdsOnlySoManyAreToldApart) {
   observe::Shares shares;
   for (std::uint32_t id = 0; id < 100'000; ++id) shares.add({.id = id, .extended = true});
-  EXPECT_EQ(shares.words(), "id 00000000: 1 of 100000 frames, the most of more than 4096 ids");
+  EXPECT_EQ(shares.to_text(), "id 00000000: 1 of 100000 frames, the most of more than 4096 ids");
 }
 
 TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
@@ -111,7 +112,7 @@ TEST(LinkFlood, FramesThatWaitedForABenchWithoutACpuAreNone) {
   EXPECT_FALSE(link.flood());
 }
 
-// Who floods the bus may leave the bench a CPU now and then only.
+// A flood can leave the bench only short periods of CPU time.
 TEST(LinkFlood, FramesThatWereLostMeanwhileHadBeenWaiting) {
   FloodedPort port;
   port.simulated = true;

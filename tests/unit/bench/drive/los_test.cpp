@@ -1,4 +1,4 @@
-// An engagement from the scenario's text to the checks, against the device in this process.
+// An engagement from the text of a scenario to its checks, with the device in this process.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -26,7 +26,7 @@ struct Flown {
     EXPECT_NE(found, verdict.checks.end()) << name;
     return *found;
   }
-  [[nodiscard]] const world::EngagementRecord& engagement() const { return *run.own_truth.engagement; }
+  [[nodiscard]] const world::EngagementRecord& engagement() const { return *run.per_run_truth.engagement; }
   [[nodiscard]] double rms(double least, double most) const {
     return estimators::los_rms(estimators::los_errors(run.seen.of<estimators::LosAnswers>(), engagement()),
                                least, most)
@@ -56,7 +56,7 @@ Flown fly(const std::string& name, const std::vector<scenario::Setting>& setting
   EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
   checks::Verdict verdict =
       checks::judge(*scenario, {.seen = flown->seen,
-                                .truth = truth_of(*truth, flown->own_truth, scenario->duration_us),
+                                .truth = truth_of(*truth, flown->per_run_truth, scenario->duration_us),
                                 .estimators = estimators::all(),
                                 .ended_early = flown->ending.detail,
                                 .timing_unfit = "virtual time"});
@@ -85,7 +85,7 @@ TEST(Los, EveryAlgorithmSeesTheSameFlight) {
 }
 
 TEST(Los, WithoutNoiseTheErrorIsThatOfTheBus) {
-  // What is left is a filter that expects noise: no manoeuvre, so that it need not follow one.
+  // The remaining error is that of a filter that expects noise; without a manoeuvre it has nothing to follow.
   const Flown quiet =
       fly("los_quick", {set("seeker.thermal_noise_radpm2", "0"), set("seeker.glint_noise_m", "0"),
                         set("seeker.gyro_noise_mradps", "0"), set("seeker.gyro_bias_sigma_mradps", "0"),

@@ -39,8 +39,8 @@ TEST_F(RealTime, SendsTheWholeSchedule) {
   EXPECT_EQ(port_.sent.size(), 6U);
 }
 
-// FakePort has no descriptor: without a spin the link does not sleep either, so a port with one that stays
-// silent.
+// FakePort has no descriptor, so the link does not sleep even without a spin. Therefore this port has a
+// descriptor that stays silent.
 class SilentPort final : public FakePort {
  public:
   SilentPort() { EXPECT_EQ(::pipe(ends_.data()), 0); }
@@ -110,7 +110,7 @@ TEST_F(RealTime, NamesASilentTarget) {
 
 TEST_F(RealTime, AnErrorFrameIsNoSignOfLife) {
   static_assert(CAN_ERR_CNT == messages::AlignInnovation::info.id);
-  // The class of error frames that tell the error counters looks like the id of AlignInnovation.
+  // The class of error frames with the error counters looks like the id of AlignInnovation.
   port_.on_send = [&](const Frame&) { port_.give(Frame{.id = CAN_ERR_CNT, .size = 8, .error = true}); };
   EXPECT_EQ(run(impatient_ns).kind, Ending::Kind::target_silent);
 }
@@ -139,8 +139,8 @@ TEST_F(RealTime, EndsWhenTheBusIsDownOrFullOrTheUserSaysSo) {
   EXPECT_EQ(run(patient_ns).kind, Ending::Kind::interrupted);
 }
 
-// A target that is observe::heard with every frame sent; after the second, trouble for half as long again as
-// silence is borne.
+// A target that answers every frame; after the second frame, an outage of one and a half times the silence
+// limit.
 class Trouble : public RealTime {
  protected:
   static constexpr std::int64_t silence_limit_ns = 1'000'000'000;
@@ -150,7 +150,7 @@ class Trouble : public RealTime {
       if (port_.sent.size() == 2) {
         port_.trouble = trouble;
         port_.trouble_until_ns = clock_ns(CLOCK_MONOTONIC) + silence_limit_ns * 3 / 2;
-        return begin();  // the target is not observe::heard any more
+        return begin();  // the target sends nothing more
       }
       port_.give(TargetHeartbeat{.state = TargetState::running});
     };
@@ -205,7 +205,7 @@ TEST(LateInQueue, CountsFramesThatWaitedBeyondTheirDeadline) {
   EXPECT_EQ(link.late_in_queue(), 1U) << "no deadline";
 }
 
-// Sees how late the bench says that it was.
+// Observes the lateness that the bench reports.
 class Lateness final : public observe::Observer {
  public:
   void transmitted(const Frame&, std::int64_t, std::int64_t late_ns) override { late = late_ns; }

@@ -1,4 +1,4 @@
-// The user's own data, flown in process: what it gives beside the flight that it was recorded of.
+// Runs in process with recorded data give the same results as the flight that was recorded.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using world::units::deg;
 
 // A weave of 40 s: its transfer alignment converges.
-constexpr std::string_view own_truth = R"(trajectory = "weave"
+constexpr std::string_view per_run_truth = R"(trajectory = "weave"
 latitude_deg = 37.0
 longitude_deg = 127.0
 height_m = 1000.0
@@ -103,12 +103,11 @@ double rms(const Spool<estimators::NavigationError>& errors, std::int64_t from_u
   return std::sqrt(sum / count);
 }
 
-// The same seed gives both the same errors of sensors and start. What differs is the interpolation and the
-// rounding of the file, whose errors are small beside those of the alignment: the ratio of the errors differs
-// from 1 by 8e-6 at the most, and a frame's rounding that falls to the other side may make it some times
-// that.
+// The same seed gives both flights the same errors of sensors and start. They differ in the interpolation and
+// the rounding of the file, which are small compared with the errors of the alignment. The ratio of the
+// errors differs from 1 by at most 8e-6; a frame that is rounded in the other direction can multiply this.
 TEST(RecordedTruth, GivesTheErrorsOfTheFlightThatItWasRecordedOf) {
-  const std::string analytic = scenario_text(own_truth);
+  const std::string analytic = scenario_text(per_run_truth);
   const auto scenario = scenario::parse(analytic, "own.toml", contract());
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto truth = make_truth(*scenario);
@@ -127,7 +126,7 @@ TEST(RecordedTruth, GivesTheErrorsOfTheFlightThatItWasRecordedOf) {
 }
 
 TEST(RecordedTruth, TooFewRowsForTheImuAreRefused) {
-  const auto scenario = scenario::parse(scenario_text(own_truth), "own.toml", contract());
+  const auto scenario = scenario::parse(scenario_text(per_run_truth), "own.toml", contract());
   ASSERT_TRUE(scenario);
   const auto truth = make_truth(*scenario);
   write("coarse.csv", csv_of(*truth, 200'000));

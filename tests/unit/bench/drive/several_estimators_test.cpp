@@ -1,4 +1,4 @@
-// All four estimators at once: each gives the answers that it gives alone.
+// All four estimators at once: each sends the same answers as it does alone.
 #include <gtest/gtest.h>
 
 #include "bench/drive/contract.hpp"
@@ -12,7 +12,7 @@
 namespace canhil::drive {
 namespace {
 
-// In lockstep, so that the heartbeats of neighbours are the only difference.
+// In lockstep, so that only the heartbeats of the other estimators differ.
 Collected fly(const scenario::Scenario& scenario) {
   const auto truth = make_truth(scenario);
   EXPECT_TRUE(truth) << truth.error().message;

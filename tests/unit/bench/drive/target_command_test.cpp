@@ -45,7 +45,7 @@ TEST(TargetCommand, ProgramIsFoundAsAShellFindsIt) {
               HasSubstr("target 'no-such-program': is no program"));
 }
 
-// Which version of a script was flown is not told by the interpreter's file.
+// The file of the interpreter does not identify the version of a script.
 TEST(TargetCommand, FilesAmongTheArgumentsAreLookedAtToo) {
   const std::string script = test::own_folder() + "/target_command_test.py";
   std::ofstream(script) << "1\n";

@@ -1,4 +1,4 @@
-// The glider from the scenario's text to the checks, against the device in this process.
+// The glider from the text of a scenario to its checks, with the device in this process.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -31,7 +31,7 @@ scenario::Setting set(std::string key, std::string value) {
 
 struct Flown {
   checks::Observations seen;
-  OwnTruth own_truth;
+  PerRunTruth per_run_truth;
   checks::Verdict verdict;
 
   [[nodiscard]] std::int64_t count(WindOutcome outcome) const {
@@ -44,7 +44,7 @@ struct Flown {
     double sum = 0;
     std::size_t count = 0;
     for (const estimators::WindError& error :
-         estimators::wind_errors(seen.of<estimators::WindAnswers>(), *own_truth.glide)) {
+         estimators::wind_errors(seen.of<estimators::WindAnswers>(), *per_run_truth.glide)) {
       if (error.t_us < 10'000'000) continue;
       sum += std::abs(component(error));
       ++count;
@@ -66,11 +66,11 @@ Flown fly(const std::vector<scenario::Setting>& settings = {}, std::uint64_t run
   EXPECT_EQ(flown->ending.kind, Ending::Kind::completed) << flown->ending.detail;
   checks::Verdict verdict =
       checks::judge(scenario, {.seen = flown->seen,
-                               .truth = truth_of(*truth, flown->own_truth, scenario.duration_us),
+                               .truth = truth_of(*truth, flown->per_run_truth, scenario.duration_us),
                                .estimators = estimators::all(),
                                .ended_early = flown->ending.detail,
                                .timing_unfit = "virtual time"});
-  return {std::move(flown->seen), std::move(flown->own_truth), std::move(verdict)};
+  return {std::move(flown->seen), std::move(flown->per_run_truth), std::move(verdict)};
 }
 
 TEST(Wind, IsEstimatedThroughTheBus) {
@@ -81,8 +81,9 @@ TEST(Wind, IsEstimatedThroughTheBus) {
   EXPECT_LT(flown.mean_error(norm), 2);
 }
 
-// The first answer knows what the carrier told: not more, not less. Nothing else errs: with the noise of the
-// navigation and coefficients wrong by 20 % it is off by 1.2 m/s RMS even where the carrier told the truth.
+// The first answer contains exactly the information from the carrier. All other errors are off: with the
+// noise of the navigation and coefficients wrong by 20 %, the error is 1.2 m/s RMS even if the carrier sends
+// the truth.
 TEST(Wind, StartsFromWhatTheCarrierTells) {
   const auto first_error = [](const std::string& sigma) {
     std::vector<scenario::Setting> settings{set("glide.initial_error.air_velocity_sigma_mps", sigma)};
@@ -92,7 +93,7 @@ TEST(Wind, StartsFromWhatTheCarrierTells) {
           "glider_nav.attitude_noise_deg", "glider_nav.rate_noise_degps"})
       settings.push_back(set(quiet, "0"));
     const Flown flown = fly(settings);
-    return estimators::wind_errors(flown.seen.of<estimators::WindAnswers>(), *flown.own_truth.glide)
+    return estimators::wind_errors(flown.seen.of<estimators::WindAnswers>(), *flown.per_run_truth.glide)
         .front()
         .error_n.norm();
   };
@@ -103,7 +104,8 @@ TEST(Wind, StartsFromWhatTheCarrierTells) {
 TEST(Wind, DenserAirIsAWindAlongTheTrack) {
   const Flown flown =
       fly({set("airframe.density_error_percent", "3"), set("airframe.coefficient_error_percent", "0")});
-  // 1.5 % of the air speed. 40 runs gave 2.73 m/s with a sigma of 0.09 m/s, and across at most 0.24 m/s.
+  // The effect of 1.5 % of the air speed. 40 runs gave 2.73 m/s with a sigma of 0.09 m/s, and at most 0.24
+  // m/s across.
   EXPECT_NEAR(flown.mean_error(along_track), 2.73, 0.35);
   EXPECT_LT(flown.mean_error(cross_track), 0.35);
 }
@@ -136,7 +138,7 @@ TEST(Wind, RunsAreDrawnApartAndAgain) {
             b.seen.of<estimators::WindAnswers>().back().wind_n);
   EXPECT_NE(a.seen.of<estimators::WindAnswers>().back().wind_n,
             c.seen.of<estimators::WindAnswers>().back().wind_n);
-  EXPECT_NE(a.own_truth.glide->epochs().back().v_a, c.own_truth.glide->epochs().back().v_a);
+  EXPECT_NE(a.per_run_truth.glide->epochs().back().v_a, c.per_run_truth.glide->epochs().back().v_a);
 }
 
 }  // namespace

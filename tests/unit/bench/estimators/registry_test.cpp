@@ -37,7 +37,7 @@ TEST(Registry, KnowsTheEstimatorsOfTheContract) {
   EXPECT_EQ(telling("height"), nullptr);
 }
 
-// What a misspelt parameter may mean: those that this target has.
+// Suggestions for a misspelt parameter: only parameters of this target.
 TEST(Registry, TheParametersAreThoseOfTheTarget) {
   const target::Device device;
   for (const auto estimator : messages::enumerators<messages::Estimator>) {
@@ -54,7 +54,7 @@ TEST(Registry, TheParametersAreThoseOfTheTarget) {
   }
 }
 
-// The table of docs/quantities.md, as the code has it.
+// The table of docs/quantities.md, generated from the code.
 std::string table() {
   std::string rows;
   std::vector<const Quantity*> by_name(every_quantity().begin(), every_quantity().end());
@@ -65,8 +65,8 @@ std::string table() {
     for (const Estimator* one : all()) {
       const bool of_runs = std::ranges::find(one->of_runs, quantity) != one->of_runs.end();
       in_runs = in_runs || of_runs;
-      sampled = sampled || quantities::tells(one->layout, *quantity);
-      if (of_runs || quantities::tells(one->layout, *quantity)) tellers.push_back(one->name);
+      sampled = sampled || quantities::has(one->layout, *quantity);
+      if (of_runs || quantities::has(one->layout, *quantity)) tellers.push_back(one->name);
     }
     std::ranges::sort(tellers);
     rows += fmt::format("| `{}` | {} | {} | {} | {} | {} | {} |\n", quantity->name, quantity->meaning,

@@ -1,4 +1,4 @@
-// Delta debugging: the least that still shows something.
+// Delta debugging: the smallest set of elements that still shows a violation.
 #include "bench/fault_matrix/delta.hpp"
 
 #include <gmock/gmock.h>

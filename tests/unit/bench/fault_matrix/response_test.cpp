@@ -1,4 +1,4 @@
-// What a flight with a fault is called, by what the target said and by its checks.
+// The name of a response to a fault, from the flags of the target and the checks of the flight.
 #include "bench/fault_matrix/response.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,8 @@ using Kind = Response::Kind;
 
 constexpr std::int64_t second_us = 1'000'000, duration_us = 20 * second_us;
 
-// A flight of 20 s with a fault from 8 to 10 s, all of whose checks pass; tests say what the target said.
+// A flight of 20 s with a fault from 8 to 10 s, in which all checks pass; tests set the reports of the
+// target.
 class Flown : public testing::Test {
  protected:
   Flown() {
@@ -67,16 +68,16 @@ class Flown : public testing::Test {
 
 TEST_F(Flown, ToleratedWhereNothingIsSaidAndNothingFails) {
   EXPECT_EQ(response().kind, Kind::tolerated);
-  EXPECT_EQ(words(response()), "tolerated");
+  EXPECT_EQ(to_text(response()), "tolerated");
 }
 
 TEST_F(Flown, DetectedAndRecovered) {
   degraded(8.3, 10.5);
-  EXPECT_EQ(words(response()), "detected in 0.300 s (degraded in an answer), recovered in 0.500 s");
+  EXPECT_EQ(to_text(response()), "detected in 0.300 s (degraded in an answer), recovered in 0.500 s");
   degraded(8.3, 9);
   before_.signs = checks::signs_in(run_.seen, {});
   degraded(8.3, 20);
-  EXPECT_THAT(words(response()), HasSubstr("not recovered"));
+  EXPECT_THAT(to_text(response()), HasSubstr("not recovered"));
 }
 
 TEST_F(Flown, WhatIsSaidWithoutAFaultTooIsNoResponse) {
@@ -105,7 +106,7 @@ TEST_F(Flown, EndedWithItsReasonIsADetection) {
   run_.ending = {.kind = Ending::Kind::target_fault,
                  .t_us = 8'500'000,
                  .detail = "the target reported a fault of its transfer_alignment, its errors: input_silent"};
-  EXPECT_EQ(words(response()), "ended in 0.500 s: input_silent");
+  EXPECT_EQ(to_text(response()), "ended in 0.500 s: input_silent");
 }
 
 TEST_F(Flown, SilenceOfTheTargetIsAViolation) {
@@ -130,7 +131,7 @@ FaultText fault(const std::string& kind, const std::string& from_s, const std::s
 }
 
 TEST(Minimise, LeavesTheFaultTheWindowAndTheFlightThatAreNeeded) {
-  // A violation that takes `changed` at 5.20 s, at least each eighth frame, and a flight of 6.4 s.
+  // A violation that needs `changed` at 5.20 s, at least each eighth frame, and a flight of 6.4 s.
   const Shows shows = [](const std::vector<FaultText>& faults, std::int64_t flown_us) {
     if (flown_us != 0 && flown_us < 6'400'000) return false;
     return std::ranges::any_of(faults, [](const FaultText& one) {
@@ -207,7 +208,8 @@ TEST(Plan, DependsOnItsSeedAlone) {
   EXPECT_EQ(one.rows.front().name(), no_fault);
 }
 
-// Which is flown by default: what works in virtual time, on a bus without a bit rate, and befalls something.
+// The faults that are flown by default: those that work in virtual time, on a bus without a bit rate, and
+// that affect something.
 TEST(Plan, HasEachKindOnEachNode) {
   std::vector<Column> columns;
   for (const char* name :

@@ -1,4 +1,4 @@
-// A quick flight with faults, struck by hand.
+// A quick flight whose faults a test applies directly.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -27,14 +27,14 @@ inline std::string fault(const std::string& kind, const std::string& more) {
   return "[[fault]]\nkind = \"" + kind + "\"\n" + more;
 }
 
-/// What is wrong with these faults, in words.
+/// The error of these faults, as text.
 inline std::string refusal(const std::string& faults) {
   const auto scenario = parsed(faults);
   return scenario ? "nothing" : scenario.error().message;
 }
 
-/// Writes down what is done.
-class Noted final : public Hands {
+/// Records the calls.
+class Noted final : public RigControl {
  public:
   void pause_target() override { done.emplace_back("pause"); }
   void resume_target() override { done.emplace_back("resume"); }
@@ -64,7 +64,7 @@ struct Flight {
         truth(drive::make_truth(scenario).value()),
         own(drive::make_flight(scenario, truth, run).value()),
         schedule(drive::make_schedule(
-            scenario, truth, own.own_truth, run, true, rounding,
+            scenario, truth, own.per_run_truth, run, true, rounding,
             std::make_unique<Faults>(scenario, run, messages::all_messages, everything, &hands))) {
     while (schedule.due_us() != nodes::never_us) {
       const std::int64_t t_us = schedule.due_us();
@@ -81,7 +81,7 @@ struct Flight {
     }
     return some;
   }
-  [[nodiscard]] std::uint64_t count() const { return schedule.faults()->told().front().count; }
+  [[nodiscard]] std::uint64_t count() const { return schedule.faults()->reports().front().count; }
 
   Noted hands;
   scenario::Scenario scenario;
@@ -91,7 +91,7 @@ struct Flight {
   Timed frames;
 };
 
-/// What a message of a flight says.
+/// The value of a signal in a message of a flight.
 template <class Message>
 std::vector<std::pair<std::int64_t, Message>> said(const Flight& flight) {
   std::vector<std::pair<std::int64_t, Message>> all;

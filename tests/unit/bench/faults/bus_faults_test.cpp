@@ -1,4 +1,4 @@
-// What befalls frames on their way to the bus, and what else faults of the bus and of the target do.
+// Faults of frames on their way to the bus, and the other faults of the bus and of the target.
 #include <algorithm>
 
 #include "bench/observe/receiver_model.hpp"

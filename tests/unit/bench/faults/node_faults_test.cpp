@@ -1,4 +1,4 @@
-// What befalls sensors and nodes: each kind against the same flight without it.
+// Faults of sensors and nodes: each kind is compared with the same flight without a fault.
 #include <cmath>
 #include <set>
 
@@ -20,7 +20,7 @@ const Flight& right() {
   return flight;
 }
 
-// Of both flights, sample by sample, within a time: the number as it was and as it is.
+// Compares both flights sample by sample within a period: a number without and with the fault.
 template <class Message, class Number>
 void each(const Flight& befallen, double from_s, double to_s, Number number,
           const std::function<void(double was, double is, double t_s)>& look) {
@@ -45,7 +45,7 @@ const std::string rate = "quantity = \"imu.rate.z\"\nfrom_s = 1\nto_s = 2\n";
 constexpr double degps = M_PI / 180;
 
 TEST(SensorFaults, ABiasOfARateIsInItsIncrementsAndNothingIsLostByRounding) {
-  // 1e-3 deg/s make 1.7e-7 rad a sample, a twelfth of a step: only the remainders carry it.
+  // 1e-3 deg/s is 1.7e-7 rad per sample, a twelfth of a step: only the rounding remainders carry it.
   double sum = 0;
   each<SlaveImuDeltaTheta>(Flight(fault("bias", rate + "by_degps = 1e-3")), 1, 2, rate_z,
                            [&](double was, double is, double) { sum += 0.01 * (is - was); });

@@ -1,4 +1,4 @@
-// [[fault]] as it is read: what is wrong in one line, and the page that tells of the kinds.
+// Reading [[fault]]: one line per error; and docs/faults.md lists all kinds.
 #include <regex>
 
 #include "bench/faults/kinds.hpp"
@@ -98,7 +98,7 @@ TEST(ReadFaults, WhatCannotWorkSomewhereSaysWhy) {
   const std::string off = fault("bus_off", "from_s = 1\nfor_s = 0.1");
   EXPECT_EQ(why(off, everything), "");
   EXPECT_THAT(why(off, local), HasSubstr("needs error frames, which 'local:x' does not carry"));
-  EXPECT_THAT(why(off, controller), HasSubstr("is for a controller's driver to tell"));
+  EXPECT_THAT(why(off, controller), HasSubstr("can only be reported by a controller's driver"));
   const std::string down = fault("interface_down", "from_s = 1\nfor_s = 0.1");
   EXPECT_THAT(why(down, local), HasSubstr("needs an interface"));
   controller.may_set_interface = false;

@@ -21,7 +21,7 @@ class LooksOn final : public drive::Onlooker {
  public:
   explicit LooksOn(Flight& flight) : flight_(flight) {}
   void departs(const drive::Departure& departure) override {
-    of_ = &departure.own_truth;
+    of_ = &departure.per_run_truth;
     in_progress_.emplace(departure);
   }
   void landed() override {
@@ -45,7 +45,7 @@ class LooksOn final : public drive::Onlooker {
 
  private:
   Flight& flight_;
-  const drive::OwnTruth* of_ = nullptr;
+  const drive::PerRunTruth* of_ = nullptr;
   std::size_t epochs_ = 0;
   std::int64_t next_ns_ = 0;
   std::optional<FlightInProgress> in_progress_;

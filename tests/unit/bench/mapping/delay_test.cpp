@@ -1,4 +1,4 @@
-// The lag of what is told, by the truth.
+// The lag of estimates behind the truth.
 #include "bench/checks/delay.hpp"
 
 #include <gtest/gtest.h>
@@ -13,18 +13,18 @@ namespace {
 
 constexpr scenario::Window whole{.from_us = 0, .to_us = 20'000'000};
 
-// A roll of 15 deg in 3 s, told every 10 ms `delay` late, with noise and an offset.
+// A roll of 15 deg in 3 s, sent every 10 ms with the delay `delay`, with noise and an offset.
 quantities::Track track(double delay, double noise, double offset, unsigned seed, double amplitude = 0.26) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   const auto roll = [&](double t) { return amplitude * std::sin(2 * std::numbers::pi * t / 3); };
-  quantities::Track told{.quantity = &quantities::attitude_roll};
+  quantities::Track delayed{.quantity = &quantities::attitude_roll};
   for (int k = 0; k <= 2000; ++k) {
     const double t = 0.01 * k, estimate = roll(t - delay) + offset + noise * normal(random);
-    told.told.push_back(
+    delayed.points.push_back(
         {.t_us = 10'000 * k, .value = estimate - roll(t), .estimate = estimate, .truth = roll(t)});
   }
-  return told;
+  return delayed;
 }
 
 TEST(Delay, IsFoundWithoutNoise) {
@@ -45,7 +45,7 @@ TEST(Delay, LiesInItsIntervalAsOftenAsItSays) {
     EXPECT_LT(found->half_width_s, 0.005);
     inside += std::abs(found->delay_s - 0.023) <= found->half_width_s ? 1 : 0;
   }
-  // 95 % of 400 with four standard deviations of a binomial to either side.
+  // 95 % of 400, with four standard deviations of a binomial distribution to either side.
   EXPECT_GE(inside, 363);
   EXPECT_LE(inside, 397);
 }
@@ -58,9 +58,9 @@ TEST(Delay, IsNotKnownWhereTheTruthRests) {
 }
 
 TEST(Delay, ThatIsNoNumberIsLeftOut) {
-  quantities::Track told = track(0.02, 0.001, 0, 1);
-  for (std::size_t k = 0; k < told.told.size(); k += 7) told.told[k].estimate = std::nan("");
-  const auto found = delay_of(told, whole);
+  quantities::Track delayed = track(0.02, 0.001, 0, 1);
+  for (std::size_t k = 0; k < delayed.points.size(); k += 7) delayed.points[k].estimate = std::nan("");
+  const auto found = delay_of(delayed, whole);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->delay_s, 0.02, 0.001);
 }

@@ -1,4 +1,4 @@
-// The lists of docs/mapping.md, as the code has them.
+// The lists of docs/mapping.md are those of the code.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "bench/mapping/mapping.hpp"
+#include "bench/mapping/reference_quantities.hpp"
 #include "bench/mapping/stimuli.hpp"
-#include "bench/mapping/truths.hpp"
 
 namespace canhil::mapping {
 namespace {
@@ -36,7 +36,7 @@ std::string played() {
 
 std::string told() {
   std::string all = "| quantity | what it is | unit |\n|---|---|---|\n";
-  for (const Truthed& one : truths()) {
+  for (const ReferenceQuantity& one : reference_quantities()) {
     std::string meaning(one.quantity->meaning);
     meaning = meaning.substr(0, meaning.find(';'));  // what campaigns make of it
     if (meaning.starts_with("error of ")) meaning.erase(0, 9);
@@ -53,7 +53,8 @@ TEST(MappingPage, ListsWhatCanBePlayedAndTold) {
 TEST(Lists, NameEachQuantityOnce) {
   std::set<std::string> names;
   for (const Stimulus& one : stimuli()) EXPECT_TRUE(names.insert(one.name).second) << one.name;
-  for (const Truthed& one : truths()) EXPECT_EQ(find_truth(one.quantity->name), &one);
+  for (const ReferenceQuantity& one : reference_quantities())
+    EXPECT_EQ(find_reference_quantity(one.quantity->name), &one);
 }
 
 TEST(Layouts, OfTheSameColumnsAreTheSameObject) {

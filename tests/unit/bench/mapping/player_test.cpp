@@ -1,4 +1,5 @@
-// What goes out and what answers are paired with, by a mapping in a text.
+// The frames that a mapping plays, and the samples that answers are assigned to. The mapping is a text in the
+// test.
 #include "bench/mapping/player.hpp"
 
 #include <fmt/format.h>
@@ -97,7 +98,7 @@ std::string mapping_with(const std::string& text, const std::string& instead) {
   return mapping.replace(at, text.size(), instead);
 }
 
-// What a run plays, until it is over.
+// The frames that a run plays until its end.
 struct Flown {
   explicit Flown(const scenario::Scenario& scenario)
       : mapping(dynamic_cast<const Mapping&>(*scenario.foreign)),
@@ -180,7 +181,7 @@ TEST(J1939, GroupsAreKnownWithoutPrioritySourceAndDestination) {
   ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& mapping = dynamic_cast<const Mapping&>(*scenario->foreign);
   const Places places(mapping);
-  const std::size_t speed = mapping.hears.front().of.place;
+  const std::size_t speed = mapping.hears.front().of.index;
   EXPECT_EQ(places(Frame{.id = 0x18FEF100, .size = 8, .extended = true}), speed);
   EXPECT_EQ(places(Frame{.id = 0x0CFEF122, .size = 8, .extended = true}), speed)
       << "from another, more urgent";
@@ -217,10 +218,9 @@ TEST(Mapping, SaysWhatIsWrongInOneLine) {
             "\"Answer.Roll\" beside it");
   EXPECT_EQ(refused("every_ms = 20", ""),
             "ecu.mapping.toml:5: key 'play[1].every_ms': is missing, expected a number above 0");
-  EXPECT_EQ(
-      refused("message = \"Answer\"", "message = \"Rates\""),
-      "ecu.mapping.toml:15: key 'hear[1].message': Rates is played or heard already, expected each message "
-      "once");
+  EXPECT_EQ(refused("message = \"Answer\"", "message = \"Rates\""),
+            "ecu.mapping.toml:15: key 'hear[1].message': Rates is already used, expected each message "
+            "once");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What the SSBL and the GPS send of a vehicle under way.
+// The messages of the SSBL and of the GPS for a moving vehicle.
 #include <gtest/gtest.h>
 
 #include "bench/nodes/gps.hpp"

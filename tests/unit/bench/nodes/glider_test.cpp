@@ -1,4 +1,4 @@
-// What the glider's navigation and fins send.
+// The messages of the glider's navigation and fins.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -119,7 +119,7 @@ TEST(GliderNav, CorrelatedErrorsStay) {
       };
       sum += std::pow(error(i) - error(i - 1), 2) / static_cast<double>(samples.size() - 1);
     }
-    return sum;  // 2 (1 - fraction), and what the process moves in 20 ms
+    return sum;  // 2 (1 - fraction), and the change of the process in 20 ms
   };
   EXPECT_NEAR(change(0), 2, 0.3);
   EXPECT_NEAR(change(0.5), 1, 0.15);

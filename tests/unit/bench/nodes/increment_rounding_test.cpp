@@ -22,7 +22,7 @@ TEST(IncrementRounding, WhatASampleLosesTheNextOneCarries) {
     const Vector3 increment(draw(random), draw(random), draw(random));
     measured += increment;
     sent += rounding.round(increment, as_on_the_bus);
-    // Half a step, and what 1e4 additions of numbers below 100 round by.
+    // Half a step, plus the rounding of 1e4 additions of numbers below 100.
     ASSERT_LE((measured - sent).cwiseAbs().maxCoeff(), 0.005 + 1e-9) << i;
   }
 }

@@ -1,4 +1,4 @@
-// Nodes as a run makes them.
+// Creates nodes in the same way as a run.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What the emulated nodes send, and when.
+// The messages of the emulated nodes, and their times.
 #include <gmock/gmock.h>
 
 #include "bench/nodes/increment_rounding.hpp"

@@ -1,4 +1,4 @@
-// Nodes that send what was recorded: from rows of numbers, and from frames.
+// Nodes that send recorded samples, from CSV rows and from logged frames.
 #include "bench/nodes/recorded.hpp"
 
 #include <fmt/format.h>
@@ -107,7 +107,7 @@ TEST(RecordedImu, WhatIsWrongIsOneLine) {
             "'delta_theta_y_mrad', "
             "or 'rate_y_radps', its rate");
   EXPECT_EQ(error_of(samples_of(slave_imu, imu_rows(names + ",rate_z_radps", "0,0,0,0,0,0,0"))),
-            "x.csv:1: column 'rate_z_radps': is there beside 'delta_theta_z_rad', expected one of the two");
+            "x.csv:1: column 'rate_z_radps': is given beside 'delta_theta_z_rad', expected one of the two");
   EXPECT_EQ(error_of(samples_of(slave_imu, imu_rows(names, "0,0,0.2,0,0,0"))),
             "x.csv:3: column 'delta_theta_z_rad': 0.2 rad does not fit into signal delta_theta_z_rad, "
             "expected -0.131 to "
@@ -138,7 +138,7 @@ TEST(RecordedGps, TakesItsSignalsByNameAndWrapsAngles) {
   EXPECT_EQ(from_frame<GpsTime>(frames[2]).time_of_validity_us, 500'000U);
 }
 
-// A table of every kind can be read from columns of its signals: nobody is left out.
+// The table of every kind of node can be read from columns of its signals.
 TEST(Recorded, EveryKindOfNodeHasColumns) {
   for (const Kind* kind : all()) {
     const auto columns = columns_of(kind->table);

@@ -1,4 +1,4 @@
-// Every node that the DBC has beside bench and target is one that the bench can play.
+// The bench can play every node of the DBC except bench and target.
 #include "bench/nodes/registry.hpp"
 
 #include <gmock/gmock.h>

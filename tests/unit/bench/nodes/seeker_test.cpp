@@ -1,4 +1,4 @@
-// What the seeker sends of an engagement, and what it makes of the target's answers.
+// The messages of the seeker in an engagement, and guidance on the target's answers.
 #include "bench/nodes/seeker.hpp"
 
 #include <gmock/gmock.h>
@@ -44,7 +44,7 @@ class Bench {
                                                    .glide = nullptr,
                                                    .engagement = &record_})) {}
 
-  /// The next sample; none: it was lost, or the engagement is over.
+  /// The next sample; none if it was lost or the engagement is over.
   std::optional<Sample> next() {
     out_.clear();
     const std::int64_t due_us = node_->due_us();
@@ -66,7 +66,7 @@ class Bench {
     return samples;
   }
 
-  /// The target's answer to a sample, as the bus brings it.
+  /// The target's answer to a sample, as received from the bus.
   void answer(std::int64_t cause_us, world::Planes<double> rate,
               LosRateOutcome outcome = LosRateOutcome::updated, bool blind = false, bool spoilt = false,
               world::Planes<double> target = {}) {
@@ -152,7 +152,7 @@ TEST(Seeker, IncrementsCarryTheirRemainders) {
   double sent = 0;
   std::vector<double> sums;
   for (const Sample& sample : bench.all()) sums.push_back(sent += sample.antenna.antenna_increment_pitch_rad);
-  // The antenna turned as much as it is told to have, to half a step, wherever one looks.
+  // The sum of the sent increments equals the true rotation of the antenna within half a step, at any time.
   world::Engagement same(world::EngagementPlan{}, world::Stream(1, 0, "engagement"));
   double turned = 0;
   for (std::size_t i = 0; i < 1000; ++i) {
@@ -231,7 +231,7 @@ TEST(Seeker, FlagsWhatItDoesNotSee) {
   EXPECT_EQ(blind.next()->angles.error_validity, Validity::invalid) << "the antenna starts 5 mrad off";
 }
 
-// Closed loop: what the node hears is what is flown.
+// Closed loop: guidance uses the answers that the node receives.
 class GuidedSeeker : public testing::Test {
  protected:
   static world::EngagementPlan guided() {
@@ -240,7 +240,7 @@ class GuidedSeeker : public testing::Test {
     plan.guidance_delay_us = 10'000;
     return plan;
   }
-  /// Miss when each answer is the truth but for what `distort` makes of it.
+  /// The miss distance when each answer is the truth, changed by `distort`.
   template <class Answer>
   double miss(Bench& bench, Answer answer) {
     while (bench.node().due_us() != never_us) {
@@ -272,8 +272,8 @@ TEST_F(GuidedSeeker, AnswersInTheAxesOfARollingAntenna) {
   EXPECT_LT(miss(bench, truthful), 0.5);
 }
 
-// With 100 ms from sample to command, of a target that turns: what is answered for the sample's time is
-// reckoned on to the command's. Each term that is left out or has the wrong sign costs half a metre or more.
+// With 100 ms from sample to command and a turning target: an answer is extrapolated from the sample's time
+// to the command's. A missing term or a wrong sign costs half a metre or more.
 TEST_F(GuidedSeeker, ReckonsTheAnswerOnToItsUse) {
   SeekerSettings late = exact();
   late.schedule.latency_us = 90'000;
@@ -315,7 +315,7 @@ TEST_F(GuidedSeeker, TheSameFlightHoweverEarlyAnswersAreHeard) {
   Bench at_once(exact(), guided()), in_pairs(exact(), guided());
   const double first = miss(at_once, truthful);
   const double second = miss(in_pairs, [](Bench& bench, const world::EngagementTruth& epoch) {
-    if (epoch.t_us % 10'000 != 0) return;  // those of 5 and 10 ms are heard after 10 ms
+    if (epoch.t_us % 10'000 != 0) return;  // the answers to the samples of 5 and 10 ms arrive after 10 ms
     const auto& epochs = bench.record().epochs;
     if (epochs.size() > 1) truthful(bench, epochs[epochs.size() - 2]);
     truthful(bench, epoch);

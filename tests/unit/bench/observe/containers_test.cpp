@@ -1,4 +1,4 @@
-// Times on CAN FD: of the containers that messages travel in.
+// Timing on CAN FD: the times of the containers that carry the messages.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace messages;
 
-/// A node of an FD bus: what it sends goes into containers.
+/// A node of an FD bus: its messages are sent in containers.
 class FdNode {
  public:
   template <class... Messages>
@@ -42,7 +42,7 @@ class FdNode {
   std::vector<Frame> messages_, on_wire_;
 };
 
-/// A run as the monitor sees it: the messages of each container, with its stamp.
+/// A run as the monitor sees it: the messages of each container, with the stamp of the container.
 class OnAnFdWire : public testing::Test {
  protected:
   static constexpr wire::BitRates rates{.nominal = 1'000'000, .data = 4'000'000};
@@ -76,13 +76,13 @@ TEST_F(OnAnFdWire, TheLatencyIsSplitIntoTheTimesOfContainers) {
   const Frame reply = target_.take_on_wire().at(0);
   come(reply, echo_ns + 70'000 + ns(reply), false);
 
-  const checks::LatencySplit& split = timing().split;
-  EXPECT_EQ(split.stimuli, 1U);
-  EXPECT_EQ(split.echoed, 1U);
-  EXPECT_EQ(split.stimulus_wire_ns, ns(stimulus) - 3'000);
-  EXPECT_EQ(split.to_echo_ns - split.stimulus_wire_ns, 50'000) << "the wait";
-  EXPECT_EQ(split.reply_wire_ns, ns(reply)) << "once, not for each message";
-  EXPECT_EQ(split.latency_ns - split.reply_wire_ns, 70'000) << "the target and its waits";
+  const checks::LatencyBreakdown& breakdown = timing().breakdown;
+  EXPECT_EQ(breakdown.stimuli, 1U);
+  EXPECT_EQ(breakdown.echoed, 1U);
+  EXPECT_EQ(breakdown.stimulus_wire_ns, ns(stimulus) - 3'000);
+  EXPECT_EQ(breakdown.to_echo_ns - breakdown.stimulus_wire_ns, 50'000) << "the wait";
+  EXPECT_EQ(breakdown.reply_wire_ns, ns(reply)) << "once, not for each message";
+  EXPECT_EQ(breakdown.latency_ns - breakdown.reply_wire_ns, 70'000) << "the target and its waits";
   for (const std::size_t index : {message_index<AlignAttitude>(), message_index<AlignVelocityD>()})
     EXPECT_EQ(timing().answers[index].reply_wire_ns, ns(reply));
 
@@ -94,7 +94,7 @@ TEST_F(OnAnFdWire, TheLatencyIsSplitIntoTheTimesOfContainers) {
   EXPECT_EQ(response<AlignVelocityD>().count, 0U);
 }
 
-// Nine messages: eight in a container, the ninth a frame of its own, which somebody holds back for 2 ms.
+// Nine messages: eight in a container, the ninth in a frame of its own, which is held back for 2 ms.
 TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   bench_.send(MasterInsVelocityNE{}, MasterInsAttitude{}, MasterInsLatitude{}, MasterInsLongitude{},
               MasterInsVelocityD{.time_of_validity_us = 20'000});
@@ -110,11 +110,11 @@ TEST_F(OnAnFdWire, TheFramesOfAnAnswerCountOneBehindTheOther) {
   come(reply[1], 3'000'000 + ns(reply[1]), false);
   EXPECT_EQ(response<AlignInnovation>().max_ns, ns(reply[0]));
   EXPECT_EQ(response<AlignUpdate>().max_ns, ns(reply[0]) + 2'000'000 + ns(reply[1]));
-  EXPECT_EQ(timing().split.reply_wire_ns, ns(reply[0]) + ns(reply[1]));
-  EXPECT_EQ(timing().split.latency_ns, 2'700'000 + ns(reply[1]));
+  EXPECT_EQ(timing().breakdown.reply_wire_ns, ns(reply[0]) + ns(reply[1]));
+  EXPECT_EQ(timing().breakdown.latency_ns, 2'700'000 + ns(reply[1]));
 }
 
-// It went with the next frame of another kind: nobody saw when it was queued.
+// It was sent with the next frame of another kind, so the time of its queueing is not known.
 TEST_F(OnAnFdWire, AContainerWithoutItsLastMessageHasNoResponse) {
   bench_.send(SlaveImuDeltaTheta{}, SlaveImuDeltaV{}, Sync{}, SlaveImuDeltaTheta{}, SlaveImuDeltaV{},
               SlaveImuStatus{});

@@ -21,7 +21,7 @@ std::array<std::int64_t, 2> both(const checks::Histogram& histogram) {
   return {histogram.min_ns(), histogram.max_ns()};
 }
 
-// Both sides of the bus, as a monitor sees them.
+// Both sides of the bus, as the monitor sees them.
 class Watched : public testing::Test {
  protected:
   void sync(std::int64_t t_us) { transmit(Sync{.time_us = static_cast<std::uint64_t>(t_us)}, 0); }
@@ -328,7 +328,7 @@ TEST_F(Watched, RemembersHowLateTheBenchWasAndWhenItBeganAndEnded) {
   EXPECT_EQ(seen().last_ns, 300);
 }
 
-// A stimulus that was due at 100 us, handed over 20 us late, on the bus 5 us after that; answered.
+// A stimulus that was due at 100 us, written 20 us late, on the bus 5 us later; answered.
 TEST_F(Watched, TakesTheTimesOfEveryMessageOfAnAnswer) {
   const auto stimulate = [&](std::int64_t valid_us, std::int64_t due_ns, std::int64_t late_ns) {
     echo(transmit(SlaveImuStatus{.time_of_validity_us = wrap_us(valid_us)}, due_ns + late_ns, late_ns),
@@ -412,7 +412,7 @@ TEST_F(Watched, AnswersToWhatIsLongPastAnswerNothing) {
   EXPECT_EQ(latency<AlignVelocityD>().count(), 1U);
 }
 
-// At 1 Mbit/s a bit takes 1 us: what a frame takes is its length in bits.
+// At 1 Mbit/s a bit takes 1 us, so the duration of a frame in us is its length in bits.
 class OnAWire : public Watched {
  protected:
   OnAWire() : monitor_at_rate_(Asked{.wire = {.rates = {.nominal = 1'000'000}}}) {}
@@ -437,15 +437,15 @@ TEST_F(OnAWire, TheLatencyIsSplitAndItsPartsAddUp) {
   }
   monitor_at_rate_.received({.frame = filler, .t_ns = t_ns + 1'000});
   const checks::TimingRecord timing = monitor_at_rate_.finish().timing;
-  EXPECT_EQ(timing.split.stimuli, 1U);
-  EXPECT_EQ(timing.split.echoed, 1U);
-  EXPECT_EQ(timing.split.to_echo_ns, 200'000);
-  EXPECT_EQ(timing.split.stimulus_wire_ns, ns(imu));
-  EXPECT_EQ(timing.split.latency_ns, 100'000 + wire_ns);
-  EXPECT_EQ(timing.split.reply_wire_ns, wire_ns);
-  EXPECT_EQ(timing.split.told, 1U);
-  EXPECT_EQ(timing.split.target_queue_ns, 50'000);
-  EXPECT_EQ(timing.split.target_compute_ns, 30'000);
+  EXPECT_EQ(timing.breakdown.stimuli, 1U);
+  EXPECT_EQ(timing.breakdown.echoed, 1U);
+  EXPECT_EQ(timing.breakdown.to_echo_ns, 200'000);
+  EXPECT_EQ(timing.breakdown.stimulus_wire_ns, ns(imu));
+  EXPECT_EQ(timing.breakdown.latency_ns, 100'000 + wire_ns);
+  EXPECT_EQ(timing.breakdown.reply_wire_ns, wire_ns);
+  EXPECT_EQ(timing.breakdown.accounted, 1U);
+  EXPECT_EQ(timing.breakdown.target_queue_ns, 50'000);
+  EXPECT_EQ(timing.breakdown.target_compute_ns, 30'000);
   EXPECT_EQ(timing.slowest.message, "AlignVelocityD");
   EXPECT_EQ(timing.slowest.latency_ns, 100'000 + wire_ns);
   EXPECT_EQ(timing.slowest.queue_max_us, 60);
@@ -465,15 +465,15 @@ TEST_F(OnAWire, EachGroupOfStimuliHasASplitOfItsOwn) {
   }
   transmit(MasterInsVelocityD{.time_of_validity_us = 20'000}, 20'000'000);
   answer_filter(20'000, 23'000'000);
-  const auto& all = seen().timing.split_by_group;
+  const auto& all = seen().timing.breakdown_by_group;
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0].group, SlaveImuStatus::info.sample_group);
-  EXPECT_EQ(all[0].split.stimuli, 2U);
-  EXPECT_EQ(all[0].split.latency_ns, 1'000'000);
+  EXPECT_EQ(all[0].breakdown.stimuli, 2U);
+  EXPECT_EQ(all[0].breakdown.latency_ns, 1'000'000);
   EXPECT_EQ(all[1].group, MasterInsVelocityD::info.sample_group);
-  EXPECT_EQ(all[1].split.stimuli, 1U);
-  EXPECT_EQ(all[1].split.latency_ns, 3'000'000);
-  EXPECT_EQ(seen().timing.split.stimuli, 3U);
+  EXPECT_EQ(all[1].breakdown.stimuli, 1U);
+  EXPECT_EQ(all[1].breakdown.latency_ns, 3'000'000);
+  EXPECT_EQ(seen().timing.breakdown.stimuli, 3U);
 }
 
 TEST_F(OnAWire, AMeanAtTheEndOfItsRangeIsKnownToBeOne) {
@@ -481,19 +481,19 @@ TEST_F(OnAWire, AMeanAtTheEndOfItsRangeIsKnownToBeOne) {
   answer(10'000, 9'000'000);
   receive(
       TargetTiming{.queue_max_us = 8191, .queue_mean_us = 8191, .compute_max_us = 40, .compute_mean_us = 30});
-  EXPECT_TRUE(seen().timing.split.queue_clipped);
-  EXPECT_FALSE(seen().timing.split.compute_clipped);
+  EXPECT_TRUE(seen().timing.breakdown.queue_clipped);
+  EXPECT_FALSE(seen().timing.breakdown.compute_clipped);
 }
 
-// One stimulus, the answers of two estimators: it took until the second was there.
+// One stimulus with the answers of two estimators: the response lasts until the second answer.
 TEST_F(OnAWire, AStimulusIsAnsweredWithItsLastAnswer) {
   imu(10'000, 0);
   answer(10'000, 300'000);
   answer_in_flight(10'000, 500'000);
-  EXPECT_EQ(seen().timing.split.stimuli, 1U);
-  EXPECT_EQ(seen().timing.split.latency_ns, 500'000);
-  EXPECT_EQ(seen().timing.split.echoed, 0U);
-  EXPECT_EQ(seen().timing.split.told, 0U);
+  EXPECT_EQ(seen().timing.breakdown.stimuli, 1U);
+  EXPECT_EQ(seen().timing.breakdown.latency_ns, 500'000);
+  EXPECT_EQ(seen().timing.breakdown.echoed, 0U);
+  EXPECT_EQ(seen().timing.breakdown.accounted, 0U);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a receiver must count of frames that are withheld, damaged, repeated or out of date.
+// The counts that a receiver must report for frames that are missing, damaged, repeated or out of date.
 #include "bench/observe/receiver_model.hpp"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ using namespace messages;
 
 class Model : public testing::Test {
  protected:
-  // Hands over the group of a sample; `spoil` may take frames away or change them.
+  // Passes the group of a sample; `spoil` may remove or change frames.
   template <class Spoil>
   void imu(std::int64_t valid_us, const Spoil& spoil, Validity validity = Validity::valid) {
     out_.clear();

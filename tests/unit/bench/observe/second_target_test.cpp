@@ -1,4 +1,4 @@
-// Two targets on one bus, and what looks like two and is one.
+// Detects two targets on one bus, and does not mistake one target for two.
 #include "bench/observe/second_target.hpp"
 #include "bench/observe/contract_watch.hpp"
 
@@ -24,7 +24,7 @@ using messages::TargetHeartbeat;
 
 constexpr std::int64_t cycle_ns = TargetHeartbeat::info.cycle_time_us * 1000;
 
-// What the watch hears of targets; a target is its counter.
+// The frames of targets that the watch receives; a target is represented by its counter.
 class Watch : public testing::Test {
  protected:
   template <class Message = TargetHeartbeat>
@@ -105,7 +105,7 @@ TEST_F(Watch, OneThatCountsAnewAfterEachCommandIsOne) {
   EXPECT_FALSE(watch_->found());
 }
 
-// Each target is a device of the product that hears what the bench sends.
+// Each target is a real Device that receives the frames of the bench.
 class Targets : public testing::Test {
  protected:
   explicit Targets(int count = 2) : devices_(static_cast<std::size_t>(count)) {

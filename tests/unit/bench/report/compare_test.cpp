@@ -114,7 +114,7 @@ Json report_of(const std::vector<int>& sample_us) {
 Compared compared(const Json& a, const Json& b) { return compare({a}, {b}).value(); }
 Compared compared(const Reports& a, const Reports& b) { return compare(a, b).value(); }
 
-// Runs of one target on one host: the median of each is a little elsewhere.
+// Runs of one target on one host: the median differs slightly from run to run.
 Reports runs_about(const std::vector<double>& medians_us, unsigned seed) {
   Reports runs;
   for (const double median_us : medians_us) runs.push_back(report_of(latencies_us(seed++, median_us)));
@@ -207,7 +207,7 @@ TEST(Compare, ACheckThatFailsNowIsWorse) {
   EXPECT_EQ(compared(bad, bad).outcome, Comparison::no_worse);
 }
 
-// The check that no scenario asks for: it is there when the bus went off.
+// The implied check, which no scenario contains: it appears if the bus went off.
 Json with_bus_errors(Json report) {
   report["checks"].push_back(
       {{"name", "bus_errors"}, {"kind", "bus_errors"}, {"outcome", "fail"}, {"measured", "bus off 1"}});

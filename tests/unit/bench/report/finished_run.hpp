@@ -1,4 +1,4 @@
-// A run as it is reported, for the tests of pages and JSON.
+// A finished run for the tests of pages and JSON.
 #pragma once
 
 #include "bench/estimators/transfer_alignment/answers.hpp"
@@ -48,7 +48,8 @@ inline drive::Run run_of() {
   return run;
 }
 
-// A run at 500 kbit/s: 100 stimuli of 0.3 ms to their echo, 0.2 of it the frame, and 1 ms from there on.
+// A run at 500 kbit/s: 100 stimuli with 0.3 ms until their echo, of which the frame takes 0.2 ms, and 1 ms
+// from the echo to the answer.
 inline drive::Run run_on_a_wire() {
   drive::Run run = run_of();
   run.seen.bit_rates = {.nominal = 500'000};
@@ -56,15 +57,15 @@ inline drive::Run run_on_a_wire() {
   run.seen.last_ns = 2'000'000'000;
   checks::TimingRecord& timing = run.seen.timing;
   timing.wire.rates = run.seen.bit_rates;
-  timing.split = {.stimuli = 100,
-                  .echoed = 100,
-                  .to_echo_ns = 30'000'000,
-                  .stimulus_wire_ns = 20'000'000,
-                  .latency_ns = 100'000'000,
-                  .reply_wire_ns = 60'000'000,
-                  .told = 50,
-                  .target_queue_ns = 5'000'000,
-                  .target_compute_ns = 10'000'000};
+  timing.breakdown = {.stimuli = 100,
+                      .echoed = 100,
+                      .to_echo_ns = 30'000'000,
+                      .stimulus_wire_ns = 20'000'000,
+                      .latency_ns = 100'000'000,
+                      .reply_wire_ns = 60'000'000,
+                      .accounted = 50,
+                      .target_queue_ns = 5'000'000,
+                      .target_compute_ns = 10'000'000};
   timing.slowest = {.message = "AlignVelocityD", .t_ns = 1'500'000'000, .latency_ns = 9'000'000};
   timing.slowest.queue_max_us = 8191;
   timing.responses[message_index<messages::Sync>()] = {.count = 200, .max_ns = 250'000};

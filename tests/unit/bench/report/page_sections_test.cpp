@@ -1,4 +1,4 @@
-// What the sections of a page show: the timing, the results, the bus.
+// The content of the sections of a page: timing, results, bus.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
@@ -42,7 +42,7 @@ TEST(PageSections, TheLatencyIsSplitAndThePartsAddUp) {
 TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
   drive::Run run = run_on_a_wire();
   run.seen.timing.wire.rates = {};
-  run.seen.timing.split.told = 0;
+  run.seen.timing.breakdown.accounted = 0;
   const auto parts = document(scenario_of(), run).at("split").at("parts_s");
   EXPECT_TRUE(parts.at("reply_wire").is_null());
   EXPECT_TRUE(parts.at("target_queue").is_null());
@@ -54,22 +54,22 @@ TEST(PageSections, WhatIsNotKnownOfTheSplitIsNotAZero) {
 TEST(PageSections, APartThatTheTargetCouldNotTellIsMarked) {
   drive::Run run = run_on_a_wire();
   EXPECT_FALSE(document(scenario_of(), run).at("split").contains("at_least"));
-  run.seen.timing.split.queue_clipped = true;
+  run.seen.timing.breakdown.queue_clipped = true;
   const auto split = document(scenario_of(), run).at("split");
   EXPECT_EQ(split.at("at_least"), Json::array({"target_queue"}));
   EXPECT_EQ(split.at("at_most"), Json::array({"not_explained"}));
   EXPECT_THAT(page_of(run), AllOf(HasSubstr("<td data-label=\"ms\">&ge; 0.100</td>"),
-                                  HasSubstr("tells no times beyond 8191 us")));
+                                  HasSubstr("reports no times beyond 8191 us")));
   EXPECT_THAT(
       text(scenario_of(), run),
-      AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target tells no more)"),
+      AllOf(HasSubstr("0.100 ms  target: from its stamp to its turn (at least: the target reports no more)"),
             HasSubstr("wait for the bus (at most)")));
 }
 
 TEST(PageSections, TheSplitOfEachGroupStandsBesideThatOfAll) {
   drive::Run run = run_on_a_wire();
   checks::TimingRecord& timing = run.seen.timing;
-  timing.split_by_group = {
+  timing.breakdown_by_group = {
       {"SlaveImu", {.stimuli = 90, .latency_ns = 45'000'000, .reply_wire_ns = 9'000'000}},
       {"MasterIns", {.stimuli = 10, .latency_ns = 55'000'000, .reply_wire_ns = 1'000'000}}};
   const auto groups = document(scenario_of(), run).at("split").at("groups");
@@ -92,7 +92,7 @@ TEST(PageSections, ShowsEachMessageBesideItsBound) {
   EXPECT_THAT(text(scenario_of(), run_on_a_wire()), Not(HasSubstr("bus load at 1000 kbit/s")));
 }
 
-// What the text tells of the estimators stands on the page too, drawn from the JSON.
+// The page shows the same results of the estimators as the text report, drawn from the JSON.
 TEST(PageSections, ShowsTheResultsOfAnAlignment) {
   const std::string page = page_of(run_of());
   EXPECT_THAT(page, AllOf(HasSubstr("<h2>Results</h2>"), HasSubstr("href=\"#results\""),
@@ -111,7 +111,7 @@ TEST(PageSections, ShowsTheWordsOfEveryFigureThatHasSome) {
                         "down none judged</td>"));
 }
 
-// 200 stimuli, and of the answers of a group of an estimator in use not one.
+// 200 stimuli, and no answer of a group that an estimator in use should send.
 TEST(PageSections, AMessageThatWasNeverAnsweredIsThere) {
   drive::Run run = run_of();
   for (int i = 0; i < 200; ++i)

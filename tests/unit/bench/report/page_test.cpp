@@ -1,4 +1,4 @@
-// The page of a report: whole, drawn from the JSON alone, and nothing of it is somebody's markup.
+// The HTML page of a report is complete, is drawn from the JSON alone, and escapes all names.
 #include "bench/report/page.hpp"
 
 #include <gmock/gmock.h>

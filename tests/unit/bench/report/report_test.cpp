@@ -1,4 +1,4 @@
-// Reports stay well-formed whatever the names in them are, and files are whole or not there.
+// Reports are well-formed for all names, and files are written completely or not at all.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -153,7 +153,7 @@ TEST(Reports, TellWhatBecameOfFixes) {
       text(scenario, run),
       AllOf(
           HasSubstr("repairs of the covariance 0, heading not fed back to the INS by the end, heading sigma "
-                    "told at the end 0.573 deg\n"),
+                    "reported at the end 0.573 deg\n"),
           HasSubstr("answers 0, accepted 3\n")));
   run.seen.of<estimators::InflightAnswers>().fixes[1].outcome = messages::FixOutcome::gated;
   run.seen.of<estimators::InflightAnswers>().fixes[1].cause_us = 200'000;
@@ -178,7 +178,7 @@ TEST(Reports, SayNothingOfAHandOverWhereTheAlgorithmHasNone) {
   scenario.targets = {
       {.estimator = "inflight_alignment", .algorithm = "ukf", .initial_sigma = {}, .parameters = {}}};
   EXPECT_THAT(text(scenario, run),
-              HasSubstr("repairs of the covariance 0, heading sigma told at the end 0.573 deg\n"));
+              HasSubstr("repairs of the covariance 0, heading sigma reported at the end 0.573 deg\n"));
   const auto page = nlohmann::json::parse(json(scenario, run));
   EXPECT_FALSE(page["results"]["inflight_alignment"]["filter"]["figures"].contains("resolved"));
 }

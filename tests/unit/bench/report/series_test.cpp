@@ -1,4 +1,5 @@
-// Courses over the run: what checks ask stands on what they judge, and what was not told is a gap.
+// Series over a run: limits of checks are drawn over the quantities that they judge, and missing values are
+// gaps.
 #include "bench/report/series.hpp"
 #include "bench/estimators/inflight_alignment/answers.hpp"
 #include "bench/estimators/transfer_alignment/answers.hpp"
@@ -73,7 +74,7 @@ TEST(Series, CarryTheBarsOfTheChecksThatJudgeThem) {
   EXPECT_EQ(find(series(scenario_of(), run), "heading error"), nullptr) << "nobody judges it";
   const scenario::Check convergence = checks::check_of(
       checks::Convergence{
-          .of = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
+          .judged = {.estimator = "transfer_alignment", .quantity = &quantities::attitude_heading},
           .within = 0.003,
           .before_us = 5'000'000,
           .end_us = duration_us},
@@ -140,7 +141,7 @@ TEST(Series, ASigmaThatIsStaleIsAGap) {
   }
 }
 
-// A fix each second but for 10 s in which the bench keeps them back: what was told before is stale after 3 s.
+// A fix each second except for 10 s in which the bench withholds them: the value before is stale after 3 s.
 TEST(Series, ASigmaOfFixesIsStaleAfterThreeOfThem) {
   drive::Run run = run_of();
   scenario::Scenario scenario = scenario_of();

@@ -1,4 +1,4 @@
-// A report that was cut, edited or made by another hand is refused with the key that is wrong.
+// A report that was truncated or edited is rejected with the name of the wrong key.
 #include "bench/report/whole.hpp"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST(WholeReport, IsAskedForWhereAFileIsRead) {
   torn.erase("timing");
   EXPECT_EQ(said(torn.dump()), "file '" + path + "': key 'timing' is missing, expected a whole report");
   EXPECT_EQ(said(text + std::string(1, '\0') + "more"),
-            "file '" + path + "': is no JSON, expected a report of hil-bench run --json");
+            "file '" + path + "': is not JSON, expected a report of hil-bench run --json");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Every kind of check: its fields and defaults.
+// Every kind of check: its keys and defaults.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -61,8 +61,8 @@ TEST(ScenarioChecks, NamesByDefaultSayWhatIsLookedAt) {
 
 TEST(ScenarioChecks, Error) {
   const auto rule = rule_of<checks::Error>(of_pitch("from_s = 19.0\nto_s = 19.5\nbelow_mrad = 5"));
-  EXPECT_EQ(rule.of.quantity, &quantities::attitude_pitch);
-  EXPECT_EQ(rule.of.estimator, "transfer_alignment");
+  EXPECT_EQ(rule.judged.quantity, &quantities::attitude_pitch);
+  EXPECT_EQ(rule.judged.estimator, "transfer_alignment");
   EXPECT_EQ(rule.statistic, checks::Error::Statistic::max);
   EXPECT_EQ(rule.stretch.window.from_us, 19'000'000);
   EXPECT_EQ(rule.stretch.window.to_us, 19'500'000);
@@ -84,7 +84,7 @@ TEST(ScenarioChecks, AWindowIsByDefaultTheRun) {
 TEST(ScenarioChecks, Convergence) {
   const auto rule = rule_of<checks::Convergence>(
       "kind = 'convergence'\nquantity = 'attitude.heading'\nwithin_mrad = 3\nbefore_s = 14");
-  EXPECT_EQ(rule.of.quantity, &quantities::attitude_heading);
+  EXPECT_EQ(rule.judged.quantity, &quantities::attitude_heading);
   EXPECT_DOUBLE_EQ(rule.within, 3e-3);
   EXPECT_EQ(rule.before_us, 14'000'000);
   EXPECT_EQ(rule.end_us, 20'000'000);
@@ -123,7 +123,7 @@ TEST(ScenarioChecks, Sigma) {
   EXPECT_THAT(refused("kind = 'sigma'\nquantity = 'attitude.roll'\nbetween_mrad = [2, 1]"),
               HasSubstr("key 'check[1].between_mrad': is descending"));
   EXPECT_THAT(refused("kind = 'sigma'\nquantity = 'attitude.nees'\nbetween = [1, 2]"),
-              HasSubstr("'attitude.nees' is none that this kind asks for"));
+              HasSubstr("'attitude.nees' cannot be used with this kind"));
 }
 
 TEST(ScenarioChecks, OutputPeriod) {
@@ -208,35 +208,35 @@ TEST(ScenarioChecks, AQuantityIsOneThatIsToldAndThatTheKindAsksFor) {
   const auto refused = [](std::string_view lines) { return error_of(one_check(lines)); };
   EXPECT_THAT(
       refused("kind = 'error'\nquantity = 'wind.norm'\nbelow_mps = 1"),
-      HasSubstr("18: key 'check[1].quantity': 'wind.norm' is told by no estimator of this scenario, expected "
-                "one of: misalignment.north, "));
+      HasSubstr(
+          "18: key 'check[1].quantity': 'wind.norm' is reported by no estimator of this scenario, expected "
+          "one of: misalignment.north, "));
   EXPECT_THAT(refused("kind = 'error'\nquantity = 'innovation.nis'\nbelow = 1"),
-              HasSubstr("'innovation.nis' is none that this kind asks for, expected one of: "));
+              HasSubstr("'innovation.nis' cannot be used with this kind, expected one of: "));
   EXPECT_THAT(refused("kind = 'consistency'\nquantity = 'nis'\nprobability = 0.9"),
-              HasSubstr("'nis' is a name of before, expected 'innovation.nis'"));
+              HasSubstr("'nis' is a former name, expected 'innovation.nis'"));
   EXPECT_THAT(refused("kind = 'error'\nquantity = 'attitude.haeding'\nbelow_mrad = 1"),
               HasSubstr("'attitude.haeding' is unknown, expected 'attitude.heading'"));
   EXPECT_THAT(
       refused("kind = 'error'\nquantity = 'attitude.roll'\ntime_to_go_s = [1, 2]\nbelow_mrad = 1"),
-      HasSubstr("key 'check[1].time_to_go_s': is of flights that go to a target, expected from_s and to_s"));
+      HasSubstr("key 'check[1].time_to_go_s': is for flights that go to a target, expected from_s and to_s"));
 }
 
 TEST(ScenarioChecks, WhatIsOfBeforeIsToldWithWhatToWriteNow) {
   const auto refused = [](std::string_view lines) { return error_of(one_check(lines)); };
   EXPECT_EQ(refused("kind = 'attitude_error'\naxis = 'roll'\nbelow_mrad = 1"),
-            "s.toml:17: key 'check[1].kind': 'attitude_error' is a kind of before, expected kind 'error' "
+            "s.toml:17: key 'check[1].kind': 'attitude_error' is a former kind, expected kind 'error' "
             "with quantity "
             "'attitude.heading', 'attitude.roll' or 'attitude.pitch'");
   for (const FormerCheckKind& former : checks::former_kinds(estimators::all())) {
     EXPECT_THAT(refused(fmt::format("kind = '{}'", former.name)),
                 HasSubstr(fmt::format("expected {}", former.now)));
   }
-  EXPECT_EQ(
-      refused("kind = 'convergence'\naxis = 'roll'\nwithin_mrad = 1\nbefore_s = 2"),
-      "s.toml:18: key 'check[1].axis': is a key of before, expected quantity, such as 'attitude.heading'");
+  EXPECT_EQ(refused("kind = 'convergence'\naxis = 'roll'\nwithin_mrad = 1\nbefore_s = 2"),
+            "s.toml:18: key 'check[1].axis': is a former key, expected quantity, such as 'attitude.heading'");
   EXPECT_EQ(
       refused("kind = 'consistency'\nstatistic = 'nis'\nprobability = 0.9"),
-      "s.toml:18: key 'check[1].statistic': is a key of before, expected quantity, such as 'innovation.nis'");
+      "s.toml:18: key 'check[1].statistic': is a former key, expected quantity, such as 'innovation.nis'");
 }
 
 TEST(ScenarioChecks, HeartbeatAndOrder) {

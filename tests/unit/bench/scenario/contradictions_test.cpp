@@ -1,4 +1,4 @@
-// Keys that are each right and contradict each other, or have no effect beside each other: one line.
+// Keys that are valid alone but contradict each other, or have no effect together: one error line.
 #include <gtest/gtest.h>
 
 #include "tests/unit/bench/scenario/texts.hpp"
@@ -13,7 +13,7 @@ std::string inflight(const std::string& aid, const std::string& parameters = "")
 }
 
 std::string error_with_aiding(const std::string& text) {
-  Contract with_aiding = contract;
+  DbcVocabulary with_aiding = contract;
   with_aiding.parameters.emplace_back("aiding");
   const Result<Scenario> result = parse(text, "s.toml", with_aiding);
   return result ? "no error" : result.error().message;
@@ -25,24 +25,24 @@ TEST(Contradictions, AHeadingOfWhichNothingIsKnownIsForSinCosOnly) {
       "s.toml:7: key 'target.initial_sigma.heading_deg': is more than a heading can be wrong by, expected at "
       "most 180, or algorithm sin_cos");
   EXPECT_EQ(error_of(with("heading_deg = 5.0", "heading_deg = 180")), "no error");
-  Contract with_sin_cos = contract;
+  DbcVocabulary with_sin_cos = contract;
   with_sin_cos.algorithms.emplace_back("sin_cos");
   EXPECT_TRUE(parse(with("heading_deg = 5.0", "heading_deg = 600", with("\"kalman\"", "\"sin_cos\"")),
                     "s.toml", with_sin_cos));
 }
 
 TEST(Contradictions, AMisspeltParameterIsOneOfItsEstimator) {
-  const auto error = [](const Contract& known) {
+  const auto error = [](const DbcVocabulary& known) {
     const auto result = parse(with("[truth]", "[target.parameters]\nh2_cas = 1\n[truth]"), "s.toml", known);
     return result ? "no error" : result.error().message;
   };
   EXPECT_EQ(error(contract), "s.toml:9: key 'target.parameters.h2_cas': is unknown, expected 'h2_case'");
-  Contract by_estimator = contract;
+  DbcVocabulary by_estimator = contract;
   static constexpr std::array<std::string_view, 1> own{"velocity_noise_m2ps"};
   by_estimator.facts["transfer_alignment"].parameters = own;
   EXPECT_EQ(error(by_estimator),
             "s.toml:9: key 'target.parameters.h2_cas': is unknown, expected one of: velocity_noise_m2ps");
-  // Given, another's is left to the target: it may be somebody else's.
+  // A parameter of another estimator, if given, is sent to the target: the target may know it.
   EXPECT_TRUE(parse(with("[truth]", "[target.parameters]\nh2_case = 1\n[truth]"), "s.toml", by_estimator));
 }
 
@@ -68,7 +68,7 @@ TEST(Contradictions, AnAidWhoseFixesNobodyTakes) {
 }
 
 TEST(Contradictions, TimingOfWhatNobodySends) {
-  Contract known = contract;
+  DbcVocabulary known = contract;
   known.messages.emplace_back("FixUpdate");
   known.answers.emplace_back("FixUpdate");
   known.sent_by = {{"FixUpdate", "inflight_alignment"}, {"AlignUpdate", "transfer_alignment"}};

@@ -1,4 +1,4 @@
-// [engagement] and [seeker]: values, defaults, and what is refused.
+// [engagement] and [seeker]: values, defaults, and errors.
 #include <gtest/gtest.h>
 
 #include "bench/checks/kinds/error.hpp"
@@ -178,20 +178,21 @@ TEST(EngagementErrors, WhatBelongsTogether) {
   EXPECT_EQ(error_of(with("[engagement]\nguidance = \"truth\"\n", "", los)),
             "s.toml:1: key 'engagement': is missing, expected a table beside [seeker]");
   EXPECT_EQ(error_of(with("[seeker]", "[slave_imu]\n[seeker]", los)),
-            "s.toml:9: key 'slave_imu': has nothing to go by, expected a table [truth] beside it");
+            "s.toml:9: key 'slave_imu': depends on a truth, expected a table [truth] beside it");
 }
 
 TEST(EngagementErrors, NothingIsJudgedAgainstATruthThatIsNotThere) {
   EXPECT_EQ(
       error_of(with("kind = \"heartbeat\"\nsilent_at_most_s = 0.5", "kind = \"miss_distance\"\nbelow_m = 1",
                     valid)),
-      "s.toml:17: key 'check[1].kind': has nothing to be judged against, expected estimator los_rate in the "
+      "s.toml:17: key 'check[1].kind': needs an engagement to be judged, expected estimator los_rate in the "
       "scenario");
-  EXPECT_EQ(error_of(with("kind = \"miss_distance\"\nbelow_m = 1.0",
-                          "kind = 'error'\nquantity = 'velocity.norm'\nbelow_mps = 1", los)),
-            "s.toml:12: key 'check[1].quantity': 'velocity.norm' is told by no estimator of this scenario, "
-            "expected "
-            "one of: los.rate.pitch, los.rate.yaw, los.rate");
+  EXPECT_EQ(
+      error_of(with("kind = \"miss_distance\"\nbelow_m = 1.0",
+                    "kind = 'error'\nquantity = 'velocity.norm'\nbelow_mps = 1", los)),
+      "s.toml:12: key 'check[1].quantity': 'velocity.norm' is reported by no estimator of this scenario, "
+      "expected "
+      "one of: los.rate.pitch, los.rate.yaw, los.rate");
 }
 
 }  // namespace

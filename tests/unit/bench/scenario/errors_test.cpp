@@ -1,4 +1,4 @@
-// Every way a scenario can be wrong gives exactly one line: where, what, what was expected.
+// Every error of a scenario gives exactly one line: where, what, what was expected.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -21,7 +21,7 @@ TEST_P(ScenarioError, IsOneExactLine) {
   EXPECT_EQ(error_of(with(GetParam().from, GetParam().to)), "s.toml:" + GetParam().error);
 }
 
-/// In the order in which they are read: what goes by a truth comes after it.
+/// In the order of reading: sections that depend on a truth come after it.
 std::string keys_of_a_file() {
   const auto nodes_of = [](TruthOf samples) {
     std::string keys;
@@ -208,9 +208,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[[check]]", check("kind = 'consistency'\nquantity = 'attitude.nees'\nprobability = 0.9"),
               "19: key 'check[1].probability': is for innovations (NIS) only, expected mean_between = [low, "
               "high]"},
-        Wrong{"[[check]]", check("kind = 'counters'"),
-              "16: key 'check[1].frames_lost_at_most': is missing, as are all its like, expected at least "
-              "one limit"},
+        Wrong{
+            "[[check]]", check("kind = 'counters'"),
+            "16: key 'check[1].frames_lost_at_most': is missing, as are all other limits, expected at least "
+            "one limit"},
         Wrong{"[[check]]", check("kind = 'heartbeat'\nsilent_at_most_s = 1"),
               "19: key 'check[2].name': 'heartbeat' is the name of check[1] too, expected another name"}));
 
@@ -249,9 +250,10 @@ INSTANTIATE_TEST_SUITE_P(
               "dive of 45 degrees"},
         Wrong{"[[check]]", check("kind = 'error'\nquantity = 'attitude.roll'\nbelow_mrad = 1\nbelow_deg = 1"),
               "19: key 'check[1].below_mrad': is given beside below_deg, expected one of the two"},
-        Wrong{"[[check]]", check("kind = 'answers'"),
-              "16: key 'check[1].answers_at_least': is missing, as are all its like, expected at least one "
-              "limit"},
+        Wrong{
+            "[[check]]", check("kind = 'answers'"),
+            "16: key 'check[1].answers_at_least': is missing, as are all other limits, expected at least one "
+            "limit"},
         Wrong{
             "[[check]]", check("kind = 'answers'\ngated_fixes = 1\nupdates_at_most = 1"),
             "18: key 'check[1].gated_fixes': is unknown, expected one of: kind, requirement, estimator, "

@@ -1,4 +1,4 @@
-// Every field of a scenario but its checks: where it goes, in which unit, and what it is when absent.
+// Every key of a scenario except its checks: the member that it sets, its unit, and its default.
 #include <gtest/gtest.h>
 
 #include "bench/nodes/gps.hpp"

@@ -1,4 +1,4 @@
-// The scenarios that come with the project are valid, with the names of the project's own DBC.
+// The scenarios of the project are valid with the project's own DBC.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -42,7 +42,7 @@ std::vector<std::string> answers(const std::string& text) {
   return names;
 }
 
-Contract of_the_dbc() {
+DbcVocabulary of_the_dbc() {
   const std::string text = dbc();
   return {.estimators = value_table(text, "Estimator"),
           .algorithms = value_table(text, "Algorithm"),
@@ -74,7 +74,7 @@ TEST(ScenarioFiles, TheKalmanFilterIsToldTheTruth) {
   for (const Parameter& parameter : s.targets.front().parameters) {
     const auto imu = node_of<nodes::SlaveImuSettings>(s).errors;
     if (parameter.name == "velocity_noise_m2ps") {
-      // The DBC's 100 ms between updates turn a sigma into a density.
+      // The 100 ms between updates in the DBC convert a sigma to a density.
       EXPECT_NEAR(parameter.value,
                   0.1 * std::pow(node_of<nodes::MasterInsSettings>(s).errors.velocity.sigma.x(), 2), 1e-15);
     } else if (parameter.name == "accel_bias_sigma_ug") {

@@ -1,4 +1,4 @@
-// The sections of a glider: what they say in SI, and every way they can be wrong in one line.
+// The sections of a glider: their values in SI units, and one line per error.
 #include <gtest/gtest.h>
 
 #include "bench/checks/kinds/answers.hpp"
@@ -16,15 +16,15 @@ namespace {
 using world::glide::ErrorKind;
 using world::units::deg;
 
-const Contract glider_contract{.estimators = {"transfer_alignment", "wind"},
-                               .algorithms = {"ekf", "h_infinity"},
-                               .parameters = {"theta_per_s"},
-                               .messages = {"WindVector"},
-                               .answers = {"WindVector"},
-                               .check_kinds = checks::kinds(estimators::all()),
-                               .known = estimators::all(),
-                               .facts = estimators::facts(),
-                               .nodes = nodes::tables()};
+const DbcVocabulary glider_contract{.estimators = {"transfer_alignment", "wind"},
+                                    .algorithms = {"ekf", "h_infinity"},
+                                    .parameters = {"theta_per_s"},
+                                    .messages = {"WindVector"},
+                                    .answers = {"WindVector"},
+                                    .check_kinds = checks::kinds(estimators::all()),
+                                    .known = estimators::all(),
+                                    .facts = estimators::facts(),
+                                    .nodes = nodes::tables()};
 
 constexpr std::string_view glider = R"(title = "A glider"
 duration_s = 20.0
@@ -181,9 +181,10 @@ TEST(GlideSections, WrongOnesGiveOneLine) {
             ": key 'airframe.markov_time_s': has no effect here, expected coefficient_error = \"markov\" "
             "beside it");
   }
-  EXPECT_EQ(complaint("[[check]]", "[[check]]\nkind = \"answers\"\n[[check]]"),
-            "g.toml:16: key 'check[1].answers_at_least': is missing, as are all its like, expected at least "
-            "one limit");
+  EXPECT_EQ(
+      complaint("[[check]]", "[[check]]\nkind = \"answers\"\n[[check]]"),
+      "g.toml:16: key 'check[1].answers_at_least': is missing, as are all other limits, expected at least "
+      "one limit");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Whatever a file holds, reading it ends with a scenario in bounds or with one line that names the file.
+// Reading any file gives either a scenario within its limits, or one line that names the file.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -11,7 +11,7 @@
 namespace canhil::scenario {
 namespace {
 
-/// The quick scenario of the project: it has most of the grammar.
+/// The quick scenario of the project: it contains most of the grammar.
 std::string quick() {
   std::ifstream file(SOURCE_DIR "/bench/flights/transfer_alignment_quick.toml");
   return {std::istreambuf_iterator<char>(file), {}};

@@ -1,4 +1,4 @@
-// A recorded flight of a scenario: what of a file is flown, and each way in which a file can be wrong.
+// A recorded flight of a scenario: which part of the file is used, and one line per error of the file.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ Result<Scenario> read(const std::string& csv, const std::string& keys = "from_s 
   return parse(text, "s.toml", contract, {}, folder());
 }
 
-/// What is said of the file, after "s.toml:10: key 'truth.file': FOLDER/".
+/// The error about the file, after "s.toml:10: key 'truth.file': FOLDER/".
 std::string complaint(const std::function<void(std::vector<Row>&)>& change,
                       const std::string& keys = "from_s = 5") {
   std::vector<Row> all = rows();
@@ -157,12 +157,12 @@ INSTANTIATE_TEST_SUITE_P(
             "half_a_position", without({2}),
             "f.csv:1: column 'longitude_deg': is missing, expected it or 'longitude_rad', 'longitude_mrad'"},
         Wrong{"twice", put(0, 7, "pitch_rad"),
-              "f.csv:1: column 'pitch_rad': is there beside 'pitch_deg', expected one of the two"},
+              "f.csv:1: column 'pitch_rad': is given beside 'pitch_deg', expected one of the two"},
         Wrong{"no_number", put(100, 9, "nord"),
-              "f.csv:101: column 'heading_deg': 'nord' is no number, expected one"},
-        Wrong{"empty", put(100, 9, ""), "f.csv:101: column 'heading_deg': '' is no number, expected one"},
+              "f.csv:101: column 'heading_deg': 'nord' is not a number, expected one"},
+        Wrong{"empty", put(100, 9, ""), "f.csv:101: column 'heading_deg': '' is not a number, expected one"},
         Wrong{"not_finite", put(100, 4, "nan"),
-              "f.csv:101: column 'velocity_north_mps': 'nan' is no number, expected one"},
+              "f.csv:101: column 'velocity_north_mps': 'nan' is not a number, expected one"},
         Wrong{"short_row", [](std::vector<Row>& all) { all[100].pop_back(); },
               "f.csv:101: has 9 values, expected 10, one for each column"},
         Wrong{"no_rows", [](std::vector<Row>& all) { all.resize(1); }, "f.csv: has no rows, expected some"},

@@ -1,4 +1,4 @@
-// A small valid scenario, and how tests change it.
+// A small valid scenario, and functions to change it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,16 +14,16 @@
 
 namespace canhil::scenario {
 
-inline const Contract contract{.estimators = {"transfer_alignment", "inflight_alignment", "los_rate"},
-                               .algorithms = {"kalman", "robust_h2"},
-                               .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
-                               .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},
-                               .answers = {"AlignAttitude", "AlignUpdate"},
-                               .check_kinds = checks::kinds(estimators::all()),
-                               .known = estimators::all(),
-                               .former_check_kinds = checks::former_kinds(estimators::all()),
-                               .facts = estimators::facts(),
-                               .nodes = nodes::tables()};
+inline const DbcVocabulary contract{.estimators = {"transfer_alignment", "inflight_alignment", "los_rate"},
+                                    .algorithms = {"kalman", "robust_h2"},
+                                    .parameters = {"accel_bias_sigma_ug", "h2_case", "velocity_noise_m2ps"},
+                                    .messages = {"AlignAttitude", "AlignUpdate", "TargetHeartbeat"},
+                                    .answers = {"AlignAttitude", "AlignUpdate"},
+                                    .check_kinds = checks::kinds(estimators::all()),
+                                    .known = estimators::all(),
+                                    .former_check_kinds = checks::former_kinds(estimators::all()),
+                                    .facts = estimators::facts(),
+                                    .nodes = nodes::tables()};
 
 inline constexpr std::string_view valid = R"(title = "A title"
 duration_s = 20.0
@@ -56,7 +56,7 @@ inline std::string with(std::string_view from, std::string_view to, std::string_
   return changed.replace(at, from.size(), to);
 }
 
-/// `valid` with lines put after its table header [section].
+/// `valid` with lines inserted after its table header [section].
 inline std::string inside(std::string_view section, std::string_view lines) {
   return with(section, std::string(section) + "\n" + std::string(lines));
 }
@@ -82,7 +82,7 @@ inline std::string error_of(std::string_view text) {
   return result ? "no error" : result.error().message;
 }
 
-/// What a scenario says of a node that is on its bus.
+/// The text of a scenario about a node on its bus.
 template <class Settings>
 Settings node_of(const Scenario& scenario) {
   for (const NodeSettings& node : scenario.nodes) {

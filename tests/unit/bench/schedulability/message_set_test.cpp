@@ -89,7 +89,7 @@ TEST(Streams, FdWithoutItsBitRateIsAnErrorOfOneLine) {
 TEST(Streams, ADbcWithoutMessagesIsAnErrorOfOneLine) {
   const auto streams = streams_of({}, {}, rates);
   ASSERT_FALSE(streams);
-  EXPECT_EQ(streams.error().message, "no messages in the DBC, expected one at least");
+  EXPECT_EQ(streams.error().message, "no messages in the DBC, expected at least one");
 }
 
 TEST(Streams, ATimeThatIsNoneIsAnError) {
@@ -118,7 +118,7 @@ TEST(BitRates, AreTheGivenOnesElseThoseOfTheDbc) {
             "no bit rate, expected --bitrate or the DBC's attribute Baudrate");
 }
 
-// The promise of the contract: every node at once, at 1 Mbit/s, takes less than half of the bus.
+// The claim of canhil.dbc: with every node at once, the bus load is below 50 % at 1 Mbit/s.
 TEST(Contract, IsSchedulableWithEveryNodeOn) {
   for (const auto& [rate, most] : {std::pair{1'000'000, 0.5}, {500'000, 1.0}}) {
     const Bus bus{.rates = {.nominal = rate}};

@@ -1,4 +1,4 @@
-// The analysis against the simulated wire: neither knows of the other.
+// Compares the analysis with the simulated wire; their code is independent.
 #include <gtest/gtest.h>
 
 #include "tests/unit/bench/schedulability/traffic.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint64_t sets = 1'000;
 
-/// Instances of every stream from 0 to end_ns: random phases, every one with random jitter.
+/// Instances of every stream from 0 to end_ns, with random phases and random jitter.
 std::vector<Due> random_dues(const MessageSet& set, std::int64_t end_ns, Dice& dice) {
   std::vector<Due> dues;
   for (std::size_t i = 0; i < set.streams.size(); ++i) {
@@ -26,7 +26,7 @@ std::int64_t longest_period(const MessageSet& set) {
   return std::ranges::max_element(set.streams, {}, &Stream::period_ns)->period_ns;
 }
 
-// Sound: on random sets, phases and jitters no response is longer than its bound.
+// Safe: with random sets, phases and jitters no response exceeds its bound.
 TEST(Simulation, NeverExceedsTheAnalysis) {
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
     SCOPED_TRACE(seed);
@@ -44,7 +44,7 @@ TEST(Simulation, NeverExceedsTheAnalysis) {
   }
 }
 
-// The same for frames of any content, which the analysis knows by their size alone.
+// The same for frames of any content; the analysis knows only their size.
 TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   for (std::uint64_t seed = 0; seed < sets / 4; ++seed) {
     SCOPED_TRACE(seed);
@@ -73,7 +73,8 @@ TEST(Simulation, NeverExceedsTheAnalysisWhateverTheContent) {
   }
 }
 
-// Nodes that send in the order of queueing, at loads that leave a bound; the bound is not idle either.
+// Nodes that send in the order of queueing, at loads for which a bound exists; the bound must not be far too
+// large either.
 TEST(Simulation, NeverExceedsTheAnalysisOfQueuesInOrder) {
   int bounded = 0, tight = 0, beyond_priority = 0;
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
@@ -84,7 +85,7 @@ TEST(Simulation, NeverExceedsTheAnalysisOfQueuesInOrder) {
     const auto bounds = fifo_responses(set.streams, set.bus.rates);
     const auto by_priority = responses(set.streams, set.bus);
     auto dues = random_dues(set, 15 * longest_period(set), dice);
-    if (seed % 2 == 0) {  // all at once: what the bench does at the beginning of each step
+    if (seed % 2 == 0) {  // all at once, like the bench at the beginning of each step
       std::erase_if(dues, [&](const Due& due) { return due.due_ns < 2 * longest_period(set); });
       for (std::size_t i = set.streams.size(); i-- > 0;) dues.push_back({.stream = i});
     }
@@ -127,9 +128,9 @@ TEST(FifoAnalysis, OfFourMessagesInTwoNodes) {
   EXPECT_EQ(found[1].blocking_ns, 0);
 }
 
-/// The critical instant of stream m: the longest frame of lower priority has just won the arbitration, and
-/// all of higher priority and m itself are queued together, as late as their jitter allows; what follows
-/// becomes due as soon and is queued as early as can be.
+/// The critical instant of stream m: the longest frame of lower priority has just won the arbitration. All
+/// streams of higher priority and m itself are queued together, with their largest jitter. Later instances
+/// become due as soon as possible and are queued without jitter.
 std::vector<Due> critical_instant(const MessageSet& set, std::size_t m, std::int64_t end_ns) {
   std::vector<Due> dues;
   const std::int64_t bit_ns = wire::duration_ns({.nominal = 1}, set.bus.rates);
@@ -149,9 +150,9 @@ std::vector<Due> critical_instant(const MessageSet& set, std::size_t m, std::int
   return dues;
 }
 
-// Exact: at the critical instant the response is the bound. The frame that blocks must have won before: its
-// first bit is over, so that it blocks for one bit less than B. The lowest priority is not blocked at all,
-// and reaches the bound itself.
+// Exact: at the critical instant the response equals the bound. The blocking frame must have won before: its
+// first bit is over, so it blocks for one bit less than B. The lowest priority is not blocked at all, and
+// reaches the bound itself.
 TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
   std::int64_t beyond_the_first = 0;
   for (std::uint64_t seed = 0; seed < sets; ++seed) {
@@ -176,7 +177,8 @@ TEST(Simulation, ReachesTheAnalysisAtTheCriticalInstant) {
   EXPECT_GT(beyond_the_first, 20);  // sets on which the analysis of 1994 is wrong are among them
 }
 
-// Errors no closer than the model says, each at any bit of a frame and with a flag of any length.
+// Errors with at least the distance of the model, each at any bit of a frame and with an error flag of any
+// length.
 TEST(Simulation, NeverExceedsTheAnalysisWithErrors) {
   std::uint64_t errors_seen = 0;
   for (std::uint64_t seed = 0; seed < sets / 2; ++seed) {

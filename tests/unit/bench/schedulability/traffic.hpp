@@ -1,4 +1,4 @@
-// Random message sets, and what the simulated wire makes of them.
+// Random message sets, and their response times on the simulated wire.
 #pragma once
 
 #include <algorithm>
@@ -85,8 +85,8 @@ inline MessageSet random_set(Dice& dice) {
   return set;
 }
 
-/// Sends what becomes due over the wire; gives the longest response of each stream, from due to the end of
-/// the intermission. `frame_of(due)` is the frame to send.
+/// Sends due frames over the wire. Returns the longest response of each stream, from due to the end of the
+/// intermission. `frame_of(due)` is the frame to send.
 template <class FrameOf>
 std::vector<std::int64_t> longest_responses(const MessageSet& set, std::vector<Due> dues, FrameOf&& frame_of,
                                             Disturb disturb = {}, QueueOrder order = QueueOrder::priority) {

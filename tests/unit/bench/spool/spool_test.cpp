@@ -29,23 +29,23 @@ struct Sample {
 };
 constexpr std::size_t many = 8 * Spool<Sample>::most_in_memory;  // 16 MiB: in a file, the most of them
 
-Sample sample(std::size_t place) {
-  return {.t_us = static_cast<std::int64_t>(place), .value = {1.0 / static_cast<double>(place + 1)}};
+Sample sample(std::size_t index) {
+  return {.t_us = static_cast<std::int64_t>(index), .value = {1.0 / static_cast<double>(index + 1)}};
 }
-bool is_right(const Sample& found, std::size_t place) {
-  return found.t_us == sample(place).t_us && found.value[0] == sample(place).value[0];
+bool is_right(const Sample& found, std::size_t index) {
+  return found.t_us == sample(index).t_us && found.value[0] == sample(index).value[0];
 }
 
 Spool<Sample> filled(std::size_t count) {
   Spool<Sample> spool;
-  for (std::size_t place = 0; place < count; ++place) spool.push_back(sample(place));
+  for (std::size_t index = 0; index < count; ++index) spool.push_back(sample(index));
   return spool;
 }
 
 bool holds(const Spool<Sample>& spool, std::size_t count) {
-  std::size_t place = 0;
+  std::size_t index = 0;
   return spool.size() == count &&
-         std::ranges::all_of(spool, [&](const Sample& found) { return is_right(found, place++); });
+         std::ranges::all_of(spool, [&](const Sample& found) { return is_right(found, index++); });
 }
 
 std::size_t resident_bytes() {
@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Counts, SpoolOf,
 TEST(Spool, WhatIsChangedStays) {
   Spool<Sample> spool = filled(many);
   Sample& first = spool[0];
-  for (std::size_t place = 0; place < many; ++place)
-    spool[place].value[6] = 6;  // the first pages were let go
+  for (std::size_t index = 0; index < many; ++index)
+    spool[index].value[6] = 6;  // the first pages were released
   first.value[6] = 7;
   EXPECT_TRUE(
       std::all_of(spool.begin() + 1, spool.end(), [](const Sample& one) { return one.value[6] == 6; }));
@@ -101,14 +101,14 @@ TEST(Spool, LetsGoOfWhatItPassed) {
   Spool<Sample> spool;
   std::size_t most = 0;
   const auto look = [&] { most = std::max(most, resident_bytes() - std::min(before, resident_bytes())); };
-  for (std::size_t place = 0; place < 4 * many; ++place) {  // 64 MiB
-    spool.push_back(sample(place));
-    if (place % 10'000 == 0) look();
+  for (std::size_t index = 0; index < 4 * many; ++index) {  // 64 MiB
+    spool.push_back(sample(index));
+    if (index % 10'000 == 0) look();
   }
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (const Sample& found : spool) {
-    ASSERT_TRUE(is_right(found, place));
-    if (place++ % 10'000 == 0) look();
+    ASSERT_TRUE(is_right(found, index));
+    if (index++ % 10'000 == 0) look();
   }
   EXPECT_LT(most, 10 * megabyte);  // 2 MiB in memory, half as much again as they grow, 2 MiB of the file, and
                                    // the heap's own
@@ -146,7 +146,7 @@ TEST_F(SpoolFolder, WithoutOneItIsMemory) {
   EXPECT_TRUE(holds(filled(many), many));
 }
 
-// A limit of the size of files stands for a disk that is full.
+// A file size limit simulates a full disk.
 TEST_F(SpoolFolder, ThatIsFullInMidwayItIsMemory) {
   signal(SIGXFSZ, SIG_IGN);
   rlimit before{};

@@ -15,7 +15,7 @@ TEST(Attitude, EulerAnglesTurnBodyAxesAsThePilotSaysIt) {
   const Matrix3 east = C_bn_from({.heading = 90 * deg});
   EXPECT_LT((east * Vector3::UnitX() - Vector3::UnitY()).norm(), 1e-15);
   EXPECT_LT((east * Vector3::UnitY() + Vector3::UnitX()).norm(), 1e-15);
-  // Nose up: body x points up, that is, along -z.
+  // Nose up: body x points upwards, along -z.
   EXPECT_NEAR((C_bn_from({.pitch = 30 * deg}) * Vector3::UnitX()).z(), -0.5, 1e-15);
   // Right wing down: body y points down.
   EXPECT_NEAR((C_bn_from({.roll = 30 * deg}) * Vector3::UnitY()).z(), 0.5, 1e-15);

@@ -1,5 +1,5 @@
-// The engagement against its own finite differences, the equations that the filter is made of, and the miss
-// distance of proportional navigation.
+// The engagement against its own finite differences, the equations of the filter, and the miss distance of
+// proportional navigation.
 #include "bench/world/engagement/engagement.hpp"
 
 #include <gtest/gtest.h>
@@ -186,7 +186,7 @@ TEST(Engagement, TheMissIsTheClosestApproach) {
   }
 }
 
-/// Miss when the target's answers are the truth, each taking effect after a delay.
+/// The miss distance when the target's answers are the truth, each with a delay.
 double miss_on_commands(std::uint64_t run, std::int64_t delay_us) {
   EngagementPlan plan;
   plan.guidance = Guidance::target;

@@ -109,8 +109,7 @@ TEST(ErroneousImu, NoiseIsWhiteWithTheDensityGiven) {
 }
 
 TEST(ErroneousImu, NoiseOfASecondDoesNotDependOnTheRate) {
-  // 0.125 deg/sqrt(h) over one hour is 0.125 deg, whatever the sample interval: 3600 runs of one second,
-  // summed.
+  // 0.125 deg/sqrt(h) over one hour is 0.125 deg for any sample interval: 3600 runs of one second, summed.
   ImuErrorModel model;
   model.gyro.noise = Vector3::Constant(0.125 * units::degprth);
   for (const std::int64_t interval_us : {5'000, 20'000}) {

@@ -51,8 +51,8 @@ TEST(FlightRecord, AtRestTheAccelerometersFeelMinusGravityAndTheGyrosTheEarth) {
   const double gravity = surface * (1 - 2 * (1 + f + m - 2 * f * s2) * x + 3 * x * x);
   const Vector3 omega_ie(earth_rate * std::cos(seoul.latitude), 0, -earth_rate * std::sin(seoul.latitude));
   for (const Truth& truth : record.epochs()) {
-    // Normal gravity at height leans north by some 8e-6 m/s^2 a kilometre: that part is checked by the other
-    // tests.
+    // Normal gravity at height leans north by about 8e-6 m/s^2 per kilometre; the other tests check this
+    // part.
     EXPECT_NEAR((truth.C_bn * truth.f_ib_b).z(), -gravity, 1e-6);
     EXPECT_LT((truth.C_bn * truth.f_ib_b).head<2>().norm(), 1e-5);
     EXPECT_LT((truth.omega_ib_b - C_nb * omega_ie).norm(), 1e-18);
@@ -145,8 +145,8 @@ Inertial navigate(const FlightRecord& record) {
   return state;
 }
 
-// At 1 kHz the two-sample algorithms err by less than the bars: (rate * h)^4 with rates of 1 rad/s; the
-// trapezoid of position errs by h^2/12 times the change of acceleration, 1e-6 m.
+// At 1 kHz the errors of the two-sample algorithms are below the limits: (rate * h)^4 with rates of 1 rad/s;
+// the trapezoid rule for the position has an error of h^2/12 times the change of acceleration, 1e-6 m.
 class IndependentNavigator : public testing::TestWithParam<Flight> {};
 
 TEST_P(IndependentNavigator, FliesTheIncrementsBackToTheTruth) {

@@ -34,7 +34,7 @@ const SPath s_path{.speed = 3,
                    .depth = {}};
 constexpr DepthProfile yo_yo{.depth = 30, .period = 60};
 
-// Central differences with step h err by h^2/6 times the third derivative.
+// The error of central differences with step h is h^2/6 times the third derivative.
 void expect_rates_are_derivatives(const Motion& motion, double t, double h, double tolerance) {
   const Movement before = movement(motion, t - h);
   const Movement now = movement(motion, t);
@@ -75,7 +75,7 @@ TEST(Motion, TheLevelFlightCruisesThenAccelerates) {
 }
 
 TEST(Motion, TheWeaveIsCoordinated) {
-  // Without coning, the lateral specific force that roll leaves is the small part from the climb rate alone.
+  // Without coning, roll causes only the small lateral specific force of the climb rate.
   Weave smooth = weave;
   smooth.coning_amplitude = 0;
   smooth.pitch_amplitude = 0;

@@ -1,4 +1,4 @@
-// A recorded flight: it passes through what was recorded, and its IMU increments lead back to it.
+// A recorded flight passes through the recorded states, and integrating its IMU increments reproduces them.
 #include "bench/world/motion/recorded.hpp"
 
 #include <gtest/gtest.h>
@@ -58,9 +58,9 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
   const auto states = states_of(flown, every_us);
   const Flight again = flown_again(states);
   const FlightRecord record(again, states.back().t_us, 10'000);
-  // Velocity differs by the correction alone: a cubic through velocities errs by 5/384 h^4 v'''' a sample,
-  // 1e-3 m/s for 250 m/s turning with 2 pi / 6 a second at 50 ms; its mean over 10 s is far below that. So
-  // positions agree to the sum of as much over 12 s.
+  // Velocity differs only by the correction. A cubic spline through velocities has an error of 5/384 h^4
+  // v'''' per sample: 1e-3 m/s for 250 m/s turning with 2 pi / 6 per second at 50 ms. Its mean over 10 s is
+  // far below that. So positions agree within this error times 12 s.
   const double h = 1e-6 * static_cast<double>(every_us);
   const double w = 2 * std::numbers::pi / 6;
   const double bend = weave.speed * std::pow(2 * w, 4) * 5 / 384 * std::pow(h, 4) + 1e-9;
@@ -82,7 +82,7 @@ RC_GTEST_PROP(RecordedPath, PassesThroughItsSamplesWithTheRatesOfItsCurve, ()) {
   }
 }
 
-// What an INS without errors makes of the increments: the project's own strapdown navigation, which shares no
+// Integrates the increments as an INS without errors: the project's strapdown navigation, which shares no
 // code with the record.
 strapdown::NavState navigated(const FlightRecord& record) {
   const Truth& start = record.epochs().front();
@@ -104,9 +104,10 @@ strapdown::NavState navigated(const FlightRecord& record) {
 
 class RecordedEvery : public testing::TestWithParam<std::int64_t> {};
 
-// In 100 s at 100 Hz. Velocity and attitude of the record are those recorded, and the increments are their
-// integrals, so what is left is the mechanisation's own error, as on the analytic flight: 1.2e-8 rad, 1.6
-// mm/s and 82 mm. Interpolation may change it by a twentieth; the bounds are three times it.
+// The errors after 100 s at 100 Hz. Velocity and attitude of the record are the recorded ones, and the
+// increments are their integrals. So the remaining error is that of the mechanisation, as in the analytic
+// flight: 1.2e-8 rad, 1.6 mm/s and 82 mm. Interpolation may change it by a twentieth; the bounds are three
+// times the error.
 TEST_P(RecordedEvery, StrapdownNavigationOfItsIncrementsReturnsToWhatWasRecorded) {
   const FlightRecord flown(turning, 100'000'000, 10'000);
   const auto states = states_of(flown, GetParam());
@@ -146,8 +147,8 @@ TEST(RecordedPath, IncrementsOfACoarseGridAreTheSumsOfAFineOne) {
   }
 }
 
-// A navigation system whose velocity is off while its positions are right: over a long flight that is where
-// the truth goes.
+// A navigation system with a wrong velocity and right positions: over a long flight the truth follows the
+// positions.
 TEST(RecordedPath, FollowsThePositionsWhereTheVelocityIsBiased) {
   const FlightRecord flown(turning, 120'000'000, 10'000);
   auto states = states_of(flown, 20'000);

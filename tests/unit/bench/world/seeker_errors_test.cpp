@@ -1,4 +1,4 @@
-// Levels of the seeker's noises and biases.
+// The levels of the noises and biases of the seeker.
 #include "bench/world/engagement/seeker_errors.hpp"
 
 #include <gtest/gtest.h>

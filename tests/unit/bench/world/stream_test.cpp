@@ -50,7 +50,7 @@ TEST(Stream, SeedRunAndNameEachMakeAnotherStream) {
 }
 
 TEST(Stream, FirstNumbersOfManyRunsAreNormal) {
-  // A campaign takes few numbers of many streams: seeding must be as good as stepping.
+  // A campaign takes few numbers from each of many streams, so the seeding must be as random as the stepping.
   constexpr int n = 20'000;
   double sum = 0;
   double squares = 0;

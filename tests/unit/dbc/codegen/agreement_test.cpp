@@ -1,4 +1,4 @@
-// The generated and the run-time codec agree bit for bit, on random frames and on random values.
+// The generated codec and the run-time codec agree bit for bit, on random frames and on random values.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -85,8 +85,8 @@ Member random_member(std::mt19937_64& random, const SignalInfo& info) {
   }
 }
 
-// The visitors are types of their own, not lambdas, which are a type for each message: their work is compiled
-// once for each type of member.
+// The visitors are named types, not lambdas: a lambda would be a type per message. So their code is compiled
+// once per type of member.
 struct Collect {
   std::vector<NamedValue>& values;
   template <class Member>
@@ -95,7 +95,7 @@ struct Collect {
   }
 };
 
-/// Leaves integers that doubles hold exactly: the run-time codec takes doubles.
+/// Keeps integers that doubles represent exactly, because the run-time codec uses doubles.
 struct MakeExactAsDouble {
   template <class Member>
   void operator()(const SignalInfo& /*info*/, Member& member) const {

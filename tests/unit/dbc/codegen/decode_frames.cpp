@@ -1,6 +1,6 @@
-// Reads frames "ID#HEXDATA" (id as in the DBC's text, hexadecimal), one a line, and prints what they hold as
-// JSON. With --encode it prints {"values": that, "bytes": the values encoded again}. The DBC is read
-// leniently.
+// Reads frames "ID#HEXDATA" (id as in the text of the DBC, hexadecimal), one per line, and prints their
+// values as JSON. With --encode it prints
+// {"values": values, "bytes": the values encoded again}. The DBC is read leniently.
 #include <fmt/format.h>
 
 #include <cstdint>

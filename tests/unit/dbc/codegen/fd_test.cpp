@@ -1,4 +1,4 @@
-// The contract on CAN FD, as dbcgen makes it of the classic one.
+// The CAN FD version of the DBC, which dbcgen derives from the classic one.
 #include "dbc/codegen/fd.hpp"
 
 #include <fmt/format.h>
@@ -68,8 +68,8 @@ TEST(FdContract, OneFrameASampleGroupOfUpToEightMessages) {
   EXPECT_EQ(find_message(fd, "FixFilter2")->size, 48U);
 }
 
-// Random bytes in every message of the classic contract: the FD contract reads the same values out of the
-// container that the port packs.
+// Random bytes in every message of the classic DBC: the FD DBC decodes the same values from the container
+// that the port packs.
 TEST(FdContract, AContainerHoldsTheValuesOfItsMessages) {
   const Database old = classic();
   const Database fd = committed();
@@ -130,7 +130,7 @@ TEST(FdContract, AContractThatNoContainerCanCarryIsRefused) {
   const auto wide = with([](Database& d) { message(d, "Sync").fd = true; });
   ASSERT_FALSE(wide);
   EXPECT_THAT(wide.error().message, testing::StartsWith("my.dbc:"));
-  // A slot of zeros says that its message is not there; with this data id its CRC would be right.
+  // A slot of zeros means that its message is missing; with this data id, its CRC would be right.
   const auto zero = with([](Database& d) { message(d, "SeekerAngles").e2e_data_id = 0x183; });
   ASSERT_FALSE(zero);
   EXPECT_THAT(zero.error().message, HasSubstr("its CRC of zeros is 0"));

@@ -1,9 +1,9 @@
 """Random frames of any DBC files: canhil and canmatrix decode the same values from them and encode the same bytes.
 
 usage: frames_against_canmatrix.py DECODE_FRAMES FRAMES FILE.dbc...
-FRAMES are shared out among the messages of all files. Half of them are random bytes, which are decoded. The other half canmatrix
-encodes from random raw values between the signals' limits; they are decoded, and encoded again from the values that came out.
-Prints every disagreement once for each signal or message, with the number of frames and an example; exit status 1 if there is one.
+FRAMES is the total number of frames for the messages of all files. One half are random bytes, which are decoded. The other half are encoded by canmatrix
+from random raw values within the limits of the signals; they are decoded, and the decoded values are encoded again.
+Prints every disagreement once per signal or message, with the number of frames and an example; exit status 1 if there is one.
 """
 import collections
 import decimal

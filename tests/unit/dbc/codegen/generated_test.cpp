@@ -1,4 +1,4 @@
-// Generated headers as their users see them, with values worked out by hand from the DBC.
+// Use of the generated headers, with values computed by hand from the DBC.
 #include <gtest/gtest.h>
 
 #include <cmath>

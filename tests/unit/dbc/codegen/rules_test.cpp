@@ -9,7 +9,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// What is wrong with one signal of this name, scale, sigma and CarriesRemainder; empty: nothing.
+/// The rule that a signal with this name, scale, sigma and CarriesRemainder violates; empty: none.
 std::string breach(std::string_view name, double scale, double sigma, bool carries) {
   const auto database =
       parse(fmt::format("BS_:\nBU_: A\nBO_ 1 M: 8 A\n SG_ {} : 0|16@1- ({},0) [0|0] \"\" A\n"
@@ -64,7 +64,8 @@ TEST(SoundLayout, AssertsBoundsOverlapAndProtection) {
   EXPECT_FALSE(wire::is_sound({.size = 2, .e2e_data_id = 1}, apart));
 }
 
-/// What is wrong when M and N of a sample group of node B answer these, and L of group "Left" is A's.
+/// The rule that is violated if M and N of a sample group of node B have these attributes, and L of group
+/// "Left" belongs to A.
 std::string answer_breach(std::string_view of_m, std::string_view of_n) {
   const auto database =
       parse(fmt::format("BS_:\nBU_: A B\nBO_ 1 L: 8 A\nBO_ 2 M: 8 B\nBO_ 3 N: 8 B\n"

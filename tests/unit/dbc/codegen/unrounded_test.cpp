@@ -1,4 +1,4 @@
-// Frames that round nothing: what is packed stays, the scaled signals travel beside it.
+// Unrounded frames: the packed bytes stay the same, and the unrounded signals travel beside them.
 #include "dbc/wire/unrounded.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 namespace canhil::dbc {
 namespace {
 
-/// Calls test<Message>() for every message of the contract.
+/// Calls test<Message>() for every message of canhil.dbc.
 template <std::size_t i = 0, class Test>
 void for_every_message(const Test& test) {
   if constexpr (i < std::tuple_size_v<messages::AllMessages>) {
@@ -73,7 +73,7 @@ TEST(Unrounded, EveryScaledSignalOfTheContractIsCarried) {
   });
 }
 
-// So protection, groups, lengths and loads are those of the bus.
+// So protection, groups, lengths and loads are the same as on the bus.
 TEST(Unrounded, ThePackedBytesAreThoseOfTheBus) {
   std::mt19937_64 random(2);
   for_every_message([&]<class Message>() {

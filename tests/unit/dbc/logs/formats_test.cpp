@@ -1,4 +1,4 @@
-// The three formats: what is written reads as the same frames, and what is wrong is said in one line.
+// The three log formats: written frames are read back unchanged, and every error is one line.
 #include <gmock/gmock.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Every error, with its place and its whole text: one clear line for each wrong input.
+// Every error with its place and its complete text: one clear line for each wrong input.
 #include <gtest/gtest.h>
 
 #include "dbc/parser/parse.hpp"
@@ -52,8 +52,8 @@ const Wrong wrong[] = {
      "7:5: message id 2048 out of range, expected at most 2047, or bit 31 set for an extended id"},
     {"id_extended_range", "BO_ 2684354560 N: 8 A",
      "7:5: message id 536870912 out of range, expected at most 536870911"},
-    {"id_twice", "BO_ 1 N: 8 A", "7:5: message N has the id 1 of M, expected an id of its own"},
-    {"message_twice", "BO_ 2 M: 8 A", "7:7: message M a second time, expected a name of its own"},
+    {"id_twice", "BO_ 1 N: 8 A", "7:5: message N has the id 1 of M, expected a unique id"},
+    {"message_twice", "BO_ 2 M: 8 A", "7:7: message M is defined a second time, expected a unique name"},
     {"size", "BO_ 2 N: 65 A", "7:10: unexpected '65', expected the size in bytes, an integer in 0..64"},
     {"size_classic", "BO_ 2 N: 9 A",
      "7:5: message N has 9 bytes, expected at most 8, or VFrameFormat StandardCAN_FD or ExtendedCAN_FD"},
@@ -68,7 +68,7 @@ const Wrong wrong[] = {
      "7:11: no message has the id 9, expected one defined by BO_ above"},
     // signals
     {"signal_twice", signal_line("a : 0|8@1+ (1,0) [0|0] \"\" B\n SG_ a : 8|8@1+ (1,0) [0|0] \"\" B"),
-     "9:6: signal N.a a second time, expected a name of its own"},
+     "9:6: signal N.a is defined a second time, expected a unique name"},
     {"start", signal_line("a : 512|8@1+ (1,0) [0|0] \"\" B"),
      "8:10: unexpected '512', expected a start bit, an integer in 0..511"},
     {"length_0", signal_line("a : 0|0@1+ (1,0) [0|0] \"\" B"), "8:6: signal N.a has 0 bits, expected 1..64"},
@@ -116,7 +116,7 @@ const Wrong wrong[] = {
                  "(1,0) [0|0] \"\" B"),
      "9:6: message N has a second multiplexor b, expected one, or SG_MUL_VAL_ for every multiplexed signal"},
     {"mux_value", signal_line("a M : 0|2@1+ (1,0) [0|0] \"\" B\n SG_ c m4 : 16|8@1+ (1,0) [0|0] \"\" B"),
-     "9:6: signal N.c is there when a is 4, expected a value of its 2 bits: 0..3"},
+     "9:6: signal N.c is present when a is 4, expected a value of its 2 bits: 0..3"},
     {"mux_signed", signal_line("a M : 0|2@1- (1,0) [0|0] \"\" B"),
      "8:6: multiplexor N.a is signed, expected an unsigned integer"},
     {"mux_float", signal_line("a M : 0|32@1- (1,0) [0|0] \"\" B\nSIG_VALTYPE_ 2 a : 1;"),
@@ -131,13 +131,13 @@ const Wrong wrong[] = {
     {"mux_circle",
      signal_line("a m1M : 0|8@1+ (1,0) [0|0] \"\" B\n SG_ b m1M : 8|8@1+ (1,0) [0|0] \"\" B\nSG_MUL_VAL_ 2 a "
                  "b 1-1;\nSG_MUL_VAL_ 2 b a 1-1;"),
-     "8:6: signal N.a is multiplexed in a circle, expected a multiplexor that is always there"},
+     "8:6: signal N.a is multiplexed in a circle, expected a multiplexor that is always present"},
     {"mux_not_multiplexed", "SG_MUL_VAL_ 1 s t 1-1;",
      "7:15: signal M.s is not multiplexed, expected the indicator m<number> in its SG_"},
     {"mux_no_multiplexor",
      signal_line(
          "a m1 : 0|8@1+ (1,0) [0|0] \"\" B\n SG_ b : 8|8@1+ (1,0) [0|0] \"\" B\nSG_MUL_VAL_ 2 a b 1-1;"),
-     "10:17: signal N.b is no multiplexor, expected the indicator M in its SG_"},
+     "10:17: signal N.b is not a multiplexor, expected the indicator M in its SG_"},
     {"mux_range",
      signal_line(
          "a m1 : 0|8@1+ (1,0) [0|0] \"\" B\n SG_ b M : 8|8@1+ (1,0) [0|0] \"\" B\nSG_MUL_VAL_ 2 a b 3-1;"),
@@ -164,7 +164,7 @@ const Wrong wrong[] = {
      "8:6: float signal N.a has named values, expected an integer signal"},
     {"value_name", "VAL_ 1 s 1 x ;", "7:12: unexpected 'x', expected the name of the value in quotes"},
     {"table_twice", "VAL_TABLE_ T 1 \"x\" ;\nVAL_TABLE_ T 1 \"x\" ;",
-     "8:12: value table T a second time, expected a name of its own"},
+     "8:12: value table T is defined a second time, expected a unique name"},
     // comments
     {"comment_node", "CM_ BU_ C \"x\";", "7:9: no node 'C', expected one listed in BU_"},
     {"comment_message", "CM_ BO_ 9 \"x\";",
@@ -178,7 +178,7 @@ const Wrong wrong[] = {
     // environment variables
     {"variable_twice",
      "EV_ e: 0 [0|1] \"\" 0 1 DUMMY_NODE_VECTOR0 A;\nEV_ e: 0 [0|1] \"\" 0 1 DUMMY_NODE_VECTOR0 A;",
-     "8:5: environment variable e a second time, expected a name of its own"},
+     "8:5: environment variable e is defined a second time, expected a unique name"},
     {"variable_node", "EV_ e: 0 [0|1] \"\" 0 1 DUMMY_NODE_VECTOR0 C;",
      "7:42: no node 'C', expected one listed in BU_"},
     {"variable_data", "ENVVAR_DATA_ e: 3;",
@@ -188,7 +188,7 @@ const Wrong wrong[] = {
     {"attribute_default_undefined", "BA_DEF_DEF_ \"X\" 1;",
      "7:13: attribute \"X\" is not defined, expected a BA_DEF_ above"},
     {"attribute_twice", std::string(definitions) + "BA_DEF_ BO_ \"I\" INT 0 10;",
-     "10:13: attribute \"I\" defined a second time, expected a name of its own"},
+     "10:13: attribute \"I\" is defined a second time, expected a unique name"},
     {"attribute_type", "BA_DEF_ \"X\" BOOL;",
      "7:13: unexpected 'BOOL', expected the type INT, HEX, FLOAT, STRING or ENUM"},
     {"attribute_limits", "BA_DEF_ \"X\" INT 5 4;",
@@ -200,9 +200,9 @@ const Wrong wrong[] = {
     {"attribute_float", std::string(definitions) + "BA_ \"F\" SG_ 1 s -2;",
      "10:17: -2 is outside of attribute \"F\", expected -1.5..1.5"},
     {"attribute_enum", std::string(definitions) + "BA_ \"E\" 2;",
-     "10:9: 2 is no value of attribute \"E\", expected 0..1"},
+     "10:9: 2 is not a value of attribute \"E\", expected 0..1"},
     {"attribute_label", std::string(definitions) + "BA_ \"E\" \"z\";",
-     "10:9: \"z\" is no value of attribute \"E\", expected one of \"x\", \"y\""},
+     "10:9: \"z\" is not a value of attribute \"E\", expected one of \"x\", \"y\""},
     {"attribute_default", std::string(definitions) + "BA_DEF_DEF_ \"I\" 11;",
      "10:17: 11 is outside of attribute \"I\", expected 0..10"},
     {"attribute_default_twice", std::string(definitions) + "BA_DEF_DEF_ \"I\" 1;\nBA_DEF_DEF_ \"I\" 1;",

@@ -1,4 +1,4 @@
-// Each rule of the lenient reader: where it finds what, and what follows from it.
+// Each rule of the lenient reader: its place in the text, its finding, and its consequence.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Property: a plan allocates nothing when it is used.
+// Property: using a plan does not allocate.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -13,7 +13,7 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Not inlined: GCC would take free() in them for a mismatch.
+// Not inlined, because GCC would report a mismatch for free() in them.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;

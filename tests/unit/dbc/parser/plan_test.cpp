@@ -1,4 +1,4 @@
-// The compiled codec against one that takes a bit at a time, on random layouts.
+// The compiled codec against a codec that handles one bit at a time, on random layouts.
 #include "dbc/parser/plan.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// Where bit i of the raw value lies, i from the least significant one: the DBC's definition.
+/// The place of bit i of the raw value (bit 0 is the least significant), as the DBC format defines it.
 unsigned position(const Signal& signal, unsigned i) {
   const bool big_endian = signal.byte_order == ByteOrder::big_endian;
   return wire::bit_position(signal.start_bit, big_endian ? signal.length - 1 - i : i, big_endian);
@@ -65,7 +65,7 @@ bool present_by_bits(const Message& message, const Signal& signal, const Bytes& 
          present_by_bits(message, multiplexor, data);
 }
 
-/// A signal somewhere in a message, often where windows and bytes end.
+/// A signal at a random place in a message, often at the ends of windows and bytes.
 Signal any_signal(unsigned size, std::size_t number) {
   Signal signal;
   signal.name = "s" + std::to_string(number);
@@ -107,7 +107,7 @@ Message any_message() {
     }
     message.signals.push_back(std::move(signal));
   }
-  std::ranges::reverse(message.signals);  // a multiplexor may stand behind what it decides
+  std::ranges::reverse(message.signals);  // a multiplexor may come after the signals that it selects
   return message;
 }
 
@@ -162,7 +162,7 @@ RC_GTEST_PROP(PlanProperty, EncodesAsBitByBit, (double any)) {
   RC_ASSERT(data == expected);
 }
 
-// Up to 48 bits: doubles hold what the scale and the offset make of them.
+// Up to 48 bits, because doubles represent these values exactly with scale and offset.
 RC_GTEST_PROP(PlanProperty, RawValuesComeBack, (std::uint64_t any)) {
   Signal signal = any_signal(8, 0);
   RC_PRE(!signal.is_float() && signal.length <= 48);

@@ -1,4 +1,4 @@
-// Whatever the text, parse() returns: a Database that the codec can work with, or one line.
+// For any text, parse() returns either a Database that the codec can use, or one line.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -31,7 +31,7 @@ void expect_sound_or_one_line(const Result<Database>& database) {
 
 class Robustness : public testing::TestWithParam<const char*> {};
 
-// Cut, repeat, swap and change pieces of a right file.
+// Removes, repeats, swaps and changes pieces of a correct file.
 TEST_P(Robustness, MutatedFilesAreReadOrRefused) {
   const std::string original = content_of(std::string(TEST_DATA_DIR "/dbc/") + GetParam());
   ASSERT_FALSE(original.empty());

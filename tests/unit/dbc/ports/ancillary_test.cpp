@@ -1,4 +1,4 @@
-// The kernel's control messages, made by hand: no virtual interface stamps in hardware.
+// Artificial control messages of the kernel, because no virtual interface has hardware time stamps.
 #include "dbc/ports/ancillary.hpp"
 
 #include <gmock/gmock.h>

@@ -67,7 +67,7 @@ TEST(BitErrors, NeverAndAlways) {
   for (std::uint32_t i = 0; i < 100; ++i) EXPECT_FALSE(hardly(attempt_of(frame(i))));
 }
 
-// Whatever bit is hit, the flag begins at the end of a bit of its own length.
+// For any disturbed bit, the error flag begins at the end of this bit, which has the length of its phase.
 TEST(BitErrors, BitsOfTheDataPhaseAreShorter) {
   Frame fd{.id = 0x123, .size = 64, .fd = true, .brs = true};
   const wire::BitLength length = wire::bit_length(fd);
@@ -86,10 +86,11 @@ TEST(BitErrors, BitsOfTheDataPhaseAreShorter) {
   EXPECT_GT(in_data, 100);
 }
 
-// Three nodes, a frame each every 2 ms at 500 kbit/s, every fiftieth attempt hit: nobody goes off the bus.
+// Three nodes, one frame each every 2 ms at 500 kbit/s, every fiftieth attempt disturbed: no node goes
+// bus-off.
 TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    SimulatedWire wire(rates, {{.order = QueueOrder::fifo}, {.told = true}, {}},
+    SimulatedWire wire(rates, {{.order = QueueOrder::fifo}, {.reports_errors = true}, {}},
                        BitErrors(2e-4, rates, seed));
     constexpr std::uint32_t rounds = 300;
     std::array<std::uint32_t, 3> arrived{};
@@ -124,7 +125,7 @@ TEST(BitErrors, EveryFrameIsSentAgainUntilItIsThrough) {
     EXPECT_GT(wire.counters().error_frames, 0U) << seed;
     EXPECT_EQ(attempts, wire.counters().frames + wire.counters().error_frames);
     EXPECT_EQ(wire.counters().dropped, 0U);
-    EXPECT_EQ(seen.bus_error, wire.counters().error_frames);  // a controller tells of each
+    EXPECT_EQ(seen.bus_error, wire.counters().error_frames);  // a controller reports each
     EXPECT_GE(told, seen.bus_error);
   }
 }

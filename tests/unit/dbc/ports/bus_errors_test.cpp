@@ -1,4 +1,4 @@
-// Every class of error frame, as linux/can/error.h has them.
+// Every class of error frame of linux/can/error.h.
 #include "dbc/ports/bus_errors.hpp"
 
 #include <gmock/gmock.h>
@@ -92,13 +92,13 @@ TEST(BusErrors, AShortFrameHasNoDetails) {
 
 TEST(BusErrors, InWords) {
   BusErrors errors;
-  EXPECT_EQ(words(errors), "");
+  EXPECT_EQ(to_text(errors), "");
   add(errors, error_frame(0));
-  EXPECT_EQ(words(errors), "of no known class");
+  EXPECT_EQ(to_text(errors), "of an unknown class");
   add(errors, error_frame(CAN_ERR_BUSOFF));
   add(errors, error_frame(CAN_ERR_ACK));
   add(errors, error_frame(CAN_ERR_ACK | CAN_ERR_CNT, {0, 0, 0, 0, 0, 0, 136, 0}));
-  EXPECT_EQ(words(errors), "bus off 1, no acknowledgement 2; error counters at most tx 136, rx 0");
+  EXPECT_EQ(to_text(errors), "bus off 1, no acknowledgement 2; error counters at most tx 136, rx 0");
 }
 
 }  // namespace

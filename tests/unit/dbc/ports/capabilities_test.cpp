@@ -1,4 +1,4 @@
-// What a bus can do, as its port tells it.
+// The capabilities that a port reports for its bus.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -70,7 +70,8 @@ TEST(JoinOrHost, TheFirstHostsAndTheSecondJoins) {
   for (int twice = 0; twice < 2; ++twice) EXPECT_FALSE(host->receive());
   ASSERT_EQ(node->send({.id = 5}), SendOutcome::sent);
   EXPECT_EQ(host->receive()->frame.id, 5U);
-  // Hosted in the other format: why it cannot be joined says more than that it is hosted already.
+  // The bus is hosted in the other format: the error states why it cannot be joined, which is more useful
+  // than "hosted already".
   EXPECT_NE(join_or_host(bus, {}, BusFormat::fd).error().message.find("is classic CAN"), std::string::npos);
 }
 

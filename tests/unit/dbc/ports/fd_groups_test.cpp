@@ -1,4 +1,4 @@
-// The FD contract on a bus: what goes in as classic frames comes out as the same, in the same order.
+// The CAN FD format on a bus: classic frames that are sent arrive unchanged and in the same order.
 #include "dbc/ports/fd_groups.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ class FdGroups : public testing::Test {
   void send(const std::vector<Frame>& frames) {
     for (const Frame& frame : frames) EXPECT_EQ(port_->send(frame), SendOutcome::sent);
   }
-  /// What another node makes of what was sent.
+  /// The frames that another node receives.
   std::vector<Frame> heard() {
     for (const Frame& frame : wire_->sent) wire_->waiting.push_back({.frame = frame, .t_ns = 7});
     std::vector<Frame> frames;

@@ -1,4 +1,4 @@
-// Frames and waiting, for the tests of ports.
+// Frames and waiting for the tests of ports.
 #pragma once
 
 #include <gtest/gtest.h>

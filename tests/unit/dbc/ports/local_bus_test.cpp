@@ -34,14 +34,14 @@ class LocalBus : public ::testing::Test {
     const auto node = open_port(bus_, options);
     return node ? "joined" : node.error().message;
   }
-  /// Sends numbered frames until the port has no room; how many it took.
+  /// Sends numbered frames until the port has no room. Returns their number.
   static std::uint32_t fill(Port& port, std::uint32_t id) {
     std::uint32_t n = 0;
     while (port.send(numbered(id, n)) == SendOutcome::sent) ++n;
     return n;
   }
 
-  // Whom the hub drops is a matter of local_gate_test.cpp; here a slow machine must not make it drop any.
+  // local_gate_test.cpp tests which nodes the hub drops. Here, a slow machine must not cause a drop.
   static constexpr std::int64_t patient_ns = 600'000'000'000;
   const std::string bus_ = fmt::format("local:test-{}-{}", ::getpid(),
                                        ::testing::UnitTest::GetInstance()->current_test_info()->name());
@@ -96,7 +96,7 @@ TEST_F(LocalBus, GivesNodesTheirNamesAndForgetsTheDead) {
   b->send(frame_of(7));
   b.reset();
   EXPECT_EQ(hub->send(frame_of(8)), SendOutcome::sent);
-  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // what it had sent before still counts
+  EXPECT_EQ(next_frame(*hub)->frame.id, 7U);  // frames that it had sent before are still delivered
   EXPECT_FALSE(hub->receive());
   EXPECT_THAT(hub->nodes(), ElementsAre("target"));
 }
@@ -272,7 +272,7 @@ TEST_F(LocalBus, IsServedByRunHub) {
   const auto a = std::move(*open_port(bus_, {}));
   const auto b = std::move(*open_port(bus_, {.own_echo = true}));
   b->send(frame_of(1));
-  EXPECT_TRUE(next_frame(*b)->own);  // so the hub knows both
+  EXPECT_TRUE(next_frame(*b)->own);  // so the hub has accepted both
   a->send(frame_of(2));
   EXPECT_EQ(next_frame(*b)->frame.id, 2U);
   stop = true;

@@ -1,4 +1,4 @@
-// Who may be on an embedded bus: its own user's processes, as long as they speak and read.
+// Access to an embedded bus: only processes of the same user, and only while they send and read.
 #include "dbc/ports/local_gate.hpp"
 
 #include <fcntl.h>
@@ -20,7 +20,7 @@
 namespace canhil {
 namespace {
 
-using local::Place;
+using local::Format;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -28,7 +28,7 @@ using ::testing::IsEmpty;
 constexpr uid_t nobody = 65534;
 constexpr std::int64_t ns_per_ms = 1'000'000;
 
-/// Runs in a process of uid `nobody`; what it returns.
+/// Runs a function in a process of the user `nobody` and returns its result.
 int as_nobody(const std::function<int()>& what) {
   const pid_t pid = ::fork();
   if (pid == 0) ::_exit(::setgid(nobody) == 0 && ::setuid(nobody) == 0 ? what() : 99);
@@ -37,7 +37,7 @@ int as_nobody(const std::function<int()>& what) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Buses of this test alone.
+/// Buses that only this test uses.
 class LocalGate : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -60,7 +60,7 @@ class LocalGate : public ::testing::Test {
     for (int twice = 0; twice < 2; ++twice) EXPECT_FALSE(hub.receive());
     return node ? std::move(*node) : nullptr;
   }
-  /// Lets the hub work, as its host does, until `done`, or 10 s have gone by: false.
+  /// Runs the hub like its host does until `done`; false after 10 s.
   static bool serve(Port& hub, const std::function<bool()>& done) {
     const std::int64_t deadline = in_seconds(10);
     while (!done()) {
@@ -158,14 +158,14 @@ class AnotherUser : public LocalGate {
   void TearDown() override {
     if (::geteuid() == 0) LocalGate::TearDown();
   }
-  /// As if nothing but the credentials kept others away.
+  /// As if only the credentials kept other users away.
   void open_to_all() const {
     for (const std::string& path : {runtime_, directory(), directory() + "/x.classic"})
       ::chmod(path.c_str(), 0777);
   }
-  /// Connects past all looks at the host, says Hello and sends a frame; 0, or errno.
+  /// Connects without the checks of the host, sends Hello and a frame. Returns 0 or errno.
   [[nodiscard]] int intrude() const {
-    const Descriptor socket = local::connect_to(directory(), "x", Place::classic);
+    const Descriptor socket = local::connect_to(directory(), "x", Format::classic);
     if (!socket) return errno;
     const local::Hello hello;
     ::send(socket.get(), &hello, sizeof hello, MSG_NOSIGNAL);
@@ -238,10 +238,10 @@ TEST_F(AnotherUser, CannotTakeTheDirectorysName) {
 TEST_F(LocalGate, WhoSaysNothingIsDroppedAndNamed) {
   const auto hub = host({.hello_limit_ns = 20 * ns_per_ms});
   const auto node = join(*hub);
-  const Descriptor silent = local::connect_to(directory(), "x", Place::classic);
+  const Descriptor silent = local::connect_to(directory(), "x", Format::classic);
   ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
-  EXPECT_THAT(told_, ElementsAre(fmt::format(
-                         "bus 'local:x': a process ({}) never said who it is and was dropped", us())));
+  EXPECT_THAT(told_,
+              ElementsAre(fmt::format("bus 'local:x': a process ({}) sent no Hello and was dropped", us())));
   char none = 0;
   EXPECT_EQ(::recv(silent.get(), &none, 1, 0), 0) << "its connection is open still";
   EXPECT_THAT(hub->nodes(), ElementsAre("node"));
@@ -301,10 +301,10 @@ TEST_F(LocalGate, WhoReadsSoSlowlyThatItDragsTheBusAlongIsDropped) {
 TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
   const auto hub = host();
   const auto node = join(*hub);
-  const Descriptor stranger = local::connect_to(directory(), "x", Place::classic);
+  const Descriptor stranger = local::connect_to(directory(), "x", Format::classic);
   ASSERT_EQ(::send(stranger.get(), "hello", 5, MSG_NOSIGNAL), 5);
   ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
-  const Descriptor joined = local::connect_to(directory(), "x", Place::classic);
+  const Descriptor joined = local::connect_to(directory(), "x", Format::classic);
   local::Hello hello;
   hello.node_name = {'o', 'd', 'd'};
   ASSERT_EQ(::send(joined.get(), &hello, sizeof hello, MSG_NOSIGNAL), sizeof hello);
@@ -314,14 +314,12 @@ TEST_F(LocalGate, WhoSendsWhatIsNoFrameIsDroppedAndNamed) {
       told_,
       ElementsAre(
           fmt::format(
-              "bus 'local:x': a process ({}) did not join as a node of this version does and was dropped",
-              us()),
-          fmt::format("bus 'local:x': node 'odd' ({}) sent what is no frame of this bus and was dropped",
-                      us())));
+              "bus 'local:x': a process ({}) sent an invalid Hello (another version?) and was dropped", us()),
+          fmt::format("bus 'local:x': node 'odd' ({}) sent an invalid frame and was dropped", us())));
   EXPECT_THAT(hub->nodes(), ElementsAre("node"));
 }
 
-// Three nodes have more waiting than the hub may take at once.
+// Three nodes have more frames waiting than the hub takes at once.
 TEST_F(LocalGate, FramesThatTheHostDoesNotWantKeepItNoLongerThanOthers) {
   const auto hub = host_local_bus("local:x", {.only_ids = {1}}).value();
   std::vector<std::unique_ptr<Port>> senders;
@@ -346,7 +344,7 @@ TEST_F(LocalGate, TakesSoManyNodesAndNoMore) {
   const auto third = open_port("local:x", {}).value();
   ASSERT_TRUE(serve(*hub, [this] { return !told_.empty(); }));
   EXPECT_THAT(told_, ElementsAre(fmt::format(
-                         "bus 'local:x': a process ({}) was refused: the bus has 2 nodes, its most", us())));
+                         "bus 'local:x': a process ({}) was refused: the bus has 2 nodes, its limit", us())));
   EXPECT_FALSE(next_frame(*third));
   EXPECT_TRUE(third->closed());
   b.reset();

@@ -110,7 +110,7 @@ TEST(Wait, ForRoomDoesAsThePortSays) {
 TEST(Wait, LooksAgainWhereAnInterfaceIsAway) {
   WaitingPort port;
   port.is_up = false;
-  port.room = {.events = POLLOUT};  // which an interface that is down always has
+  port.room = {.events = POLLOUT};  // a flag that an interface has while it is down
   for (const WaitFor what : {WaitFor::frame, WaitFor::room}) {
     const std::int64_t start = clock_ns(CLOCK_MONOTONIC);
     EXPECT_TRUE(wait(port, what, no_deadline)) << "worth another try";

@@ -184,7 +184,8 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   SimulatedWire wire(rates, {{}, {.depth = 200}, {}}, failing(0x100, 32));
   wire.queue(0, frame(0x100), 0);
   for (int i = 0; i < 200; ++i) wire.queue(1, frame(0x700), bit_ns);
-  // The other node's frames go where the passive sender is silent, and all the time once it is off.
+  // The other node's frames are sent while the passive sender is silent, and continuously while it is
+  // bus-off.
   while (wire.state(0) != NodeState::bus_off) ASSERT_TRUE(wire.next(long_enough));
   for (int i = 0; i < 126; ++i) ASSERT_TRUE(wire.next(long_enough));
   EXPECT_EQ(wire.state(0), NodeState::bus_off);
@@ -192,7 +193,7 @@ TEST(SimulatedWire, AFrameOfOthersCountsAsOneRecessiveRun) {
   EXPECT_EQ(wire.state(0), NodeState::error_active);
 }
 
-/// What a controller told, in order: event, counters, time.
+/// The reports of a controller, in order: event, counters, time.
 struct Told {
   std::optional<BusEvent> event;
   int tx = 0, rx = 0;
@@ -213,7 +214,7 @@ std::vector<Told> events(std::vector<Told> told) {
 }
 
 TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
-  SimulatedWire wire(rates, {{.told = true}, {}}, failing(0x100, 1000));
+  SimulatedWire wire(rates, {{.reports_errors = true}, {}}, failing(0x100, 1000));
   wire.queue(0, frame(0x100), 0);
   BusErrors errors;
   std::vector<Told> told;
@@ -238,7 +239,8 @@ TEST(SimulatedWire, AControllerTellsItsHostFromTheFirstErrorToItsReturn) {
 }
 
 TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
-  SimulatedWire wire(rates, {{}, {.told = true}}, failing(0x123, 3, {.after_ns = 20 * bit_ns, .at = 1}));
+  SimulatedWire wire(rates, {{}, {.reports_errors = true}},
+                     failing(0x123, 3, {.after_ns = 20 * bit_ns, .at = 1}));
   wire.queue(0, frame(0x123), 0);
   while (!wire.next(long_enough)) ASSERT_TRUE(wire.has_report());
   BusErrors errors;
@@ -249,9 +251,9 @@ TEST(SimulatedWire, AReceiverTellsOfItsOwnCounter) {
   EXPECT_EQ(errors.tx_counter_max, 0);
 }
 
-// 12 errors are a warning; one frame that is through ends it, and another frame is no news.
+// 12 errors cause a warning. One successful frame ends it; a further frame is not reported.
 TEST(SimulatedWire, TheWayBackIsToldAfterTheFrameThatLedThere) {
-  SimulatedWire wire(rates, {{.told = true}, {}}, failing(0x123, 12));
+  SimulatedWire wire(rates, {{.reports_errors = true}, {}}, failing(0x123, 12));
   for (int i = 0; i < 2; ++i) wire.queue(0, frame(0x123), 0);
   BusErrors errors;
   std::vector<Told> told;
@@ -270,7 +272,7 @@ TEST(SimulatedWire, TheWayBackIsToldAfterTheFrameThatLedThere) {
 }
 
 TEST(SimulatedWire, WhatNobodyHearsIsNotAcknowledged) {
-  SimulatedWire wire(rates, {{.told = true}});
+  SimulatedWire wire(rates, {{.reports_errors = true}});
   wire.queue(0, frame(0x100), 0);
   EXPECT_FALSE(wire.next(1'000'000));
   BusErrors errors;

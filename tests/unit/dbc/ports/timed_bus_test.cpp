@@ -1,5 +1,5 @@
-// The embedded bus with a bit rate. The stamps are the wire's own, so they are exact on a busy machine too;
-// the bit rates are so low that this program gets to run within a frame.
+// The embedded bus with a bit rate. Time stamps come from the simulated wire, so they are exact on a busy
+// machine too. The bit rates are so low that this program is scheduled within the time of a frame.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -76,7 +76,7 @@ TEST_F(TimedBus, TheHostHearsItsOwnFrameWhenItIsOver) {
   EXPECT_EQ(hub->counters().sent, 1U);
 }
 
-// The untimed bus would take the nodes in turn, the one that joined first before the other.
+// The untimed bus would serve the nodes in turn, in the order in which they joined.
 TEST_F(TimedBus, TheLowestIdOfThoseThatWaitIsNext) {
   const auto hub = host("?bitrate=1000");
   const auto first = join(*hub), second = join(*hub);
@@ -142,7 +142,7 @@ TEST_F(TimedBus, CarriesFdAtTwoBitRates) {
   EXPECT_EQ(next_frame(*hub)->t_ns - first_ns, duration_ns(fd, rates));
 }
 
-// About one attempt in 20 is hit: warnings, perhaps error passive, but no bus-off.
+// About one attempt in 20 is disturbed: warnings, perhaps error passive, but no bus-off.
 TEST_F(TimedBus, ADisturbedBusLosesNothing) {
   const auto hub = host("?bitrate=1000000&bit-error-rate=5e-4&seed=2");
   const auto node = join(*hub);
@@ -193,7 +193,7 @@ TEST_F(TimedBus, WhereEveryBitIsWrongASenderGoesOffTheBusAndComesBack) {
   EXPECT_THAT(events, ElementsAre(BusEvent::error_warning, BusEvent::error_passive, BusEvent::bus_off,
                                   BusEvent::restarted));
   EXPECT_EQ(errors.bus_error, 32U);
-  // What it sent while it was off is tried now.
+  // Frames that it sent during the bus-off are tried now.
   while (errors.bus_error == 32U && wait(*hub, WaitFor::frame, deadline_ns)) {
     while (hub->receive()) {
     }
@@ -206,7 +206,7 @@ TEST_F(TimedBus, WhereEveryBitIsWrongASenderGoesOffTheBusAndComesBack) {
   EXPECT_EQ(of_other.tx_counter_max, 0);
 }
 
-// While the host is off the bus it has no room; then its frames go on.
+// While the host is bus-off, its queue has no room; then its frames are sent.
 TEST_F(TimedBus, AHostThatIsOffTheBusWaitsForItsReturn) {
   const auto hub = host("?bitrate=10000&bit-error-rate=1");
   ASSERT_EQ(hub->send(frame_of(1)), SendOutcome::sent);
@@ -223,7 +223,7 @@ TEST_F(TimedBus, AHostThatIsOffTheBusWaitsForItsReturn) {
   EXPECT_EQ(hub->send(frame_of(2)), SendOutcome::sent);
 }
 
-// What a controller reports is not on the wire: it does not wait for the frame that is.
+// The reports of a controller are not on the wire: they do not wait for the frame there.
 TEST_F(TimedBus, ErrorReportsPassAtOnce) {
   Frame report = frame_of(0x40);
   report.size = 8;
@@ -239,7 +239,7 @@ TEST_F(TimedBus, ErrorReportsPassAtOnce) {
   EXPECT_EQ(next_frame(*hub)->frame, frame_of(1));
 }
 
-// They take no time on the wire, so nothing else holds back who sends them without end.
+// They take no time on the wire, so only the hub can limit an endless sender.
 TEST_F(TimedBus, ErrorReportsWithoutEndAreTakenSoManyAtOnce) {
   Frame report = frame_of(0x04);
   report.size = 8;
@@ -261,7 +261,7 @@ TEST_F(TimedBus, ErrorReportsWithoutEndAreTakenSoManyAtOnce) {
   const int taken = fill();
   EXPECT_GT(taken, 0);
   EXPECT_LE(taken, 256);
-  // Nor does it take more than it gives once the host is far behind with reading.
+  // It also does not accept more frames than it delivers, if the host is far behind with reading.
   int more = 0;
   for (int n = 0; n < 100; ++n) {
     EXPECT_TRUE(hub->receive());
@@ -276,7 +276,7 @@ TEST_F(TimedBus, WhoComesAndGoesKeepsNobodyWaiting) {
   const std::string name = bus_.substr(std::string_view("local:").size());
   const std::int64_t end_ns = in_seconds(3);
   std::jthread crowd([&] {
-    while (clock_ns(CLOCK_MONOTONIC) < end_ns) local::connect_to(directory, name, local::Place::classic);
+    while (clock_ns(CLOCK_MONOTONIC) < end_ns) local::connect_to(directory, name, local::Format::classic);
   });
   hub->receive();
   ASSERT_TRUE(wait(*hub, WaitFor::frame, end_ns));

@@ -1,7 +1,7 @@
 // The profiles against the protected data that the standard publishes: AUTOSAR FO PRS E2EProtocol (document
-// 849), sections 'E2E Profile N Protocol Examples'. The numbers are repeated by the tests of public
-// libraries, from which they were taken: autosar-e2e on PyPI, torsko/autosar-e2e and remotivelabs/autosar-e2e
-// on GitHub.
+// 849), sections 'E2E Profile N Protocol Examples'. The numbers were taken from the tests of public
+// libraries, which repeat them: autosar-e2e on PyPI, torsko/autosar-e2e and remotivelabs/autosar-e2e on
+// GitHub.
 #include "dbc/protection/profiles.hpp"
 
 #include <gmock/gmock.h>
@@ -249,9 +249,10 @@ TEST(E2eProfiles, RefuseWhatTheyCannotHave) {
             "profile autosar-e2e-5: data_id_list, expected data_id in its place");
   ProfileChoice nibble = with_id(1);
   nibble.data_id_nibble = Place{12, 4, false};
-  EXPECT_EQ(error("autosar-e2e-11a", nibble),
-            "profile autosar-e2e-11a: a place for the data id's nibble, expected none: variants 1c and 11c "
-            "have one");
+  EXPECT_EQ(
+      error("autosar-e2e-11a", nibble),
+      "profile autosar-e2e-11a: a place for the data id's nibble, expected none: only variants 1c and 11c "
+      "have one");
 }
 
 }  // namespace

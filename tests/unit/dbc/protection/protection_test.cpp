@@ -1,4 +1,4 @@
-// Counters, what is covered, sender and receiver.
+// Counters, covered bytes, sender and receiver.
 #include "dbc/protection/protection.hpp"
 
 #include <gtest/gtest.h>
@@ -153,8 +153,8 @@ TEST(Receivers, FindAWrongConstant) {
   EXPECT_EQ(Receiver().check(protection, data), Check::wrong_checksum);
 }
 
-// Any settings: either one line that says what was expected, or a protection whose messages pass, that leaves
-// the other bits of the message alone.
+// Any settings give either one line with what was expected, or a protection whose messages pass and that does
+// not change the other bits of the message.
 Place any_place() {
   return {.start_bit = *rc::gen::weightedOneOf<unsigned>(
               {{3, rc::gen::map(rc::gen::inRange(0U, 8U), [](unsigned byte) { return 8 * byte + 3; })},

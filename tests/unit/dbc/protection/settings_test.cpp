@@ -1,4 +1,4 @@
-// One line for each impossible setting.
+// One error line for each impossible setting.
 #include "dbc/protection/settings.hpp"
 
 #include <gtest/gtest.h>
@@ -67,11 +67,11 @@ TEST(ProtectionSettings, PlacesOverOneAnother) {
   EXPECT_EQ(error([](Settings& s) {
               s.counter->place = {7, 4, false};
             }),
-            "counter: lies over the checksum in byte 0, expected bits of its own");
+            "counter: overlaps the checksum in byte 0, expected bits of its own");
   EXPECT_EQ(error([](Settings& s) {
               s.constants = {{{11, 4, false}, 0}};
             }),
-            "constant: lies over the counter in byte 1, expected bits of its own");
+            "constant: overlaps the counter in byte 1, expected bits of its own");
 }
 
 TEST(ProtectionSettings, Counters) {

@@ -1,4 +1,4 @@
-// Sums that vehicle makers use, each with a message that was computed by hand.
+// Checksums of vehicle manufacturers, each with a message that was computed by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Bytes summed(const Checksum& checksum, Bytes data, std::uint32_t id = 0) {
   protection->protect(data, 0);
   EXPECT_EQ(Receiver().check(*protection, data), Check::ok);
   for (std::size_t bit = 0; bit < 8 * data.size();
-       ++bit) {  // each sum finds one flipped bit in what it covers
+       ++bit) {  // each sum detects one flipped bit in the covered bytes
     const unsigned byte = static_cast<unsigned>(bit / 8);
     const auto covered = covered_bytes(checksum, static_cast<unsigned>(data.size()));
     const bool own = (bits_of(checksum.place)[byte] >> (bit % 8) & 1) != 0;

@@ -1,4 +1,4 @@
-// Our own wire's protection (dbc/wire/e2e.hpp) and the preset of the same profile agree bit for bit.
+// canhil's own protection (dbc/wire/e2e.hpp) and the preset of the same profile agree bit for bit.
 #include "dbc/wire/e2e.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,8 @@ RC_GTEST_PROP(OwnWire, IsThePresetBitForBitInEveryMessage, ()) {
   }
 }
 
-/// What the wire's receiver makes of a frame, in the words of this one; it calls a counter of 15 a wrong CRC.
+/// The verdict of the wire's receiver on a frame, converted to that of this one. The wire's receiver reports
+/// a counter of 15 as a wrong CRC.
 Check in_our_words(e2e::Check check) {
   switch (check) {
     case e2e::Check::ok:

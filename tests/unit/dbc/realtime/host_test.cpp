@@ -77,7 +77,7 @@ TEST(MissingRights, AreNamedWithTheirRemedy) {
   EXPECT_EQ(missing({.priority = 39, .locked_bytes = unlimited}, 40, "ann", "/opt/p"),
             "real-time priority 40 is above the limit of 39" + remedy);
   EXPECT_EQ(missing({.priority = 99, .locked_bytes = 8 << 20}, 40, "ann", "/opt/p"),
-            "memory cannot all be locked within the limit of 8192 KiB" + remedy);
+            "the limit of 8192 KiB does not allow locking all memory" + remedy);
   const std::string both = missing({.may_lock = true}, 40, "ann", "/opt/p");
   EXPECT_THAT(both, HasSubstr("real-time priority"));
   EXPECT_THAT(both, Not(HasSubstr("memory cannot")));

@@ -30,7 +30,7 @@ TEST(Words, SayWhatIsInForce) {
                     .awake = true,
                     .governors = {"performance"},
                     .preemption = "PREEMPT_RT"};
-  EXPECT_EQ(words(standing),
+  EXPECT_EQ(to_text(standing),
             "SCHED_FIFO 40, CPU 2-3, 71 MiB locked, timer slack 1 ns, no deep sleep, governor performance, "
             "PREEMPT_RT");
   EXPECT_EQ(frequency_warning(standing), "");
@@ -60,7 +60,8 @@ long page_faults() {
   return usage.ru_minflt;
 }
 
-// The sanitizers' own mlockall does nothing: they cannot have the terabytes of their shadow locked.
+// The sanitizers replace mlockall by a function that does nothing, because the terabytes of their shadow
+// memory cannot be locked.
 #ifdef CANHIL_SANITIZED
 constexpr bool memory_is_locked = false;
 #else

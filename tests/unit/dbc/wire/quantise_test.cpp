@@ -74,7 +74,7 @@ RC_GTEST_PROP(Quantised, GivesBackEveryRawValue,
   RC_ASSERT(static_cast<std::int64_t>(quantised(value, scale, offset, -0x1p40, 0x1p40)) == raw);
 }
 
-// What is sent differs from what was meant by at most half an LSB, inside the range.
+// Within the range, the sent value differs from the intended one by at most half an LSB.
 RC_GTEST_PROP(Quantised, IsWithinHalfAnLsb, (std::int32_t numerator, std::uint16_t divisor)) {
   const double scale = 0.003;
   const double value = numerator / (1.0 + divisor);

@@ -12,7 +12,7 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Not inlined: GCC would take free() in them for a mismatch.
+// Not inlined, because GCC would report a mismatch for free() in them.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
@@ -49,7 +49,7 @@ void expect_no_allocation(const std::vector<Frame>& frames, const Session& sessi
   EXPECT_EQ(device.running(), session.running);
 }
 
-// The frames of a session with everything in it: parameters, both algorithms, losses, late fixes, faults.
+// The frames of a session with all features: parameters, both algorithms, losses, late fixes, faults.
 std::vector<Frame> transfer_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;
@@ -76,7 +76,8 @@ TEST(Allocation, TheFramePathOfTheDeviceHasNone) {
   }
 }
 
-// The same for in-flight alignment: fixes late, gated, invalid, of the other aid; a P that needs repair.
+// The same for in-flight alignment: fixes that are late, gated, invalid or of the other aid; a P that needs a
+// repair.
 std::vector<Frame> inflight_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;
@@ -115,7 +116,7 @@ TEST(Allocation, TheFramePathOfInflightAlignmentHasNone) {
   }
 }
 
-// The same for the LOS rate: groups lost, invalid, late, and a seeker that stays away and comes back.
+// The same for the LOS rate: groups that are lost, invalid or late, and a seeker that is silent and returns.
 std::vector<Frame> los_rate_session(messages::Algorithm algorithm) {
   using namespace messages;
   Missile missile(algorithm, {{.parameter = Parameter::glint_noise_yaw_m, .value = 0.7F}});
@@ -141,7 +142,8 @@ TEST(Allocation, TheFramePathOfTheLosRateHasNone) {
   }
 }
 
-// The same for the wind: late and refused fins, navigation lost, invalid, jumping, silent and back again.
+// The same for the wind: late and rejected fins; navigation that is lost, invalid, jumping, silent, and
+// returns.
 std::vector<Frame> wind_session(messages::Algorithm algorithm) {
   using namespace messages;
   BenchSide bench;

@@ -1,5 +1,4 @@
-// The other side of the bus for tests of the Device: a level flight at constant velocity, sensors without
-// errors.
+// Plays the bench for tests of the Device: a level flight at constant velocity, sensors without errors.
 #pragma once
 
 #include <cmath>
@@ -12,7 +11,7 @@
 
 namespace canhil::target {
 
-/// Sends frames to a Device and keeps what it answers.
+/// Sends frames to a Device and stores its answers.
 class BenchSide {
  public:
   template <class Message>
@@ -26,7 +25,7 @@ class BenchSide {
     const auto answers = device_.receive(frame);
     answers_.insert(answers_.end(), answers.begin(), answers.end());
   }
-  /// Takes the next counter of a message without sending it: the frame is lost.
+  /// Uses the next counter of a message without sending it: the frame is lost.
   template <class Message>
   void lose(const Message& message) {
     out_.clear();

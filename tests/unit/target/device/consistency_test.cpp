@@ -13,7 +13,7 @@ namespace {
 
 using Innovation = std::vector<double>;
 
-// Updates until the monitor is as asked; `most` of them: never.
+// The number of updates until the monitor reaches the state; `most`: never.
 template <class Draw>
 int updates_until(ConsistencyMonitor& monitor, bool degraded, int most, Draw draw) {
   for (int i = 0; i < most; ++i) {
@@ -47,7 +47,7 @@ TEST(ConsistencyMonitor, TrustsWhatIsConsistentAndTellsWhatIsNot) {
     EXPECT_LT(updates_until(monitor, true, 100'000, draws(1, 0.4)), 1'000) << "what is wrong stays";
     EXPECT_LT(updates_until(monitor, false, 100'000, draws(1, 0)), 5'000)
         << "quiet for as long as it remembers";
-    // A filter that errs less than it says is no liar.
+    // A filter whose errors are smaller than its sigmas is not degraded.
     EXPECT_EQ(updates_until(monitor, true, 10'000, draws(0.3, 0)), 10'000);
   }
 }

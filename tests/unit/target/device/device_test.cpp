@@ -190,7 +190,7 @@ TEST(Device, KeepsAFixThatIsAheadOfTheImu) {
 }
 
 TEST(Device, EveryFixThatIsAheadOfASlowImuWaits) {
-  // Fixes at 20 ms, an IMU that is 50 ms behind them: each is applied when the IMU gets there.
+  // Fixes at 20 ms, and an IMU that is 50 ms behind them: each fix is applied when the IMU reaches its time.
   BenchSide bench;
   bench.start();
   for (int k = 1; k <= 30; ++k) {
@@ -274,7 +274,7 @@ TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
     }
     return bench.answers();
   };
-  // A bench that starts anew counts from 0 again; the fresh one here is fed what the used one was fed.
+  // A restarted bench counts from 0 again; the new one here sends the frames of the old one.
   BenchSide again;
   const std::size_t before = used.fed().size();
   const auto answers = session(used);
@@ -288,7 +288,7 @@ TEST(Device, IsAfterAResetAsItWasAfterConstruction) {
   EXPECT_GT(answers.size(), 100U);
 }
 
-// What the device answers to a flight.
+// The answers of the device to a flight.
 std::vector<Frame> flight_after(BenchSide& bench) {
   bench.forget();
   for (int k = 1; k <= 30; ++k) {

@@ -1,4 +1,4 @@
-// The other side of the bus for the wind estimator: the published run, 20 s at 50 Hz, row by row as frames.
+// Plays the bench for the wind estimator: the published run, 20 s at 50 Hz, one row per frame group.
 #pragma once
 
 #include <numbers>
@@ -13,7 +13,7 @@ inline const wind::RecordedRun& recorded() {
   return run;
 }
 
-/// Told the initial state of the published run, or of another.
+/// Sends the initial state of the published run, or another one.
 class Glider : public BenchSide {
  public:
   static constexpr double deg = std::numbers::pi / 180;
@@ -51,7 +51,8 @@ class Glider : public BenchSide {
     command(Command::start, Estimator::wind, release.algorithm);
   }
 
-  /// Rows [from, to): fins, navigation, time base; `spoil` changes what is sent, a time of -1: not sent.
+  /// Sends the rows [from, to): fins, navigation, time base. `spoil` changes the frames; a time of -1 means
+  /// not sent.
   void fly(
       std::size_t from, std::size_t to, const wind::Spoil& spoil = [](auto...) {}) {
     for (std::size_t k = from; k < to; ++k) {

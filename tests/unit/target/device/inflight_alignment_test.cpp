@@ -1,4 +1,4 @@
-// In-flight alignment behind the bus: a vehicle at rest whose fixes come from an SSBL or a GPS, good and bad.
+// In-flight alignment through the device: a vehicle at rest with good and bad fixes from an SSBL or a GPS.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace messages;
 constexpr double metres_per_degree = 110'977;  // of latitude at 37 deg [m]
 constexpr double latitude_deg = 37, longitude_deg = 127, height_m = 1000;
 
-// At rest, heading north, told so with the sigmas of an unknown heading.
+// At rest, heading north. The initial state is true, with the sigmas of an unknown heading.
 class Vehicle : public BenchSide {
  public:
   explicit Vehicle(float aiding, Algorithm algorithm = Algorithm::sin_cos,
@@ -95,7 +95,8 @@ TEST(InflightAlignment, AnSsblFixIsTheShipsPositionPlusTheRelative) {
   EXPECT_GT(bench.last<FixBiasSigma>()->fix_bias_sigma_north_m, 2);
 }
 
-// The parameters say 2 m: a fix that states more is weighed by that, one that states less by the parameters.
+// The parameters state 2 m. A fix with a larger sigma is weighted by its own sigma, a fix with a smaller one
+// by the parameters.
 TEST(InflightAlignment, AFixThatStatesALargerSigmaWeighsLess) {
   const auto sigmas = [](float aiding, double stated_m) {
     Vehicle bench(aiding);
@@ -154,7 +155,7 @@ struct BadFix {
 
 class BadFixes : public testing::TestWithParam<BadFix> {};
 
-// Each is answered with its reason and counted, and leaves no trace in what the target estimates.
+// Each is answered with its reason and counted, and does not change the estimate.
 TEST_P(BadFixes, AreAnsweredWithTheirReasonAndLeaveNoTrace) {
   for (const Algorithm algorithm : {Algorithm::ekf, Algorithm::ukf, Algorithm::sin_cos}) {
     const auto flight = [&](bool bad) {
@@ -216,7 +217,7 @@ TEST(InflightAlignment, AFixOlderThanTheHistoryIsLate) {
   EXPECT_EQ(bench.last<TargetCounters>()->late, 1);
 }
 
-// What an encoder that knows no limits makes of a NaN.
+// The frame of an encoder that does not check for NaN.
 TEST(InflightAlignment, TheRawMinimumIsNoRelativePosition) {
   Vehicle bench(by_ssbl);
   bench.imu_until(1'000'000);
@@ -257,7 +258,7 @@ TEST(InflightAlignment, WithoutAGateEveryFixIsTaken) {
   EXPECT_TRUE(bench.device().running());
 }
 
-// Velocities after fixes that come `late` [us] after their validity.
+// Velocities after fixes that arrive `late` [us] after their validity.
 double north_after(std::int64_t late_us, float late_fixes) {
   Vehicle bench(by_gps, Algorithm::sin_cos, {{.parameter = Parameter::late_fixes, .value = late_fixes}});
   for (std::int64_t t = 100'000; t <= 8'000'000; t += 100'000) {

@@ -1,4 +1,4 @@
-// The LOS rate behind the bus: the frames of an engagement in, the estimator's own figures out.
+// The LOS rate through the device: frames of an engagement go in, and the estimator's own values come out.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -26,7 +26,7 @@ Message as_received(const Message& message) {
   return from_frame<Message>(to_frame(message, 0));
 }
 
-// What the estimator makes of the sample as its frames carry it, without a Device.
+// The output of the estimator for the sample in these frames, without a Device.
 los::UpdateResult own_step(los::State& state, const SeekerSample& sample, const los::Design& design) {
   const auto antenna = as_received(sample.antenna);
   const auto angles = as_received(sample.angles);
@@ -71,7 +71,7 @@ TEST(LosRate, TheFramesOfAnEngagementGiveTheEstimatorsOwnFigures) {
       const auto target = *missile.last<LosRateTarget>();
       expect_near(estimate.los_rate_pitch_radps, own.rate.pitch, 1e-5, 5.24, "pitch rate");
       expect_near(estimate.los_rate_yaw_radps, own.rate.yaw, 1e-5, 5.24, "yaw rate");
-      const los::Planes<los::Sigma> told = los::told_sigma(result, design);
+      const los::Planes<los::Sigma> told = los::reported_sigma(result, design);
       expect_near(sigma.los_rate_sigma_pitch_radps, told.pitch.rate, 2e-5, 0.327, "pitch sigma");
       expect_near(sigma.los_rate_sigma_yaw_radps, told.yaw.rate, 2e-5, 0.327, "yaw sigma");
       expect_near(sigma.target_acceleration_sigma_y_mps2, result.sigma.yaw.acceleration, 2.5, 157.5,
@@ -113,8 +113,8 @@ TEST(LosRate, TheEstimateIsTheTruthOfANoiseFreeEngagement) {
   }
 }
 
-// Error angles with 15 times the noise that the filter was told: answers and heartbeat say so, until the
-// noise is as told again.
+// Error angles with 15 times the configured noise: answers and heartbeat report degraded, until the noise is
+// as configured again.
 TEST(LosRate, SaysThatItIsDegradedWhileItsInnovationsAreBeyondItsCovariance) {
   Missile missile;
   missile.fly_until(3);
@@ -204,7 +204,7 @@ std::vector<Parameter> own_parameters() {
   return own;
 }
 
-// A value that no limit hinders: the default lies inside of every range.
+// A value without a limit of its own: the default is inside of every range.
 TEST(LosRateParameters, AreReadBackRefusedOutsideTheirRangeAndWhileRunning) {
   ASSERT_EQ(own_parameters().size(), 25U);
   for (const Parameter parameter : own_parameters()) {
@@ -272,7 +272,7 @@ TEST(LosRateParameters, SettingsReachTheEstimator) {
             2 * slow.sigma.los_rate_sigma_pitch_radps);
 }
 
-// At the ends of the ranges, in random company, no design and no gain leaves the numbers.
+// At the ends of the ranges, in random combinations, all designs and gains stay finite.
 TEST(LosRateParameters, TheEndsOfTheRangesKeepTheEstimatorWhole) {
   std::mt19937_64 engine(1);
   // Largest and smallest accepted of a rough scan.

@@ -1,4 +1,4 @@
-// The other side of the bus for tests of the LOS rate: the seeker of a missile on its way to the target.
+// Plays the bench for tests of the LOS rate: the seeker of a missile on its way to the target.
 #pragma once
 
 #include <functional>
@@ -38,7 +38,7 @@ class Missile : public BenchSide {
     return setup;
   }
 
-  /// The next sample, by the words of the DBC: acceleration along antenna y is in the plane of yaw.
+  /// The next sample, with the meanings of the DBC: acceleration along antenna y is in the plane of yaw.
   SeekerSample next() {
     using messages::Validity;
     const los_rate::Measurement m = engagement_.next();

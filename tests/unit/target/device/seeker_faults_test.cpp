@@ -1,4 +1,4 @@
-// A seeker that breaks: its faults are named, coasted over with growing sigmas, and recovered from.
+// Faults of the seeker: they are reported, bridged with growing sigmas, and the estimator recovers.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -19,7 +19,7 @@ struct BadSample {
 
 class BadSamples : public testing::TestWithParam<BadSample> {};
 
-// From 2.6 to 2.3 s to go every group is spoilt in one way.
+// From 2.6 to 2.3 s to go every group has one kind of fault.
 TEST_P(BadSamples, AreNamedCoastedOverAndRecoveredFrom) {
   for (const Algorithm algorithm :
        {Algorithm::switched_table, Algorithm::combined, Algorithm::kalman, Algorithm::low_pass}) {
@@ -48,7 +48,7 @@ TEST_P(BadSamples, AreNamedCoastedOverAndRecoveredFrom) {
       ASSERT_EQ(missile.estimate().fault, LosRateFault::none);
       ASSERT_NE(missile.estimate().outcome, LosRateOutcome::coasting);
     }
-    // The classical filter's error is its lag, here and without the fault.
+    // The error of the classical filter is its lag, with and without the fault.
     EXPECT_LT(missile.rate_error(), algorithm == Algorithm::low_pass ? 3e-3 : 5e-4);
     EXPECT_TRUE(missile.device().running());
     EXPECT_EQ(missile.last<TargetHeartbeat>()->error_input_lost, 1);
@@ -230,7 +230,7 @@ struct Untimely {
 
 class UntimelyGroups : public testing::TestWithParam<Untimely> {};
 
-// Answered, counted, and without a trace in what follows.
+// Answered and counted, without an effect on later answers.
 TEST_P(UntimelyGroups, AreAnsweredCountedAndLeaveNoTrace) {
   const auto flight = [&](bool untimely) {
     Missile missile;

@@ -1,4 +1,4 @@
-// What the device makes of frames that are lost, broken, late, or say that they are invalid.
+// How the device handles frames that are lost, damaged, late or marked as invalid.
 #include <gtest/gtest.h>
 
 #include "target/device/imu_stream.hpp"
@@ -81,7 +81,7 @@ TEST(SensorLoss, ABridgeIsTheMeanOfItsNeighboursAtTheirRates) {
     bench.send(velocity);
     bench.send(BenchSide::status(t_us, 10'000));
   };
-  // Two samples are missing between 0.1 and 0.3 m/s a sample: they count 0.2 m/s each.
+  // Two samples are missing between samples of 0.1 and 0.3 m/s: they count as 0.2 m/s each.
   BenchSide bench;
   bench.start();
   accelerated(bench, 10'000, 0.1);
@@ -147,7 +147,7 @@ TEST(SensorLoss, AGapTooLongToBridgeEndsTheAlignment) {
   EXPECT_EQ(bench.last<TargetHeartbeat>()->error_input_silent, 1);
 }
 
-// A gap is bridged within one frame: an interval of 10 us would make 20,000 steps of it.
+// A gap is bridged within one frame: an interval of 10 us would give 20,000 steps.
 TEST(SensorLoss, AGapBeforeAVeryShortSampleIsBridgedInFewSteps) {
   ImuStream imu;
   imu.start(0, 10'000);

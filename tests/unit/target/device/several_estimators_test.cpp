@@ -1,4 +1,4 @@
-// Several estimators on one device: they hear the same sensors and know nothing of each other.
+// Several estimators on one device receive the same sensors and do not influence each other.
 #include <gmock/gmock.h>
 
 #include "tests/unit/target/device/bench_side.hpp"
@@ -139,7 +139,7 @@ TEST(SeveralEstimators, AStartThatIsRepeatedStartsAllAnew) {
   EXPECT_EQ(first_answers(1).size(), 6U);
 }
 
-// Fixes ahead of the IMU wait; the sample that bridges the gap brings the answers to all of them.
+// Fixes ahead of the IMU wait; the sample that bridges the gap produces the answers to all of them.
 TEST(SeveralEstimators, AllThatWaitedIsAnsweredWithOneSample) {
   BenchSide bench;
   make_ready(bench).command(Command::start);

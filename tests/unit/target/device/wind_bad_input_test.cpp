@@ -1,4 +1,4 @@
-// The wind estimator behind the bus: whatever is bad for a while is named, coasted over and forgotten.
+// The wind estimator through the device: temporary bad input is reported, bridged, and has no lasting effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,8 +36,7 @@ double undisturbed_error() {
   return error;
 }
 
-// Everything that went out is sound: nothing at the end of its range, as a NaN would be; the target still
-// runs.
+// All frames sent are valid: no value at the end of its range, as NaN would give; the target still runs.
 void expect_sound(const Glider& bench) {
   for (const auto& w : bench.winds()) ASSERT_LT(w.cwiseAbs().maxCoeff(), 190);
   for (const auto& a : bench.all<WindAirVelocity>()) ASSERT_LT(std::abs(a.air_velocity_x_mps), 600);
@@ -50,7 +49,7 @@ void expect_sound(const Glider& bench) {
   }
 }
 
-// The run's last second is as if nothing had been, but for a margin [m/s].
+// In the last second of the run the fault has no effect beyond a margin [m/s].
 void expect_recovered(const Glider& bench, double margin = 0.5) {
   expect_sound(bench);
   const auto status = bench.all<WindSpeed>();
@@ -135,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
             }}),
     [](const auto& which) { return which.param.name; });
 
-// What an encoder that knows no limits makes of a NaN.
+// The frame of an encoder that does not check for NaN.
 TEST(Wind, TheRawMinimumIsNoAngle) {
   Glider bench;
   bench.fly(0, 10);
@@ -202,7 +201,7 @@ TEST(Wind, DeflectionsThatAreNotPhysicalAreRefused) {
   }
 }
 
-// With a noise that does not follow: its raise alone is seen.
+// With a noise that does not adapt, so that only its increase is visible.
 TEST(Wind, MissingFinsAreFlaggedAndWidenTheSigmas) {
   Glider::Release release;
   release.parameters = {{.parameter = Parameter::process_noise, .value = 0},
@@ -221,7 +220,7 @@ TEST(Wind, MissingFinsAreFlaggedAndWidenTheSigmas) {
   expect_recovered(bench);
 }
 
-// Fins that come 60 ms after their validity act when they were valid, not when they came.
+// Fins that arrive 60 ms after their validity take effect at their time of validity, not at their arrival.
 TEST(Wind, LateFinsAreFlaggedAndUsedAtTheirTimeOfValidity) {
   Glider bench;
   bench.fly(0, rows, [](std::size_t k, Navigation&, FinFrame& fins) {

@@ -1,4 +1,4 @@
-// The parameters of the wind estimator over the bus.
+// Setting the parameters of the wind estimator over the bus.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -77,7 +77,7 @@ TEST(Wind, EveryParameterOfTheFilterActs) {
     release.air_velocity_known = p != P::initial_wind_sigma_mps;
     release.parameters.push_back(parameter);
     Glider bench(release);
-    // Something for every rule: fins that stay away, navigation that stands still, stays away, and jumps.
+    // Input for every rule: missing fins, and navigation that freezes, is missing, and jumps.
     bench.fly(0, 120, [](std::size_t k, Navigation& n, FinFrame& fins) {
       fins.arrives = k < 10 || k > 13;
       if (k >= 20 && k < 28) n = {n.t_us, {250, 50, 5}, {0, 0, 0}, {0, 0, 0}, n.altitude, true};

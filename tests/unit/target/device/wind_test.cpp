@@ -1,4 +1,4 @@
-// The wind estimator behind the bus: a published run in frames.
+// The wind estimator through the device: a published run in frames.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -70,7 +70,7 @@ TEST(Wind, ComesAsComponentsAndAsSpeedAndDirectionWithTheirSigmas) {
   }
 }
 
-// The epoch is a multiple of the 10 us in which the fins tell their time.
+// The epoch is a multiple of 10 us, the resolution of the time in the fins' messages.
 TEST(Wind, TimesMayWrap) {
   const auto flight = [](std::int64_t epoch_us) {
     Glider bench(Glider::Release{.parameters = {}, .t_us = epoch_us});

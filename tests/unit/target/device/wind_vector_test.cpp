@@ -1,5 +1,6 @@
-// The published vector's rows as frames through the Device: its states come back. Built on the contract,
-// where they come back up to its rounding, and on the twin that rounds nothing.
+// The published test vector through the Device: its rows go in as frames, and its states come out. The test
+// is built twice: with the DBC, where the states agree up to its rounding, and with a version that rounds
+// nothing.
 #include <gtest/gtest.h>
 
 #include "tests/unit/target/device/glider.hpp"
@@ -9,8 +10,9 @@ namespace {
 
 using namespace messages;
 
-// The published run holds the fins of a row until the next; the target draws lines between samples. A second
-// sample just before the next row makes of the lines a hold, but for this share of the row's change.
+// The published run holds the fins of a row until the next row; the target interpolates linearly between
+// samples. A second sample just before the next row turns the line into a hold, except for this share of the
+// row's change.
 constexpr std::int64_t before_next_us = 10;
 
 struct Misses {

@@ -1,6 +1,6 @@
-// Property: no allocation on the frame path, in the libraries as everybody links them. The linker sends their
-// calls of malloc and its like here (--wrap, CMakeLists.txt), Eigen's among them, and operator new is this
-// file's.
+// Property: no allocation on the frame path, in the delivered libraries. The linker redirects their calls of
+// malloc and similar functions to this file (--wrap, CMakeLists.txt), including those of Eigen. This file
+// also defines operator new.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -45,7 +45,7 @@ void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 }
 
-// Not inlined: GCC would take free() in them for a mismatch.
+// Not inlined, because GCC would report a mismatch for free() in them.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   std::abort();
@@ -64,7 +64,7 @@ void* __wrap_aligned_alloc(std::size_t alignment, std::size_t size) {
 namespace canhil::transfer_alignment {
 namespace {
 
-// Not local to the tests below, where GCC would leave the allocation out.
+// Not local to the tests below, where GCC would remove the allocation.
 std::unique_ptr<int> kept_value;
 Eigen::MatrixXd kept_matrix;
 

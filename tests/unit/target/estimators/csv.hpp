@@ -1,5 +1,5 @@
 #pragma once
-// Reads the published vectors: lines of comment, a header row of names, then rows of numbers.
+// Reads the published test vectors: comment lines, a header row of names, then rows of numbers.
 #include <cstddef>
 #include <fstream>
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
 // The paper's flight (level, heading 0, 500 km/h north for 10 s, then 9.81 m/s^2 north) and its error-free
-// IMU, as in the published vectors.
+// IMU, as in the published test vectors.
 #include <Eigen/Core>
 
 #include "target/estimators/strapdown/mechanization.hpp"

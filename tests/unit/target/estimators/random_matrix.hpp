@@ -1,6 +1,6 @@
 #pragma once
-// Seeded matrices for tests: Eigen's Random() draws from the C library's generator, which a seed does not pin
-// down.
+// Random matrices with a seed for tests. Eigen's Random() uses the generator of the C library, whose sequence
+// a seed does not fix.
 #include <random>
 
 #include "tests/unit/target/estimators/reference_matrix.hpp"

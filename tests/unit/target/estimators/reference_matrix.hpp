@@ -1,7 +1,7 @@
 #pragma once
-// Matrices of any size for what tests compute as reference: one type whose operations are compiled once, in
-// reference_matrix.cpp. Expressions of fixed-size matrices are a type each, and those of one test took longer
-// to compile than the filter under it.
+// Matrices of any size for references in tests. This type is compiled once, in reference_matrix.cpp. With
+// fixed-size Eigen matrices every expression is a type of its own, and one test took longer to compile than
+// the filter.
 #include <Eigen/Core>
 #include <iosfwd>
 #include <vector>
@@ -13,7 +13,7 @@ class Dense {
   Dense(int rows, int columns);  // zeros
   Dense(const double* by_columns, int rows, int columns);
 
-  /// A copy; implicit, so that a filter's matrix stands beside a reference in one expression.
+  /// A copy; implicit, so that one expression can contain a filter's matrix and a reference.
   template <int Rows, int Columns, int Options>
   Dense(const Eigen::Matrix<double, Rows, Columns, Options>& m)
       : Dense(m.data(), static_cast<int>(m.rows()), static_cast<int>(m.cols())) {

@@ -12,7 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// A port in a state that the test says.
+/// A port in a state that the test sets.
 class StatePort final : public Port {
  public:
   SendOutcome send(const Frame&) override { return SendOutcome::down; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t ns_per_s = 1'000'000'000;
 
-/// Brings frames without end; where the target does not turn from them, for 5 s.
+/// Delivers frames endlessly, for 5 s if the target does not stop reading.
 class FloodedPort final : public Port {
  public:
   SendOutcome send(const Frame& frame) override {

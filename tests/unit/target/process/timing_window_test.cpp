@@ -1,4 +1,4 @@
-// What the target tells of its own time.
+// The times that the target reports of itself.
 #include "target/process/timing_window.hpp"
 
 #include <gtest/gtest.h>

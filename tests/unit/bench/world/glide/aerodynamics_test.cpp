@@ -1,5 +1,5 @@
-// The bench's aerodynamics and atmosphere: against the published table, and against those of the target,
-// which were written apart.
+// The bench's aerodynamics and atmosphere: against the published table, and against the target's, which were
+// written independently.
 #include "bench/world/glide/aerodynamics.hpp"
 
 #include <gtest/gtest.h>

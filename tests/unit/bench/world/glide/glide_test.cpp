@@ -1,4 +1,5 @@
-// The glider's truth: the flight of the published study, and the laws of mechanics on what was recorded.
+// The glider's truth: the flight of the published study, and the laws of mechanics applied to the recorded
+// states.
 #include "bench/world/glide/glide.hpp"
 
 #include <gtest/gtest.h>
@@ -44,8 +45,8 @@ TEST(Glide, FliesThePublishedPath) {
   EXPECT_LT(std::abs(euler_from(end.C_bn).pitch) / deg, 0.5);
 }
 
-// Fins of the published run, without noise in its record, at 20 % coefficient error (so within 30 %): it is
-// let go with fins at zero, pitches up, and is caught.
+// Fins of the published run, recorded without noise, with coefficient errors of 20 % (so within 30 %). The
+// glider is released with fins at zero, pitches up, and is then stabilised.
 TEST(Glide, ReleaseIsThePublishedOne) {
   const GlideRecord record = flown({}, 20);
   const auto elevator_deg = [&](std::int64_t t_ms) { return record.at(1000 * t_ms).fins.x() / deg; };
@@ -86,7 +87,8 @@ TEST(Glide, MomentumFollowsForceAndMoment) {
   }
 }
 
-// The estimator's equations, which have the air velocity as a state, hold along a truth that does not.
+// The equations of the estimator, which has the air velocity as a state, hold along the truth, which does not
+// have it.
 TEST(Glide, ObeysTheTargetsEquations) {
   const GlideRecord record = flown(in_steady_wind({20, 40, 0}), 10);
   const wind::Design design = wind::make_design({});

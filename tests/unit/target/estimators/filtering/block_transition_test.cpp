@@ -1,4 +1,4 @@
-// Predictions that know the zeros of the transition matrix against the dense one.
+// Predictions that skip the zeros of the transition matrix, against the dense prediction.
 #include "target/estimators/filtering/block_transition.hpp"
 
 #include <gtest/gtest.h>

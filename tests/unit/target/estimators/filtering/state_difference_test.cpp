@@ -1,4 +1,4 @@
-// Updates by a difference of states against the update by the matrix H that says the same.
+// Updates by a difference of states, against the update with the equivalent matrix H.
 #include "target/estimators/filtering/kalman.hpp"
 
 #include <gtest/gtest.h>

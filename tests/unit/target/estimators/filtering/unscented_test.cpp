@@ -1,4 +1,5 @@
-// The unscented transform, the Cholesky factors that it starts from, and the repair of what it breaks.
+// The unscented transform, the Cholesky factors that it starts from, and the repair of an indefinite
+// covariance.
 #include "target/estimators/filtering/unscented.hpp"
 
 #include <gtest/gtest.h>

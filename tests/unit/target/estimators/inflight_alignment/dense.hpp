@@ -1,5 +1,5 @@
 #pragma once
-// The filters' sparse Jacobians as the matrices they stand for.
+// The sparse Jacobians of the filters as dense matrices.
 #include "target/estimators/inflight_alignment/transition_product.hpp"
 
 namespace canhil::inflight_alignment {

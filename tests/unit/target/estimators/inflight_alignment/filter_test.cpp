@@ -1,4 +1,4 @@
-// Properties of the in-flight filters that hold without a reference.
+// Properties of the in-flight filters that need no reference.
 #include "target/estimators/inflight_alignment/filter.hpp"
 
 #include <gtest/gtest.h>
@@ -114,8 +114,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnywhere) {
   }
 }
 
-// Tilts of 40 deg, told as 30 deg: the first sample levels the INS, so that heading and sigma are those of a
-// level start. Not levelled by it one of them ends 3.4 sigma off.
+// Tilts of 40 deg with a configured sigma of 30 deg: the first sample levels the INS, so that heading and
+// sigma are those of a level start. Without this levelling, one filter ends 3.4 sigma off.
 TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   for (const double tilt_deg : {-40.0, 8.0, 40.0}) {
     RecordedRun from = inputs(Aiding::ssbl);
@@ -133,8 +133,8 @@ TEST(InflightFilter, SinCosFindsTheHeadingFromAnyTilt) {
   }
 }
 
-// The vehicle's acceleration of 1 m/s^2 tilts what the first sample levels by 6 deg: a start that is known
-// better is left as it is.
+// The vehicle's acceleration of 1 m/s^2 tilts the levelling of the first sample by 6 deg, so a start that is
+// better known is not levelled.
 TEST(InflightFilter, OnlyAnUnknownTiltIsLevelled) {
   Settings settings = recorded_settings(Algorithm::sin_cos, Aiding::ssbl);
   const RecordedRun& from = inputs(Aiding::ssbl);
@@ -210,7 +210,8 @@ TEST(InflightFilter, AFixBeyondTheGateIsRefusedUntilTooManyAre) {
   }
 }
 
-// z = dR - rho: a fix to the north says that the INS is south, or that the fix is biased to the north.
+// z = dR - rho: a fix to the north means that the INS is too far south, or that the fix is biased to the
+// north.
 TEST(InflightFilter, AFixMovesPositionAndBiasTowardsItself) {
   for (const auto [algorithm, aiding] : cases) {
     const Settings settings = recorded_settings(algorithm, aiding);
@@ -274,7 +275,7 @@ TEST(InflightFilter, TheEstimateBetweenFixesIsThePredictionsMean) {
   }
 }
 
-// Fixes that come `late` samples late, through a history; the last ones before the run ends.
+// Fixes that arrive `late` samples late, through a history; the last ones arrive before the run ends.
 template <class Late>
 State run_late(const Settings& settings, Late late) {
   const RecordedRun& from = inputs(settings.aiding);

@@ -1,5 +1,5 @@
-// The error models against what they are models of: a real INS with errors beside one without; and their
-// Jacobians against differences.
+// The error models against the difference of two INS, one with errors and one without; and their Jacobians
+// against finite differences.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -84,7 +84,7 @@ struct Flight {
     ins.ins.nav.longitude -= 500 / 5.2e6;
     ins.ins.nav.height += 400;
     ins.ins.nav.v_eb_n += Vector3d(50, 70, -40);
-    // C_pc such that psi is as told, for the INS's own frame.
+    // C_pc with the given psi, for the INS's own frame.
     const Matrix3d C_tc = C_ne(ins.ins.nav).transpose() * C_ne(truth.ins.nav);
     ins.ins.nav.C_bn = platform_to_computer(psi).transpose() * C_tc * truth.ins.nav.C_bn;
     start = errors_of(ins.ins.nav, truth.ins.nav);

@@ -1,5 +1,5 @@
 #pragma once
-// The published run: 90 s of an S path at 50 Hz, a fix a second, an INS that starts 90 deg off in heading.
+// The published run: 90 s of an S path at 50 Hz, one fix per second, an INS whose heading starts 90 deg off.
 #include <Eigen/Core>
 #include <string>
 #include <vector>

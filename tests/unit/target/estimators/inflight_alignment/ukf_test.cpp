@@ -1,5 +1,5 @@
-// The unscented prediction against the transform as it is written down: all 2 N + 1 points, the centre's
-// weight negative.
+// The unscented prediction against the textbook transform: all 2 N + 1 points, with the negative weight of
+// the centre.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -91,7 +91,7 @@ TEST(Ukf, IsTheTransformAsWritten) {
   }
 }
 
-// W0 is negative: the transform itself may leave an indefinite P, which is mended and counted.
+// W0 is negative: the transform itself can give an indefinite P, which is repaired and counted.
 TEST(Ukf, RepairsWhatItsNegativeWeightBreaks) {
   const Interval interval = some_interval();
   Settings settings;

@@ -1,4 +1,4 @@
-// Acceptance bar A: the filters replay the published double-precision runs.
+// Acceptance limit A: the filters reproduce the published double-precision runs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ TEST_P(Recorded, IsReplayed) {
     ++rows;
   });
   EXPECT_EQ(rows, outputs.rows());
-  // The bar is 1e-6; met with 1e-13 to 3e-12, and the slips that the published text allows for cost 1e-8.
+  // The limit is 1e-6; the filters reach 1e-13 to 3e-12. The errors that the published text allows cost 1e-8.
   EXPECT_LT(worst_heading, 1e-10);
   EXPECT_LT(worst_sigma, 1e-10);
   EXPECT_LT(worst_x, 1e-10) << "in sigmas";

@@ -1,4 +1,5 @@
-// Input that cannot be used: named, coasted over with growing sigmas, never a NaN, and recovered from.
+// Unusable input is reported and bridged with growing sigmas; the output is never NaN, and the filter
+// recovers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -253,7 +254,7 @@ TEST(BlindRange, RangeIsClampedAndSaidSo) {
       ASSERT_EQ(result.used.range, std::max(r, 50.0));
       ASSERT_TRUE(finite(state));
     }
-    // After the pass: range gone, target gone, for a minute.
+    // After the pass: no range and no target for a minute.
     Measurement m{.dt = 0.005, .antenna_valid = true, .acceleration_valid = true};
     double sigma = 0;
     for (int k = 0; k < 12'000; ++k) {

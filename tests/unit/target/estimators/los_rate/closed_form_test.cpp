@@ -1,5 +1,5 @@
-// The closed forms against the table of algebraic Riccati equations, the integrated differential one and the
-// discrete one.
+// The closed forms against the table of algebraic Riccati equations, the integrated differential equation and
+// the discrete equation.
 #include "target/estimators/los_rate/closed_form.hpp"
 
 #include <gtest/gtest.h>
@@ -76,8 +76,8 @@ TEST(Riccati, WithoutProcessNoiseMirrorsThePoles) {
 
 class DifferentialRiccati : public testing::TestWithParam<double> {};
 
-// Started on the closed form, the equation stays on it: worst relative difference of the gains from 5 km to
-// 50 m. `transform` is what the paper does with P-bar, right or as printed.
+// An integration that starts on the closed form stays on it: worst relative difference of the gains from 5 km
+// to 50 m. `transform` is the paper's operation on P-bar, right or as printed.
 double worst_gain_error(const Noise& noise, double vc, const Matrix3d& P0, double r_from,
                         const std::function<Vector3d(double)>& gain) {
   double worst = 0;
@@ -105,7 +105,7 @@ TEST_P(DifferentialRiccati, GlintStartedOnTheClosedFormStaysThere) {
   EXPECT_LT(worst_gain_error(glint, vc, generic_start(), 5000 - 3 * vc, gain), 1e-3);
 }
 
-// Eq. (9) as printed, K3 = P3bar/(s2 r^3): no RMS bar sees it, this comparison must.
+// Eq. (9) as printed, K3 = P3bar/(s2 r^3): no limit on an RMS detects this error, so this comparison must.
 TEST_P(DifferentialRiccati, CatchesPrintedEquation9) {
   const double vc = GetParam();
   const Covariance p_bar = riccati(q, thermal_psd, vc);

@@ -1,5 +1,5 @@
-// The closed gains: against the Kalman filter and the integrated Riccati equation, their statistics, their
-// start-up.
+// The closed-form gains against the Kalman filter and the integrated Riccati equation; their statistics and
+// their start-up.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -84,8 +84,8 @@ TEST(ClosedGain, CombinedTableIsWithinThreePercentOfTheKalmanFilter) {
         EXPECT_NEAR(closed.sigma.error / std::sqrt(P.ee), 1, 0.12) << T << " " << vc << " " << r;
         EXPECT_NEAR(closed.sigma.acceleration / std::sqrt(P.aa), 1, 0.05) << T << " " << vc << " " << r;
       }
-      // That the sum of noises scales like a power of r is an approximation whose error grows with vc/W:
-      // 1.8 % at 900 m/s, 3.03 % at 1200 m/s and 100 Hz. The bar of 3 % is for the paper's engagement.
+      // Scaling the sum of noises like a power of r is an approximation. Its error grows with vc/W: 1.8 % at
+      // 900 m/s, 3.03 % at 1200 m/s and 100 Hz. The limit of 3 % is for the paper's engagement.
       EXPECT_LT(worst, vc > 1000 ? 0.035 : 0.03) << T << " " << vc;
     }
   }
@@ -120,7 +120,7 @@ TEST(ClosedGain, TablesAreWithinTheirInterpolationErrorOfTheClosedForms) {
   }
 }
 
-// Below the crossing the thermal gain is far too high: the mistake the switch is there for.
+// Closer than the crossing range the thermal gain is far too high: the switch prevents this mistake.
 TEST(ClosedGain, ThermalGainBelowTheCrossingIsCaught) {
   const Settings settings;
   const double Ts = settings.sample_period, psd = 1e-20 * Ts;
@@ -131,8 +131,8 @@ TEST(ClosedGain, ThermalGainBelowTheCrossingIsCaught) {
   EXPECT_NEAR(crossing_range(settings.noise.pitch), 1710, 1);
 }
 
-// Own model, own noise: the normalised innovation squared of two planes has the mean 2, and errors match the
-// sigmas reported, whatever the gain.
+// With the filter's own model and noise, the normalised innovation squared of two planes has the mean 2, and
+// errors match the sigmas, for every gain.
 TEST(Statistics, NisAndSigmasAreConsistent) {
   for (const Algorithm algorithm : {Algorithm::kalman, Algorithm::combined, Algorithm::switched_table}) {
     double nis = 0, ratio = 0, count = 0;
@@ -154,7 +154,8 @@ TEST(Statistics, NisAndSigmasAreConsistent) {
   }
 }
 
-// The paper forgets the transient: from the start on, Kalman filter first is no worse than half again.
+// The paper ignores the transient. From the start on, the error is at most 1.5 times that of the Kalman
+// filter.
 TEST(StartUp, KalmanFilterFirstThenTheClosedGain) {
   EngagementSetup setup = setup_of(Algorithm::combined);
   int start_up = 0, updated = 0;
@@ -190,7 +191,7 @@ TEST(StartUp, KalmanFilterFirstThenTheClosedGain) {
   EXPECT_GT(early_rms(Algorithm::combined, 0), 1.2 * kalman);
 }
 
-// How the first samples after a coast of `lost` samples are taken.
+// The treatment of the first samples after a coast of `lost` samples.
 Outcome after_coast(int lost, void (*breakage)(Measurement&)) {
   const EngagementSetup setup = setup_of(Algorithm::combined);
   const Design design = make_design(setup.settings);
@@ -216,8 +217,8 @@ TEST(StartUp, ComesAgainAfterALongCoastOrAnUnseenMotion) {
   EXPECT_EQ(after_coast(1, [](Measurement& m) { m.acceleration_valid = false; }), Outcome::start_up);
 }
 
-// An antenna that is not seen is taken to track: the error angle stays, its sigma grows by what the antenna
-// may have turned.
+// An antenna without valid data is assumed to track: the error angle stays, and its sigma grows by the
+// possible rotation of the antenna.
 TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.first_rate = {0.03, 0.03};
@@ -245,8 +246,8 @@ TEST(Coasting, AnUnseenAntennaIsTakenToTrack) {
   EXPECT_NEAR(wide * wide - usual * usual, pull * pull, 0.01 * pull * pull);
 }
 
-// A step of the target's acceleration behind a filter without noise: the rate lags by three times what the
-// told sigma allows for it.
+// A step of the target's acceleration with a filter for zero noise: the rate lags by three times the share of
+// the sigma that allows for it.
 TEST(ClosedGain, ToldSigmaAllowsForATurnAllAtOnce) {
   Settings settings;
   settings.start_up = 0;
@@ -268,7 +269,7 @@ TEST(ClosedGain, ToldSigmaAllowsForATurnAllAtOnce) {
       const UpdateResult result = step(state, m, design);
       if (m.error.yaw > 0.1) break;
       lag = std::max(lag, std::abs(estimate(state).rate.yaw - a / range * t));
-      const double told = told_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
+      const double told = reported_sigma(result, design).yaw.rate, own = result.sigma.yaw.rate;
       if (k == 600) allowed = std::sqrt(told * told - own * own);
     }
     EXPECT_NEAR(lag / (3 * allowed), 1, 0.1);

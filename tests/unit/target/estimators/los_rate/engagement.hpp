@@ -1,6 +1,7 @@
 #pragma once
-// A head-on engagement of constant closing speed in both planes of a rolling antenna: the model of the filter
-// itself, so that its statistics can be told. Small angles; axes do not roll but the antenna's do.
+// A head-on engagement with constant closing speed in both planes of a rolling antenna. It is the model of
+// the filter itself, so the filter's statistics are known. Angles are small; the antenna rolls, the reference
+// axes do not.
 #include <cmath>
 #include <complex>
 #include <random>

@@ -1,4 +1,4 @@
-// Properties of the whole step: exactness, signs, two planes under roll.
+// Properties of a complete step: exactness, signs, two planes under roll.
 #include "target/estimators/los_rate/filter.hpp"
 
 #include <gtest/gtest.h>
@@ -91,7 +91,7 @@ TEST(TwoPlanes, RollOnlyTurnsTheEstimate) {
   }
 }
 
-// What leaving the term out would cost: the trap's 30 against 0.4 mrad/s.
+// The cost of leaving the term out: 30 instead of 0.4 mrad/s.
 TEST(TwoPlanes, WithoutTheRollTermTheEstimateIsLost) {
   EngagementSetup setup = setup_of(Algorithm::kalman);
   setup.roll_rate = 3;
@@ -161,7 +161,8 @@ TEST(TwoPlanes, EqualsTheSixStateKalmanFilterUnderRoll) {
     Matrix6 Q6 = Matrix6::Zero();
     Q6.topLeftCorner<3, 3>() = Q6.bottomRightCorner<3, 3>() = Q;
     x = Phi * x;
-    // Input in mid-turn: Phi's last columns would turn it by the whole, so it enters turned by half.
+    // Input during the turn: Phi's last columns would rotate it by the whole turn, so it is rotated by half
+    // of it.
     x += u;
     P = Phi * P * Phi.transpose() + Q6;
     Eigen::Matrix<double, 2, 6> H = Eigen::Matrix<double, 2, 6>::Zero();

@@ -1,4 +1,4 @@
-// Samples that were lost: antenna and missile are bridged, the gain is that of the longer step.
+// Lost samples: antenna and missile motion are bridged, and the gain is that of the longer step.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 constexpr std::array algorithms{Algorithm::switched_table, Algorithm::combined, Algorithm::kalman,
                                 Algorithm::low_pass};
 
-// The next sample that arrives, after `lost` that do not.
+// The next sample that arrives after `lost` lost ones.
 Measurement next_after(Engagement& engagement, int lost) {
   for (int k = 0; k < lost; ++k) engagement.next();
   Measurement m = engagement.next();
@@ -27,7 +27,7 @@ struct Flown {
   State state = initial();
 };
 
-// Every sample arrived until so many seconds are left.
+// Every sample arrives until this time to go [s].
 Flown flown(Algorithm algorithm, double time_to_go) {
   Flown now{.setup = setup_of(algorithm)};
   while (now.engagement.truth().range == 0 || now.engagement.truth().time_to_go > time_to_go)
@@ -54,8 +54,7 @@ TEST(Gaps, AreBridgedWithTheMeanOfTheRatesBeforeAndAfter) {
   EXPECT_NEAR(leg.pull / leg.turn, 50 / 0.5, 1e-9) << "changes of 50 m/s^2 and 0.5 rad/s";
 }
 
-// Each tenth sample lost, from 3 s to go on: a missile that turns, an antenna that follows, noise as
-// modelled.
+// One sample in ten is lost, from 3 s to go on: a turning missile, a tracking antenna, noise as modelled.
 TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
   for (const Algorithm algorithm : algorithms) {
     SCOPED_TRACE(static_cast<int>(algorithm));
@@ -91,7 +90,7 @@ TEST(Gaps, CostLittleMoreThanTheSamplesThatAreGone) {
   }
 }
 
-// What an error angle does to the LOS rate after 30 ms of nothing is what the Kalman filter makes of it.
+// After a gap of 30 ms, the effect of an error angle on the LOS rate equals that of the Kalman filter.
 TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   const auto gain = [](Algorithm algorithm, int lost) {
     auto [setup, design, engagement, state] = flown(algorithm, 0.3);
@@ -109,8 +108,8 @@ TEST(Gaps, TheGainAfterOneIsThatOfTheLongerStep) {
   }
 }
 
-// Nobody knows what antenna or missile did in a gap that ends with a sample which does not tell it: the
-// angle's variance grows by that of the whole step, as of a gap that is too long.
+// The motion of antenna or missile is unknown in a gap that ends with a sample without it. The variance of
+// the angle grows by that of the whole step, as in a gap that is too long.
 TEST(Gaps, BeforeAnUnknownMotionAreNotBridged) {
   auto [setup, design, engagement, state] = flown(Algorithm::combined, 2.4);
   const Measurement whole = next_after(engagement, 4);

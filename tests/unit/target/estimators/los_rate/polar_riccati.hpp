@@ -1,5 +1,5 @@
 #pragma once
-// The filter's differential Riccati equation in polar states, integrated: what the closed forms must equal.
+// Integrates the filter's differential Riccati equation in polar states, as a reference for the closed forms.
 #include <Eigen/Core>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
-// The published flight (200 Hz, pitch plane) and filters made of the estimator's own pieces with exact gains,
-// on ranges as they come, without clamp and start-up.
+// The published flight (200 Hz, pitch plane), and filters built from the estimator's own parts with exact
+// gains. Ranges are used as they are, without limits and start-up.
 #include <functional>
 #include <string>
 #include <vector>
@@ -52,7 +52,8 @@ inline Gain switched_gain(Geometry at) {
   return discrete(exact_gain(at.range > crossing_range(vector_noise) ? thermal_part : glint_part, at), at);
 }
 
-/// The rows through predict() and correct(), a Measurement's signs included; `gain` is asked once a row.
+/// Runs the rows through predict() and correct(), including the signs of a Measurement; `gain` is called once
+/// per row.
 inline std::vector<Point> run_vector(const std::vector<Row>& rows,
                                      const std::function<Gain(Geometry)>& gain) {
   std::vector<Point> points;

@@ -1,4 +1,4 @@
-// The published flight: gains to 1e-9, estimates to 1e-9 rad/s, and what a wrong sign does to both.
+// The published flight: gains to 1e-9, estimates to 1e-9 rad/s, and the effect of a wrong sign on both.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -105,7 +105,7 @@ TEST(Vector, KalmanThroughTheWholeStep) {
   }
 }
 
-// P-bar between nodes is a cubic's: the table loses nothing; the combined table is bilinear.
+// P-bar between the nodes is a cubic, so the table loses no accuracy; the combined table is bilinear.
 TEST(Vector, TablesThroughTheWholeStep) {
   const std::vector<Point> switched =
       run_steps(vector_rows(), make_design(vector_settings(Algorithm::switched_table)));
@@ -144,7 +144,8 @@ TEST(SignTraps, MissingMissileAccelerationIsCaught) {
   EXPECT_GT(wrong_over_right(drop, 5, 6), 1e5);
 }
 
-// The same by truth: the last 0.5 s (0.05 s excluded) tell right from wrong without a reference filter.
+// The same against the truth: the last 0.5 s (without 0.05 s) separate right from wrong without a reference
+// filter.
 double rms_error(Change change) {
   std::vector<Row> rows = vector_rows();
   for (Row& row : rows) change(row);

@@ -105,8 +105,8 @@ TEST_P(BothKinds, SwingsWithSchulersPeriod) {
   EXPECT_NEAR(nav.latitude / (2 * amplitude / omega / earth.meridian_radius), 1, 0.01);
 }
 
-// What a filter takes from a step: the velocity change is the specific force's plus gravity and Coriolis
-// terms.
+// The quantities that a filter takes from a step: the velocity change is that of the specific force plus
+// gravity and Coriolis terms.
 TEST_P(BothKinds, StepReportsTheSpecificForceItUsed) {
   NavState nav;
   nav.C_bn = dcm_from_euler({0.1, 0.2, 0.3});
@@ -152,7 +152,7 @@ TEST(Mechanization, TwoSamplesFollowConing) {
   EXPECT_LT(two.velocity, one.velocity / 20);
 }
 
-// A lost sample bridged by a longer one must not bring the coning error back.
+// Bridging a lost sample with a longer one must not bring back the coning error.
 TEST(Mechanization, TwoSamplesFollowConingAtUnequalSampleTimes) {
   const Motion motion = coning(0.02, 2 * std::numbers::pi * 5);
   const auto uneven = [](int k) { return k % 3 == 0 ? 2.0 : 1.0; };

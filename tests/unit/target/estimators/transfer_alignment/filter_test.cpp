@@ -1,4 +1,4 @@
-// Properties of the transfer-alignment filter that hold without a reference.
+// Properties of the transfer-alignment filter that need no reference.
 #include "target/estimators/transfer_alignment/filter.hpp"
 
 #include <gtest/gtest.h>
@@ -104,7 +104,7 @@ TEST(TransferAlignment, VanishingAttitudeCovarianceGivesNoNan) {
     });
     EXPECT_TRUE(state.P.allFinite() && state.ins.nav.C_bn.allFinite() && state.ins.nav.v_eb_n.allFinite())
         << sigma;
-    // A variance of exactly 0 is no covariance: refused until the gyro bias has put some there.
+    // A variance of exactly 0 is rejected as a covariance until the gyro bias has increased it.
     if (sigma > 1e-100) {
       EXPECT_EQ(updates, 200) << sigma;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The published full run's inputs: 2000 IMU samples and 200 master velocities of one noisy flight.
+// The inputs of the published full run: 2000 IMU samples and 200 master velocities of one noisy flight.
 #include <Eigen/Core>
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-// The feedback of an invariant error: its algebra against dense references, and what it is there for.
+// The feedback of an invariant error: its algebra against dense references, and its benefit.
 #include "target/estimators/transfer_alignment/invariant.hpp"
 
 #include <gtest/gtest.h>
@@ -99,8 +99,9 @@ Settings told(Algorithm algorithm, Loop loop, double tilt_deg, double heading_de
   return settings;
 }
 
-// The cruise shows tilts, not the heading: whatever tilts were corrected, its sigma stays. P left in the axes
-// before the corrections, or tilts told as narrow as they are, lose a quarter and more of it.
+// The cruise reveals tilts but not the heading: after any correction of tilts, the heading's sigma stays. If
+// P stays in the axes before the corrections, or if the tilts' sigmas are as small as their errors, the
+// heading's sigma falls by a quarter or more.
 TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
   const Vector3d phi = Vector3d(6, -6, 25) * rad_per_deg;
   const double sigma_0 = 30 * rad_per_deg;
@@ -110,7 +111,7 @@ TEST(InvariantLoop, LeavesTheHeadingSigmaAloneInTheCruise) {
   EXPECT_LT(std::sqrt(published.cruised.P(5, 5)) / sigma_0, 0.75);
 }
 
-// The manoeuvre shows a large heading error within an update or two, far beyond first order.
+// The manoeuvre reveals a large heading error within one or two updates, far beyond first order.
 TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   for (const double heading_deg : {-60.0, -25.0, 40.0}) {
     const Vector3d phi = Vector3d(1, -1, heading_deg) * rad_per_deg;
@@ -120,7 +121,7 @@ TEST(InvariantLoop, FindsALargeHeadingWithinItsSigma) {
   EXPECT_GT(fly(told(Algorithm::kalman, Loop::published, 1, 30), phi).worst_of_heading, 2);
 }
 
-// One wrong velocity is no reason to turn the INS, five in a row are.
+// A single wrong velocity must not turn the INS; five in a row must.
 TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
   for (const Loop loop : {Loop::invariant, Loop::published}) {
     const Settings settings = told(Algorithm::kalman, loop, 1, 5);
@@ -146,8 +147,8 @@ TEST(InvariantLoop, RefusesAVelocityBeyondTheGateUntilTooManyAre) {
   }
 }
 
-// H2 told 15 deg: its own covariance runs away in the cruise. Guarded it keeps to what the start told, and
-// says so.
+// H2 with an initial sigma of 15 deg: without a guard its covariance diverges in the cruise. With the guard
+// it stays below the initial one, and the filter reports it.
 TEST(InvariantLoop, GuardsH2AgainstItsOwnCovariance) {
   const Vector3d phi = Vector3d(5, -5, 15) * rad_per_deg;
   const Settings settings = told(Algorithm::robust_h2, Loop::invariant, 5, 15);

@@ -1,4 +1,4 @@
-// What is easily got wrong in this filter; each test names the mistake it catches.
+// Frequent mistakes in this filter; each test names the mistake that it detects.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ TEST(Traps, CorrectionRemovesTheEstimatedError) {
   EXPECT_EQ(Dense(state.ins.gyro_bias), Dense(before.gyro_bias) + three(result.dx, gyro_bias_state));
 }
 
-// The model's own signs: from each error alone the filter moves towards the truth.
+// The signs of the model: for each error alone, the filter moves towards the truth.
 TEST(Traps, EachErrorIsDrivenTowardsZero) {
   Settings settings;
   settings.algorithm = Algorithm::kalman;

@@ -1,4 +1,4 @@
-// Acceptance bars 1 and 2: the filters replay the published double-precision runs.
+// Acceptance limits 1 and 2: the filters reproduce the published double-precision runs.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Whatever is bad for a while is flagged, coasted over and forgotten; nothing becomes NaN.
+// Temporary bad input is flagged, bridged, and has no lasting effect; nothing becomes NaN.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ void expect_sound(const Flown& flown) {
   }
 }
 
-// Recovered: the last samples are used without complaint, and the wind is known as well as without the fault.
+// Recovered: the last samples are used without an error, and the wind is known as well as without the fault.
 void expect_recovered(const Flown& flown, double margin = 0.5) {
   static const double undisturbed = fly(recorded(), Settings()).mean_error(900, 1001);
   for (std::size_t k = 900; k < 1001; ++k) {
@@ -123,7 +123,7 @@ TEST(WindBadInput, JumpOfTheGroundVelocity) {
   expect_recovered(flown);
 }
 
-// What keeps contradicting the filter is believed in the end.
+// Input that contradicts the filter persistently is finally accepted.
 TEST(WindBadInput, LastingJumpStartsTheFilterAgain) {
   const Flown flown = fly(recorded(), Settings(), [](std::size_t k, Navigation& n, FinFrame&) {
     if (k >= bad_from) n.attitude.z() += 1.0;
@@ -199,7 +199,7 @@ TEST(WindBadInput, OneMissedFinFrameIsFlaggedLate) {
   expect_recovered(flown);
 }
 
-// With a noise that does not follow: its raise alone is seen.
+// With a noise that does not adapt, so that only its increase is visible.
 Settings constant_noise() {
   Settings settings;
   settings.algorithm = Algorithm::ekf;
@@ -220,7 +220,7 @@ TEST(WindBadInput, MissingFinsWidenTheUncertainty) {
   expect_recovered(flown);
 }
 
-// No fins from the start: flagged at every step, and still a wind of the right size from the rest.
+// No fins from the start: flagged at every step, and the other input still gives a wind of the right size.
 TEST(WindBadInput, NoFinsAtAll) {
   const Flown flown =
       fly(recorded(), Settings(), [](std::size_t, Navigation&, FinFrame& fins) { fins.arrives = false; });

@@ -1,4 +1,4 @@
-// The bank of filters: its weights and its mixture against their definition, and what it follows.
+// The bank of filters: its weights and its mixture against their definition, and its response to changes.
 #include "target/estimators/wind/bank.hpp"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST(WindBank, OfOneFilterIsThatFilterBitForBit) {
     const Flown flown = fly(run, settings);
     fly(run, make_bank(settings), [&](std::size_t k, const Bank& bank, const UpdateResult& result) {
       ASSERT_EQ(bank.x, flown.states[k].x);
-      ASSERT_EQ(bank.P, told_covariance(flown.states[k], settings));
+      ASSERT_EQ(bank.P, reported_covariance(flown.states[k], settings));
       ASSERT_EQ(result.nis, flown.results[k].nis);
       ASSERT_EQ(bank.weight[0], 1);
     });
@@ -81,7 +81,7 @@ TEST(WindBank, WeighsByLikelihoodsAndAddsTheSpread) {
     Covariance P = Covariance::Zero();
     for (std::size_t i = 0; i < bank_most; ++i) {
       const StateVector d = bank.states[i].x - x;
-      P += bank.weight[i] * (told_covariance(bank.states[i], design.of[i].settings) + d * d.transpose());
+      P += bank.weight[i] * (reported_covariance(bank.states[i], design.of[i].settings) + d * d.transpose());
     }
     EXPECT_LT((bank.P - P).cwiseAbs().maxCoeff(), 1e-9);
     ASSERT_EQ(bank.P, bank.P.transpose());
@@ -114,7 +114,7 @@ TEST(WindBank, SurpriseIsThatOfTheInnovation) {
   EXPECT_NEAR(update(x, P, run.y[0], 0.02, design).surprise, expected, 1e-6 * std::abs(expected));
 }
 
-// A wind that turns by 15 m/s within 2 s is no error of a coefficient.
+// A wind that turns by 15 m/s within 2 s is not an error of a coefficient.
 TEST(WindBank, BelievesInGustsWhileThereAreSome) {
   const RecordedRun run;
   const BankDesign design = make_bank(likeliest());

@@ -1,4 +1,4 @@
-// Scalar updates against the textbook's matrices, along the published run.
+// Scalar updates against the matrix equations of the textbook, along the published run.
 #include "target/estimators/wind/correction.hpp"
 #include "target/estimators/filtering/cholesky.hpp"
 

@@ -1,4 +1,4 @@
-// step() as a whole: its order, its time base, the start, the choices of algorithm, what is reported.
+// step() as a whole: order of operations, time base, start, algorithms, reported values.
 #include "target/estimators/wind/filter.hpp"
 
 #include <gtest/gtest.h>
@@ -133,7 +133,7 @@ TEST(WindFilter, UsesTheFinsThatActedOverTheStep) {
   EXPECT_LT(on_time, 0.8 * late);
 }
 
-// Nothing known of the wind: it is found all the same.
+// Without initial knowledge of the wind, the filter still finds it.
 TEST(WindFilter, StartsWithoutKnowledgeOfTheWind) {
   const RecordedRun run;
   const Design design = make_design(Settings());
@@ -180,7 +180,7 @@ TEST(WindEstimate, SigmasAreOfSpeedDirectionAndTrack) {
   EXPECT_NEAR(uncertainty(x, P).wind_from, std::numbers::pi / std::numbers::sqrt3, 1e-12);
 }
 
-// Nearly all that is not known of the wind lies along the air velocity, not along the ground track.
+// Nearly all uncertainty of the wind lies along the air velocity, not along the ground track.
 TEST(WindEstimate, AlongTrackIsWhereTheUncertaintyLies) {
   const RecordedRun run;
   const State state = fly(run, Settings()).states[900];

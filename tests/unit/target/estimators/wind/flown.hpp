@@ -1,5 +1,5 @@
 #pragma once
-// The recorded run through step(), as the bus would bring it, with whatever a test spoils.
+// The recorded run through step(), as the bus delivers it; a test can change the input.
 #include <functional>
 
 #include "target/estimators/filtering/cholesky.hpp"

@@ -1,5 +1,5 @@
-// The model's equations, each against what it must mean: a corrected equation put in as printed fails the
-// test that names it.
+// Each equation of the model against its physical meaning. If a corrected equation is replaced by the printed
+// one, the test that names it fails.
 #include "target/estimators/wind/model.hpp"
 
 #include <gtest/gtest.h>
@@ -88,7 +88,7 @@ TEST(WindModel, JacobianIsThatOfCentralDifferences) {
       EXPECT_LT(jacobian_miss(x, at_altitude(altitude)), 1e-6) << x.transpose() << " at " << altitude;
 }
 
-// Every entry, not the largest alone: rows scaled by their own size.
+// Compares every entry, not only the largest: rows are scaled by their own size.
 TEST(WindModel, JacobianIsRightRowByRow) {
   RangeFlags outside;
   const Inputs inputs = at_altitude(9000);
@@ -245,8 +245,8 @@ TEST(WindModel, Eq3NoiseWindNoiseDoesNotMoveTheGroundVelocity) {
   EXPECT_NEAR(added(ProcessNoise::block_diagonal)(0, 0), 0.09 * 0.02, 1e-15);
 }
 
-// Each part of each coefficient is made 1 larger by itself, in the airframe: what that adds to the loads is
-// what the part carries, and their squares are the covariance. The drag polar keeps the nominal lift.
+// Increases each part of each coefficient by 1 separately, in the airframe. The change of the loads is the
+// contribution of this part, and the squares are the covariance. The drag polar keeps the nominal lift.
 TEST(WindModel, CovarianceOfTheLoadsIsTheSumOverTheParts) {
   const Deflection fins{0.05, -0.03, 0.02};
   const Air air = standard_atmosphere(9000);

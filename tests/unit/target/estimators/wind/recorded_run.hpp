@@ -1,6 +1,6 @@
 #pragma once
-// The published run: 20 s at 50 Hz, coefficients wrong by 20 % anew every 50 ms; a reference EKF's and
-// H-infinity filter's states and variances after each update.
+// The published run: 20 s at 50 Hz, coefficient errors of 20 % drawn anew every 50 ms; states and variances
+// of a reference EKF and a reference H-infinity filter after each update.
 #include <Eigen/Core>
 #include <string>
 #include <vector>

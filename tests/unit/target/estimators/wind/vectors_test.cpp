@@ -1,4 +1,4 @@
-// The published vector: every state and variance of both filters, and the printed H-infinity recursion.
+// The published test vector: every state and variance of both filters, and the printed H-infinity recursion.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>

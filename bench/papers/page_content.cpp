@@ -1,4 +1,4 @@
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 namespace canhil::papers {
 namespace {
 
-// A metric may be asked of several variants: then the rows tell which.
+// A metric may apply to several variants: then the rows name them.
 std::string bar_rows(const Flown& flown, std::string_view requirement) {
   const auto answers = flown.answers(requirement);
   std::string rows;

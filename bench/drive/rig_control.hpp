@@ -1,4 +1,4 @@
-// What faults may touch beside frames: the target's process, the interface.
+// Actions of faults besides frames: on the target's process and on the interface.
 #pragma once
 
 #include <functional>
@@ -12,19 +12,19 @@
 
 namespace canhil::drive {
 
-/// What the kernel knows of the interface of this name, and whether the bench may set it up and down.
+/// The kernel's facts about an interface, and whether the bench may set it up and down.
 struct InterfaceFacts {
   faults::Place::Interface kind = faults::Place::Interface::none;
   bool may_set = false;
 };
 InterfaceFacts interface_facts(const std::string& bus);
 
-class RunHands final : public faults::Hands {
+class RunRigControl final : public faults::RigControl {
  public:
-  /// `target`: none while it is not started; must outlive it. `restart`: does it.
-  RunHands(std::string bus, std::optional<TargetProcess>& target,
-           std::function<void(std::int64_t t_us)> restart);
-  ~RunHands() override;
+  /// `target`: empty until it is started; must outlive this object. `restart`: restarts the target.
+  RunRigControl(std::string bus, std::optional<TargetProcess>& target,
+                std::function<void(std::int64_t t_us)> restart);
+  ~RunRigControl() override;
 
   void pause_target() override;
   void resume_target() override;
@@ -38,7 +38,7 @@ class RunHands final : public faults::Hands {
   std::optional<TargetProcess>& target_;
   std::function<void(std::int64_t)> restart_;
   std::thread up_;   // sets the interface up again
-  int errors_ = -1;  // a socket on the interface, opened when it is wanted
+  int errors_ = -1;  // a socket on the interface, opened on demand
 };
 
 }  // namespace canhil::drive

@@ -1,6 +1,6 @@
-// What the page on transfer alignment shows: times into 3, 2 and 1 mrad, beside those of the reference
+// Content of the page on transfer alignment: times into 3, 2 and 1 mrad, beside those of the reference
 // simulation.
-#include "bench/papers/told.hpp"
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ Result<Flown> read_exact(const std::filesystem::path& path, const campaign::Camp
   return evaluated("exact", ours, *store);
 }
 
-// Every variant over the bus and without its rounding.
+// Every variant with and without the bus's rounding.
 std::string exact_rows(const Flown& bus, const Flown& exact) {
   std::string rows;
   for (const campaign::Variant& variant : bus.campaign.variants) {
@@ -57,7 +57,7 @@ void add_times(Names& names, const Results& results) {
     return fmt::format("{:.1f}", times_of(results.curve(words)).end_mrad);
   };
   names["diverged"] = [&results](Words& words) { return diverged(times_of(results.curve(words))); };
-  // "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, where the campaign counts them.
+  // "27 of 300 runs (0 ended early)": runs beyond 20 mrad at the end, if the campaign counts them.
   const auto diverged_runs = [](const Flown& flown, std::string_view variant) {
     return flown.answer_of_kind(campaign::Diverged::kind, variant).measured;
   };
@@ -65,7 +65,8 @@ void add_times(Names& names, const Results& results) {
     const Flown& flown = results.of(words.next());
     return diverged_runs(flown, words.rest());
   };
-  // The reference, ours, and whether they agree; `counted`: where ours diverge, how many runs do.
+  // The reference, our result, and whether they agree; `counted`: also the number of diverged runs, if ours
+  // diverge.
   const auto compared = [&results, diverged_runs](bool counted) {
     return [&results, diverged_runs, counted](Words& words) {
       const Times reference = times_in(std::string(words.next()));
@@ -83,7 +84,7 @@ void add_times(Names& names, const Results& results) {
   names["compared_counted"] = compared(true);
 }
 
-// Points of a curve of which the times into 3, 2 and 1 mrad are known.
+// Points of a curve whose times into 3, 2 and 1 mrad are known.
 Curve through(const Times& times) {
   Curve curve;
   for (const auto& [t_s, level_mrad] :
@@ -105,19 +106,21 @@ void add_curves(Curves& curves, const Results& results) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& exact) {
-  Told told;
-  add_times(told.names, results);
-  add_curves(told.curves, results);
-  told.bars_met = add_claims(told.names, results);
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact) {
+  PageContent content;
+  add_times(content.names, results);
+  add_curves(content.curves, results);
+  content.bars_met = add_claims(content.names, results);
 
   const Flown& table = results.of(main_campaign);
   const auto store = campaign::Store::open(results_file(options, main_campaign));
   if (!store) return tl::unexpected(store.error());
   auto spreads = spreads_of(table.campaign, *store);
   if (!spreads) return tl::unexpected(spreads.error());
-  // As compared, with the spread over batches before the verdict.
-  told.names["batched"] = [compared = told.names["compared"], spreads = std::move(*spreads)](Words& words) {
+  // The same comparison, with the spread over batches before the verdict.
+  content.names["batched"] = [compared = content.names["compared"],
+                              spreads = std::move(*spreads)](Words& words) {
     const std::string_view reference = words.next(), variant = words.rest();
     const std::string three = fmt::format("{} {} {}", reference, main_campaign, variant);
     Words of_table(three);
@@ -126,13 +129,13 @@ Result<Told> tell(const Results& results, const FlyOptions& options, const std::
     return cells.insert(cells.rfind('|') + 1,
                         fmt::format(" {} |", spread == spreads.end() ? "-" : spread->second));
   };
-  told.names["exact_given"] = [given = !exact.empty()](Words&) { return given; };
+  content.names["exact_given"] = [given = !exact.empty()](Words&) { return given; };
   if (!exact.empty()) {
     auto unrounded = read_exact(exact, table.campaign);
     if (!unrounded) return tl::unexpected(unrounded.error());
-    told.names["exact_rows"] = [rows = exact_rows(table, *unrounded)](Words&) { return rows; };
+    content.names["exact_rows"] = [rows = exact_rows(table, *unrounded)](Words&) { return rows; };
   }
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::transfer_alignment

@@ -1,4 +1,4 @@
-#include "bench/drive/hands.hpp"
+#include "bench/drive/rig_control.hpp"
 
 #include <linux/can.h>
 #include <linux/can/raw.h>
@@ -23,7 +23,7 @@ ifreq request_for(const std::string& bus) {
   return request;
 }
 
-// Whether the interface took it.
+// Returns whether the kernel accepted it.
 bool set_flag(const std::string& bus, std::optional<bool> up) {
   const int any = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (any < 0) return false;
@@ -45,32 +45,32 @@ InterfaceFacts interface_facts(const std::string& bus) {
   std::error_code ignored;
   const bool has_device = std::filesystem::exists("/sys/class/net/" + bus + "/device", ignored);
   return {.kind = has_device ? faults::Place::Interface::controller : faults::Place::Interface::virtual_can,
-          .may_set = set_flag(bus, std::nullopt)};  // the flags that it has: nothing changes
+          .may_set = set_flag(bus, std::nullopt)};  // sets the flags it already has: nothing changes
 }
 
-RunHands::RunHands(std::string bus, std::optional<TargetProcess>& target,
-                   std::function<void(std::int64_t)> restart)
+RunRigControl::RunRigControl(std::string bus, std::optional<TargetProcess>& target,
+                             std::function<void(std::int64_t)> restart)
     : bus_(std::move(bus)), target_(target), restart_(std::move(restart)) {}
 
-RunHands::~RunHands() {
+RunRigControl::~RunRigControl() {
   interface_up();
   if (errors_ >= 0) close(errors_);
 }
 
-void RunHands::pause_target() {
+void RunRigControl::pause_target() {
   if (target_) target_->send_signal(SIGSTOP);
 }
 
-void RunHands::resume_target() {
+void RunRigControl::resume_target() {
   if (target_) target_->send_signal(SIGCONT);
 }
 
-// Over a socket of its own: whoever listens hears it as of the driver, the bench too.
-void RunHands::report_error(const Frame& error) {
+// Through a separate socket, so that all listeners, including the bench, receive it as if from the driver.
+void RunRigControl::report_error(const Frame& error) {
   if (errors_ < 0) {
     errors_ = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW);
     if (errors_ < 0) return;
-    setsockopt(errors_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);  // it hears nothing
+    setsockopt(errors_, SOL_CAN_RAW, CAN_RAW_FILTER, nullptr, 0);  // it receives nothing
     sockaddr_can address{};
     address.can_family = AF_CAN;
     address.can_ifindex = static_cast<int>(if_nametoindex(bus_.c_str()));
@@ -83,8 +83,8 @@ void RunHands::report_error(const Frame& error) {
   static_cast<void>(!write(errors_, &raw, sizeof raw));
 }
 
-// The loop that drives a run waits for the interface, so it cannot be what sets it up.
-void RunHands::interface_down(std::int64_t for_us) {
+// The loop that drives the run waits for the interface, so another thread must set it up.
+void RunRigControl::interface_down(std::int64_t for_us) {
   interface_up();
   if (!set_flag(bus_, false)) return;
   up_ = std::thread([bus = bus_, for_us] {
@@ -93,7 +93,7 @@ void RunHands::interface_down(std::int64_t for_us) {
   });
 }
 
-void RunHands::interface_up() {
+void RunRigControl::interface_up() {
   if (up_.joinable()) up_.join();
 }
 

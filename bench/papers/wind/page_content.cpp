@@ -1,5 +1,5 @@
-// What the page on the wind shows: scores, the wind over the height, the nominal glide.
-#include "bench/papers/told.hpp"
+// Content of the page on the wind: scores, the wind over the height, the nominal glide.
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -20,12 +20,12 @@ constexpr const char* requirement = "section 8";
 constexpr const char* lost_requirement = "section 8: lost";
 constexpr std::array judged{"table1", "sensitivity", "rates"};
 
-// Metrics: of all three components of the wind's error, and of each.
+// Names of metrics: the error of the wind vector, and of each component.
 constexpr const char* all = "wind error";
 constexpr std::array components{"along track", "cross track", "down"};
 
-// Mean over t >= 10 s of |error of the wind| of each run; of these, mean and standard deviation over the
-// runs [m/s].
+// Mean of |error of the wind| for t >= 10 s of each run; mean and standard deviation of these over the runs
+// [m/s].
 double mean(const campaign::Answer& answer) { return figure(answer, "mean_mps"); }
 std::string score(const campaign::Answer& answer) {
   return fmt::format("{:.2f} ({:.2f})", mean(answer), figure(answer, "standard_deviation_mps"));
@@ -69,7 +69,7 @@ void add_scores(Names& names, const Results& results) {
   };
 }
 
-// What the paper claims, and how far it holds.
+// The paper's claims, and how far they hold.
 void add_claims(Names& names, const Results& results) {
   const auto at = [&](const char* filter, int level) {
     return mean(results.of("table1").answer(all, fmt::format("{}_{}", filter, level)));
@@ -113,7 +113,7 @@ double from_deg(const world::Vector3& wind_n) {
   return from < 0 ? from + 360 : from;
 }
 
-// The nominal glide: no run of the target.
+// The nominal glide, without errors and without a target.
 const world::GlideRecord& nominal_glide() {
   static const world::GlideRecord record({}, 100'000'000, world::Stream(0, 0, "none"),
                                          world::Stream(0, 0, "none"));
@@ -141,29 +141,29 @@ Curve glide(std::string_view what) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& /*options*/,
-                  const std::filesystem::path& /*exact*/) {
-  Told told;
-  add_scores(told.names, results);
-  add_claims(told.names, results);
+Result<PageContent> page_content(const Results& results, const FlyOptions& /*options*/,
+                                 const std::filesystem::path& /*exact*/) {
+  PageContent content;
+  add_scores(content.names, results);
+  add_claims(content.names, results);
   const world::GlideTruth& end = nominal_glide().epochs().back();
-  told.names["glide_end"] = [&end](Words&) {
+  content.names["glide_end"] = [&end](Words&) {
     return fmt::format("{:.0f} m/s and {:.2f} km, heading {:+.1f} deg", end.v_a.norm(), end.height / 1000,
                        world::euler_from(end.C_bn).heading / deg);
   };
-  told.curves["error"] = [&results](Words& words) {
-    constexpr std::size_t step = 10;  // answers come every 100 ms: a point a second
+  content.curves["error"] = [&results](Words& words) {
+    constexpr std::size_t step = 10;  // answers come every 100 ms: one point per second
     return over_time(results.of("table1").curve(words.rest(), quantities::wind_norm), 1, step);
   };
-  told.curves["wind_speed"] = [](Words& words) {
+  content.curves["wind_speed"] = [](Words& words) {
     return profile(words.rest(), [](const world::Vector3& wind_n) { return wind_n.norm(); });
   };
-  told.curves["wind_from"] = [](Words& words) { return profile(words.rest(), from_deg); };
-  told.curves["glide"] = [](Words& words) { return glide(words.rest()); };
-  told.bars_met =
+  content.curves["wind_from"] = [](Words& words) { return profile(words.rest(), from_deg); };
+  content.curves["glide"] = [](Words& words) { return glide(words.rest()); };
+  content.bars_met =
       passed(results.of("table1"), lost_requirement) &&
       std::ranges::all_of(judged, [&](const char* name) { return passed(results.of(name), requirement); });
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::wind

@@ -1,4 +1,4 @@
-#include "bench/mapping/truths.hpp"
+#include "bench/mapping/reference_quantities.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,19 +14,19 @@ namespace {
 using estimators::Truth;
 using Value = std::optional<double>;
 
-// Of the navigation's truth, at any time of the run.
+// From the truth of the navigation, at any time of the run.
 template <class Of>
 Value flown(const Truth& truth, std::int64_t t_us, Of of) {
   if (t_us < 0 || t_us > truth.flight.end_us()) return std::nullopt;
   return of(truth.flight.at(t_us));
 }
-// Of the glider's truth, at the step before.
+// From the truth of the glider, at the previous step.
 template <class Of>
 Value glided(const Truth& truth, std::int64_t t_us, Of of) {
   if (truth.glide == nullptr || t_us < 0 || t_us > truth.glide->end_us()) return std::nullopt;
   return of(truth.glide->at(t_us));
 }
-// What a glider has of its own, others of the navigation.
+// From the truth of the glider if there is one, otherwise of the navigation.
 template <class Of>
 Value moved(const Truth& truth, std::int64_t t_us, Of of) {
   return truth.glide != nullptr ? glided(truth, t_us, of) : flown(truth, t_us, of);
@@ -56,7 +56,7 @@ template <int axis>
 Value wind(const Truth& truth, std::int64_t t_us) {
   return glided(truth, t_us, [](const world::GlideTruth& at) { return at.wind_n[axis]; });
 }
-// At a sample of the seeker.
+// From the truth at a sample of the seeker.
 template <double world::Planes<double>::*plane>
 Value los_rate(const Truth& truth, std::int64_t t_us) {
   const world::EngagementTruth* epoch = truth.engagement == nullptr ? nullptr : truth.engagement->at(t_us);
@@ -65,35 +65,35 @@ Value los_rate(const Truth& truth, std::int64_t t_us) {
 }
 
 constexpr std::array known{
-    Truthed{&quantities::attitude_roll, "rad", true, attitude<&world::Euler::roll>},
-    Truthed{&quantities::attitude_pitch, "rad", true, attitude<&world::Euler::pitch>},
-    Truthed{&quantities::attitude_heading, "rad", true, attitude<&world::Euler::heading>},
-    Truthed{&quantities::velocity_north, "m/s", false, velocity<0>},
-    Truthed{&quantities::velocity_east, "m/s", false, velocity<1>},
-    Truthed{&quantities::velocity_down, "m/s", false, velocity<2>},
-    Truthed{&quantities::position_latitude, "rad", false, position<&world::Position::latitude>},
-    Truthed{&quantities::position_longitude, "rad", true, position<&world::Position::longitude>},
-    Truthed{&quantities::position_height, "m", false, position<&world::Position::height>},
-    Truthed{&quantities::rate_x, "rad/s", false, rate<0>},
-    Truthed{&quantities::rate_y, "rad/s", false, rate<1>},
-    Truthed{&quantities::rate_z, "rad/s", false, rate<2>},
-    Truthed{&quantities::specific_force_x, "m/s^2", false, force<0>},
-    Truthed{&quantities::specific_force_y, "m/s^2", false, force<1>},
-    Truthed{&quantities::specific_force_z, "m/s^2", false, force<2>},
-    Truthed{&quantities::los_rate_pitch, "rad/s", false, los_rate<&world::Planes<double>::pitch>},
-    Truthed{&quantities::los_rate_yaw, "rad/s", false, los_rate<&world::Planes<double>::yaw>},
-    Truthed{&quantities::wind_north, "m/s", false, wind<0>},
-    Truthed{&quantities::wind_east, "m/s", false, wind<1>},
-    Truthed{&quantities::wind_down, "m/s", false, wind<2>},
+    ReferenceQuantity{&quantities::attitude_roll, "rad", true, attitude<&world::Euler::roll>},
+    ReferenceQuantity{&quantities::attitude_pitch, "rad", true, attitude<&world::Euler::pitch>},
+    ReferenceQuantity{&quantities::attitude_heading, "rad", true, attitude<&world::Euler::heading>},
+    ReferenceQuantity{&quantities::velocity_north, "m/s", false, velocity<0>},
+    ReferenceQuantity{&quantities::velocity_east, "m/s", false, velocity<1>},
+    ReferenceQuantity{&quantities::velocity_down, "m/s", false, velocity<2>},
+    ReferenceQuantity{&quantities::position_latitude, "rad", false, position<&world::Position::latitude>},
+    ReferenceQuantity{&quantities::position_longitude, "rad", true, position<&world::Position::longitude>},
+    ReferenceQuantity{&quantities::position_height, "m", false, position<&world::Position::height>},
+    ReferenceQuantity{&quantities::rate_x, "rad/s", false, rate<0>},
+    ReferenceQuantity{&quantities::rate_y, "rad/s", false, rate<1>},
+    ReferenceQuantity{&quantities::rate_z, "rad/s", false, rate<2>},
+    ReferenceQuantity{&quantities::specific_force_x, "m/s^2", false, force<0>},
+    ReferenceQuantity{&quantities::specific_force_y, "m/s^2", false, force<1>},
+    ReferenceQuantity{&quantities::specific_force_z, "m/s^2", false, force<2>},
+    ReferenceQuantity{&quantities::los_rate_pitch, "rad/s", false, los_rate<&world::Planes<double>::pitch>},
+    ReferenceQuantity{&quantities::los_rate_yaw, "rad/s", false, los_rate<&world::Planes<double>::yaw>},
+    ReferenceQuantity{&quantities::wind_north, "m/s", false, wind<0>},
+    ReferenceQuantity{&quantities::wind_east, "m/s", false, wind<1>},
+    ReferenceQuantity{&quantities::wind_down, "m/s", false, wind<2>},
 };
 
 }  // namespace
 
-std::span<const Truthed> truths() { return known; }
+std::span<const ReferenceQuantity> reference_quantities() { return known; }
 
-const Truthed* find_truth(std::string_view quantity) {
+const ReferenceQuantity* find_reference_quantity(std::string_view quantity) {
   const auto found =
-      std::ranges::find(known, quantity, [](const Truthed& one) { return one.quantity->name; });
+      std::ranges::find(known, quantity, [](const ReferenceQuantity& one) { return one.quantity->name; });
   return found == known.end() ? nullptr : &*found;
 }
 

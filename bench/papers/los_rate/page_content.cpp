@@ -1,5 +1,5 @@
-// What the page on the LOS rate shows: errors by time to go, misses, bandwidths.
-#include "bench/papers/told.hpp"
+// Content of the page on the LOS rate: errors by time to go, misses, bandwidths.
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ double rms(const Flown& flown, std::string_view variant, const Window& window) {
   return figure(flown.answer(fmt::format("RMS {:g}-{:g}", window.most, window.least), variant), "rms_mradps");
 }
 
-// Miss over the runs of a variant, in one plane: of all runs in pitch and yaw [m].
+// Miss distance over the runs of a variant, in one plane: pitch and yaw of all runs [m].
 struct Miss {
   double median = 0, rms = 0;
 };
@@ -47,7 +47,7 @@ std::string words_of(const Miss& one) { return fmt::format("{:.2f} / {:.2f}", on
 std::string two_digits(double value) { return fmt::format("{:.2f}", value); }
 
 void add_tables(Names& names, const Results& results) {
-  // The words after the campaign and the variant stand in brackets, one to a window.
+  // The words after the campaign and the variant are in brackets, one for each window.
   const auto by_window = [&results](std::size_t from) {
     return [&results, from](Words& words) {
       const Flown& flown = results.of(words.next());
@@ -91,14 +91,14 @@ void add_tables(Names& names, const Results& results) {
   };
 }
 
-// What the paper claims, and how far it holds.
+// The paper's claims, and how far they hold.
 void add_claims(Names& names, const Results& results) {
   const Flown &open = results.of("open_loop"), &closed = results.of("closed_loop");
   const auto claim = [&names](const char* name, bool holds) { names[name] = [=](Words&) { return holds; }; };
   const auto number = [&names](const char* name, const char* format, double value) {
     names[name] = [=](Words&) { return papers::number(format, value); };
   };
-  // Largest departure of a ratio of RMS from 1, over the windows after the start-up.
+  // Largest deviation of a ratio of RMS values from 1, over the windows after the start-up.
   const auto departure = [&](const char* variant) {
     double largest = 0;
     for (std::size_t i = first_settled; i < windows.size(); ++i)
@@ -140,7 +140,7 @@ void add_claims(Names& names, const Results& results) {
   claim("better_by_miss", miss(closed, "combined").rms < best);
 }
 
-// Of the displacement frame: 1.70 Om, Om = (q / (r^2 R Ts))^(1/6), where vc/r is small against Om.
+// Of the displacement frame: 1.70 Om, Om = (q / (r^2 R Ts))^(1/6), if vc/r is small compared with Om.
 double bandwidth_hz(double range, double thermal, double glint) {
   constexpr double jerk_density = 300, sample_period = 0.005;
   const double variance = std::pow(thermal * range * range, 2) + std::pow(glint / range, 2);
@@ -161,7 +161,7 @@ Curve error(const Flown& flown, std::string_view variant) {
   Curve curve;
   for (const campaign::CurvePoint& point : flown.curve(variant, quantities::los_rate_both)) {
     const double middle_s = 1e-6 * (static_cast<double>(point.t_us) + half_us);
-    constexpr double blind_s = 0.06;  // from 50 m on guidance is to hold
+    constexpr double blind_s = 0.06;  // within 50 m the guidance must hold its command
     if (middle_s < -blind_s) add_rms(curve, middle_s, point, world::units::mrad);
   }
   return curve;
@@ -169,16 +169,16 @@ Curve error(const Flown& flown, std::string_view variant) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& /*options*/,
-                  const std::filesystem::path& /*exact*/) {
-  Told told;
-  add_tables(told.names, results);
-  add_claims(told.names, results);
-  told.curves["error"] = [&results](Words& words) { return error(results.of("open_loop"), words.rest()); };
-  told.curves["bandwidth"] = [](Words& words) { return bandwidth(words.rest()); };
-  told.bars_met =
+Result<PageContent> page_content(const Results& results, const FlyOptions& /*options*/,
+                                 const std::filesystem::path& /*exact*/) {
+  PageContent content;
+  add_tables(content.names, results);
+  add_claims(content.names, results);
+  content.curves["error"] = [&results](Words& words) { return error(results.of("open_loop"), words.rest()); };
+  content.curves["bandwidth"] = [](Words& words) { return bandwidth(words.rest()); };
+  content.bars_met =
       std::ranges::all_of(judged, [&](const char* name) { return passed(results.of(name), "bar"); });
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::los_rate

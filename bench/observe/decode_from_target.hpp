@@ -1,4 +1,4 @@
-// What the target says in what the bus gives.
+// Decodes messages of the target from received frames.
 #pragma once
 
 #include <optional>
@@ -16,9 +16,9 @@ inline constexpr Routes target_messages([](const MessageInfo& info) {
   return info.sender == messages::TargetHeartbeat::info.sender;
 });
 
-/// The message, if this is one and whole, and no echo of ours.
+/// The message, if the frame is a valid one of this type and not an echo of the bench's own.
 template <class Message>
-std::optional<Message> heard(const Received& received) {
+std::optional<Message> decode_from_target(const Received& received) {
   if (received.own || !nodes::is_whole<Message>(received.frame)) return std::nullopt;
   return from_frame<Message>(received.frame);
 }

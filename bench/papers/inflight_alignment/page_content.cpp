@@ -1,5 +1,5 @@
-// What the page on in-flight alignment shows: heading errors at 300 s, repairs of the covariance.
-#include "bench/papers/told.hpp"
+// Content of the page on in-flight alignment: heading errors at 300 s, repairs of the covariance.
+#include "bench/papers/page_content.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ namespace canhil::papers::inflight_alignment {
 namespace {
 
 constexpr std::array judged{"ssbl", "gps", "starts"};
-constexpr std::size_t drawn_runs = 100;  // as many as the paper flew
+constexpr std::size_t drawn_runs = 100;  // the number of runs in the paper
 
 // Heading error at 300 s over the runs of a variant [deg].
 struct Heading {
@@ -82,7 +82,7 @@ void add_headings(Names& names, const Results& results) {
     return fmt::format("{:.3g} | {:.2g} to {:.2g} | {:.3g} | {:.3g} | {:.1f} %", h.rms, h.rms_low, h.rms_high,
                        h.median, h.p90, 100 * h.below_10_deg);
   };
-  // Whether a figure of the paper's 100 runs lies where the RMS of 100 of our runs does.
+  // Whether a value from the paper's 100 runs lies within the range of the RMS of 100 of our runs.
   names["in_range"] = [=](Words& words) {
     const double paper_deg = std::stod(std::string(words.next()));
     const Heading ours = of(words);
@@ -131,7 +131,7 @@ void add_paths(Names& names, const Results& results) {
   names["reversed"] = [=](Words&) { return fmt::format("{} of {}", reversed, combinations); };
 }
 
-// What the paper claims and bars that no campaign has. Gives whether these bars are met.
+// The paper's claims, and bars that no campaign file contains. Returns whether these bars are met.
 bool add_claims(Names& names, const Results& results) {
   const auto claim = [&names](std::string name, bool holds) {
     names[std::move(name)] = [=](Words&) { return holds; };
@@ -156,20 +156,21 @@ bool add_claims(Names& names, const Results& results) {
 
 }  // namespace
 
-Result<Told> tell(const Results& results, const FlyOptions& options, const std::filesystem::path& /*exact*/) {
-  Told told;
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& /*exact*/) {
+  PageContent content;
   auto curves = first_runs(results, options);
   if (!curves) return tl::unexpected(curves.error());
-  told.curves = std::move(*curves);
-  add_headings(told.names, results);
-  add_paths(told.names, results);
-  told.bars_met = add_claims(told.names, results) && std::ranges::all_of(judged, [&](const char* name) {
-                    return passed(results.of(name), "bar B");
-                  });
-  told.names["drawn_runs"] = [drawn = std::min(drawn_runs, results.of("ssbl").campaign.runs)](Words&) {
+  content.curves = std::move(*curves);
+  add_headings(content.names, results);
+  add_paths(content.names, results);
+  content.bars_met = add_claims(content.names, results) && std::ranges::all_of(judged, [&](const char* name) {
+                       return passed(results.of(name), "bar B");
+                     });
+  content.names["drawn_runs"] = [drawn = std::min(drawn_runs, results.of("ssbl").campaign.runs)](Words&) {
     return fmt::to_string(drawn);
   };
-  return told;
+  return content;
 }
 
 }  // namespace canhil::papers::inflight_alignment

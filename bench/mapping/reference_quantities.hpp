@@ -1,0 +1,26 @@
+// The quantities that a mapped target may report, and their truth.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "bench/checks/estimator.hpp"
+
+namespace canhil::mapping {
+
+struct ReferenceQuantity {
+  const quantities::Quantity* quantity = nullptr;
+  std::string_view si;  ///< its unit
+  bool turns = false;   ///< an angle: multiples of a turn are equal
+  /// The truth at a time [us] of the run, in SI; none: there is no truth.
+  std::optional<double> (*truth)(const estimators::Truth& truth, std::int64_t t_us) = nullptr;
+};
+
+/// All these quantities.
+std::span<const ReferenceQuantity> reference_quantities();
+/// Null if there is none.
+const ReferenceQuantity* find_reference_quantity(std::string_view quantity);
+
+}  // namespace canhil::mapping

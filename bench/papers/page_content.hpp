@@ -1,0 +1,51 @@
+// The content of a paper's page from its campaigns: the values for the names in its templates, its curves,
+// and whether its bars are met. The prose is in page.mustache and the other templates of the paper's folder.
+#pragma once
+
+#include <filesystem>
+
+#include "bench/papers/document.hpp"
+#include "bench/papers/flown.hpp"
+
+namespace canhil::papers {
+
+struct PageContent {
+  Names names{};  ///< in addition to those that all papers have
+  Curves curves{};
+  bool bars_met = false;
+};
+
+/// Adds the names that all papers have: runs, enough, flights, frames, #too_few_runs, #unrounded; {{bars
+/// CAMPAIGN REQUIREMENT}}, a row for every answer with that requirement; {{reproduces NAME}} and {{pass
+/// NAME}}, the verdict of a boolean name. `runs`: of the campaign with the bars; `enough`: the number of runs
+/// that the bars are made for.
+void add_shared_names(Names& names, const Results& results, std::uint64_t runs, std::uint64_t enough);
+
+// For each paper: the files built into the program (bench/monte_carlo/paper_NAME and its templates), and its
+// page content, which keeps references to the results. `exact`: results of the transfer paper's table2
+// without the bus's rounding; empty: none. Error, one line: stored results cannot be read.
+namespace transfer_alignment {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
+}  // namespace transfer_alignment
+
+namespace inflight_alignment {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
+}  // namespace inflight_alignment
+
+namespace los_rate {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
+}  // namespace los_rate
+
+namespace wind {
+extern const report::EmbeddedFiles campaigns, scenarios, templates;
+Result<PageContent> page_content(const Results& results, const FlyOptions& options,
+                                 const std::filesystem::path& exact);
+}  // namespace wind
+
+}  // namespace canhil::papers
