@@ -38,8 +38,8 @@ struct Options {
   std::optional<realtime::Request> realtime;  ///< for the bench; the target has its own arguments
   std::vector<std::string> target_arguments;  ///< besides --bus, and --dbc, which follows from the format
   std::optional<int> target_cpu;              ///< none: the bench's CPUs before it was pinned
-  std::int64_t spin_ns = 0;     ///< time before each deadline in which the bench polls instead of sleeping
-  std::uint64_t run_index = 0;  ///< in a campaign: selects the random numbers together with the seed
+  std::int64_t spin_ns = 0;      ///< time before each deadline in which the bench polls instead of sleeping
+  std::uint64_t run_index = 0;   ///< in a campaign: selects the random numbers together with the seed
   Onlooker* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
   bool for_verdict = true;  ///< false: only the target's frames are observed, not times, load, bus and host
 };
