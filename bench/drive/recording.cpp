@@ -131,7 +131,7 @@ class Recording {
                                                        .mapped = scenario_.foreign != nullptr,
                                                        .fd = format_of(scenario_) != BusFormat::classic},
                                          &hands_));
-    watcher_ = dialect_->watcher();
+    watcher_ = dialect_->watcher(true);
     target_ = dialect_->target_watch(true);
     observers_ = {watcher_.get(), target_.get(), &load_};
     auto ending = replay();

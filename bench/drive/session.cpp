@@ -86,7 +86,6 @@ class Session {
                                  .run_index = options_.run_index,
                                  .in_process = bus_.in_process,
                                  .virtual_time = clock_ == ClockKind::lockstep,
-                                 .for_verdict = options_.for_verdict,
                                  .rounding = bus_.rounding,
                                  .format = options_.format,
                                  .wire = bus_.wire});
@@ -96,7 +95,7 @@ class Session {
     if (auto work = faults::check(scenario_.faults, where); !work) return work;
     schedule_ = dialect_->schedule(std::make_unique<faults::Faults>(scenario_, options_.run_index,
                                                                     dialect_->messages(), where, &hands_));
-    watcher_ = dialect_->watcher();
+    watcher_ = dialect_->watcher(options_.for_verdict);
     if (!options_.for_verdict) return {};
     link_.attach(bus_watch_);
     link_.attach(intruders_.emplace(dialect_->messages()));
@@ -119,7 +118,10 @@ class Session {
       host_watched.emplace(link_, host_.emplace(port_->stamp_clock()));
     }
     std::optional<Attached> looking_on;
-    if (options_.onlooker != nullptr) looking_on.emplace(link_, *options_.onlooker);
+    if (options_.onlooker != nullptr) {
+      options_.onlooker->departs(departure());
+      looking_on.emplace(link_, *options_.onlooker);
+    }
     std::optional<Attached> listening;
     if (schedule_->listens()) listening.emplace(link_, *schedule_);
     if (options_.realtime && target_)
@@ -136,6 +138,7 @@ class Session {
     schedule_->end();
     if (ending_.kind == Ending::Kind::target_silent) ending_.detail += why_silent();
     if (options_.for_verdict) dialect_->stop(link_, schedule_->outbox());
+    if (options_.onlooker != nullptr) options_.onlooker->landed();
     const auto logged = log_ ? log_->close() : Result<void>{};
     checks::Observations seen = expecting(watcher_->finish(), *schedule_->faults(), scenario_);
     if (options_.for_verdict) add_watched(seen);
@@ -175,6 +178,19 @@ class Session {
     if (stop) return "interrupted";
     const auto why = target_ ? target_->ended() : std::nullopt;
     return why ? std::optional("target: " + *why) : std::nullopt;
+  }
+
+  [[nodiscard]] Departure departure() {
+    Departure departure{.scenario = scenario_,
+                        .truth = truth_,
+                        .per_run_truth = flight_.per_run_truth,
+                        .real_time = clock_ == ClockKind::real_time,
+                        .format = options_.format,
+                        .wire = bus_.wire,
+                        .load_by = load_by(bus_, clock_, scenario_.foreign == nullptr)};
+    if (dialect_->watches_frames_alone())
+      departure.watcher = [this](bool with_times) { return dialect_->watcher(with_times); };
+    return departure;
   }
 
   // The properties of the run that faults depend on.

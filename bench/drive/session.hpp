@@ -13,6 +13,7 @@
 #include "bench/drive/buses.hpp"
 #include "bench/drive/ending.hpp"
 #include "bench/drive/flight.hpp"
+#include "bench/drive/onlooker.hpp"
 #include "bench/drive/real_time.hpp"
 #include "bench/drive/run_files.hpp"
 #include "bench/drive/target_command.hpp"
@@ -40,9 +41,9 @@ struct Options {
   std::vector<std::string> target_arguments;  ///< besides --bus, and --dbc, which follows from the format
   std::optional<int> target_cpu;              ///< none: the bench's CPUs before it was pinned
   std::string operator_name{};                ///< who runs it, for the report; empty: not given
-  std::int64_t spin_ns = 0;     ///< time before each deadline in which the bench polls instead of sleeping
-  std::uint64_t run_index = 0;  ///< in a campaign: selects the random numbers together with the seed
-  observe::Observer* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
+  std::int64_t spin_ns = 0;      ///< time before each deadline in which the bench polls instead of sleeping
+  std::uint64_t run_index = 0;   ///< in a campaign: selects the random numbers together with the seed
+  Onlooker* onlooker = nullptr;  ///< also receives every frame of the flight; null: none
   bool for_verdict = true;  ///< false: only the target's frames are observed, not times, load, bus and host
 };
 

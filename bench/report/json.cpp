@@ -10,6 +10,7 @@
 #include "bench/checks/bus_load.hpp"
 #include "bench/report/json_timing.hpp"
 #include "bench/report/provenance.hpp"
+#include "bench/report/rounded.hpp"
 #include "bench/report/series.hpp"
 #include "bench/report/summary.hpp"
 #include "bench/scenario/foreign.hpp"
@@ -18,13 +19,6 @@
 
 namespace canhil::report {
 namespace {
-
-// With the number of digits that a picture can show.
-double rounded(double value, int digits = 5) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - (digits - 1));
-  return std::round(value / unit) * unit;
-}
 
 Json object(const std::vector<estimators::ResultLine>& lines) {
   Json json = Json::object();
@@ -125,20 +119,12 @@ Json object(const Series& series) {
 
 // By second; for a long run the maximum of each stretch of seconds.
 Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
-  constexpr std::size_t most = 400;
-  const std::span<const wire::BitLength> seconds = checks::whole_seconds(seen);
-  const std::size_t size = seconds.size();
-  const std::size_t stretch_s = (size + most - 1) / most;
+  const checks::LoadLine line = checks::load_line(checks::whole_seconds(seen), rates);
   Json json{{"bitrate_bitps", rates.nominal},
             {"data_bitrate_bitps", rates.data},
-            {"stretch_s", stretch_s},
+            {"stretch_s", line.stretch_s},
             {"busiest", Json::array()}};
-  for (std::size_t from = 0; from < size; from += stretch_s) {
-    double busiest = 0;
-    for (std::size_t i = from; i < std::min(size, from + stretch_s); ++i)
-      busiest = std::max(busiest, wire::bus_load(seconds[i], 1.0, rates));
-    json["busiest"].push_back(rounded(busiest));
-  }
+  for (const double busiest : line.busiest) json["busiest"].push_back(rounded(busiest));
   return json;
 }
 

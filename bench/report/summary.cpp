@@ -78,8 +78,11 @@ std::string_view stamp_source(const drive::Run& run) {
 }
 
 std::vector<wire::BitRates> load_rates(const drive::Run& run) {
-  const bool fd = run.options.format != BusFormat::classic;
-  wire::BitRates known = run.seen.bit_rates;
+  return load_rates(run.seen.bit_rates, run.options.format);
+}
+
+std::vector<wire::BitRates> load_rates(wire::BitRates known, BusFormat format) {
+  const bool fd = format != BusFormat::classic;
   if (known.nominal > 0) {
     if (!fd) known.data = 0;
     return {known};
