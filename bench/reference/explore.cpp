@@ -90,6 +90,7 @@ class Explorer {
   }
 
   void wait(Settings settings, const std::string& path, const std::string& value) {
+    if (given_.find(path + " = ") != std::string::npos) return;  // TOML has no key twice
     settings[path] = value;
     waiting_.push_back(std::move(settings));
   }
