@@ -123,7 +123,7 @@ std::string split_words(const checks::TimingRecord& timing) {
       "    slowest: {} after {:.3f} ms at t={:.3f} s; in that 0.1 s the target's longest wait was "
       "{}, its longest computing {}\n",
       slowest.message, ms(slowest.latency_ns), static_cast<double>(slowest.t_ns) * 1e-9,
-      limited_us(slowest.queue_max_us), told_us(slowest.compute_max_us));
+      limited_us(slowest.queue_max_us), limited_us(slowest.compute_max_us));
   return lines;
 }
 
@@ -208,7 +208,7 @@ std::string text(const scenario::Scenario& scenario, const drive::Run& run) {
     page += split_words(run.seen.timing) + wire_words(run.seen);
     if (run.seen.target_timing_seen) {
       page += fmt::format("  target's own account          queue max {}  compute max {}\n",
-                          limited_us(run.seen.queue_max_us), told_us(run.seen.compute_max_us));
+                          limited_us(run.seen.queue_max_us), limited_us(run.seen.compute_max_us));
     }
   }
   page += load_words(run);
