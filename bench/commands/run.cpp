@@ -44,6 +44,7 @@ struct Arguments {
   realtime::Options realtime;
   std::optional<int> target_cpu;
   std::optional<int> spin_us;
+  std::string operator_name;
   Reports reports;
   std::string log;
 };
@@ -110,6 +111,7 @@ drive::Options options_of(const Arguments& arguments, drive::BusName bus, BusFor
       if (!external) options.target_arguments.push_back(word);
   }
   options.target_cpu = arguments.target_cpu;
+  options.operator_name = arguments.operator_name;
   options.spin_ns = std::int64_t{arguments.spin_us.value_or(0)} * 1000;
   return options;
 }
@@ -219,7 +221,16 @@ Result<void> check_nodes(const Arguments& arguments, const scenario::Scenario& s
   return {};
 }
 
+// It stands on one line of the text, and in XML.
+Result<void> check_operator(const std::string& name) {
+  const bool plain =
+      std::ranges::none_of(name, [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; });
+  return plain ? Result<void>()
+               : failure("--operator: holds a control character, expected a name on one line");
+}
+
 ExitCode execute(const Arguments& arguments) {
+  if (auto fine = check_operator(arguments.operator_name); !fine) return complain(fine.error());
   const drive::BusName bus(arguments.bus);
   if (auto fine = check_bus(arguments, bus); !fine) return complain(fine.error());
   auto scenario = drive::read_scenario(arguments.scenario);
@@ -289,6 +300,8 @@ void add_run(command_line::Command app, int& code) {
       .excludes(lockstep);
   command.add_number("--seed", arguments->seed, "another seed than the scenario's");
   add_reports(command, arguments->reports);
+  command.add_option("--operator", arguments->operator_name,
+                     "who runs it, for the reports: 'Ada Lovelace' (default: not said)");
   command.add_option(
       "--log", arguments->log,
       "record every frame: *.pcap (Wireshark), *.asc (Vector), any other name: candump's format");

@@ -149,7 +149,6 @@ class Session {
 
   [[nodiscard]] const Capabilities& bus() const { return bus_; }
   [[nodiscard]] ClockKind clock() const { return clock_; }
-  [[nodiscard]] const auto& target_files() const { return target_files_; }
   // The error, plus what flooded the bus or was turned away from it, which may be the cause.
   [[nodiscard]] std::string explained(const std::string& what) const {
     if (link_.flood()) return fmt::format("{}; {}", what, to_text(*link_.flood()));
@@ -207,7 +206,6 @@ class Session {
   Result<void> start_target(const std::vector<int>& cpus) {
     if (!options_.target || bus_.in_process) return {};
     target_cpus_ = cpus;
-    target_files_ = look_at_target(*options_.target);
     std::vector<std::string> arguments = options_.target_arguments;
     // Every target gets this option, so that it uses the same DBC.
     if (options_.format == BusFormat::fd)
@@ -271,7 +269,6 @@ class Session {
   observe::LoadMeter load_;
   std::optional<observe::HostWatch> host_;  // watches from its construction on
   std::unique_ptr<observe::Recorder> log_;
-  std::vector<std::pair<std::string, ProgramFile>> target_files_;
   std::optional<TargetProcess> target_;
   std::vector<int> target_cpus_;
   std::string restart_error_;
@@ -320,6 +317,15 @@ Options in_lockstep_against(std::string command) {
   return options;
 }
 
+std::vector<Adapter> adapters_of(const Options& options) {
+  std::vector<Adapter> adapters{adapter_of(options.bus.text)};
+  for (const auto& [node, bus] : options.bus_of) {
+    if (std::ranges::find(adapters, bus, &Adapter::bus) == adapters.end())
+      adapters.push_back(adapter_of(bus));
+  }
+  return adapters;
+}
+
 Result<Run> run(const scenario::Scenario& scenario, const Options& options, const std::atomic<bool>& stop,
                 const Progress& progress) {
   const auto in_file = [&](const Error& error) {
@@ -329,6 +335,7 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
   if (!truth) return in_file(truth.error());
   auto flight = make_flight(scenario, *truth, options.run_index);
   if (!flight) return in_file(flight.error());
+  std::vector<RunFile> files = files_of(scenario, options, options.bus.in_process);
   const auto opened = Session::open(scenario, *truth, std::move(*flight), options);
   if (!opened) return tl::unexpected(opened.error());
   Session& session = **opened;
@@ -355,7 +362,8 @@ Result<Run> run(const scenario::Scenario& scenario, const Options& options, cons
              .in_process = session.bus().in_process,
              .timing_unfit = std::move(timing_unfit),
              .host = clock == ClockKind::real_time ? std::optional(realtime::standing()) : std::nullopt,
-             .target_files = session.target_files(),
+             .files = std::move(files),
+             .adapters = adapters_of(options),
              .wall_s = wall_s,
              .started_s = started_s,
              .log_error = std::move(flown.log_error)};

@@ -14,6 +14,7 @@
 #include "bench/report/summary.hpp"
 #include "bench/scenario/foreign.hpp"
 #include "dbc/realtime/host.hpp"
+#include "dbc/version/version.hpp"
 
 namespace canhil::report {
 namespace {
@@ -141,25 +142,34 @@ Json load_line(const checks::Observations& seen, const wire::BitRates& rates) {
   return json;
 }
 
-// The tested program and its version, as far as the bench knows it.
+// The tested program and its version, as far as the bench knows it; its files are among those of the run.
 Json target(const drive::Run& run) {
-  if (run.in_process) return {{"program", "in hil-bench itself"}};
-  if (!run.options.target) return {{"program", "runs elsewhere"}};
-  Json json{{"program", *run.options.target}};
-  const auto add = [](Json& to, const drive::ProgramFile& file) {
-    to["file_hash"] = fmt::format("{:016x}", file.hash);
-    to["file_bytes"] = file.bytes;
-    to["file_date"] = date_utc(file.modified_s);
-  };
-  for (const auto& [name, file] : run.target_files) {
-    if (!json.contains("file_hash")) {  // of the program itself
-      add(json, file);
-      continue;
-    }
-    Json further{{"file", name}};
-    add(further, file);
-    json["arguments"].push_back(std::move(further));
+  Json json{{"program", target_program(run)}};
+  if (!run.seen.target_version.empty()) json["version"] = run.seen.target_version;
+  return json;
+}
+
+Json object(const drive::RunFile& file) {
+  Json json{{"role", file.role}, {"name", file.name}, {"sha256", file.identity.sha256}};
+  if (file.identity.modified_s != 0) {
+    json["bytes"] = file.identity.bytes;
+    json["date"] = date_utc(file.identity.modified_s);
   }
+  return json;
+}
+
+Json object(const drive::Adapter& adapter) {
+  Json json{{"bus", adapter.bus}, {"kind", adapter.kind}};
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) json[key] = value;
+  };
+  add("driver", adapter.driver);
+  add("address", adapter.address);
+  add("vendor_id", adapter.vendor_id);
+  add("product_id", adapter.product_id);
+  add("product", adapter.product);
+  add("serial", adapter.serial);
+  if (adapter.usb_mbitps > 0) json["usb_mbitps"] = adapter.usb_mbitps;
   return json;
 }
 
@@ -176,13 +186,17 @@ Json provenance(const scenario::Scenario& scenario, const drive::Run& run) {
             {"latency_stamps", stamp_source(run)},
             {"period_overrides", period_overrides(scenario)},
             {"date", date_utc(run.started_s)},
+            {"version", version_text()},
             {"revision", revision()},
             {"host", host_name()},
             {"kernel", kernel()},
             {"preemption", realtime::preemption()},
             {"cpu_model", cpu_model()},
             {"target", target(run)}};
+  if (!run.options.operator_name.empty()) json["operator"] = run.options.operator_name;
   for (const auto& [node, bus] : run.options.bus_of) json["bus_of"][node] = bus;
+  for (const drive::Adapter& adapter : run.adapters) json["adapters"].push_back(object(adapter));
+  for (const drive::RunFile& file : run.files) json["files"].push_back(object(file));
   if (run.host) json["bench_process"] = object(*run.host, run.options.spin_ns);
   return json;
 }

@@ -51,6 +51,11 @@ std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const 
   return all;
 }
 
+std::string target_program(const drive::Run& run) {
+  if (run.in_process) return "in hil-bench itself";
+  return run.options.target.value_or("runs elsewhere");
+}
+
 std::string_view clock_name(const drive::Run& run) {
   switch (run.clock) {
     case drive::ClockKind::real_time:

@@ -19,6 +19,9 @@ struct EstimatorResults {
 /// For each estimator of the scenario.
 std::vector<EstimatorResults> results(const scenario::Scenario& scenario, const drive::Run& run);
 
+/// The tested program: the command that started it, or where it runs.
+std::string target_program(const drive::Run& run);
+
 /// The name of the clock of the run.
 std::string_view clock_name(const drive::Run& run);
 

@@ -53,7 +53,7 @@ void read_value_table(Reader& in, Draft& draft) {
   auto& tables = draft.database.value_tables;
   if (draft.tables.contains(table.name)) {
     fail_at(Rule::duplicate_table, at,
-            fmt::format("value table {} a second time, expected a name of its own", table.name));
+            fmt::format("value table {} is defined a second time, expected a unique name", table.name));
   }
   table.values = read_value_names(in, draft);
   draft.tables.emplace(table.name, tables.size());
@@ -67,7 +67,8 @@ void read_variable(Reader& in, Draft& draft) {
   auto& variables = draft.database.variables;
   if (draft.variables.contains(variable.name)) {
     fail_at(Rule::duplicate_variable, at,
-            fmt::format("environment variable {} a second time, expected a name of its own", variable.name));
+            fmt::format("environment variable {} is defined a second time, expected a unique name",
+                        variable.name));
   }
   in.mark(':');
   variable.type = static_cast<int>(in.natural("the type 0, 1 or 2", 2));

@@ -157,7 +157,7 @@ void read_definition(Reader& in, Draft& draft, bool relation) {
   if (definitions.contains(definition.name)) {
     fail_at(
         Rule::duplicate_definition, at,
-        fmt::format("attribute \"{}\" defined a second time, expected a name of its own", definition.name));
+        fmt::format("attribute \"{}\" is defined a second time, expected a unique name", definition.name));
   }
   read_type(in, draft, definition);
   in.semicolon();

@@ -124,9 +124,9 @@ void read_next_signal(Reader& in, Draft& draft) {
   }
   Message& message = draft.database.messages.back();
   if (!draft.signals.back().emplace(signal.name, message.signals.size()).second) {
-    draft.findings.add(
-        Rule::duplicate_signal, signal.at,
-        fmt::format("signal {}.{} a second time, expected a name of its own", message.name, signal.name));
+    draft.findings.add(Rule::duplicate_signal, signal.at,
+                       fmt::format("signal {}.{} is defined a second time, expected a unique name",
+                                   message.name, signal.name));
   }
   message.signals.push_back(std::move(signal));
 }
@@ -150,11 +150,12 @@ void read_message(Reader& in, Draft& draft) {
   const auto [other, is_new] = draft.messages_by_id.emplace(raw_id, index);
   if (!is_new) {
     draft.findings.add(Rule::duplicate_id, message.at,
-                       fmt::format("message {} has the id {} of {}, expected an id of its own", message.name,
+                       fmt::format("message {} has the id {} of {}, expected a unique id", message.name,
                                    message.id, draft.database.messages[other->second].name));
   } else if (!draft.messages.emplace(message.name, index).second) {
-    draft.findings.add(Rule::duplicate_message, name_at,
-                       fmt::format("message {} a second time, expected a name of its own", message.name));
+    draft.findings.add(
+        Rule::duplicate_message, name_at,
+        fmt::format("message {} is defined a second time, expected a unique name", message.name));
   }
   draft.left_out.push_back(!is_kept || !is_new || message.size > largest_size);
   draft.database.messages.push_back(std::move(message));

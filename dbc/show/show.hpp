@@ -14,8 +14,8 @@ std::string message_table(const Database& database);
 /// One message: its bits as a matrix of bytes and bits, and a line for each signal.
 std::string message_page(const Message& message);
 
-/// The message with this name, or with this id: decimal, or hexadecimal after 0x. Eight hexadecimal digits
-/// mean an extended id; otherwise a standard id has precedence. Error: one line.
+/// The message with this name, or with this id: decimal, or hexadecimal after 0x. If a standard and an
+/// extended message have the same id, eight hexadecimal digits select the extended one. Error: one line.
 Result<const Message*> named_message(const Database& database, const std::string& name);
 
 }  // namespace canhil::dbc
